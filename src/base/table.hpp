@@ -1,0 +1,62 @@
+/// Piecewise-linear property tables: exact values, derivatives and first integrals, O(1) look-up.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/simd.hpp"
+
+namespace solidus {
+
+/// What a table answers outside its range. `error` makes `value` return a quiet NaN-free constant continuation as well, and
+/// `outside` reports it: a law must not throw in a kernel, so the caller checks `outside` once per step.
+enum class Extrapolation { constant, linear, error };
+
+/// A continuous function y(x) given by points with strictly increasing x. A single point is a constant.
+class Table {
+ public:
+  Table() = default;
+  /// A constant.
+  Table(double y);  // NOLINT: a number is a constant table
+  /// Throws std::invalid_argument when x and y differ in length, are empty, not finite, or x does not increase strictly.
+  Table(std::vector<double> x, std::vector<double> y, Extrapolation extrapolation = Extrapolation::constant);
+
+  double value(double x) const;
+  /// dy/dx of the piece that holds x, the right-hand one at a point of the table (the left-hand one at its end); zero outside
+  /// when the continuation is constant.
+  double derivative(double x) const;
+  /// ∫_a^b y dx, closed form, any order of a and b.
+  double integral(double a, double b) const;
+  /// ∫_a^b y/x dx for a, b > 0, closed form (entropy from a capacity).
+  double integral_over_x(double a, double b) const;
+
+  Lane value(Lane x) const {
+    return constant() ? Lane(y_[0]) : for_each_lane(x, [this](double s) { return value(s); });
+  }
+  Lane derivative(Lane x) const {
+    return constant() ? Lane(0.0) : for_each_lane(x, [this](double s) { return derivative(s); });
+  }
+
+  bool constant() const { return y_.size() == 1; }
+  /// True where x lies outside the points and the policy is `error`.
+  bool outside(double x) const;
+  Extrapolation extrapolation() const { return extrapolation_; }
+  std::span<const double> x() const { return x_; }
+  std::span<const double> y() const { return y_; }
+  double min_value() const;
+  double max_value() const;
+  /// The table multiplied by a number.
+  Table scaled(double factor) const;
+
+ private:
+  std::size_t interval(double x) const;  ///< i with x_[i] <= x < x_[i+1], clamped to the pieces
+
+  std::vector<double> x_{0.0}, y_{0.0};
+  std::vector<double> area_;           ///< ∫ from x_[0] to x_[i]
+  std::vector<std::size_t> bucket_;    ///< first candidate piece of each of the equal buckets over the range
+  double bucket_scale_ = 0;            ///< buckets per unit of x
+  Extrapolation extrapolation_ = Extrapolation::constant;
+};
+
+}  // namespace solidus
