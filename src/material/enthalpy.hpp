@@ -1,0 +1,50 @@
+/// The volumetric enthalpy curve of a material: sensible and latent heat as one monotone graph.
+///
+/// h(Θ) = ∫ ρ C dΘ + Σ_k ρ L_k (1 − f_k(Θ)) [J/m³], zero at the lowest temperature of its range (constant continuation of C).
+/// With piecewise-linear C and f it is piecewise quadratic with upward jumps (isothermal changes), so the value, the inverse and
+/// the convex potential ∫h dΘ are closed forms. Heat is always stored as a difference of h: exact for every step (4.149).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/table.hpp"
+#include "material/phase_change.hpp"
+
+namespace solidus::material {
+
+class EnthalpyCurve {
+ public:
+  EnthalpyCurve() = default;
+  /// @param density         ρ of the reference configuration [kg/m³]
+  /// @param specific_heat   C(Θ) [J/(kg K)], positive
+  EnthalpyCurve(double density, const Table& specific_heat, std::span<const PhaseChange> changes);
+
+  /// h(Θ) [J/m³]; at a jump the lower and the upper value.
+  double lower(double temperature) const;
+  double upper(double temperature) const;
+  /// dh/dΘ [J/(m³ K)] of the piece to the right of Θ, without jumps.
+  double capacity(double temperature) const;
+  /// Θ(h): the continuous inverse, constant over a jump [K].
+  double temperature(double enthalpy) const;
+  /// dΘ/dh: zero within a jump.
+  double inverse_slope(double enthalpy) const;
+  /// Temperatures of the jumps, rising, with their heights.
+  struct Jump {
+    double temperature, height;
+  };
+  std::span<const Jump> jumps() const { return jumps_; }
+
+  struct Piece {  ///< h = h0 + c0 (Θ − Θ0) + c1/2 (Θ − Θ0)² for Θ in [Θ0, Θ1]; h0 already includes the jump at Θ0
+    double t0, t1, h0, c0, c1;
+  };
+  std::span<const Piece> pieces() const { return pieces_; }  ///< the first and last continue to −∞ and +∞ with constant c
+
+ private:
+  std::size_t piece_of_temperature(double temperature) const;
+  std::size_t piece_of_enthalpy(double enthalpy) const;
+  std::vector<Piece> pieces_;
+  std::vector<Jump> jumps_;
+};
+
+}  // namespace solidus::material

@@ -1,0 +1,42 @@
+/// A material: every property a table over absolute temperature, with its source and validity.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/table.hpp"
+#include "base/types.hpp"
+#include "material/enthalpy.hpp"
+#include "material/phase_change.hpp"
+
+namespace solidus::material {
+
+/// Where a property comes from and where it holds; used to warn when a run leaves the range.
+struct PropertyNote {
+  std::string property, source;
+  double valid_from = 0, valid_to = 0;  ///< [K]; both zero: no range stated
+};
+
+struct Material {
+  std::string name, title;
+  double density = 0;      ///< ρ of the reference configuration [kg/m³]
+  Table conductivity;      ///< k(Θ) [W/(m K)]
+  Table specific_heat;     ///< C(Θ) [J/(kg K)]
+  std::vector<PhaseChange> phase_changes;
+
+  Table young_modulus;      ///< E(Θ) [Pa]
+  Table poisson_ratio;      ///< ν(Θ)
+  Table expansion;          ///< α(Θ), mean linear coefficient from Θ_ref [1/K]
+  double expansion_reference = 293.15;  ///< Θ_ref of 2.51 [K]
+  Table liquid_viscosity;   ///< η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used where f_S < 1
+
+  std::vector<PropertyNote> notes;
+
+  EnthalpyCurve enthalpy() const { return {density, specific_heat, phase_changes}; }
+  /// The solidification, if the material has one; without it the material is always solid (f_S = 1).
+  const PhaseChange* solidification() const;
+  double solid_fraction(double temperature) const;  ///< f_S of 2.65
+};
+
+}  // namespace solidus::material
