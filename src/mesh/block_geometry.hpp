@@ -1,0 +1,51 @@
+/// Everything geometric about a block of elements, computed once, in batches of k_lanes elements.
+#pragma once
+
+#include <vector>
+
+#include "base/simd.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/quadrature.hpp"
+
+namespace solidus::mesh {
+
+/// Gradients, weights and node numbers of a block at the points of a rule. The last batch is padded with copies of the last
+/// element whose weights are zero.
+struct BlockGeometry {
+  BlockGeometry(const Mesh& mesh, const Block& block, AnalysisKind kind, const Rule& rule);
+
+  Shape shape;
+  int n_nodes = 0, dim = 0, n_points = 0;
+  Index n_elements = 0, n_batches = 0, n_counted = 0;
+
+  std::vector<double> values;       ///< N_a at the points: [point][node], the same for every element
+  PackVector<Lane> gradients;       ///< ∂N_a/∂x_i [1/m]: [batch][point][node][dim]
+  PackVector<Lane> weight;          ///< quadrature weight × det J × (2π r | 1): [batch][point] [m³]
+  PackVector<Lane> inverse_radius;  ///< 1/r at the points (axisymmetric only, else empty): [batch][point]
+  std::vector<Index> nodes;         ///< local node numbers: [batch][node][lane]
+  PackVector<Lane> counted;         ///< one for elements this process counts, else zero: [batch]
+
+  const Lane* gradients_at(Index batch, int point) const {
+    return gradients.data() + (static_cast<std::ptrdiff_t>(batch) * n_points + point) * n_nodes * dim;
+  }
+  Lane weight_at(Index batch, int point) const {
+    return weight[static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_points) + static_cast<std::size_t>(point)];
+  }
+  std::size_t bytes() const;
+};
+
+/// The nodal weights of the closed rule, ∫ N_a dV > 0 for linear shapes; for quadratic shapes diagonal scaling
+/// V ∫N_a² dV / Σ_b ∫N_b² dV (Hinton, Rock, Zienkiewicz 1976), which is positive too: [batch][node] [m³].
+PackVector<Lane> nodal_weights(const Mesh& mesh, const Block& block, AnalysisKind kind);
+
+/// Boundary faces: values of N and surface weights (area × 2π r | 1) and outward unit normals, face by face.
+struct FaceGeometry {
+  FaceGeometry(const Mesh& mesh, const Block& faces, AnalysisKind kind, const Rule& rule);
+  int n_nodes = 0, n_points = 0;
+  Index n_faces = 0, n_counted = 0;
+  std::vector<double> values;   ///< [point][node]
+  std::vector<double> weight;   ///< [face][point] [m²]
+  std::vector<Point> normal;    ///< [face][point]
+};
+
+}  // namespace solidus::mesh
