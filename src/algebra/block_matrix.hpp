@@ -1,0 +1,79 @@
+/// Block-CSR accumulation of element entries and their hand-over to PETSc (design.md section 4).
+///
+/// Rows are the owned nodes, columns the local nodes, blocks block_size × block_size, row-major. Element kernels add through
+/// slots that were looked up once; `matrix()` passes the unique entries to PETSc with MatSetValuesCOO.
+#pragma once
+
+#include <petscmat.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace solidus::algebra {
+
+/// Which nodes couple: filled once by elements and by contributions from outside (contact pairs).
+class NodeGraph {
+ public:
+  explicit NodeGraph(const mesh::Mesh& mesh);
+  /// All nodes of each clique of `n` nodes couple with each other.
+  void add_cliques(std::span<const Index> nodes, int n);
+  /// Sorted unique columns of every owned row; call once, after all cliques.
+  void compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns);
+
+ private:
+  const mesh::Mesh& mesh_;
+  std::vector<std::vector<Index>> rows_;
+};
+
+class BlockMatrix {
+ public:
+  using Slot = std::int64_t;
+  static constexpr Slot k_no_slot = -1;  ///< the row belongs to another process, or the lane is padding
+
+  BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph);
+  ~BlockMatrix();
+  BlockMatrix(const BlockMatrix&) = delete;
+  BlockMatrix& operator=(const BlockMatrix&) = delete;
+
+  int block_size() const { return block_size_; }
+  /// The slot of a pair of local nodes, k_no_slot where the row is not owned. The pair must be in the graph (assert).
+  Slot slot(Index row, Index column) const;
+  /// Slots of all pairs of the nodes of each element: input [element][n], output [element][a][b].
+  std::vector<Slot> clique_slots(std::span<const Index> nodes, int n) const;
+  /// The same in the lane layout of BlockGeometry: input nodes [batch][node][lane], output [batch][a][b][lane]; lanes beyond
+  /// `n_elements` are padding.
+  std::vector<Slot> lane_slots(std::span<const Index> nodes, int n, Index n_elements) const;
+
+  void set_zero();
+  /// The block of a slot: block_size² doubles to add to.
+  double* block(Slot s) { return values_.data() + s * block_size_ * block_size_; }
+  double* diagonal_block(Index owned_node) { return block(diagonal_[static_cast<std::size_t>(owned_node)]); }
+
+  /// Rows and columns of these degrees of freedom become those of the identity times the mean diagonal; [local node][component],
+  /// ghosts included and already exchanged. Set again only when the set changes.
+  void set_fixed(std::vector<char> fixed);
+  const std::vector<char>& fixed() const { return fixed_; }
+
+  /// Passes the values on and returns the PETSc matrix; owned by this object.
+  Mat matrix();
+  /// y = A x for local x (ghosts up to date), y on owned nodes; ignores set_fixed.
+  void multiply(std::span<const double> x, std::span<double> y) const;
+  std::size_t bytes() const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  int block_size_;
+  std::vector<std::int64_t> row_start_;
+  std::vector<Index> columns_;
+  std::vector<Slot> diagonal_;
+  std::vector<double> values_;
+  std::vector<char> fixed_;
+  struct Petsc;
+  std::unique_ptr<Petsc> petsc_;
+};
+
+}  // namespace solidus::algebra

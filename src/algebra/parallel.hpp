@@ -1,0 +1,30 @@
+/// Sums over processes and the exchange of ghost values.
+#pragma once
+
+#include <mpi.h>
+
+#include <memory>
+#include <span>
+
+#include "mesh/mesh.hpp"
+
+namespace solidus::algebra {
+
+double global_sum(double value);
+double global_max(double value);
+double global_min(double value);
+bool any_process(bool value);
+
+/// Brings the owners' values to the ghosts. Fields are stored [local node][component].
+class GhostExchange {
+ public:
+  explicit GhostExchange(const mesh::Mesh& mesh);
+  ~GhostExchange();
+  void update(std::span<double> values, int components) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace solidus::algebra
