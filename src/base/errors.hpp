@@ -32,7 +32,8 @@ class InputError : public std::runtime_error {
 class StepRejected : public std::runtime_error {
  public:
   /// @param reason short, for steps.csv: "heat: no convergence in 25 iterations"
-  /// @param where  the place with its state: "body 'part', element 1234: temperature 931.2 K, ..."; may be empty
+  /// @param where  the place with its state: "body 'part', element 1234: temperature 931.2 K, ..."; may be
+  /// empty
   explicit StepRejected(std::string reason, std::string where = {});
   const std::string& reason() const { return reason_; }
   const std::string& where() const { return where_; }

@@ -9,8 +9,9 @@
 
 namespace solidus {
 
-/// What a table answers outside its range. `error` makes `value` return a quiet NaN-free constant continuation as well, and
-/// `outside` reports it: a law must not throw in a kernel, so the caller checks `outside` once per step.
+/// What a table answers outside its points: its end value, or the line through its last two points. `error`
+/// continues with the end value too, because nothing may throw inside a kernel, but `outside` then reports
+/// it: the caller asks once per step.
 enum class Extrapolation { constant, linear, error };
 
 /// A continuous function y(x) given by points with strictly increasing x. A single point is a constant.
@@ -19,12 +20,13 @@ class Table {
   Table() = default;
   /// A constant.
   Table(double y);  // NOLINT: a number is a constant table
-  /// Throws std::invalid_argument when x and y differ in length, are empty, not finite, or x does not increase strictly.
+  /// Throws std::invalid_argument when x and y differ in length, are empty, not finite, or x does not
+  /// increase strictly.
   Table(std::vector<double> x, std::vector<double> y, Extrapolation extrapolation = Extrapolation::constant);
 
   double value(double x) const;
-  /// dy/dx of the piece that holds x, the right-hand one at a point of the table (the left-hand one at its end); zero outside
-  /// when the continuation is constant.
+  /// dy/dx of the piece that holds x, the right-hand one at a point of the table (the left-hand one at its
+  /// end); zero outside when the continuation is constant.
   double derivative(double x) const;
   /// ∫_a^b y dx, closed form, any order of a and b.
   double integral(double a, double b) const;
@@ -51,11 +53,15 @@ class Table {
 
  private:
   std::size_t interval(double x) const;  ///< i with x_[i] <= x < x_[i+1], clamped to the pieces
+  bool flat(double x) const;             ///< x lies outside and the continuation is constant
+  /// Adds up `part(from, to, y_from, slope)` over the linear parts of [a, b].
+  template <class Part>
+  double add_parts(double a, double b, Part part) const;
 
   std::vector<double> x_{0.0}, y_{0.0};
-  std::vector<double> area_;           ///< ∫ from x_[0] to x_[i]
-  std::vector<std::size_t> bucket_;    ///< first candidate piece of each of the equal buckets over the range
-  double bucket_scale_ = 0;            ///< buckets per unit of x
+  std::vector<double> slope_;        ///< of each piece
+  std::vector<std::size_t> bucket_;  ///< the piece at the start of each of the equal buckets over the range
+  double bucket_scale_ = 0;          ///< buckets per unit of x
   Extrapolation extrapolation_ = Extrapolation::constant;
 };
 
