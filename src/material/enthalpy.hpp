@@ -1,8 +1,10 @@
 /// The volumetric enthalpy curve of a material: sensible and latent heat as one monotone graph.
 ///
-/// h(Θ) = ∫ ρ C dΘ + Σ_k ρ L_k (1 − f_k(Θ)) [J/m³], zero at the lowest temperature of its range (constant continuation of C).
-/// With piecewise-linear C and f it is piecewise quadratic with upward jumps (isothermal changes), so the value, the inverse and
-/// the convex potential ∫h dΘ are closed forms. Heat is always stored as a difference of h: exact for every step (4.149).
+/// h(Θ) = ∫ ρ C dΘ + Σ_k ρ L_k (1 − f_k(Θ)) [J/m³], zero at the lowest temperature of its range. C continues
+/// beyond its points as a constant; with Extrapolation::linear it follows its line first, for one more width
+/// of its table (never below half its end value). With piecewise-linear C and f it is piecewise quadratic
+/// with upward jumps (isothermal changes), so the value, the inverse and the convex potential ∫h dΘ are
+/// closed forms. Heat is always stored as a difference of h: exact for every step (4.149).
 #pragma once
 
 #include <span>
@@ -18,6 +20,7 @@ class EnthalpyCurve {
   EnthalpyCurve() = default;
   /// @param density         ρ of the reference configuration [kg/m³]
   /// @param specific_heat   C(Θ) [J/(kg K)], positive
+  /// Throws std::invalid_argument when a density or capacity is not positive or a latent heat is negative.
   EnthalpyCurve(double density, const Table& specific_heat, std::span<const PhaseChange> changes);
 
   /// h(Θ) [J/m³]; at a jump the lower and the upper value.
@@ -35,15 +38,21 @@ class EnthalpyCurve {
   };
   std::span<const Jump> jumps() const { return jumps_; }
 
-  struct Piece {  ///< h = h0 + c0 (Θ − Θ0) + c1/2 (Θ − Θ0)² for Θ in [Θ0, Θ1]; h0 already includes the jump at Θ0
+  struct Piece {  ///< h = h0 + c0 (Θ − Θ0) + c1/2 (Θ − Θ0)² for Θ in [Θ0, Θ1]; h0 already includes the jump
+                  ///< at Θ0
     double t0, t1, h0, c0, c1;
   };
-  std::span<const Piece> pieces() const { return pieces_; }  ///< the first and last continue to −∞ and +∞ with constant c
+  std::span<const Piece> pieces() const {
+    return pieces_;
+  }  ///< the first and last continue to −∞ and +∞ with constant c
 
  private:
   std::size_t piece_of_temperature(double temperature) const;
   std::size_t piece_of_enthalpy(double enthalpy) const;
+  double value(const Piece& piece, double temperature) const;
   std::vector<Piece> pieces_;
+  std::vector<double> start_temperature_, start_enthalpy_;  ///< t0 and h0 of the pieces, for the search
+  std::vector<double> jump_;  ///< height of the jump at t0 of each piece, mostly zero
   std::vector<Jump> jumps_;
 };
 

@@ -20,20 +20,23 @@ struct PropertyNote {
 
 struct Material {
   std::string name, title;
-  double density = 0;      ///< ρ of the reference configuration [kg/m³]
-  Table conductivity;      ///< k(Θ) [W/(m K)]
-  Table specific_heat;     ///< C(Θ) [J/(kg K)]
+  double density = 0;   ///< ρ of the reference configuration [kg/m³]
+  Table conductivity;   ///< k(Θ) [W/(m K)]
+  Table specific_heat;  ///< C(Θ) [J/(kg K)]
   std::vector<PhaseChange> phase_changes;
 
-  Table young_modulus;      ///< E(Θ) [Pa]
-  Table poisson_ratio;      ///< ν(Θ)
-  Table expansion;          ///< α(Θ), mean linear coefficient from Θ_ref [1/K]
+  Table young_modulus;                  ///< E(Θ) [Pa]
+  Table poisson_ratio;                  ///< ν(Θ)
+  Table expansion;                      ///< α(Θ), mean linear coefficient from Θ_ref [1/K]
   double expansion_reference = 293.15;  ///< Θ_ref of 2.51 [K]
-  Table liquid_viscosity;   ///< η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used where f_S < 1
+  Table liquid_viscosity;  ///< η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used
+                           ///< where f_S < 1
 
   std::vector<PropertyNote> notes;
 
   EnthalpyCurve enthalpy() const { return {density, specific_heat, phase_changes}; }
+  /// True when elastic properties are given; a material without them serves heat conduction only.
+  bool mechanical() const { return young_modulus.min_value() > 0; }
   /// The solidification, if the material has one; without it the material is always solid (f_S = 1).
   const PhaseChange* solidification() const;
   double solid_fraction(double temperature) const;  ///< f_S of 2.65

@@ -1,31 +1,48 @@
-/// Phase changes: phase fraction, latent heat and straining as functions of temperature (monograph 2.64–2.66, 2.75).
+/// Phase changes: phase fraction, latent heat and straining as functions of temperature
+/// (monograph 2.64–2.66, 2.75).
 ///
-/// f(Θ) is the fraction of the phase that is stable below the transformation (the solid fraction for solidification): one when
-/// cold, zero when hot. The latent heat function is L(Θ) = ρ L (1 − f(Θ)) (errata to 2.64), so cooling releases heat.
+/// f(Θ) is the fraction of the phase that is stable below the transformation (the solid fraction for
+/// solidification): one when cold, zero when hot. The latent heat function is L(Θ) = ρ L (1 − f(Θ)) (errata
+/// to 2.64), so cooling releases heat.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/simd.hpp"
+
 namespace solidus::material {
 
-/// A phase fraction f(Θ), non-increasing from one to zero, kept as an exact piecewise-linear curve: two points with the same
-/// temperature are an isothermal part (a jump). Lever rule and Scheil are sampled adaptively to 1e-6 of the fraction.
+/// A phase fraction f(Θ), non-increasing from one to zero, kept as an exact piecewise-linear curve: two
+/// points with the same temperature are an isothermal part (a jump). Lever rule and Scheil are sampled
+/// adaptively to 1e-6 of the fraction.
 class PhaseFraction {
  public:
   /// Linear between solidus and liquidus [K]; equal temperatures are an isothermal change.
   static PhaseFraction linear(double solidus, double liquidus);
-  /// Points (temperature [K], fraction), any order of temperature; throws std::invalid_argument unless f falls monotonously
-  /// from 1 (coldest point) to 0 (hottest).
+  /// Points (temperature [K], fraction), rising or falling temperature; throws std::invalid_argument unless f
+  /// falls monotonously from 1 (coldest point) to 0 (hottest). Two points at one temperature are an
+  /// isothermal part.
   static PhaseFraction table(std::vector<std::pair<double, double>> points);
-  /// Lever rule: f = (Θ_L − Θ)/((1 − k)(Θ_m − Θ)) between liquidus and eutectic (or solidus), the rest at the eutectic.
+  /// Lever rule: f = (Θ_L − Θ)/((1 − k)(Θ_m − Θ)) between liquidus and eutectic, the rest isothermally at the
+  /// eutectic; when f reaches one above the eutectic, that is the solidus.
+  /// @param melting_point Θ_m of the pure solvent [K]; Θ_m > liquidus > eutectic
+  /// @param partition     k of the solute, 0 < k < 1
   static PhaseFraction lever_rule(double melting_point, double liquidus, double eutectic, double partition);
   /// Scheil: f = 1 − ((Θ_m − Θ)/(Θ_m − Θ_L))^(1/(k − 1)), the rest isothermally at the eutectic.
   static PhaseFraction scheil(double melting_point, double liquidus, double eutectic, double partition);
 
   double value(double temperature) const;       ///< at a jump: the mean of both sides
-  double derivative(double temperature) const;  ///< df/dΘ <= 0 of the piece on the right; zero at and outside the ends
+  double derivative(double temperature) const;  ///< df/dΘ <= 0 [1/K] of the piece on the right; zero outside
+  double above(double temperature) const;  ///< the limit from the right; differs from below() at a jump only
+  double below(double temperature) const;  ///< the limit from the left
+  Lane value(Lane temperature) const {
+    return for_each_lane(temperature, [this](double t) { return value(t); });
+  }
+  Lane derivative(Lane temperature) const {
+    return for_each_lane(temperature, [this](double t) { return derivative(t); });
+  }
   double solidus() const { return points_.front().first; }
   double liquidus() const { return points_.back().first; }
   const std::vector<std::pair<double, double>>& points() const { return points_; }  ///< temperature rising
@@ -38,8 +55,9 @@ class PhaseFraction {
 struct PhaseChange {
   std::string name;
   PhaseFraction fraction;
-  double latent_heat = 0;     ///< L [J/kg], released on cooling
-  double volume_change = 0;   ///< ΔV/V of the transformation on cooling: negative shrinks (aluminium), positive expands
+  double latent_heat = 0;  ///< L [J/kg], released on cooling
+  double volume_change =
+      0;  ///< ΔV/V of the transformation on cooling: negative shrinks (aluminium), positive expands
   bool solidification = false;  ///< its fraction is the solid fraction f_S of 2.65; at most one per material
 };
 
