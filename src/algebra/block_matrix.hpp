@@ -1,7 +1,8 @@
 /// Block-CSR accumulation of element entries and their hand-over to PETSc (design.md section 4).
 ///
-/// Rows are the owned nodes, columns the local nodes, blocks block_size × block_size, row-major. Element kernels add through
-/// slots that were looked up once; `matrix()` passes the unique entries to PETSc with MatSetValuesCOO.
+/// Rows are the owned nodes, columns the local nodes, blocks block_size × block_size, row-major. Element
+/// kernels add through slots that were looked up once; `matrix()` passes the unique entries to PETSc with
+/// MatSetValuesCOO.
 #pragma once
 
 #include <petscmat.h>
@@ -32,7 +33,9 @@ class NodeGraph {
 class BlockMatrix {
  public:
   using Slot = std::int64_t;
-  static constexpr Slot k_no_slot = -1;  ///< the row belongs to another process, or the lane is padding
+  /// The row belongs to another process, or the lane is padding. Its block is a scrap block that may be added
+  /// to and is never read, so kernels scatter without a branch.
+  static constexpr Slot k_no_slot = -1;
 
   BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph);
   ~BlockMatrix();
@@ -40,21 +43,23 @@ class BlockMatrix {
   BlockMatrix& operator=(const BlockMatrix&) = delete;
 
   int block_size() const { return block_size_; }
-  /// The slot of a pair of local nodes, k_no_slot where the row is not owned. The pair must be in the graph (assert).
+  /// The slot of a pair of local nodes, k_no_slot where the row is not owned. The pair must be in the graph
+  /// (assert).
   Slot slot(Index row, Index column) const;
   /// Slots of all pairs of the nodes of each element: input [element][n], output [element][a][b].
   std::vector<Slot> clique_slots(std::span<const Index> nodes, int n) const;
-  /// The same in the lane layout of BlockGeometry: input nodes [batch][node][lane], output [batch][a][b][lane]; lanes beyond
-  /// `n_elements` are padding.
+  /// The same in the lane layout of BlockGeometry: input nodes [batch][node][lane], output
+  /// [batch][a][b][lane]; lanes beyond `n_elements` are padding.
   std::vector<Slot> lane_slots(std::span<const Index> nodes, int n, Index n_elements) const;
 
   void set_zero();
   /// The block of a slot: block_size² doubles to add to.
-  double* block(Slot s) { return values_.data() + s * block_size_ * block_size_; }
+  double* block(Slot s) { return values_.data() + (s + 1) * block_size_ * block_size_; }
+  const double* block(Slot s) const { return values_.data() + (s + 1) * block_size_ * block_size_; }
   double* diagonal_block(Index owned_node) { return block(diagonal_[static_cast<std::size_t>(owned_node)]); }
 
-  /// Rows and columns of these degrees of freedom become those of the identity times the mean diagonal; [local node][component],
-  /// ghosts included and already exchanged. Set again only when the set changes.
+  /// Rows and columns of these degrees of freedom become those of the identity times the mean diagonal;
+  /// [local node][component], ghosts included and already exchanged. Set again only when the set changes.
   void set_fixed(std::vector<char> fixed);
   const std::vector<char>& fixed() const { return fixed_; }
 
@@ -70,8 +75,12 @@ class BlockMatrix {
   std::vector<std::int64_t> row_start_;
   std::vector<Index> columns_;
   std::vector<Slot> diagonal_;
-  std::vector<double> values_;
+  std::vector<double> values_;  ///< the scrap block, then a block per slot
   std::vector<char> fixed_;
+  bool any_fixed_ = false;                   ///< on any process
+  std::vector<std::size_t> masked_;          ///< entries of values_ in fixed rows or columns
+  std::vector<std::size_t> fixed_diagonal_;  ///< diagonal entries of fixed owned degrees of freedom
+  std::vector<double> saved_;                ///< the masked values while PETSc sees zeros
   struct Petsc;
   std::unique_ptr<Petsc> petsc_;
 };

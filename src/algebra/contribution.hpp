@@ -1,4 +1,5 @@
-/// Terms that a phase's equations receive from outside: contact forces, heat through an interface, structural heating.
+/// Terms that a phase's equations receive from outside: contact forces, heat through an interface, structural
+/// heating.
 #pragma once
 
 #include <span>
@@ -7,8 +8,8 @@
 
 namespace solidus::algebra {
 
-/// An extra term of a system in one nodal field (temperature: 1 component, displacement: 2 or 3). It adds only to rows of owned
-/// nodes. `x` is local (ghosts up to date), [node][component]; `r` on owned nodes.
+/// An extra term of a system in one nodal field (temperature: 1 component, displacement: 2 or 3). It adds
+/// only to rows of owned nodes. `x` is local (ghosts up to date), [node][component]; `r` on owned nodes.
 class Contribution {
  public:
   virtual ~Contribution() = default;
@@ -16,7 +17,8 @@ class Contribution {
   virtual void add_to_graph(NodeGraph& graph) const = 0;
   /// Looks up slots once the matrix exists.
   virtual void bind(const BlockMatrix& matrix) = 0;
-  /// r += the term at x (the phase solves r = 0 with r = internal − external, units: N for forces, W for heat).
+  /// r += the term at x (the phase solves r = 0 with r = internal − external, units: N for forces, W for
+  /// heat).
   virtual void add_residual(std::span<const double> x, std::span<double> r) = 0;
   /// matrix += ∂(term)/∂x at x.
   virtual void add_tangent(std::span<const double> x, BlockMatrix& matrix) = 0;

@@ -12,25 +12,25 @@
 namespace solidus::algebra {
 
 enum class SolverKind {
-  automatic,          ///< the default of the phase and size (design.md section 4)
-  direct,             ///< MUMPS, LDLᵀ for symmetric matrices
-  multigrid,          ///< CG + GAMG (GMRES when unsymmetric)
-  jacobi              ///< CG + Jacobi
+  automatic,  ///< the default of the phase and size (design.md section 4)
+  direct,     ///< MUMPS, LDLᵀ for symmetric matrices
+  multigrid,  ///< CG + GAMG (GMRES when unsymmetric)
+  jacobi      ///< CG + Jacobi
 };
 
 struct LinearSolverOptions {
-  std::string prefix;                   ///< "heat_", "mechanics_"
+  std::string prefix;  ///< "heat_", "mechanics_"
   SolverKind kind = SolverKind::automatic;
   bool symmetric = true;
-  bool transient_heat = false;          ///< diagonally strong: CG + Jacobi serves
-  double relative_tolerance = 1e-10;    ///< iterative solvers only
+  bool transient_heat = false;        ///< diagonally strong: CG + Jacobi serves
+  double relative_tolerance = 1e-10;  ///< iterative solvers only
   int max_iterations = 2000;
 };
 
 struct LinearReport {
   int iterations = 0;
   bool converged = true;
-  std::string reason;   ///< PETSc's words when it did not converge
+  std::string reason;  ///< PETSc's words when it did not converge
 };
 
 class LinearSolver {
@@ -39,8 +39,8 @@ class LinearSolver {
   ~LinearSolver();
   /// Rigid-body modes for multigrid from the coordinates of the owned nodes (mechanics).
   void use_rigid_body_modes(const mesh::Mesh& mesh, int components);
-  /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until iterations have
-  /// grown by half) between calls. Collective.
+  /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until
+  /// iterations have grown by half) between calls. Collective.
   LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x);
   double seconds_setup() const;
   double seconds_solve() const;

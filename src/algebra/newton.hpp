@@ -11,8 +11,9 @@
 namespace solidus::algebra {
 
 struct NewtonOptions {
-  double tolerance = 1e-3;         ///< ‖r‖ <= tolerance × reference (the monograph's 0.1 % is the default, chapter 7)
-  double absolute_tolerance = 0;   ///< or ‖r‖ <= this, in the units of the residual
+  double tolerance =
+      1e-3;  ///< ‖r‖ <= tolerance × reference (the monograph's 0.1 % is the default, chapter 7)
+  double absolute_tolerance = 0;  ///< or ‖r‖ <= this, in the units of the residual
   int max_iterations = 25;
   bool line_search = true;
   double line_search_slope = 0.8;  ///< accept α when |d·r(x+αd)| <= this × |d·r(x)|
@@ -20,7 +21,7 @@ struct NewtonOptions {
 
 struct NewtonReport {
   bool converged = false;
-  int iterations = 0;             ///< linear solves
+  int iterations = 0;  ///< linear solves
   int linear_iterations = 0;
   std::vector<double> residuals;  ///< ‖r‖/reference before each solve and at the end
   std::string reason;             ///< why it stopped when it did not converge
@@ -30,18 +31,22 @@ struct NewtonReport {
 class NonlinearSystem {
  public:
   virtual ~NonlinearSystem() = default;
-  /// r at x on owned nodes; entries of fixed degrees of freedom are zeroed by newton(). Returns the reference that ‖r‖ is
-  /// measured against: the norm of the forces (or heat) before they cancel, reactions included, over all processes.
+  /// r at x on owned nodes; entries of fixed degrees of freedom are zeroed by newton(). Returns the reference
+  /// that ‖r‖ is measured against: the norm of the forces (or heat) before they cancel, reactions included,
+  /// over all processes.
   virtual double residual(std::span<const double> x, std::span<double> r) = 0;
   /// The tangent at the x of the last residual().
   virtual BlockMatrix& tangent() = 0;
-  /// Called with the accepted step x += alpha d, ghosts up to date. Systems with unknowns of their own (nodal enthalpy) follow.
+  /// Called with the accepted step: x is the new point, ghosts up to date. Systems with unknowns of their own
+  /// (nodal enthalpy) follow. Without line search it comes before the residual at x, with line search after
+  /// the residuals of the trials.
   virtual void accept(std::span<const double> /*x*/, std::span<const double> /*d*/, double /*alpha*/) {}
 };
 
 /// Solves r(x) = 0 from the start value x, whose fixed degrees of freedom already hold their values.
-/// A NaN in the residual ends the iteration as not converged. x: [local node][component], ghosts updated on return.
-NewtonReport newton(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts, int components,
-                    std::span<double> x, const NewtonOptions& options);
+/// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens
+/// the step. x: [local node][component], ghosts updated on return.
+NewtonReport newton(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts,
+                    int components, std::span<double> x, const NewtonOptions& options);
 
 }  // namespace solidus::algebra

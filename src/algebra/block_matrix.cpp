@@ -1,0 +1,196 @@
+#include "algebra/block_matrix.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "algebra/parallel.hpp"
+#include "algebra/petsc_handles.hpp"
+#include "base/simd.hpp"
+
+namespace solidus::algebra {
+
+namespace {
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+}  // namespace
+
+NodeGraph::NodeGraph(const mesh::Mesh& mesh) : mesh_(mesh), rows_(at(mesh.n_owned_nodes)) {}
+
+void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
+  const auto count = static_cast<std::size_t>(n);
+  assert(nodes.size() % count == 0);
+  for (std::size_t start = 0; start < nodes.size(); start += count) {
+    const auto clique = nodes.subspan(start, count);
+    for (Index row : clique) {
+      if (row >= mesh_.n_owned_nodes) continue;
+      auto& columns = rows_[at(row)];
+      columns.insert(columns.end(), clique.begin(), clique.end());
+    }
+  }
+}
+
+void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns) {
+  row_start.assign(1, 0);
+  columns.clear();
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    auto& list = rows_[at(row)];
+    list.push_back(row);  // the diagonal always exists
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    columns.insert(columns.end(), list.begin(), list.end());
+    row_start.push_back(static_cast<std::int64_t>(columns.size()));
+    std::vector<Index>().swap(list);
+  }
+}
+
+struct BlockMatrix::Petsc {
+  MatHandle matrix;
+};
+
+BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph)
+    : mesh_(mesh), block_size_(block_size), petsc_(std::make_unique<Petsc>()) {
+  graph.compress(row_start_, columns_);
+  const auto bs = static_cast<std::size_t>(block_size);
+  values_.assign((columns_.size() + 1) * bs * bs, 0.0);
+  fixed_.assign(at(mesh.n_nodes()) * bs, 0);
+  diagonal_.resize(at(mesh.n_owned_nodes));
+  for (Index row = 0; row < mesh.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
+
+  // The order of the coordinates is the order of the values, so that handing over needs no copy.
+  std::vector<PetscInt> i, j;
+  i.reserve(columns_.size() * bs * bs);
+  j.reserve(columns_.size() * bs * bs);
+  for (Index row = 0; row < mesh.n_owned_nodes; ++row)
+    for (std::int64_t s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s) {
+      const GlobalIndex column = mesh.global_node[at(columns_[static_cast<std::size_t>(s)])];
+      for (int a = 0; a < block_size; ++a)
+        for (int b = 0; b < block_size; ++b) {
+          i.push_back(static_cast<PetscInt>((mesh.first_owned + row) * block_size + a));
+          j.push_back(static_cast<PetscInt>(column * block_size + b));
+        }
+    }
+  const auto n = static_cast<PetscInt>(mesh.n_owned_nodes * block_size);
+  MatHandle& a = petsc_->matrix;
+  check(MatCreate(PETSC_COMM_WORLD, a.out()), "MatCreate");
+  check(MatSetSizes(a, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
+  check(MatSetBlockSize(a, block_size), "MatSetBlockSize");
+  check(MatSetType(a, MATAIJ), "MatSetType");
+  check(MatSetPreallocationCOO(a, static_cast<PetscCount>(i.size()), i.data(), j.data()),
+        "MatSetPreallocationCOO");
+}
+
+BlockMatrix::~BlockMatrix() = default;
+
+BlockMatrix::Slot BlockMatrix::slot(Index row, Index column) const {
+  if (row >= mesh_.n_owned_nodes) return k_no_slot;
+  const auto begin = columns_.begin() + row_start_[at(row)], end = columns_.begin() + row_start_[at(row) + 1];
+  const auto found = std::lower_bound(begin, end, column);
+  assert(found != end && *found == column && "this pair of nodes was not announced to the graph");
+  return found - columns_.begin();
+}
+
+std::vector<BlockMatrix::Slot> BlockMatrix::clique_slots(std::span<const Index> nodes, int n) const {
+  std::vector<Slot> slots;
+  slots.reserve(nodes.size() * static_cast<std::size_t>(n));
+  for (std::size_t start = 0; start < nodes.size(); start += static_cast<std::size_t>(n)) {
+    const auto clique = nodes.subspan(start, static_cast<std::size_t>(n));
+    for (Index a : clique)
+      for (Index b : clique) slots.push_back(slot(a, b));
+  }
+  return slots;
+}
+
+std::vector<BlockMatrix::Slot> BlockMatrix::lane_slots(std::span<const Index> nodes, int n,
+                                                       Index n_elements) const {
+  const auto count = static_cast<std::size_t>(n);
+  const std::size_t n_batches = nodes.size() / (count * k_lanes);
+  std::vector<Slot> slots(n_batches * count * count * k_lanes, k_no_slot);
+  for (Index e = 0; e < n_elements; ++e) {
+    const std::size_t batch = at(e) / k_lanes, lane = at(e) % k_lanes;
+    const Index* of_batch = nodes.data() + batch * count * k_lanes;
+    Slot* to = slots.data() + batch * count * count * k_lanes;
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = 0; b < count; ++b)
+        to[(a * count + b) * k_lanes + lane] =
+            slot(of_batch[a * k_lanes + lane], of_batch[b * k_lanes + lane]);
+  }
+  return slots;
+}
+
+void BlockMatrix::set_zero() {
+  std::fill(values_.begin(), values_.end(), 0.0);
+}
+
+void BlockMatrix::set_fixed(std::vector<char> fixed) {
+  assert(fixed.size() == at(mesh_.n_nodes()) * static_cast<std::size_t>(block_size_));
+  fixed_ = std::move(fixed);
+  masked_.clear();
+  fixed_diagonal_.clear();
+  const auto bs = static_cast<std::size_t>(block_size_);
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
+    for (std::int64_t s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s) {
+      const std::size_t column = at(columns_[static_cast<std::size_t>(s)]);
+      const std::size_t first = static_cast<std::size_t>(s + 1) * bs * bs;
+      for (std::size_t a = 0; a < bs; ++a)
+        for (std::size_t b = 0; b < bs; ++b) {
+          const bool row_fixed = fixed_[at(row) * bs + a] != 0;
+          if (!row_fixed && !fixed_[column * bs + b]) continue;
+          masked_.push_back(first + a * bs + b);
+          if (column == at(row) && a == b) fixed_diagonal_.push_back(first + a * bs + b);
+        }
+    }
+  saved_.resize(masked_.size());
+  any_fixed_ = any_process(!masked_.empty());
+}
+
+Mat BlockMatrix::matrix() {
+  if (any_fixed_) {
+    // PETSc copies the values: show it the masked ones, then put ours back.
+    const auto bs = static_cast<std::size_t>(block_size_);
+    double sums[2] = {0, 0};
+    for (std::size_t row = 0; row < diagonal_.size(); ++row)
+      for (std::size_t a = 0; a < bs; ++a) {
+        if (fixed_[row * bs + a]) continue;
+        sums[0] += block(diagonal_[row])[a * bs + a];
+        sums[1] += 1;
+      }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+    const double mean = sums[1] > 0 && sums[0] > 0 ? sums[0] / sums[1] : 1.0;
+    for (std::size_t k = 0; k < masked_.size(); ++k) {
+      saved_[k] = values_[masked_[k]];
+      values_[masked_[k]] = 0;
+    }
+    for (std::size_t entry : fixed_diagonal_) values_[entry] = mean;
+  }
+  check(MatSetValuesCOO(petsc_->matrix, block(0), INSERT_VALUES), "MatSetValuesCOO");
+  if (any_fixed_)
+    for (std::size_t k = 0; k < masked_.size(); ++k) values_[masked_[k]] = saved_[k];
+  return petsc_->matrix;
+}
+
+void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const {
+  const int bs = block_size_;
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    double* const to = y.data() + row * bs;
+    std::fill_n(to, bs, 0.0);
+    for (std::int64_t s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s) {
+      const double* const a = block(s);
+      const double* const from =
+          x.data() + static_cast<std::ptrdiff_t>(columns_[static_cast<std::size_t>(s)]) * bs;
+      for (int p = 0; p < bs; ++p)
+        for (int q = 0; q < bs; ++q) to[p] += a[p * bs + q] * from[q];
+    }
+  }
+}
+
+std::size_t BlockMatrix::bytes() const {
+  MatInfo info;
+  check(MatGetInfo(petsc_->matrix, MAT_LOCAL, &info), "MatGetInfo");
+  return row_start_.capacity() * sizeof row_start_[0] + columns_.capacity() * sizeof columns_[0] +
+         diagonal_.capacity() * sizeof diagonal_[0] + values_.capacity() * sizeof values_[0] +
+         fixed_.capacity() + (masked_.capacity() + fixed_diagonal_.capacity()) * sizeof masked_[0] +
+         saved_.capacity() * sizeof saved_[0] + static_cast<std::size_t>(info.memory);
+}
+
+}  // namespace solidus::algebra

@@ -1,0 +1,226 @@
+#include "algebra/linear_solver.hpp"
+
+#include <petsc/private/petscimpl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "algebra/petsc_handles.hpp"
+
+namespace solidus::algebra {
+
+namespace {
+
+constexpr GlobalIndex k_direct_limit_3d = 50000;  ///< degrees of freedom (design.md section 4, measured)
+constexpr double k_refine_above =
+    1e-8;  ///< residual of a direct solve relative to b: above it one step of refinement
+constexpr double k_refuse_above = 1e-2;  ///< after refinement: Newton cannot work with such a direction
+constexpr int k_workspace_attempts = 3;  ///< MUMPS runs with more workspace each time
+
+SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components) {
+  if (options.kind != SolverKind::automatic) return options.kind;
+  if (options.transient_heat) return SolverKind::jacobi;
+  const bool small = mesh.dimension == 2 || mesh.n_global_nodes * components < k_direct_limit_3d;
+  return small ? SolverKind::direct : SolverKind::multigrid;
+}
+
+}  // namespace
+
+struct LinearSolver::Implementation {
+  const mesh::Mesh& mesh;
+  LinearSolverOptions options;
+  KspHandle ksp;
+  VecHandle b, x, residual, correction;
+  NullSpaceHandle near_null_space;
+  SolverKind kind = SolverKind::automatic;  ///< as asked for; what runs may differ through PETSc options
+  bool reuse_hierarchy = false;  ///< the preconditioner is set up again only when iterations have grown
+  int first_iterations = 0;      ///< with the hierarchy just set up
+  bool stale = true;             ///< set up again at the next solve
+  int workspace = 35;            ///< MUMPS ICNTL(14), per cent
+  Mat matrix = nullptr;          ///< whose operators the solver holds; owned by the BlockMatrix
+  double seconds_setup = 0, seconds_solve = 0;
+
+  Implementation(const mesh::Mesh& m, LinearSolverOptions o) : mesh(m), options(std::move(o)) {}
+  void create(Mat a, int components);
+  bool is_direct() const;
+  KSPConvergedReason run(Vec rhs, Vec solution, int& iterations);
+  bool refine(LinearReport& report);
+  void grow_workspace();
+};
+
+void LinearSolver::Implementation::create(Mat a, int components) {
+  kind = automatic_kind(options, mesh, components);
+  check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
+  check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
+  check(KSPSetErrorIfNotConverged(ksp, PETSC_FALSE), "KSPSetErrorIfNotConverged");
+  check(
+      KSPSetTolerances(ksp, options.relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, options.max_iterations),
+      "KSPSetTolerances");
+  if (kind != SolverKind::direct) check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
+  PC pc = nullptr;
+  check(KSPGetPC(ksp, &pc), "KSPGetPC");
+  const KSPType krylov = options.symmetric ? KSPCG : KSPGMRES;
+  switch (kind) {
+    case SolverKind::automatic:
+    case SolverKind::direct:
+      check(KSPSetType(ksp, KSPPREONLY), "KSPSetType");
+      check(PCSetType(pc, options.symmetric ? PCCHOLESKY : PCLU), "PCSetType");
+      check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
+      break;
+    case SolverKind::multigrid:
+      check(KSPSetType(ksp, krylov), "KSPSetType");
+      check(PCSetType(pc, PCGAMG), "PCSetType");
+      reuse_hierarchy = true;
+      break;
+    case SolverKind::jacobi:
+      check(KSPSetType(ksp, krylov), "KSPSetType");
+      check(PCSetType(pc, PCJACOBI), "PCSetType");
+      break;
+  }
+  if (!options.symmetric && kind != SolverKind::direct) check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
+  check(KSPSetFromOptions(ksp), "KSPSetFromOptions");
+  check(MatCreateVecs(a, x.out(), b.out()), "MatCreateVecs");
+  check(VecDuplicate(b, residual.out()), "VecDuplicate");
+  check(VecDuplicate(x, correction.out()), "VecDuplicate");
+}
+
+bool LinearSolver::Implementation::is_direct() const {
+  PetscBool preonly = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<KSP>(ksp)), KSPPREONLY, &preonly),
+        "PetscObjectTypeCompare");
+  return preonly == PETSC_TRUE;
+}
+
+KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int& iterations) {
+  PetscLogDouble t0 = 0, t1 = 0, t2 = 0;
+  PetscTime(&t0);
+  check(KSPSetReusePreconditioner(ksp, reuse_hierarchy && !stale ? PETSC_TRUE : PETSC_FALSE),
+        "KSPSetReusePreconditioner");
+  check(KSPSetUp(ksp), "KSPSetUp");
+  PetscTime(&t1);
+  check(KSPSolve(ksp, rhs, solution), "KSPSolve");
+  PetscTime(&t2);
+  seconds_setup += t1 - t0;
+  seconds_solve += t2 - t1;
+  PetscInt n = 0;
+  check(KSPGetIterationNumber(ksp, &n), "KSPGetIterationNumber");
+  iterations += static_cast<int>(n);
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check(KSPGetConvergedReason(ksp, &reason), "KSPGetConvergedReason");
+  if (reuse_hierarchy) {
+    if (stale) first_iterations = static_cast<int>(n);
+    stale = reason < 0 || static_cast<int>(n) > first_iterations + std::max(first_iterations / 2, 2);
+  }
+  return reason;
+}
+
+/// Checks a direct solution against its residual, improves it once if needed, refuses it if that does not
+/// help.
+bool LinearSolver::Implementation::refine(LinearReport& report) {
+  double size = 0, defect = 0;
+  check(VecNorm(b, NORM_2, &size), "VecNorm");
+  for (int pass = 0; pass < 2; ++pass) {
+    check(MatMult(matrix, x, residual), "MatMult");
+    check(VecAYPX(residual, -1.0, b), "VecAYPX");
+    check(VecNorm(residual, NORM_2, &defect), "VecNorm");
+    if (defect <= (pass == 0 ? k_refine_above : k_refuse_above) * size) return true;
+    if (pass == 1 || !std::isfinite(defect)) break;
+    if (run(residual, correction, report.iterations) < 0) break;
+    check(VecAXPY(x, 1.0, correction), "VecAXPY");
+  }
+  report.reason = "the factorisation left a residual of " + std::to_string(defect / size) +
+                  " of the right-hand side (singular matrix? is every body held?)";
+  return false;
+}
+
+/// MUMPS may need more workspace than its analysis foresaw: pivoting is not known beforehand.
+void LinearSolver::Implementation::grow_workspace() {
+  PC pc = nullptr;
+  Mat factor = nullptr;
+  check(KSPGetPC(ksp, &pc), "KSPGetPC");
+  check(PCFactorGetMatrix(pc, &factor), "PCFactorGetMatrix");
+  workspace *= 3;
+  check(MatMumpsSetIcntl(factor, 14, workspace), "MatMumpsSetIcntl");
+  check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)), "PetscObjectStateIncrease");
+}
+
+LinearSolver::LinearSolver(const mesh::Mesh& mesh, LinearSolverOptions options)
+    : implementation_(std::make_unique<Implementation>(mesh, std::move(options))) {}
+
+LinearSolver::~LinearSolver() = default;
+
+void LinearSolver::use_rigid_body_modes(const mesh::Mesh& mesh, int components) {
+  VecHandle coordinates;
+  check(VecCreate(PETSC_COMM_WORLD, coordinates.out()), "VecCreate");
+  check(VecSetBlockSize(coordinates, components), "VecSetBlockSize");
+  check(VecSetSizes(coordinates, static_cast<PetscInt>(mesh.n_owned_nodes * components), PETSC_DETERMINE),
+        "VecSetSizes");
+  check(VecSetType(coordinates, VECSTANDARD), "VecSetType");
+  double* values = nullptr;
+  check(VecGetArray(coordinates, &values), "VecGetArray");
+  for (Index node = 0; node < mesh.n_owned_nodes; ++node)
+    for (int i = 0; i < components; ++i)
+      values[node * components + i] = mesh.x[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)];
+  check(VecRestoreArray(coordinates, &values), "VecRestoreArray");
+  check(MatNullSpaceCreateRigidBody(coordinates, implementation_->near_null_space.out()),
+        "MatNullSpaceCreateRigidBody");
+}
+
+LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x) {
+  Implementation& my = *implementation_;
+  const Mat matrix = a.matrix();
+  if (!my.ksp) my.create(matrix, a.block_size());
+  if (my.matrix != matrix) {
+    check(MatSetOption(matrix, MAT_SYMMETRIC, my.options.symmetric ? PETSC_TRUE : PETSC_FALSE),
+          "MatSetOption");
+    check(MatSetOption(matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE), "MatSetOption");
+    if (my.near_null_space) check(MatSetNearNullSpace(matrix, my.near_null_space), "MatSetNearNullSpace");
+    my.matrix = matrix;
+    my.stale = true;
+  }
+  check(KSPSetOperators(my.ksp, matrix, matrix), "KSPSetOperators");
+
+  double* values = nullptr;
+  check(VecGetArrayWrite(my.b, &values), "VecGetArrayWrite");
+  PetscInt n = 0;
+  check(VecGetLocalSize(my.b, &n), "VecGetLocalSize");
+  std::copy_n(b.data(), n, values);
+  check(VecRestoreArrayWrite(my.b, &values), "VecRestoreArrayWrite");
+
+  LinearReport report;
+  const bool was_fresh = my.stale;
+  KSPConvergedReason reason = my.run(my.b, my.x, report.iterations);
+  if (reason < 0 && my.reuse_hierarchy && !was_fresh) reason = my.run(my.b, my.x, report.iterations);
+  const bool direct = my.is_direct();
+  for (int attempt = 1; direct && reason == KSP_DIVERGED_PC_FAILED && attempt < k_workspace_attempts;
+       ++attempt) {
+    PC pc = nullptr;
+    PCFailedReason why = PC_NOERROR;
+    check(KSPGetPC(my.ksp, &pc), "KSPGetPC");
+    check(PCGetFailedReason(pc, &why), "PCGetFailedReason");
+    if (why != PC_FACTOR_OUTMEMORY && why != PC_FACTOR_OTHER) break;
+    my.grow_workspace();
+    reason = my.run(my.b, my.x, report.iterations);
+  }
+  report.converged = reason > 0 || (direct && reason == KSP_CONVERGED_ITERATING);
+  if (!report.converged) {
+    report.reason = KSPConvergedReasons[reason];
+  } else if (direct) {
+    report.converged = my.refine(report);
+  }
+  const double* solution = nullptr;
+  check(VecGetArrayRead(my.x, &solution), "VecGetArrayRead");
+  std::copy_n(solution, n, x.data());
+  check(VecRestoreArrayRead(my.x, &solution), "VecRestoreArrayRead");
+  return report;
+}
+
+double LinearSolver::seconds_setup() const {
+  return implementation_->seconds_setup;
+}
+double LinearSolver::seconds_solve() const {
+  return implementation_->seconds_solve;
+}
+
+}  // namespace solidus::algebra

@@ -1,0 +1,174 @@
+#include "algebra/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace solidus::algebra {
+
+namespace {
+
+constexpr double k_smallest_step = 0.05;  ///< of the line search
+constexpr int k_line_search_trials = 6;   ///< residuals after the full step
+
+double dot(std::span<const double> a, std::span<const double> b, std::size_t n) {
+  double s = 0;
+  for (std::size_t i = 0; i < n; ++i) s += a[i] * b[i];
+  return global_sum(s);
+}
+
+/// One solve: the vectors and what the iteration and its line search share.
+class Iteration {
+ public:
+  Iteration(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts, int components,
+            std::size_t n_owned, std::span<double> x, const NewtonOptions& options)
+      : system_(system),
+        solver_(solver),
+        ghosts_(ghosts),
+        components_(components),
+        n_(n_owned),
+        x_(x),
+        options_(options),
+        r_(n_owned),
+        step_(x.size()),
+        start_(x.size()) {}
+
+  NewtonReport run();
+
+ private:
+  void evaluate();
+  void zero_fixed();
+  bool converged() const {
+    return norm_ <= options_.tolerance * reference_ || norm_ <= options_.absolute_tolerance;
+  }
+  double measured() const { return reference_ > 0 ? norm_ / reference_ : norm_; }
+  /// x = start + alpha × step and the residual there; returns step · r.
+  double slope_at(double alpha);
+  double search(double slope);
+
+  NonlinearSystem& system_;
+  LinearSolver& solver_;
+  const GhostExchange& ghosts_;
+  int components_;
+  std::size_t n_;
+  std::span<double> x_;
+  const NewtonOptions& options_;
+  std::vector<double> r_, step_, start_;
+  const std::vector<char>* fixed_ = nullptr;
+  double norm_ = 0, reference_ = 0;
+};
+
+void Iteration::evaluate() {
+  reference_ = system_.residual(x_, r_);
+  if (fixed_) zero_fixed();
+}
+
+void Iteration::zero_fixed() {
+  for (std::size_t i = 0; i < n_ && i < fixed_->size(); ++i)
+    if ((*fixed_)[i]) r_[i] = 0;
+  norm_ = std::sqrt(dot(r_, r_, n_));
+}
+
+double Iteration::slope_at(double alpha) {
+  for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + alpha * step_[i];
+  evaluate();
+  return dot(step_, r_, n_);
+}
+
+/// Finds alpha with |s(alpha)| <= line_search_slope |s(0)|, s(alpha) = d · r(x + alpha d): the full step if
+/// it will do, else the root between a bracket by the Illinois rule. Leaves x and the residual at the alpha
+/// it returns.
+double Iteration::search(double slope) {
+  const double enough = options_.line_search_slope * std::abs(slope);
+  double trial = slope_at(1.0);
+  // The same sign means that the energy still falls at the full step: no reason to shorten it.
+  const auto good = [&](double s) { return std::isfinite(s) && (std::abs(s) <= enough || converged()); };
+  if (good(trial) || (std::isfinite(trial) && trial * slope > 0)) return 1.0;
+
+  double low = 0, low_slope = slope, high = 1, high_slope = trial;
+  double best = 1, best_slope = trial, alpha = 1;
+  int side = 0;
+  for (int k = 0; k < k_line_search_trials; ++k) {
+    alpha = std::isfinite(high_slope) ? (low * high_slope - high * low_slope) / (high_slope - low_slope)
+                                      : 0.5 * (low + high);
+    // Stay inside the bracket: far overshoots make the secant creep.
+    alpha = std::clamp(alpha, low + 0.1 * (high - low), high - 0.1 * (high - low));
+    alpha = std::max(alpha, k_smallest_step);
+    trial = slope_at(alpha);
+    if (std::isfinite(trial) && (!std::isfinite(best_slope) || std::abs(trial) < std::abs(best_slope))) {
+      best = alpha;
+      best_slope = trial;
+    }
+    if (good(trial) || alpha <= k_smallest_step) break;
+    if (std::isfinite(trial) && trial * low_slope > 0) {
+      low = alpha;
+      low_slope = trial;
+      if (side == 1 && std::isfinite(high_slope)) high_slope *= 0.5;
+      side = 1;
+    } else {
+      high = alpha;
+      high_slope = trial;
+      if (side == -1) low_slope *= 0.5;
+      side = -1;
+    }
+  }
+  if (alpha != best) slope_at(best);
+  return best;
+}
+
+NewtonReport Iteration::run() {
+  NewtonReport report;
+  evaluate();
+  BlockMatrix* tangent = &system_.tangent();  // knows what is fixed, and serves the first solve
+  fixed_ = &tangent->fixed();
+  zero_fixed();
+  while (true) {
+    report.residuals.push_back(measured());
+    if (!std::isfinite(norm_)) {
+      report.reason = "the residual is not a number";
+      return report;
+    }
+    if (converged()) {
+      report.converged = true;
+      return report;
+    }
+    if (report.iterations == options_.max_iterations) {
+      report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
+      return report;
+    }
+    if (!tangent) tangent = &system_.tangent();
+    for (double& value : r_) value = -value;
+    const LinearReport linear = solver_.solve(*tangent, r_, std::span(step_).first(n_));
+    for (double& value : r_) value = -value;
+    tangent = nullptr;
+    ++report.iterations;
+    report.linear_iterations += linear.iterations;
+    if (!linear.converged) {
+      report.reason = "linear solver: " + linear.reason;
+      return report;
+    }
+    for (std::size_t i = 0; i < n_ && i < fixed_->size(); ++i)
+      if ((*fixed_)[i]) step_[i] = 0;
+    ghosts_.update(step_, components_);
+
+    std::copy(x_.begin(), x_.end(), start_.begin());
+    if (options_.line_search) {
+      const double alpha = search(dot(step_, r_, n_));
+      system_.accept(x_, step_, alpha);
+    } else {
+      for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_[i];
+      system_.accept(x_, step_, 1.0);
+      evaluate();
+    }
+  }
+}
+
+}  // namespace
+
+NewtonReport newton(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts,
+                    int components, std::span<double> x, const NewtonOptions& options) {
+  const std::size_t n_owned =
+      static_cast<std::size_t>(ghosts.n_owned_nodes()) * static_cast<std::size_t>(components);
+  return Iteration(system, solver, ghosts, components, n_owned, x, options).run();
+}
+
+}  // namespace solidus::algebra
