@@ -117,6 +117,10 @@ Quantity split_quantity(std::string_view text) {
   rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
   rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
   quantity.unit = rest.substr(0, rest.find_last_not_of(" \t") + 1);
+  // UDUNITS would take the rest of "1 500 K" for the unit of 500 kelvin.
+  const auto digits = quantity.unit.find_first_not_of("0123456789.");
+  if (digits != 0 && digits != std::string::npos && is_blank(quantity.unit.substr(digits, 1)))
+    throw std::invalid_argument("'" + std::string(text) + "' holds two numbers");
   if (!quantity.unit.empty() && quantity.unit.front() == '/') quantity.unit.insert(0, 1, '1');
   return quantity;
 }
