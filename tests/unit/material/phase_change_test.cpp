@@ -1,0 +1,108 @@
+#include "material/phase_change.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+namespace solidus::material {
+namespace {
+
+// Aluminium with 7 % silicon, linearised phase diagram [K].
+constexpr double k_melting = 933.5, k_liquidus = 888.0, k_eutectic = 850.0, k_partition = 0.13;
+
+double lever(double t) {
+  return (k_liquidus - t) / ((1 - k_partition) * (k_melting - t));
+}
+double scheil(double t) {
+  return 1 - std::pow((k_melting - t) / (k_melting - k_liquidus), 1 / (k_partition - 1));
+}
+
+TEST(PhaseFraction, LinearRunsFromOneAtTheSolidusToZeroAtTheLiquidus) {
+  const auto f = PhaseFraction::linear(900, 940);
+  EXPECT_EQ(f.value(899), 1);
+  EXPECT_EQ(f.value(900), 1);
+  EXPECT_DOUBLE_EQ(f.value(910), 0.75);
+  EXPECT_EQ(f.value(940), 0);
+  EXPECT_EQ(f.value(941), 0);
+  EXPECT_EQ(f.derivative(899), 0);
+  EXPECT_DOUBLE_EQ(f.derivative(900), -0.025);
+  EXPECT_DOUBLE_EQ(f.derivative(939), -0.025);
+  EXPECT_EQ(f.derivative(940), 0);
+}
+
+TEST(PhaseFraction, IsothermalChangeJumpsAndIsHalfAtItsTemperature) {
+  const auto f = PhaseFraction::linear(933, 933);
+  EXPECT_EQ(f.below(933), 1);
+  EXPECT_EQ(f.value(933), 0.5);
+  EXPECT_EQ(f.above(933), 0);
+  EXPECT_EQ(f.value(std::nextafter(933.0, 0.0)), 1);
+  EXPECT_EQ(f.value(std::nextafter(933.0, 1e9)), 0);
+  EXPECT_EQ(f.derivative(933), 0);
+}
+
+TEST(PhaseFraction, TableTakesBothDirectionsAndAnIsothermalPart) {
+  const auto rising = PhaseFraction::table({{850, 1}, {850, 0.5}, {880, 0.2}, {888, 0}});
+  const auto falling = PhaseFraction::table({{888, 0}, {880, 0.2}, {850, 0.5}, {850, 1}});
+  EXPECT_EQ(rising.points(), falling.points());
+  EXPECT_EQ(rising.below(850), 1);
+  EXPECT_EQ(rising.above(850), 0.5);
+  EXPECT_EQ(rising.value(850), 0.75);
+  EXPECT_DOUBLE_EQ(rising.value(865), 0.35);
+  EXPECT_DOUBLE_EQ(rising.derivative(850), -0.01);
+  EXPECT_DOUBLE_EQ(rising.derivative(880), -0.025);
+}
+
+TEST(PhaseFraction, LeverRuleAndScheilFollowTheirFormulasWithinTheSamplingTolerance) {
+  const auto by_lever = PhaseFraction::lever_rule(k_melting, k_liquidus, k_eutectic, k_partition);
+  const auto by_scheil = PhaseFraction::scheil(k_melting, k_liquidus, k_eutectic, k_partition);
+  for (int i = 1; i < 10000; ++i) {
+    const double t = k_eutectic + (k_liquidus - k_eutectic) * i / 10000.0;
+    ASSERT_NEAR(by_lever.value(t), lever(t), 1e-6);
+    ASSERT_NEAR(by_scheil.value(t), scheil(t), 1e-6);
+  }
+  EXPECT_EQ(by_scheil.below(k_eutectic), 1);
+  EXPECT_NEAR(by_scheil.above(k_eutectic), scheil(k_eutectic),
+              1e-15);  // the eutectic rest freezes isothermally
+  EXPECT_LT(by_scheil.points().size(), 600u);
+}
+
+TEST(PhaseFraction, LeverRuleEndsAtTheSolidusWhenThatLiesAboveTheEutectic) {
+  const double partition = 0.8, solidus = (k_liquidus - 0.2 * k_melting) / 0.8;
+  const auto f = PhaseFraction::lever_rule(k_melting, k_liquidus, 800, partition);
+  EXPECT_DOUBLE_EQ(f.solidus(), solidus);
+  EXPECT_EQ(f.below(solidus), 1);
+  EXPECT_NEAR(f.above(solidus), 1, 1e-12);  // no jump beyond rounding
+}
+
+TEST(PhaseFraction, NeverRisesAndIsTheSumOfItsSlopes) {
+  const auto f = PhaseFraction::scheil(k_melting, k_liquidus, k_eutectic, k_partition);
+  double previous = 1;
+  for (double t = 840; t < 900; t += 0.0101) {
+    ASSERT_LE(f.value(t), previous);
+    previous = f.value(t);
+    const double h = 1e-7;
+    if (f.derivative(t) == f.derivative(t + h)) {  // the same piece
+      ASSERT_NEAR(f.derivative(t), (f.value(t + h) - f.value(t)) / h,
+                  1e-7);  // rounding: 2e-16/h and of t + h
+    }
+  }
+}
+
+TEST(PhaseFraction, RefusesWhatIsNoFraction) {
+  EXPECT_THROW(PhaseFraction::linear(941, 940), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::linear(std::nan(""), 940), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::table({{900, 1}}), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::table({{900, 0.9}, {950, 0}}), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::table({{900, 1}, {950, 0.1}}), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::table({{900, 0}, {950, 1}}), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::table({{900, 1}, {940, 0.2}, {930, 0.1}, {950, 0}}), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::table({{900, 1}, {930, 0.1}, {940, 0.2}, {950, 0}}), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::scheil(k_liquidus, k_melting, k_eutectic, k_partition), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::scheil(k_melting, k_liquidus, 900, k_partition), std::invalid_argument);
+  EXPECT_THROW(PhaseFraction::lever_rule(k_melting, k_liquidus, k_eutectic, 1.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace solidus::material
