@@ -1,0 +1,41 @@
+/// Supports and loads of the mechanical phase, as tables of time.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/table.hpp"
+#include "base/types.hpp"
+
+namespace solidus::mechanics {
+
+/// A displacement component of every node of a set follows u(t). Where two conditions meet, the later one in
+/// the list holds.
+struct PrescribedDisplacement {
+  std::string node_set;  ///< a key of Mesh::node_sets
+  int component = 0;     ///< 0, 1, 2: x, y, z (axisymmetric: r, axial)
+  Table value;           ///< [m] over time [s]
+};
+
+/// A pressure on a surface, positive towards the body.
+struct Pressure {
+  std::string surface;  ///< a key of Mesh::surfaces
+  Table value;          ///< [Pa] over time [s]
+};
+
+/// Force per area on a surface, in the directions of the coordinates.
+struct Traction {
+  std::string surface;         ///< a key of Mesh::surfaces
+  std::array<Table, 3> value;  ///< [Pa] over time [s]
+};
+
+/// On the axis of an axisymmetric mesh (r = 0) the radial displacement is zero by itself.
+struct Conditions {
+  std::vector<PrescribedDisplacement> displacements;
+  std::vector<Pressure> pressures;
+  std::vector<Traction> tractions;
+  std::array<double, 3> gravity{};  ///< acceleration [m/s²], times each body's density
+};
+
+}  // namespace solidus::mechanics

@@ -1,0 +1,125 @@
+/// The quasi-static mechanical phase: equilibrium at t_{n+1} with the temperature held
+/// (monograph 4.46, 6.25).
+///
+///   r(u) = ∫ B̄ᵀ σ dV − f(t) + contributions = 0
+///
+/// Backward Euler in time. The strain is small, so geometry, sparsity and the map from element entries to
+/// matrix slots are computed once, in the constructor.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algebra/contribution.hpp"
+#include "algebra/newton.hpp"
+#include "base/types.hpp"
+#include "material/material.hpp"
+#include "mechanics/conditions.hpp"
+#include "mechanics/mechanical_state.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::mechanics {
+
+class BlockKernel;
+class Loads;
+
+struct MechanicsOptions {
+  algebra::NewtonOptions newton;
+  /// Constant volumetric mode (Q1/P0, 6.2) in 4-node quads and 8-node hexes; other shapes use the standard
+  /// operator.
+  bool b_bar = true;
+  algebra::SolverKind solver = algebra::SolverKind::automatic;
+  double linear_tolerance = 1e-8;  ///< iterative solvers, relative
+  bool symmetric = true;           ///< false when a contribution's tangent is not (friction)
+};
+
+/// Work and heat of a solved step over all processes [J] (axisymmetric: of the whole revolution; plane
+/// strain: per metre of thickness). Forces are those at t_{n+1}, times the displacement increment, so that by
+/// equilibrium internal_work = external_work + support_work + the work of contributions, to the residual.
+struct MechanicalWork {
+  double external_work = 0;  ///< of pressures, tractions and gravity
+  double support_work = 0;   ///< of the reactions at prescribed displacements
+  double internal_work = 0;  ///< ∫ σ_{n+1} : Δε dV
+  double dissipation = 0;    ///< Δt ∫ D_mech dV
+};
+
+struct PhaseReport {
+  algebra::NewtonReport newton;
+  MechanicalWork work;
+};
+
+/// Averages over the elements of one mesh block, for results: [element][…], symmetric tensors with six
+/// components in the order xx, yy, zz, xy, yz, xz (axisymmetric: rr, axial, hoop, r-axial).
+struct ElementFields {
+  std::vector<std::array<double, 6>> stress;  ///< [Pa]
+  std::vector<std::array<double, 6>> strain;
+  std::vector<std::array<double, 6>> inelastic_strain;  ///< viscous
+  std::vector<double> von_mises;                        ///< of the average stress [Pa]
+  std::vector<double> pressure;                         ///< −tr σ/3 [Pa], positive in compression
+};
+
+class MechanicalPhase : private algebra::NonlinearSystem {
+ public:
+  /// @param materials            one per body of the mesh; kept by reference
+  /// @param initial_temperature  Θ_0 of 2.51 [K], [local node]
+  /// @param contributions        further terms in the displacement (contact); must outlive the phase
+  /// Throws InputError for a condition that names no group of the mesh.
+  MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
+                  std::span<const double> initial_temperature, Conditions conditions,
+                  MechanicsOptions options, std::vector<algebra::Contribution*> contributions = {});
+  ~MechanicalPhase() override;
+
+  int components() const { return components_; }
+  /// Zero displacement, no inelastic strain.
+  MechanicalState initial_state() const;
+
+  /// Solves for t_{n+1} = time from the state at time − dt. `trial` is written only on success.
+  /// @param temperature [K], [local node], ghosts up to date: Θ_n, held during the phase
+  /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the node of the
+  /// largest residual.
+  PhaseReport solve(const MechanicalState& old, MechanicalState& trial, std::span<const double> temperature,
+                    double time, double dt);
+
+  /// Of the last solve; blocks in the order of the mesh.
+  std::vector<ElementFields> element_fields() const;
+  /// Support forces of the last solve, [owned node][component] [N], zero where nothing is prescribed.
+  std::span<const double> reactions() const { return reactions_; }
+
+  /// The block kernels, for StructuralHeat.
+  std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
+  const mesh::Mesh& mesh() const { return mesh_; }
+  std::size_t bytes() const;
+  double seconds_assembly() const { return seconds_assembly_; }  ///< tangents
+  double seconds_residual() const { return seconds_residual_; }  ///< forces and the constitutive update
+  double seconds_solver() const { return solver_->seconds_setup() + solver_->seconds_solve(); }
+
+ private:
+  double residual(std::span<const double> x, std::span<double> r) override;
+  algebra::BlockMatrix& tangent() override;
+  void create_matrix();
+  std::string worst_place(std::span<const double> x);
+  MechanicalWork measure(const MechanicalState& old, std::span<const double> x, double dt);
+
+  const mesh::Mesh& mesh_;
+  AnalysisKind kind_;
+  int components_;
+  MechanicsOptions options_;
+  std::vector<algebra::Contribution*> contributions_;
+  std::vector<std::unique_ptr<BlockKernel>> blocks_;
+  std::unique_ptr<Loads> loads_;
+  std::unique_ptr<algebra::BlockMatrix> matrix_;
+  std::unique_ptr<algebra::LinearSolver> solver_;
+  algebra::GhostExchange ghosts_;
+  std::vector<double> initial_temperature_;
+  std::vector<double> x_;         ///< of the last residual
+  std::vector<double> forces_;    ///< internal forces, [local node][component]; ghost rows are scrap
+  std::vector<double> external_;  ///< loads at t_{n+1}, [owned node][component]
+  std::vector<double> reactions_;
+  double external_norm_ = 0;
+  double seconds_assembly_ = 0, seconds_residual_ = 0;
+};
+
+}  // namespace solidus::mechanics

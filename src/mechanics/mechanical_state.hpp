@@ -1,0 +1,22 @@
+/// What the mechanical phase carries from step to step: all of it, so a checkpoint is this and nothing else.
+#pragma once
+
+#include <vector>
+
+#include "base/simd.hpp"
+
+namespace solidus::mechanics {
+
+/// The history of one mesh block: [batch][point][component], whatever the law keeps (viscoelastic: the
+/// viscous strain, components in the order of Sym). Lanes beyond the block's elements are padding.
+struct BlockHistory {
+  int n_components = 0, n_points = 0;
+  PackVector<Lane> values;
+};
+
+struct MechanicalState {
+  std::vector<double> displacement;   ///< [local node][component] [m], ghosts up to date
+  std::vector<BlockHistory> history;  ///< one per block of the mesh
+};
+
+}  // namespace solidus::mechanics

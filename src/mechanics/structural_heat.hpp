@@ -1,0 +1,49 @@
+/// What deformation does to the heat balance: structural heating and mechanical dissipation
+/// (monograph 2.123a, 2.127b).
+///
+/// With S = −(W_Θ + M_Θ) the structural entropy and E = W + M + Θ S the structural energy per volume, the
+/// thermal phase (at the configuration of the last mechanical solve) receives, weighted with each node's
+/// basis function,
+///
+///   entropy form:  Θ_{n+1} [S(ε_{n+1}, Θ_{n+1}) − S(ε_n, Θ_n)]/Δt − D_mech                  (4.48a)
+///   energy form:   [E(ε_{n+1}, Θ_{n+1}) − E(ε_n, Θ_n) − σ_{n+1} : Δε]/Δt
+///
+/// both including the capacity products of 2.127a. They differ at second order in the step; the energy form
+/// closes the first law to the residuals. Solid fraction and straining of phase changes are held at their
+/// values in the mechanical phase at both ends of the step (4.81): the energy of the transformation itself is
+/// the latent heat. In the mushy zone the deviatoric elastic energy (s:s f_S/4G, about 1e-7 of the latent
+/// heat) is left out.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algebra/contribution.hpp"
+#include "mechanics/mechanical_phase.hpp"
+
+namespace solidus::mechanics {
+
+enum class StructuralForm { entropy, energy };
+
+/// Adds to the thermal residual in watts (heat stored is positive). The tangent is lumped to the diagonal, so
+/// that the thermal matrix stays symmetric and of non-negative type.
+class StructuralHeat : public algebra::Contribution {
+ public:
+  /// @param phase its last solve() is the configuration; must outlive this object
+  StructuralHeat(const MechanicalPhase& phase, StructuralForm form) : phase_(phase), form_(form) {}
+
+  void add_to_graph(algebra::NodeGraph&) const override {}
+  void bind(const algebra::BlockMatrix&) override {}
+  void add_residual(std::span<const double> temperature, std::span<double> r) override;
+  void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
+
+  /// The change of structural energy over the step, with the temperature at its end [J], over all processes.
+  double energy_change(std::span<const double> temperature) const;
+
+ private:
+  const MechanicalPhase& phase_;
+  StructuralForm form_;
+  std::vector<double> work_;  ///< [local node]; ghost rows are scrap
+};
+
+}  // namespace solidus::mechanics
