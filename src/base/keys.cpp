@@ -398,8 +398,12 @@ Value SectionInfo::completed(const Value& table, const std::string& path) const 
     else if (key.required)
       throw InputError(table.where, fmt::format("the key '{}' is missing in {}", key.name, section),
                        key.doc_text.empty() ? "" : fmt::format("{}: {}", key.name, key.doc_text));
-    else if (key.initial)
-      result.set(key.name, completed_key(*key.initial, key, path));
+    else if (key.initial) {
+      Value initial = *key.initial;
+      if (initial.where.file.empty())
+        initial.where = table.where;  // an absent section: point to what holds it
+      result.set(key.name, completed_key(initial, key, path));
+    }
   }
   return result;
 }

@@ -1,0 +1,221 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/units.hpp"
+#include "model/case_file.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+template <class S>
+std::vector<std::string> names_of(const std::vector<S>& sections) {
+  std::vector<std::string> names;
+  for (const S& s : sections) names.push_back(s.name);
+  return names;
+}
+
+template <class S>
+void check_names(const std::vector<S>& sections, const std::string& heading) {
+  std::set<std::string> seen;
+  for (const S& s : sections) {
+    if (s.name.empty()) throw InputError(s.where, fmt::format("a {} has an empty name", heading));
+    if (!seen.insert(s.name).second)
+      throw InputError(s.where, fmt::format("the name '{}' is used by two {} sections", s.name, heading),
+                       "each needs a name of its own");
+  }
+}
+
+void check_analysis(const AnalysisSpec& a, std::size_t dimension) {
+  if (a.gravity_direction.empty()) return;
+  if (a.gravity_direction.size() != dimension && a.gravity_direction.size() != 3)
+    throw InputError(a.where,
+                     fmt::format("'gravity_direction' has {} components", a.gravity_direction.size()),
+                     fmt::format("{} in this analysis", dimension));
+  double length = 0;
+  for (const double d : a.gravity_direction) length += std::abs(d);
+  if (!(length > 0)) throw InputError(a.where, "'gravity_direction' has no length");
+  if (a.kind == AnalysisKind::axisymmetric && std::abs(a.gravity_direction[0]) > 0)
+    throw InputError(a.where, "gravity has a radial component, which no axisymmetric body can carry",
+                     "gravity along the axis: [0, -1]");
+  if (dimension == 2 && a.gravity_direction.size() == 3 && std::abs(a.gravity_direction[2]) > 0)
+    throw InputError(a.where, "gravity points out of the plane of the analysis");
+}
+
+void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
+  if (m.shape.has_value() == m.file.has_value())
+    throw InputError(m.where,
+                     m.shape ? "[mesh] has both a shape and a file" : "[mesh] has neither a shape nor a file",
+                     "shape = \"...\" or file = \"...\"");
+  if (!units::compatible(m.unit, "m"))
+    throw InputError(m.where, fmt::format("'{}' is no unit of length", m.unit),
+                     "\"mm\", \"m\", \"inch\", ...");
+  if (!m.shape) return;
+  const bool solid = analysis.kind == AnalysisKind::solid;
+  const bool element_3d = m.element.starts_with("tet") || m.element.starts_with("hex");
+  if (solid != element_3d)
+    throw InputError(m.where,
+                     fmt::format("element \"{}\" is not for a {} analysis", m.element,
+                                 solid ? "three-dimensional" : "two-dimensional"),
+                     solid ? "one of: tet4, tet10, hex8, hex20" : "one of: tri3, tri6, quad4, quad8");
+  if (*m.shape == "cylinder_in_mould") {
+    if (!m.cylinder_in_mould) throw InputError(m.where, "the section [mesh.cylinder_in_mould] is missing");
+    if (analysis.kind != AnalysisKind::axisymmetric)
+      throw InputError(m.where, "the shape cylinder_in_mould is for axisymmetric analyses");
+    const CylinderInMouldSpec& c = *m.cylinder_in_mould;
+    if (c.mould_height < (c.mould_bottom + c.height) * (1 - 1e-12))
+      throw InputError(m.where, "the mould is lower than its bottom and the casting together",
+                       "mould_height >= mould_bottom + height");
+  }
+  if (*m.shape == "block") {
+    if (!m.block) throw InputError(m.where, "the section [mesh.block] is missing");
+    const std::size_t dimension = solid ? 3 : 2;
+    const bool origin_fits = m.block->origin.empty() || m.block->origin.size() == dimension;
+    if (m.block->size.size() != dimension || m.block->divisions.size() != dimension || !origin_fits)
+      throw InputError(m.where, "[mesh.block] does not fit the analysis",
+                       fmt::format("{} lengths and {} divisions", dimension, dimension));
+  }
+}
+
+void check_time(const TimeSpec& t) {
+  if (t.steady) return;
+  if (!t.end || !t.step)
+    throw InputError(t.where, fmt::format("the key '{}' is missing in [time]", t.end ? "step" : "end"),
+                     "end and step, or steady = true");
+  if (*t.step > *t.end) throw InputError(t.where, "the time step is longer than the whole time");
+  if (t.min_step && *t.min_step > *t.step) throw InputError(t.where, "'min_step' is above 'step'");
+  if (t.max_step && *t.max_step < *t.step) throw InputError(t.where, "'max_step' is below 'step'");
+  if (t.max_step && !t.adaptive)
+    throw InputError(t.where, "'max_step' means nothing without adaptive = true",
+                     "adaptive = true, or no max_step");
+  if (*t.end / *t.step > 1e8)
+    throw InputError(t.where, fmt::format("{:.3g} steps would be needed", *t.end / *t.step), "at most 1e8");
+}
+
+void check_displacement(const MechanicalConditionSpec& c, AnalysisKind kind) {
+  if (!c.ux && !c.uy && !c.uz && !c.ur)
+    throw InputError(c.where, fmt::format("the displacement '{}' prescribes no component", c.name),
+                     kind == AnalysisKind::axisymmetric ? "ur and/or uz" : "ux, uy, uz");
+  const auto refuse = [&](const char* name, const char* allowed) {
+    throw InputError(
+        c.where, fmt::format("'{}' has a component '{}', which this analysis does not have", c.name, name),
+        allowed);
+  };
+  if (kind == AnalysisKind::plane_strain && (c.uz || c.ur)) refuse(c.uz ? "uz" : "ur", "ux, uy");
+  if (kind == AnalysisKind::solid && c.ur) refuse("ur", "ux, uy, uz");
+  if (kind == AnalysisKind::axisymmetric && ((c.ux && c.ur) || (c.uy && c.uz)))
+    throw InputError(c.where, fmt::format("'{}' gives the same component twice", c.name),
+                     "ur and uz are x and y");
+}
+
+void check_conditions(const CaseSpec& spec) {
+  check_names(spec.thermal_conditions, "[[thermal_condition]]");
+  check_names(spec.mechanical_conditions, "[[mechanical_condition]]");
+  if (!spec.has_heat() && !spec.thermal_conditions.empty())
+    throw InputError(spec.thermal_conditions.front().where, "there is no heat in this analysis",
+                     "physics = \"heat\" or \"thermomechanical\"");
+  if (!spec.has_mechanics() && !spec.mechanical_conditions.empty())
+    throw InputError(spec.mechanical_conditions.front().where, "there is no mechanics in this analysis",
+                     "physics = \"mechanics\" or \"thermomechanical\"");
+  for (const auto& c : spec.mechanical_conditions) {
+    if (c.kind == MechanicalConditionSpec::Kind::displacement) check_displacement(c, spec.analysis.kind);
+    if (c.kind == MechanicalConditionSpec::Kind::traction &&
+        c.traction.size() != static_cast<std::size_t>(spec.dimension()))
+      throw InputError(c.where, fmt::format("the traction '{}' has {} components", c.name, c.traction.size()),
+                       fmt::format("{} in this analysis", spec.dimension()));
+  }
+}
+
+void check_contacts(const CaseSpec& spec) {
+  check_names(spec.contacts, "[[contact]]");
+  for (const auto& c : spec.contacts) {
+    if (c.slave == c.master)
+      throw InputError(c.where, fmt::format("the contact '{}' has one surface on both sides", c.name));
+    if (c.heat && c.heat->exponent > 0 && !c.heat->hardness)
+      throw InputError(c.heat->where, "'hardness' is missing: an exponent needs it",
+                       "hardness = \"... MPa\"");
+    if (c.heat && c.heat->gap_law == ContactHeatSpec::GapLaw::table &&
+        c.heat->gap_conductance.of == Argument::constant)
+      throw InputError(c.heat->where, "'gap_conductance' is a constant",
+                       "a table of the gap, or gap_law = \"constant\"");
+  }
+}
+
+/// The unit of a field inside the program.
+std::string field_unit(const std::string& field) {
+  if (field == "temperature") return "K";
+  if (field == "displacement" || field == "gap") return "m";
+  if (field == "solid_fraction" || field == "viscous_strain") return "1";
+  if (field == "conductance") return "W/m2/K";
+  return "Pa";
+}
+
+/// The unit of a probe inside the program, through differences.
+std::string probe_unit(const CaseSpec& spec, const ProbeSpec& probe) {
+  if (probe.kind != ProbeSpec::Kind::difference) return field_unit(probe.field);
+  const auto first = std::find_if(spec.probes.begin(), spec.probes.end(),
+                                  [&](const ProbeSpec& p) { return p.name == probe.of[0]; });
+  return field_unit(first->field);
+}
+
+void check_probes(const CaseSpec& spec) {
+  check_names(spec.probes, "[[probe]]");
+  const std::vector<std::string> bodies = names_of(spec.bodies), probes = names_of(spec.probes);
+  for (const auto& p : spec.probes) {
+    if (p.kind == ProbeSpec::Kind::difference) {
+      if (p.of.size() != 2)
+        throw InputError(p.where, fmt::format("the probe '{}' needs two others", p.name),
+                         "of = [\"a\", \"b\"]");
+      for (const std::string& other : p.of) {
+        const auto found = std::find_if(spec.probes.begin(), spec.probes.end(),
+                                        [&](const ProbeSpec& q) { return q.name == other; });
+        if (found == spec.probes.end())
+          throw InputError(
+              p.where,
+              fmt::format("the probe '{}' is the difference of an unknown probe '{}'", p.name, other),
+              one_of(probes, other));
+        if (found->kind == ProbeSpec::Kind::difference)
+          throw InputError(p.where, fmt::format("the probe '{}' is the difference of a difference", p.name));
+      }
+    }
+    if (p.kind == ProbeSpec::Kind::point && p.point.size() != static_cast<std::size_t>(spec.dimension()))
+      throw InputError(p.where,
+                       fmt::format("the point of the probe '{}' has {} coordinates", p.name, p.point.size()),
+                       fmt::format("{} in this analysis", spec.dimension()));
+    if (p.body && std::find(bodies.begin(), bodies.end(), *p.body) == bodies.end())
+      throw InputError(p.where, fmt::format("the probe '{}' is on an unknown body '{}'", p.name, *p.body),
+                       one_of(bodies, *p.body));
+    if (!units::compatible(p.unit, probe_unit(spec, p)))
+      throw InputError(p.where, fmt::format("the probe '{}' cannot be given in '{}'", p.name, p.unit),
+                       "a unit of " + units::dimension_name(probe_unit(spec, p)));
+    const bool vector = p.field == "displacement",
+               tensor = p.field == "stress" || p.field == "viscous_strain";
+    if (p.kind != ProbeSpec::Kind::difference && (vector || tensor) == p.component.empty())
+      throw InputError(
+          p.where,
+          fmt::format("the probe '{}' {}", p.name,
+                      p.component.empty() ? "needs a component" : "has a component, but its field has none"),
+          vector   ? "component = \"x\", \"y\", \"z\" or \"r\""
+          : tensor ? "component = \"xx\", \"yy\", ..."
+                   : "no component");
+  }
+}
+
+}  // namespace
+
+void check_case(const CaseSpec& spec) {
+  check_analysis(spec.analysis, static_cast<std::size_t>(spec.dimension()));
+  check_mesh(spec.mesh, spec.analysis);
+  check_time(spec.time);
+  if (spec.bodies.empty())
+    throw InputError(spec.mesh.where, "the case has no body", "at least one [[body]] section");
+  check_names(spec.bodies, "[[body]]");
+  check_conditions(spec);
+  check_contacts(spec);
+  check_probes(spec);
+}
+
+}  // namespace solidus::model

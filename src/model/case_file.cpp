@@ -1,0 +1,94 @@
+#include "model/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/case_keys.hpp"
+#include "model/overrides.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A path of the user seen from the file it is written in; on the command line, from the present folder.
+std::string resolved_path(const Value& value) {
+  const fs::path path = value.text();
+  const bool command_line = value.where.file.starts_with("--set");
+  const fs::path folder = command_line ? fs::current_path() : fs::path(value.where.file).parent_path();
+  return fs::absolute(path.is_absolute() ? path : folder / path).lexically_normal().string();
+}
+
+Value load_with_includes(const fs::path& path, std::vector<fs::path>& chain) {
+  Value document = load_document(path);
+  chain.push_back(fs::weakly_canonical(path));
+  const Value* include = document.find("include");
+  if (!include) return document;
+  if (!include->is_text())
+    throw InputError(include->where, "'include' is " + include->describe(),
+                     "the path of a case file, in quotes");
+  const fs::path other = resolved_path(*include);
+  if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(other)) != chain.end())
+    throw InputError(include->where, fmt::format("'{}' is included by itself", include->text()));
+  if (!fs::exists(other))
+    throw InputError(include->where, fmt::format("the included file '{}' does not exist", other.string()));
+  Value base = load_with_includes(other, chain);
+  std::erase_if(document.entries(), [](const Value::Entry& e) { return e.key == "include"; });
+  lay_over(base, document);
+  base.where = document.where;
+  return base;
+}
+
+/// A material given as a file rather than by its name in the library.
+bool names_a_file(const std::string& material) {
+  return material.ends_with(".toml") || material.find('/') != std::string::npos;
+}
+
+void resolve_paths(Value& document) {
+  if (Value* mesh = document.find("mesh"); mesh && mesh->is_table())
+    if (Value* file = mesh->find("file"); file && file->is_text()) {
+      const SourceLocation where = file->where;
+      *file = Value(resolved_path(*file));
+      file->where = where;
+    }
+  Value* bodies = document.find("body");
+  if (!bodies || !bodies->is_list()) return;
+  for (Value& body : bodies->items()) {
+    Value* material = body.find("material");
+    if (!material || !material->is_text() || !names_a_file(material->text())) continue;
+    const SourceLocation where = material->where;
+    *material = Value(resolved_path(*material));
+    material->where = where;
+  }
+}
+
+}  // namespace
+
+std::string Case::toml() const {
+  return fmt::format("# The resolved case, written by Solidus {} from {}.\n{}", SOLIDUS_VERSION,
+                     fs::absolute(file).lexically_normal().string(), to_toml(document));
+}
+
+std::filesystem::path Case::result_name() const {
+  const fs::path absolute = fs::absolute(file).lexically_normal();
+  const std::string folder = absolute.parent_path().filename().string();
+  const std::string stem = absolute.stem().string();
+  return fs::path(folder.empty() ? "case" : folder) / (stem == "case" ? "default" : stem);
+}
+
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  Case result;
+  result.file = fs::is_directory(path) ? path / "case.toml" : path;
+  std::vector<fs::path> chain;
+  Value document = load_with_includes(result.file, chain);
+  for (const std::string& assignment : overrides) apply_override(document, assignment);
+  resolve_paths(document);
+  result.document = case_keys().info().completed(document, "");
+  case_keys().assign(result.spec, result.document);
+  check_case(result.spec);
+  return result;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,26 @@
+/// The declaration of every key of a case file.
+#pragma once
+
+#include "base/keys.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// The whole file. Reading, `solidus explain`, `solidus schema` and the reference manual follow from it.
+const Section<CaseSpec>& case_keys();
+
+// The sections it is made of.
+Section<AnalysisSpec> analysis_keys();
+Section<MeshSpec> mesh_keys();
+Section<TimeSpec> time_keys();
+Section<BodySpec> body_keys();
+Section<ThermalConditionSpec> thermal_condition_keys();
+Section<MechanicalConditionSpec> mechanical_condition_keys();
+Section<ContactSpec> contact_keys();
+Section<HeatSpec> heat_keys();
+Section<MechanicsSpec> mechanics_keys();
+Section<CouplingSpec> coupling_keys();
+Section<ProbeSpec> probe_keys();
+Section<OutputSpec> output_keys();
+
+}  // namespace solidus::model

@@ -1,0 +1,180 @@
+/// A case as the user wrote it, checked key by key, in SI: plain values, no mesh, no physics
+/// (docs/guide/case_file.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algebra/linear_solver.hpp"
+#include "base/keys.hpp"
+#include "base/types.hpp"
+
+namespace solidus::model {
+
+enum class Physics { heat, mechanics, thermomechanical };
+
+struct AnalysisSpec {
+  AnalysisKind kind = AnalysisKind::plane_strain;
+  Physics physics = Physics::thermomechanical;
+  double gravity = 0;                     ///< [m/s²]
+  std::vector<double> gravity_direction;  ///< any length > 0; empty: down the last axis
+  SourceLocation where;
+};
+
+/// The built-in shape `cylinder_in_mould`: an axisymmetric casting in an open cylindrical mould
+/// (monograph 7.3). All in metres.
+struct CylinderInMouldSpec {
+  double radius = 0, height = 0;  ///< of the casting
+  double mould_wall = 0, mould_bottom = 0, mould_height = 0;
+  double element_size = 0;        ///< in the casting
+  double mould_element_size = 0;  ///< far from the casting
+};
+
+/// The built-in shape `block`: a rectangle or a box of one body. All in metres.
+struct BlockSpec {
+  std::vector<double> size;    ///< two or three lengths
+  std::vector<double> origin;  ///< of the corner with the smallest coordinates
+  std::vector<int> divisions;  ///< elements along each axis
+};
+
+struct MeshSpec {
+  std::optional<std::string> shape, file;  ///< exactly one of them
+  std::string unit;                        ///< length unit of the file, "mm"
+  std::optional<double> element_size;      ///< for files that are meshed here (.geo, STEP) [m]
+  int order = 1;                           ///< of the elements, for files that are meshed here
+  std::string element;                     ///< of the built-in shapes: "tri3", ...
+  std::optional<CylinderInMouldSpec> cylinder_in_mould;
+  std::optional<BlockSpec> block;
+  SourceLocation where;
+};
+
+struct TimeSpec {
+  bool steady = false;
+  std::optional<double> end, step;  ///< [s]; required unless steady
+  bool adaptive = false;
+  std::optional<double> min_step, max_step;  ///< [s]
+  double growth = 0, cut = 0;
+  int easy_iterations = 0;
+  SourceLocation where;
+};
+
+struct BodySpec {
+  std::string name;
+  std::optional<std::string> group;  ///< of the mesh; absent: as `name`
+  std::string material;              ///< name in the library, or a file
+  double initial_temperature = 0;    ///< [K]
+  SourceLocation where;
+  const std::string& mesh_group() const { return group ? *group : name; }
+};
+
+struct ThermalConditionSpec {
+  enum class Kind { temperature, flux, film, radiation, source };
+  std::string name, group;
+  Kind kind = Kind::temperature;
+  Function temperature;  ///< [K] of time
+  Function flux;         ///< into the body [W/m²] of time or temperature
+  Function coefficient;  ///< film [W/(m² K)] of time or of the surface's temperature
+  Function emissivity;   ///< [1] of time or of the surface's temperature
+  Function ambient;      ///< [K] of time
+  Function power;        ///< [W/m³] of time or temperature
+  SourceLocation where;
+};
+
+struct MechanicalConditionSpec {
+  enum class Kind { displacement, pressure, traction };
+  std::string name, group;
+  Kind kind = Kind::displacement;
+  std::optional<Function> ux, uy, uz, ur;  ///< [m] of time
+  Function pressure;                       ///< on the surface, positive inward [Pa] of time
+  std::vector<Function> traction;          ///< one per direction [Pa] of time
+  SourceLocation where;
+};
+
+struct ContactHeatSpec {
+  enum class GapLaw { constant, table, gas };
+  double conductance = 0;          ///< h_co [W/(m² K)], from body to body
+  double exponent = 0;             ///< ε of 3.49
+  std::optional<double> hardness;  ///< H_e of 3.49 [Pa]
+  GapLaw gap_law = GapLaw::constant;
+  Function gap_conductance;     ///< h(g) [W/(m² K)]
+  double gas_conductivity = 0;  ///< k_a of 3.50 [W/(m K)]
+  SourceLocation where;
+};
+
+struct ContactSpec {
+  enum class Integration { segments, nodal, gauss };
+  std::string name, slave, master;
+  std::optional<double> penalty;  ///< ε_N [N/m³]
+  double penalty_factor = 0;  ///< ε_N = factor × stiffness of the slave / element size, without `penalty`
+  Integration integration = Integration::segments;
+  std::optional<ContactHeatSpec> heat;  ///< absent: no heat passes
+  SourceLocation where;
+};
+
+struct HeatSpec {
+  enum class Integration { closed, open };
+  Integration integration = Integration::closed;
+  std::optional<int> degree;  ///< of the open rule
+  double tolerance = 0;
+  int max_iterations = 0;
+  algebra::SolverKind solver = algebra::SolverKind::automatic;
+};
+
+struct MechanicsSpec {
+  double tolerance = 0;
+  int max_iterations = 0;
+  bool line_search = true;
+  bool b_bar = true;
+  algebra::SolverKind solver = algebra::SolverKind::automatic;
+};
+
+struct CouplingSpec {
+  enum class Scheme { isothermal };
+  Scheme scheme = Scheme::isothermal;
+  bool structural_heating = true;  ///< H^ep of 2.127b in the heat balance
+  bool dissipation = true;         ///< D_mech in the heat balance
+};
+
+struct ProbeSpec {
+  enum class Kind { point, mean, difference };
+  std::string name;
+  Kind kind = Kind::point;
+  std::string field, component;     ///< component empty: a scalar field
+  std::vector<double> point;        ///< [m]
+  std::optional<std::string> body;  ///< the body the point belongs to, where bodies touch
+  std::string group;                ///< of a mean
+  std::vector<std::string> of;      ///< two probes: first minus second
+  std::string unit;                 ///< for display
+  SourceLocation where;
+};
+
+struct OutputSpec {
+  std::optional<double> every;  ///< [s]
+  std::vector<double> times;    ///< [s]
+  std::vector<std::string> fields;
+  std::optional<std::string> folder;
+};
+
+struct CaseSpec {
+  std::string title;
+  std::optional<std::string> include;  ///< resolved by load_case: empty afterwards
+  AnalysisSpec analysis;
+  MeshSpec mesh;
+  TimeSpec time;
+  std::vector<BodySpec> bodies;
+  std::vector<ThermalConditionSpec> thermal_conditions;
+  std::vector<MechanicalConditionSpec> mechanical_conditions;
+  std::vector<ContactSpec> contacts;
+  HeatSpec heat;
+  MechanicsSpec mechanics;
+  CouplingSpec coupling;
+  std::vector<ProbeSpec> probes;
+  OutputSpec output;
+
+  int dimension() const { return analysis.kind == AnalysisKind::solid ? 3 : 2; }
+  bool has_heat() const { return analysis.physics != Physics::mechanics; }
+  bool has_mechanics() const { return analysis.physics != Physics::heat; }
+};
+
+}  // namespace solidus::model

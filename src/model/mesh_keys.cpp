@@ -1,0 +1,72 @@
+#include "model/case_keys.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+Section<CylinderInMouldSpec> cylinder_in_mould_keys() {
+  Section<CylinderInMouldSpec> s("cylinder_in_mould",
+                                 "A cylinder cast in an open cylindrical mould, for axisymmetric analyses: "
+                                 "the axis is x = 0, the casting's bottom y = 0.");
+  s.quantity("radius", &CylinderInMouldSpec::radius, "m").positive().doc("Radius of the casting.");
+  s.quantity("height", &CylinderInMouldSpec::height, "m").positive().doc("Height of the casting.");
+  s.quantity("mould_wall", &CylinderInMouldSpec::mould_wall, "m")
+      .positive()
+      .doc("Thickness of the mould's wall.");
+  s.quantity("mould_bottom", &CylinderInMouldSpec::mould_bottom, "m")
+      .positive()
+      .doc("Thickness of the mould's bottom.");
+  s.quantity("mould_height", &CylinderInMouldSpec::mould_height, "m")
+      .positive()
+      .doc("Height of the mould, bottom included; at least bottom and casting.");
+  s.quantity("element_size", &CylinderInMouldSpec::element_size, "m")
+      .positive()
+      .doc("Element size in the casting.");
+  s.quantity("mould_element_size", &CylinderInMouldSpec::mould_element_size, "m")
+      .positive()
+      .doc("Element size in the mould.");
+  return s;
+}
+
+Section<BlockSpec> block_keys() {
+  Section<BlockSpec> s(
+      "block",
+      "A rectangle, or in a solid analysis a box, of one body 'block' with sides 'x_min', 'x_max', ...");
+  s.quantity("size", &BlockSpec::size, "m").positive().doc("Lengths along the axes, two or three.");
+  s.quantity("origin", &BlockSpec::origin, "m")
+      .initially(Value::list())
+      .doc("Corner with the smallest coordinates; empty: zero.");
+  s.key("divisions", &BlockSpec::divisions).range(1, 100000).doc("Number of elements along the axes.");
+  return s;
+}
+
+}  // namespace
+
+Section<MeshSpec> mesh_keys() {
+  Section<MeshSpec> s("mesh",
+                      "The mesh: a file, or a built-in shape with its parameters in a section of its own.");
+  s.key("shape", &MeshSpec::shape)
+      .choices({"cylinder_in_mould", "block"})
+      .doc("A built-in shape; give this or `file`.");
+  s.key("file", &MeshSpec::file)
+      .doc("A file that Gmsh reads: .msh, .geo, STEP, Abaqus .inp, .unv, ...; relative to the case file.");
+  s.key("unit", &MeshSpec::unit).initially("m").doc("Unit of length of the file, for example \"mm\".");
+  s.quantity("element_size", &MeshSpec::element_size, "m")
+      .positive()
+      .doc("Element size for files that hold a geometry (.geo, STEP); without it as the file says.");
+  s.key("order", &MeshSpec::order)
+      .initially(1)
+      .range(1, 2)
+      .doc("Order of the elements for files that hold a geometry.");
+  s.key("element", &MeshSpec::element)
+      .initially("tri3")
+      .choices({"tri3", "tri6", "quad4", "quad8", "tet4", "tet10", "hex8", "hex20"})
+      .doc("Element of the built-in shapes.");
+  s.section("cylinder_in_mould", &MeshSpec::cylinder_in_mould, cylinder_in_mould_keys())
+      .when("shape", {"cylinder_in_mould"});
+  s.section("block", &MeshSpec::block, block_keys()).when("shape", {"block"});
+  s.place(&MeshSpec::where);
+  return s;
+}
+
+}  // namespace solidus::model

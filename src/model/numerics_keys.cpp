@@ -1,0 +1,79 @@
+#include "model/case_keys.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+template <class S>
+Key& solver_choice(Section<S>& s) {
+  using algebra::SolverKind;
+  return s
+      .choice("solver", &S::solver,
+              {{"automatic", SolverKind::automatic, "by analysis kind and size"},
+               {"direct", SolverKind::direct, "MUMPS"},
+               {"multigrid", SolverKind::multigrid, "conjugate gradients with algebraic multigrid"},
+               {"jacobi", SolverKind::jacobi, "conjugate gradients with Jacobi's preconditioner"}})
+      .initially("automatic");
+}
+
+}  // namespace
+
+Section<HeatSpec> heat_keys() {
+  Section<HeatSpec> s("heat", "Numerics of the thermal phase.");
+  s.choice("integration", &HeatSpec::integration,
+           {{"closed", HeatSpec::Integration::closed, "heat content at the nodes: no over- or undershoot"},
+            {"open", HeatSpec::Integration::open, "heat content at Gauss points"}})
+      .initially("closed")
+      .doc("Where heat content is integrated (monograph 6.3).");
+  s.key("degree", &HeatSpec::degree)
+      .range(1, 10)
+      .doc("Polynomial degree that the open rule integrates exactly; without it by element.");
+  s.key("tolerance", &HeatSpec::tolerance)
+      .initially(1e-9)
+      .positive()
+      .doc("Newton stops when the residual falls below this share of the heat moved.");
+  s.key("max_iterations", &HeatSpec::max_iterations)
+      .initially(50)
+      .range(1, 1000)
+      .doc("Newton iterations before a step is cut.");
+  solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
+  return s;
+}
+
+Section<MechanicsSpec> mechanics_keys() {
+  Section<MechanicsSpec> s("mechanics", "Numerics of the mechanical phase.");
+  s.key("tolerance", &MechanicsSpec::tolerance)
+      .initially(1e-3)
+      .positive()
+      .doc("Newton stops when the residual falls below this share of the forces.");
+  s.key("max_iterations", &MechanicsSpec::max_iterations)
+      .initially(25)
+      .range(1, 1000)
+      .doc("Newton iterations before a step is cut.");
+  s.key("line_search", &MechanicsSpec::line_search)
+      .initially(true)
+      .doc("Shorten Newton's steps where they do not help.");
+  s.key("b_bar", &MechanicsSpec::b_bar)
+      .initially(true)
+      .doc("Mean volumetric strain per element in quads and hexahedra (Q1/P0, monograph 6.2): no locking.");
+  solver_choice(s).doc("Linear solver; PETSc options with the prefix -mechanics_ change it further.");
+  return s;
+}
+
+Section<CouplingSpec> coupling_keys() {
+  Section<CouplingSpec> s("coupling", "How the two phases take turns.");
+  s.choice("scheme", &CouplingSpec::scheme,
+           {{"isothermal", CouplingSpec::Scheme::isothermal,
+             "mechanical phase at fixed temperature, then thermal phase at fixed configuration"}})
+      .initially("isothermal")
+      .doc("The operator split.");
+  s.key("structural_heating", &CouplingSpec::structural_heating)
+      .initially(true)
+      .doc("Heat that deformation takes up or releases (2.127).");
+  s.key("dissipation", &CouplingSpec::dissipation)
+      .initially(true)
+      .doc("Heat from viscous dissipation (2.116).");
+  return s;
+}
+
+}  // namespace solidus::model

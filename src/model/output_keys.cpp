@@ -1,0 +1,55 @@
+#include "model/case_keys.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+const std::vector<std::string> k_fields = {
+    "temperature", "displacement",   "solid_fraction",   "stress", "von_mises",
+    "pressure",    "viscous_strain", "contact_pressure", "gap",    "conductance"};
+
+}  // namespace
+
+Section<ProbeSpec> probe_keys() {
+  using P = ProbeSpec;
+  Section<P> s("probe", "A column of history.csv.");
+  s.key("name", &P::name).doc("Header of the column; the unit is added in brackets.");
+  s.choice("kind", &P::kind,
+           {{"point", P::Kind::point, "the field at a point"},
+            {"mean", P::Kind::mean, "its mean over a group"},
+            {"difference", P::Kind::difference, "the difference of two other probes"}})
+      .initially("point")
+      .doc("What is taken.");
+  s.key("field", &P::field).choices(k_fields).when("kind", {"point", "mean"}).doc("The field.");
+  s.key("component", &P::component)
+      .initially("")
+      .when("kind", {"point", "mean"})
+      .doc("Component of a vector or tensor: \"x\", \"r\", \"xx\", ...; axisymmetric: r, z or x, y.");
+  s.quantity("point", &P::point, "m").when("kind", {"point"}).doc("Coordinates of the point.");
+  s.key("body", &P::body).when("kind", {"point"}).doc("The body that is meant, where a point lies on two.");
+  s.key("group", &P::group).when("kind", {"mean"}).doc("Group of the mesh: a body or a surface.");
+  s.key("of", &P::of).when("kind", {"difference"}).doc("Two probes: the first minus the second.");
+  s.key("unit", &P::unit).doc("Unit of the column: \"degC\", \"mm\"; \"1\" for a fraction.");
+  s.place(&P::where);
+  return s;
+}
+
+Section<OutputSpec> output_keys() {
+  Section<OutputSpec> s("output", "What is written, and when.");
+  s.quantity("every", &OutputSpec::every, "s")
+      .positive()
+      .doc("Fields are written at each multiple of this time.");
+  s.quantity("times", &OutputSpec::times, "s")
+      .initially(Value::list())
+      .positive()
+      .doc("Fields are written at these times, met exactly.");
+  s.key("fields", &OutputSpec::fields)
+      .initially(Value::list())
+      .choices(k_fields)
+      .doc("The fields to write; empty: all there are.");
+  s.key("folder", &OutputSpec::folder)
+      .doc("Results folder; `-o` goes before it, without both results/CASE/VARIANT.");
+  return s;
+}
+
+}  // namespace solidus::model
