@@ -1,0 +1,68 @@
+/// What a running simulation tells to whoever writes results or shows progress.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace solidus::coupling {
+
+struct State;
+
+/// What one phase did in a step.
+struct PhaseEffort {
+  int iterations = 0;         ///< Newton iterations (linear solves)
+  int linear_iterations = 0;  ///< iterations of the linear solver, summed
+  double residual = 0;        ///< final relative residual
+  double seconds = 0;
+};
+
+/// The first law over one step, all in joules (whole body; axisymmetric: the full revolution).
+struct EnergyAudit {
+  double stored_heat = 0;  ///< change of sensible and latent heat
+  double structural = 0;   ///< change of the structural energy W + M + Θ S
+  double contact = 0;      ///< change of the energy in contact penalties
+  double work = 0;         ///< work of loads and supports on the bodies
+  double heat_in = 0;      ///< through boundaries and from sources
+  double heat_exchanged =
+      0;  ///< what the defect is measured against: the sum of magnitudes of heat moved in the step
+  double defect() const { return stored_heat + structural + contact - work - heat_in; }
+};
+
+struct ContactSummary {
+  int closed_points = 0, points = 0;
+  double heat = 0;   ///< from slave to master [W]
+  double force = 0;  ///< resultant normal force [N]
+};
+
+/// What a scheme reports of a step it took.
+struct StepEffort {
+  PhaseEffort heat, mechanics;
+  EnergyAudit energy;
+  std::vector<ContactSummary> contacts;
+  double solid_fraction = 1;                        ///< of the bodies that can melt, by volume
+  double min_temperature = 0, max_temperature = 0;  ///< [K]
+};
+
+/// A step as it was taken, for steps.csv, the progress line and the audit.
+struct StepRecord : StepEffort {
+  int number = 0;
+  double time = 0, dt = 0;  ///< t_{n+1} and the step [s]
+  std::string reason;       ///< why this size
+  int rejected = 0;         ///< how many tries failed before
+  std::string rejection;    ///< the last try's reason
+  bool output = false;      ///< the time is an output time
+};
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// The initial state, before the first step.
+  virtual void begin(const State& state) = 0;
+  /// A step was committed. Called on every process.
+  virtual void step(const StepRecord& record, const State& state) = 0;
+  /// The run cannot go on; `state` is the last committed one.
+  virtual void stopped(const std::string& reason, const State& state) = 0;
+  virtual void end(const State& state) = 0;
+};
+
+}  // namespace solidus::coupling

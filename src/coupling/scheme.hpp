@@ -1,0 +1,21 @@
+/// The interface that every coupling scheme implements: isothermal now, isentropic, simultaneous and
+/// block-iterative later.
+#pragma once
+
+#include "coupling/observer.hpp"
+#include "coupling/state.hpp"
+
+namespace solidus::coupling {
+
+class CouplingScheme {
+ public:
+  virtual ~CouplingScheme() = default;
+  /// Brings whatever follows from a state (contact gaps, conductances) in line with it: before the first
+  /// step, after a rejected one and after a restart.
+  virtual void synchronise(const State& state) = 0;
+  /// Advances from `old` (t_n) to `trial` (old.time + dt). Collective. Throws StepRejected on every process
+  /// alike when the physics does not go through; `trial` is then meaningless and `old` untouched.
+  virtual StepEffort advance(const State& old, State& trial, double time, double dt) = 0;
+};
+
+}  // namespace solidus::coupling
