@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace solidus::log {
+namespace solidus::logging {
 namespace {
 
 struct Log {
@@ -73,4 +73,4 @@ void message(Level level, std::string_view text) {
   log.terminal->log(severity, "{}", text);
 }
 
-}  // namespace solidus::log
+}  // namespace solidus::logging

@@ -1,5 +1,7 @@
 /// Messages of the library: printed by process 0 only, warnings also kept for summary.json.
 ///
+/// The namespace is not called log: that is the logarithm of lanes (base/simd.hpp).
+///
 /// Used sparingly: a law or a kernel never logs. Call it on every process alike; what other processes than 0
 /// say is dropped.
 #pragma once
@@ -12,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace solidus::log {
+namespace solidus::logging {
 
 enum class Level { debug, info, warn, silent };
 
@@ -45,4 +47,4 @@ void warn(fmt::format_string<Args...> format, Args&&... args) {
   message(Level::warn, fmt::format(format, std::forward<Args>(args)...));
 }
 
-}  // namespace solidus::log
+}  // namespace solidus::logging

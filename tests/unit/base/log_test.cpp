@@ -9,34 +9,34 @@ namespace {
 class Log : public ::testing::Test {
  protected:
   void SetUp() override {
-    log::clear_warnings();
-    log::set_sink([this](log::Level, std::string_view text) { lines_.emplace_back(text); });
+    logging::clear_warnings();
+    logging::set_sink([this](logging::Level, std::string_view text) { lines_.emplace_back(text); });
   }
   void TearDown() override {
-    log::set_sink({});
-    log::set_level(log::Level::info);
-    log::clear_warnings();
+    logging::set_sink({});
+    logging::set_level(logging::Level::info);
+    logging::clear_warnings();
   }
   std::vector<std::string> lines_;
 };
 
 TEST_F(Log, PrintsMessagesFromItsLevelUp) {
-  log::debug("not shown");
-  log::info("{} nodes", 4);
-  log::set_level(log::Level::warn);
-  log::info("not shown");
-  log::set_level(log::Level::debug);
-  log::debug("shown");
+  logging::debug("not shown");
+  logging::info("{} nodes", 4);
+  logging::set_level(logging::Level::warn);
+  logging::info("not shown");
+  logging::set_level(logging::Level::debug);
+  logging::debug("shown");
   EXPECT_EQ(lines_, (std::vector<std::string>{"4 nodes", "shown"}));
 }
 
 TEST_F(Log, CollectsEachWarningOnceEvenWhenSilent) {
-  log::set_level(log::Level::silent);
-  log::warn("left the range at {} K", 900);
-  log::warn("left the range at {} K", 900);
-  log::warn("another");
+  logging::set_level(logging::Level::silent);
+  logging::warn("left the range at {} K", 900);
+  logging::warn("left the range at {} K", 900);
+  logging::warn("another");
   EXPECT_TRUE(lines_.empty());
-  EXPECT_EQ(log::warnings(), (std::vector<std::string>{"left the range at 900 K", "another"}));
+  EXPECT_EQ(logging::warnings(), (std::vector<std::string>{"left the range at 900 K", "another"}));
 }
 
 }  // namespace
