@@ -25,6 +25,7 @@ namespace solidus::mechanics {
 
 class BlockKernel;
 class Loads;
+struct BlockWork;
 
 struct MechanicsOptions {
   algebra::NewtonOptions newton;
@@ -101,7 +102,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   algebra::BlockMatrix& tangent() override;
   void create_matrix();
   std::string worst_place(std::span<const double> x);
-  MechanicalWork measure(const MechanicalState& old, std::span<const double> x, double dt);
+  MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
@@ -118,7 +119,6 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::vector<double> forces_;    ///< internal forces, [local node][component]; ghost rows are scrap
   std::vector<double> external_;  ///< loads at t_{n+1}, [owned node][component]
   std::vector<double> reactions_;
-  double external_norm_ = 0;
   double seconds_assembly_ = 0, seconds_residual_ = 0;
 };
 

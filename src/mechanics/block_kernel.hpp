@@ -1,0 +1,63 @@
+/// The mechanics of one mesh block behind an interface: one virtual call per block, none per element.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+#include "material/material.hpp"
+#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/structural_heat.hpp"
+
+namespace solidus::mechanics {
+
+/// What a phase hands its blocks before a solve.
+struct StepStart {
+  std::span<const double> temperature;          ///< Θ_n [K], [local node]
+  std::span<const double> initial_temperature;  ///< Θ_0 [K], [local node]
+  const BlockHistory* old_history;              ///< at t_n
+  double dt;                                    ///< [s]
+};
+
+/// Sums over the counted elements of a block.
+struct BlockWork {
+  double internal_work = 0, dissipation = 0;  ///< [J]
+  bool law_failed = false;                    ///< in any element, counted or not
+};
+
+class BlockKernel {
+ public:
+  virtual ~BlockKernel() = default;
+
+  /// Looks up matrix slots.
+  virtual void bind(const algebra::BlockMatrix& matrix) = 0;
+  virtual BlockHistory initial_history() const = 0;
+  /// Properties at the quadrature points for the temperature of this step. Returns the square of the nodal
+  /// forces that a strain of 1 would cause, counted elements only: the scale of round-off.
+  virtual double prepare(const StepStart& start) = 0;
+  /// forces += ∫ B̄ᵀ σ dV at u ([local node][component]); returns the sum of squares of the element's nodal
+  /// forces before they cancel, counted elements only.
+  virtual double add_forces(std::span<const double> u, std::span<double> forces) = 0;
+  /// matrix += ∫ B̄ᵀ C B̄ dV at u.
+  virtual void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) = 0;
+  /// Writes the new history, keeps stresses and what the thermal phase needs.
+  virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
+  /// Averages over the elements, of the last finish().
+  virtual ElementFields fields() const = 0;
+  /// out_i += weight × ∫ N_i dV, [local node].
+  virtual void add_nodal_volume(double weight, std::span<double> out) const = 0;
+
+  /// StructuralHeat: out += its residual, or (tangent) its lumped diagonal; [local node].
+  virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
+                                   std::span<double> out) const = 0;
+  virtual double structural_energy_change(std::span<const double> temperature) const = 0;
+  virtual std::size_t bytes() const = 0;
+};
+
+/// @param b_bar for 4-node quads and 8-node hexes; ignored for other shapes
+std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+                                               AnalysisKind kind, const material::Material& material,
+                                               bool b_bar);
+
+}  // namespace solidus::mechanics

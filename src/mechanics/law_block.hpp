@@ -1,0 +1,336 @@
+/// The kernels: forces, tangent and update of one mesh block for one law, shape and analysis kind, eight
+/// elements at a time.
+#pragma once
+
+#include <cstring>
+
+#include "material/viscoelastic.hpp"
+#include "mechanics/block_kernel.hpp"
+#include "mechanics/element_matrix.hpp"
+#include "mechanics/structural_points.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::mechanics {
+
+/// What to subtract from the strain for the elastic one; a law with more inelastic parts adds an overload.
+template <class T>
+Sym<T> inelastic_strain(const material::Viscoelastic::State<T>& state) {
+  return state.viscous_strain;
+}
+
+/// A law whose tangent is κ 1⊗1 + 2Ĝ I_dev; others offer a full `tangent` (Sym4).
+template <class Response>
+concept IsotropicTangent = requires(const Response& r) {
+  r.bulk;
+  r.twice_shear;
+};
+
+template <class Law, int n_nodes, AnalysisKind kind, bool b_bar>
+class LawBlock final : public BlockKernel {
+ public:
+  using Operator = Kinematics<n_nodes, kind, b_bar>;
+  using Vectors = typename Operator::Vectors;
+  using State = typename Law::template State<Lane>;
+  static constexpr std::size_t dim = Operator::dim;
+  static_assert(sizeof(State) % sizeof(Lane) == 0, "a state is made of lanes");
+  static constexpr int n_state = static_cast<int>(sizeof(State) / sizeof(Lane));
+
+  LawBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
+      : geometry_(mesh, block, kind, mesh::stiffness_rule(block.shape)),
+        material_(material),
+        points_(geometry_, material) {
+    properties_.resize(static_cast<std::size_t>(geometry_.n_batches * geometry_.n_points));
+    averages_.resize(static_cast<std::size_t>(geometry_.n_batches));
+    if constexpr (b_bar) compute_means();
+  }
+
+  void bind(const algebra::BlockMatrix& matrix) override {
+    slots_ = matrix.lane_slots(geometry_.nodes, n_nodes, geometry_.n_elements);
+  }
+
+  BlockHistory initial_history() const override {
+    BlockHistory history{n_state, geometry_.n_points, {}};
+    history.values.assign(properties_.size() * n_state, Lane(0.0));
+    return history;
+  }
+
+  double prepare(const StepStart& start) override {
+    old_history_ = start.old_history;
+    dt_ = start.dt;
+    points_.set_dt(start.dt);
+    Lane scale(0.0);
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      Vectors f{};
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Lane theta = temperature_at(geometry_, batch, q, start.temperature);
+        auto& p = properties_[index(batch, q)];
+        p = material::properties_at(material_, theta,
+                                    temperature_at(geometry_, batch, q, start.initial_temperature));
+        points_.set_temperature(batch, q, theta, p.thermal_strain);
+        const Operator b = at_point(batch, q);
+        for (std::size_t a = 0; a < n_nodes; ++a)
+          for (std::size_t i = 0; i < dim; ++i)
+            f[a][i] += p.bulk * geometry_.weight_at(batch, q) * abs(b.divergence(a, i));
+      }
+      scale += geometry_.counted[static_cast<std::size_t>(batch)] * squares(f);
+    }
+    return sum(scale);
+  }
+
+  double add_forces(std::span<const double> u, std::span<double> forces) override {
+    Lane total(0.0);
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Vectors displacement = gather(u, batch);
+      Vectors f{};
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Operator b = at_point(batch, q);
+        const auto response =
+            Law::update(properties_[index(batch, q)], old_state(batch, q), b.strain(displacement), dt_);
+        b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
+      }
+      total += geometry_.counted[static_cast<std::size_t>(batch)] * squares(f);
+      scatter(f, batch, forces);
+    }
+    return sum(total);
+  }
+
+  void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) override {
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Vectors displacement = gather(u, batch);
+      ElementMatrix<n_nodes, static_cast<int>(dim)> k;
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Operator b = at_point(batch, q);
+        const Lane w = geometry_.weight_at(batch, q);
+        const auto response =
+            Law::update(properties_[index(batch, q)], old_state(batch, q), b.strain(displacement), dt_);
+        if constexpr (IsotropicTangent<decltype(response)>) {
+          add_isotropic(b, w * response.bulk, w * response.twice_shear, k);
+        } else {
+          Sym4<Lane> c = response.tangent;
+          for (auto& row : c.c)
+            for (auto& entry : row) entry *= w;
+          add_general(b, c, k);
+        }
+      }
+      scatter(k, batch, matrix);
+    }
+  }
+
+  BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) override {
+    BlockWork work;
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
+      Averages average;
+      Lane volume(0.0), internal_work(0.0), dissipation(0.0);
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Operator b = at_point(batch, q);
+        const Lane w = geometry_.weight_at(batch, q);
+        const auto& p = properties_[index(batch, q)];
+        const State old = old_state(batch, q);
+        const Sym<Lane> old_strain = b.strain(old_displacement), strain = b.strain(displacement);
+        const auto response = Law::update(p, old, strain, dt_);
+        work.law_failed = work.law_failed || response.status != material::Status::converged;
+        std::memcpy(static_cast<void*>(trial.values.data() + index(batch, q) * n_state), &response.state,
+                    sizeof(State));
+
+        const Sym<Lane> inelastic = inelastic_strain(response.state);
+        const Lane work_density = dot(response.stress, strain - old_strain);
+        volume += w;
+        internal_work += w * work_density;
+        dissipation += w * response.dissipation;
+        average.stress += w * response.stress;
+        average.strain += w * strain;
+        average.inelastic += w * inelastic;
+
+        const LaneMask solid = p.solid_fraction >= Lane(1.0);
+        const auto elastic_squared = [&](const Sym<Lane>& e, const Sym<Lane>& minus) {
+          const Sym<Lane> elastic = dev(e - minus);
+          return select(solid, dot(elastic, elastic), Lane(0.0));
+        };
+        auto& point = points_.at(batch, q);
+        point.strain_trace = trace(strain);
+        point.elastic_squared = elastic_squared(strain, inelastic);
+        point.dissipation = response.dissipation;
+        point.work = work_density;
+        points_.set_old(batch, q, trace(old_strain), elastic_squared(old_strain, inelastic_strain(old)));
+      }
+      const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
+      work.internal_work += sum(counted * internal_work);
+      work.dissipation += dt_ * sum(counted * dissipation);
+      const Lane inverse =
+          select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));  // padding has no volume
+      average.stress *= inverse;
+      average.strain *= inverse;
+      average.inelastic *= inverse;
+      averages_[static_cast<std::size_t>(batch)] = average;
+    }
+    return work;
+  }
+
+  ElementFields fields() const override {
+    ElementFields out;
+    const auto element = [](const Sym<Lane>& a, int lane) {
+      std::array<double, 6> r;
+      for (int i = 0; i < 6; ++i) r[static_cast<std::size_t>(i)] = a[i][lane];
+      return r;
+    };
+    for (Index e = 0; e < geometry_.n_elements; ++e) {
+      const Averages& average = averages_[static_cast<std::size_t>(e / k_lanes)];
+      const int lane = e % k_lanes;
+      out.stress.push_back(element(average.stress, lane));
+      out.strain.push_back(element(average.strain, lane));
+      out.inelastic_strain.push_back(element(average.inelastic, lane));
+      const Sym<double> stress{out.stress.back()};
+      out.von_mises.push_back(von_mises(stress));
+      out.pressure.push_back(-trace(stress) / 3);
+    }
+    return out;
+  }
+
+  void add_nodal_volume(double weight, std::span<double> out) const override {
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Index* nodes = nodes_of(batch);
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Lane w = Lane(weight) * geometry_.weight_at(batch, q);
+        for (int a = 0; a < n_nodes; ++a)
+          for (int lane = 0; lane < k_lanes; ++lane)
+            out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values_at(q)[a] * w[lane];
+      }
+    }
+  }
+
+  void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
+                           std::span<double> out) const override {
+    points_.add_heat(form, temperature, tangent, out);
+  }
+  double structural_energy_change(std::span<const double> temperature) const override {
+    return points_.energy_change(temperature);
+  }
+
+  std::size_t bytes() const override {
+    return geometry_.bytes() + points_.bytes() + properties_.capacity() * sizeof(properties_[0]) +
+           means_.capacity() * sizeof(Lane) + slots_.capacity() * sizeof(slots_[0]) +
+           averages_.capacity() * sizeof(averages_[0]);
+  }
+
+ private:
+  struct Averages {
+    Sym<Lane> stress, strain, inelastic;
+  };
+
+  std::size_t index(Index batch, int point) const {
+    return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
+           static_cast<std::size_t>(point);
+  }
+  const Index* nodes_of(Index batch) const {
+    return geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * k_lanes;
+  }
+  const double* values_at(int point) const { return geometry_.values.data() + point * n_nodes; }
+
+  Operator at_point(Index batch, int point) const {
+    const Lane inverse_radius =
+        kind == AnalysisKind::axisymmetric ? geometry_.inverse_radius[index(batch, point)] : Lane(0.0);
+    const Lane* mean = b_bar ? means_.data() + static_cast<std::size_t>(batch) * n_nodes * dim : nullptr;
+    return Operator(geometry_.gradients_at(batch, point), values_at(point), inverse_radius, mean);
+  }
+
+  State old_state(Index batch, int point) const {
+    State state;
+    std::memcpy(static_cast<void*>(&state), old_history_->values.data() + index(batch, point) * n_state,
+                sizeof(State));
+    return state;
+  }
+
+  /// b̄_a of 6.23.
+  void compute_means() {
+    means_.assign(static_cast<std::size_t>(geometry_.n_batches) * n_nodes * dim, Lane(0.0));
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      Lane* mean = means_.data() + static_cast<std::size_t>(batch) * n_nodes * dim;
+      Lane volume(0.0);
+      Vectors total{};
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Operator b = at_point(batch, q);  // its own mean is zero still and not used
+        volume += geometry_.weight_at(batch, q);
+        for (std::size_t a = 0; a < n_nodes; ++a)
+          for (std::size_t i = 0; i < dim; ++i)
+            total[a][i] += geometry_.weight_at(batch, q) * b.divergence(a, i);
+      }
+      const Lane inverse = select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));
+      for (std::size_t a = 0; a < n_nodes; ++a)
+        for (std::size_t i = 0; i < dim; ++i) mean[a * dim + i] = inverse * total[a][i];
+    }
+  }
+
+  Vectors gather(std::span<const double> u, Index batch) const {
+    const Index* nodes = nodes_of(batch);
+    Vectors result;
+    for (std::size_t a = 0; a < n_nodes; ++a) {
+      alignas(sizeof(Lane)) double values[dim][k_lanes];
+      for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+        const double* from =
+            u.data() + static_cast<std::ptrdiff_t>(nodes[a * k_lanes + lane]) * static_cast<int>(dim);
+        for (std::size_t i = 0; i < dim; ++i) values[i][lane] = from[i];
+      }
+      for (std::size_t i = 0; i < dim; ++i) result[a][i] = Lane::load(values[i]);
+    }
+    return result;
+  }
+
+  void scatter(const Vectors& f, Index batch, std::span<double> forces) const {
+    const Index* nodes = nodes_of(batch);
+    for (std::size_t a = 0; a < n_nodes; ++a) {
+      alignas(sizeof(Lane)) double values[dim][k_lanes];
+      for (std::size_t i = 0; i < dim; ++i) f[a][i].store(values[i]);
+      for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+        double* to =
+            forces.data() + static_cast<std::ptrdiff_t>(nodes[a * k_lanes + lane]) * static_cast<int>(dim);
+        for (std::size_t i = 0; i < dim; ++i) to[i] += values[i][lane];
+      }
+    }
+  }
+
+  void scatter(const ElementMatrix<n_nodes, static_cast<int>(dim)>& k, Index batch,
+               algebra::BlockMatrix& matrix) const {
+    using Slot = algebra::BlockMatrix::Slot;
+    const Slot* slots = slots_.data() + static_cast<std::size_t>(batch) * n_nodes * n_nodes * k_lanes;
+    double* const base = matrix.block(0);
+    constexpr auto size = static_cast<Slot>(dim * dim);
+    std::size_t pair = 0;
+    for (std::size_t a = 0; a < n_nodes; ++a)
+      for (std::size_t b = a; b < n_nodes; ++b, ++pair) {
+        alignas(sizeof(Lane)) double values[dim * dim][k_lanes];
+        for (std::size_t i = 0; i < dim * dim; ++i) k.pairs[pair][i].store(values[i]);
+        const Slot* upper = slots + (a * n_nodes + b) * k_lanes;
+        const Slot* lower = slots + (b * n_nodes + a) * k_lanes;
+        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+          double* to = base + upper[lane] * size;
+          for (std::size_t i = 0; i < dim * dim; ++i) to[i] += values[i][lane];
+        }
+        if (a == b) continue;
+        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+          double* to = base + lower[lane] * size;
+          for (std::size_t i = 0; i < dim; ++i)
+            for (std::size_t j = 0; j < dim; ++j) to[i * dim + j] += values[j * dim + i][lane];
+        }
+      }
+  }
+
+  static Lane squares(const Vectors& f) {
+    Lane s(0.0);
+    for (const auto& node : f)
+      for (const Lane& value : node) s += value * value;
+    return s;
+  }
+
+  mesh::BlockGeometry geometry_;
+  const material::Material& material_;
+  StructuralPoints points_;
+  PackVector<material::PointProperties<Lane>> properties_;  ///< at Θ_n: [batch][point]
+  PackVector<Lane> means_;                                  ///< b̄_a, B-bar only: [batch][node][dim]
+  std::vector<algebra::BlockMatrix::Slot> slots_;           ///< [batch][a][b][lane]
+  PackVector<Averages> averages_;                           ///< [batch]
+  const BlockHistory* old_history_ = nullptr;
+  double dt_ = 0;
+};
+
+}  // namespace solidus::mechanics

@@ -1,0 +1,134 @@
+#include "mechanics/loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/errors.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::mechanics {
+
+namespace {
+
+template <class Map>
+const typename Map::mapped_type& find(const Map& groups, const std::string& name, const char* what) {
+  const auto found = groups.find(name);
+  if (found != groups.end()) return found->second;
+  std::string allowed;
+  for (const auto& group : groups) allowed += (allowed.empty() ? "" : ", ") + group.first;
+  throw InputError({}, std::string("no ") + what + " '" + name + "' in the mesh", allowed);
+}
+
+/// Calls visit(owned node, ∫ N dA, ∫ N n dA) for every node of every face. Closed surfaces of quadratic
+/// shapes are integrated with the degree that is exact for straight faces: N times the radius.
+void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface,
+               const std::function<void(Index, double, const mesh::Point&)>& visit) {
+  for (const mesh::Block& faces : surface.faces) {
+    const mesh::FaceGeometry geometry(mesh, faces, kind,
+                                      mesh::gauss_rule(faces.shape, 2 * mesh::order(faces.shape) + 1));
+    for (Index face = 0; face < geometry.n_faces; ++face)
+      for (int a = 0; a < geometry.n_nodes; ++a) {
+        const Index node = faces.element(face)[a];
+        if (node >= mesh.n_owned_nodes) continue;
+        double area = 0;
+        mesh::Point normal{};
+        for (int q = 0; q < geometry.n_points; ++q) {
+          const auto at = static_cast<std::size_t>(face * geometry.n_points + q);
+          const double w =
+              geometry.weight[at] * geometry.values[static_cast<std::size_t>(q * geometry.n_nodes + a)];
+          area += w;
+          for (std::size_t i = 0; i < 3; ++i) normal[i] += w * geometry.normal[at][i];
+        }
+        visit(node, area, normal);
+      }
+  }
+}
+
+/// Sums entries of the same degree of freedom.
+void merge(std::vector<std::pair<Index, double>>& force) {
+  std::sort(force.begin(), force.end());
+  std::vector<std::pair<Index, double>> merged;
+  for (const auto& [entry, value] : force)
+    if (!merged.empty() && merged.back().first == entry)
+      merged.back().second += value;
+    else
+      merged.emplace_back(entry, value);
+  force = std::move(merged);
+}
+
+}  // namespace
+
+Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions)
+    : conditions_(std::move(conditions)),
+      components_(displacement_components(kind)),
+      constant_(static_cast<std::size_t>(mesh.n_owned_nodes * components_), 0.0),
+      fixed_(static_cast<std::size_t>(mesh.n_nodes() * components_), 0) {
+  for (const Pressure& pressure : conditions_.pressures) add_surface(mesh, kind, pressure);
+  for (const Traction& traction : conditions_.tractions) add_surface(mesh, kind, traction);
+  if (kind == AnalysisKind::axisymmetric) {
+    double largest = 0;
+    for (const mesh::Point& x : mesh.x) largest = std::max(largest, std::abs(x[0]));
+    Support axis{0.0, {}};
+    for (Index node = 0; node < mesh.n_nodes(); ++node)
+      if (std::abs(mesh.x[static_cast<std::size_t>(node)][0]) <= 1e-10 * largest)
+        axis.entries.push_back(node * components_);
+    supports_.push_back(std::move(axis));
+  }
+  for (const PrescribedDisplacement& condition : conditions_.displacements) {
+    if (condition.component < 0 || condition.component >= components_)
+      throw InputError({}, "displacement component " + std::to_string(condition.component) + " of '" +
+                               condition.node_set + "' does not exist in this analysis");
+    Support support{condition.value, {}};
+    for (Index node : find(mesh.node_sets, condition.node_set, "group"))
+      support.entries.push_back(node * components_ + condition.component);
+    supports_.push_back(std::move(support));
+  }
+  for (const Support& support : supports_)
+    for (Index entry : support.entries) fixed_[static_cast<std::size_t>(entry)] = 1;
+}
+
+void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Pressure& pressure) {
+  Unit unit{pressure.value, {}};
+  integrate(mesh, kind, find(mesh.surfaces, pressure.surface, "surface"),
+            [&](Index node, double, const mesh::Point& normal) {
+              for (int i = 0; i < components_; ++i)
+                unit.force.emplace_back(node * components_ + i, -normal[static_cast<std::size_t>(i)]);
+            });
+  merge(unit.force);
+  units_.push_back(std::move(unit));
+}
+
+void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Traction& traction) {
+  const mesh::Surface& surface = find(mesh.surfaces, traction.surface, "surface");
+  for (int i = 0; i < components_; ++i) {
+    Unit unit{traction.value[static_cast<std::size_t>(i)], {}};
+    integrate(mesh, kind, surface, [&](Index node, double area, const mesh::Point&) {
+      unit.force.emplace_back(node * components_ + i, area);
+    });
+    merge(unit.force);
+    units_.push_back(std::move(unit));
+  }
+}
+
+void Loads::add_constant(std::span<const double> force) {
+  for (std::size_t i = 0; i < constant_.size(); ++i) constant_[i] += force[i];
+}
+
+void Loads::evaluate(double time, std::span<double> force) const {
+  std::copy(constant_.begin(), constant_.end(), force.begin());
+  for (const Unit& unit : units_) {
+    const double factor = unit.factor.value(time);
+    if (factor == 0) continue;
+    for (const auto& [entry, value] : unit.force) force[static_cast<std::size_t>(entry)] += factor * value;
+  }
+}
+
+void Loads::prescribe(double time, std::span<double> displacement) const {
+  for (const Support& support : supports_) {
+    const double value = support.value.value(time);
+    for (Index entry : support.entries) displacement[static_cast<std::size_t>(entry)] = value;
+  }
+}
+
+}  // namespace solidus::mechanics

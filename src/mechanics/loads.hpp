@@ -1,0 +1,50 @@
+/// Conditions turned into nodal numbers once: load vectors per unit of each table, and the list of prescribed
+/// displacements.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mechanics/conditions.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::mechanics {
+
+class Loads {
+ public:
+  /// Throws InputError for a condition that names no group of the mesh.
+  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions);
+
+  /// Adds a load that does not change in time, [local node][component] [N].
+  void add_constant(std::span<const double> force);
+  /// The loads at a time, [owned node][component] [N].
+  void evaluate(double time, std::span<double> force) const;
+
+  /// Which degrees of freedom are prescribed, [local node][component].
+  const std::vector<char>& fixed() const { return fixed_; }
+  /// Writes the prescribed values of a time into a displacement, [local node][component].
+  void prescribe(double time, std::span<double> displacement) const;
+  const Conditions& conditions() const { return conditions_; }
+
+ private:
+  struct Unit {
+    Table factor;
+    std::vector<std::pair<Index, double>>
+        force;  ///< entry of an owned degree of freedom, force per unit of the table
+  };
+  struct Support {
+    Table value;
+    std::vector<Index> entries;  ///< local degrees of freedom
+  };
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Pressure& pressure);
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Traction& traction);
+
+  Conditions conditions_;
+  int components_;
+  std::vector<Unit> units_;
+  std::vector<Support> supports_;
+  std::vector<double> constant_;  ///< [owned node][component]
+  std::vector<char> fixed_;
+};
+
+}  // namespace solidus::mechanics

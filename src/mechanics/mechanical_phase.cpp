@@ -1,0 +1,215 @@
+#include "mechanics/mechanical_phase.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "mechanics/block_kernel.hpp"
+#include "mechanics/loads.hpp"
+
+namespace solidus::mechanics {
+
+namespace {
+
+/// Forces that a strain of this size would cause count as round-off: the criterion of a body without load.
+constexpr double k_round_off_strain = 1e-13;
+
+/// Adds the time that it lives to a counter.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(MPI_Wtime()) {}
+  ~Stopwatch() { seconds_ += MPI_Wtime() - start_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  double start_;
+};
+
+double squares(std::span<const double> a) {
+  double s = 0;
+  for (double value : a) s += value * value;
+  return s;
+}
+
+}  // namespace
+
+MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
+                                 const std::vector<material::Material>& materials,
+                                 std::span<const double> initial_temperature, Conditions conditions,
+                                 MechanicsOptions options, std::vector<algebra::Contribution*> contributions)
+    : mesh_(mesh),
+      kind_(kind),
+      components_(displacement_components(kind)),
+      options_(std::move(options)),
+      contributions_(std::move(contributions)),
+      loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions))),
+      ghosts_(mesh),
+      initial_temperature_(initial_temperature.begin(), initial_temperature.end()) {
+  assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
+  const auto& gravity = loads_->conditions().gravity;
+  std::vector<double> mass(mesh.x.size(), 0.0),
+      weight(mesh.x.size() * static_cast<std::size_t>(components_), 0.0);
+  for (const mesh::Block& block : mesh.blocks) {
+    const material::Material& material = materials[static_cast<std::size_t>(block.body)];
+    blocks_.push_back(make_block_kernel(mesh, block, kind, material, options_.b_bar));
+    blocks_.back()->add_nodal_volume(material.density, mass);
+  }
+  for (std::size_t node = 0; node < mass.size(); ++node)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(components_); ++i)
+      weight[node * static_cast<std::size_t>(components_) + i] = mass[node] * gravity[i];
+  loads_->add_constant(weight);
+
+  create_matrix();
+  solver_ = std::make_unique<algebra::LinearSolver>(
+      mesh, algebra::LinearSolverOptions{.prefix = "mechanics_",
+                                         .kind = options_.solver,
+                                         .symmetric = options_.symmetric,
+                                         .relative_tolerance = options_.linear_tolerance});
+  solver_->use_rigid_body_modes(mesh, components_);
+  forces_.resize(mesh.x.size() * static_cast<std::size_t>(components_));
+  external_.resize(static_cast<std::size_t>(mesh.n_owned_nodes * components_));
+  reactions_.assign(external_.size(), 0.0);
+}
+
+MechanicalPhase::~MechanicalPhase() = default;
+
+void MechanicalPhase::create_matrix() {
+  algebra::NodeGraph graph(mesh_);
+  for (const mesh::Block& block : mesh_.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+  for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
+  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, std::move(graph));
+  matrix_->set_fixed(loads_->fixed());
+  for (const auto& block : blocks_) block->bind(*matrix_);
+  for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
+}
+
+MechanicalState MechanicalPhase::initial_state() const {
+  MechanicalState state;
+  state.displacement.assign(forces_.size(), 0.0);
+  for (const auto& block : blocks_) state.history.push_back(block->initial_history());
+  return state;
+}
+
+double MechanicalPhase::residual(std::span<const double> x, std::span<double> r) {
+  const Stopwatch watch(seconds_residual_);
+  x_.assign(x.begin(), x.end());
+  std::fill(forces_.begin(), forces_.end(), 0.0);
+  double reference = squares(external_);
+  for (const auto& block : blocks_) reference += block->add_forces(x, forces_);
+  std::fill(r.begin(), r.end(), 0.0);
+  for (algebra::Contribution* contribution : contributions_) contribution->add_residual(x, r);
+  reference += squares(r);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] += forces_[i] - external_[i];
+  return std::sqrt(algebra::global_sum(reference));
+}
+
+algebra::BlockMatrix& MechanicalPhase::tangent() {
+  const Stopwatch watch(seconds_assembly_);
+  matrix_->set_zero();
+  for (const auto& block : blocks_) block->add_tangent(x_, *matrix_);
+  for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(x_, *matrix_);
+  return *matrix_;
+}
+
+PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
+                                   std::span<const double> temperature, double time, double dt) {
+  assert(old.displacement.size() == forces_.size() && old.history.size() == blocks_.size() && dt > 0);
+  loads_->evaluate(time, external_);
+  double stiffness = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    stiffness += blocks_[b]->prepare({temperature, initial_temperature_, &old.history[b], dt});
+
+  algebra::NewtonOptions newton_options = options_.newton;
+  newton_options.absolute_tolerance = std::max(
+      newton_options.absolute_tolerance, k_round_off_strain * std::sqrt(algebra::global_sum(stiffness)));
+  std::vector<double> x = old.displacement;
+  loads_->prescribe(time, x);
+  PhaseReport report;
+  report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
+  if (!report.newton.converged) throw StepRejected("mechanics: " + report.newton.reason, worst_place(x));
+
+  MechanicalState next;
+  next.history.reserve(blocks_.size());
+  BlockWork total;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    next.history.push_back({old.history[b].n_components, old.history[b].n_points, {}});
+    next.history.back().values.resize(old.history[b].values.size());
+    const BlockWork work = blocks_[b]->finish(old.displacement, x, next.history.back());
+    total.internal_work += work.internal_work;
+    total.dissipation += work.dissipation;
+    total.law_failed = total.law_failed || work.law_failed;
+  }
+  if (algebra::any_process(total.law_failed))
+    throw StepRejected("mechanics: a constitutive law asks for a smaller step", worst_place(x));
+  report.work = measure(old, x, total);
+  next.displacement = std::move(x);
+  trial = std::move(next);
+  return report;
+}
+
+MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
+                                        const BlockWork& sums) {
+  // The residual at the solution: internal + contributions − loads, which is the support force where fixed.
+  std::vector<double> r(external_.size());
+  residual(x, r);
+  double local[4] = {0, 0, sums.internal_work, sums.dissipation};
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double increment = x[i] - old.displacement[i];
+    reactions_[i] = loads_->fixed()[i] ? r[i] : 0.0;
+    local[0] += external_[i] * increment;
+    local[1] += reactions_[i] * increment;
+  }
+  double all[4];
+  MPI_Allreduce(local, all, 4, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return {all[0], all[1], all[2], all[3]};
+}
+
+std::string MechanicalPhase::worst_place(std::span<const double> x) {
+  std::vector<double> r(external_.size());
+  residual(x, r);
+  struct {
+    double value;
+    int rank;
+  } worst{-1.0, 0}, winner{};
+  MPI_Comm_rank(PETSC_COMM_WORLD, &worst.rank);
+  std::size_t entry = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double size = std::isfinite(r[i]) ? std::abs(r[i]) : HUGE_VAL;
+    if (loads_->fixed()[i] || size <= worst.value) continue;
+    worst.value = size;
+    entry = i;
+  }
+  MPI_Allreduce(&worst, &winner, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
+  char text[160] = {};
+  if (winner.rank == worst.rank && !r.empty()) {
+    const std::size_t node = entry / static_cast<std::size_t>(components_);
+    const mesh::Point& p = mesh_.x[node];
+    const auto end = fmt::format_to_n(text, sizeof text - 1,
+                                      "node {} at ({:.6g}, {:.6g}, {:.6g}) m: unbalanced force {:.4g} N",
+                                      mesh_.input_node[node], p[0], p[1], p[2], r[entry]);
+    *end.out = '\0';
+  }
+  MPI_Bcast(text, sizeof text, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
+  return text;
+}
+
+std::vector<ElementFields> MechanicalPhase::element_fields() const {
+  std::vector<ElementFields> fields;
+  for (const auto& block : blocks_) fields.push_back(block->fields());
+  return fields;
+}
+
+std::size_t MechanicalPhase::bytes() const {
+  std::size_t total =
+      matrix_->bytes() + (forces_.capacity() + x_.capacity() + external_.capacity()) * sizeof(double);
+  for (const auto& block : blocks_) total += block->bytes();
+  return total;
+}
+
+}  // namespace solidus::mechanics

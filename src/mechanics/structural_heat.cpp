@@ -1,0 +1,28 @@
+#include "mechanics/structural_heat.hpp"
+
+#include <algorithm>
+
+#include "mechanics/block_kernel.hpp"
+
+namespace solidus::mechanics {
+
+void StructuralHeat::add_residual(std::span<const double> temperature, std::span<double> r) {
+  work_.assign(temperature.size(), 0.0);
+  for (const auto& block : phase_.blocks()) block->add_structural_heat(form_, temperature, false, work_);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] += work_[i];
+}
+
+void StructuralHeat::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) {
+  work_.assign(temperature.size(), 0.0);
+  for (const auto& block : phase_.blocks()) block->add_structural_heat(form_, temperature, true, work_);
+  for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node)
+    *matrix.diagonal_block(node) += work_[static_cast<std::size_t>(node)];
+}
+
+double StructuralHeat::energy_change(std::span<const double> temperature) const {
+  double change = 0;
+  for (const auto& block : phase_.blocks()) change += block->structural_energy_change(temperature);
+  return algebra::global_sum(change);
+}
+
+}  // namespace solidus::mechanics

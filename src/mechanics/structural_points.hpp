@@ -1,0 +1,63 @@
+/// What the thermal phase needs of the deformation, kept at the quadrature points of a block (see
+/// structural_heat.hpp).
+#pragma once
+
+#include <span>
+
+#include "material/elasticity.hpp"
+#include "mechanics/structural_heat.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::mechanics {
+
+class StructuralPoints {
+ public:
+  struct Point {
+    Lane temperature;  ///< Θ_n [K], at which the mechanical phase was solved
+    Lane strain_offset;  ///< e^θ minus 3 α (Θ − Θ_ref): initial strain and straining of phase changes, held
+                         ///< (4.81)
+    Lane strain_trace;     ///< tr ε_{n+1}
+    Lane elastic_squared;  ///< dev ε^E : dev ε^E at t_{n+1}, zero unless solid
+    Lane old_entropy;      ///< S(ε_n, Θ_n) [J/(m³ K)]
+    Lane old_energy;       ///< E(ε_n, Θ_n) [J/m³]
+    Lane dissipation;      ///< D_mech [W/m³]
+    Lane work;             ///< σ_{n+1} : Δε [J/m³]
+  };
+
+  /// Keeps a reference to the geometry.
+  StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material);
+
+  Point& at(Index batch, int point) { return points_[index(batch, point)]; }
+  void set_dt(double dt) { dt_ = dt; }
+  /// Fills temperature and strain_offset from the temperature and the thermal strain e^θ of the mechanical
+  /// phase.
+  void set_temperature(Index batch, int point, Lane temperature, Lane thermal_strain);
+  /// Fills the old entropy and energy from the deformation at t_n.
+  void set_old(Index batch, int point, Lane strain_trace, Lane elastic_squared);
+
+  /// BlockKernel::add_structural_heat and structural_energy_change.
+  void add_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
+                std::span<double> out) const;
+  double energy_change(std::span<const double> temperature) const;
+  std::size_t bytes() const { return points_.capacity() * sizeof(Point); }
+
+ private:
+  std::size_t index(Index batch, int point) const {
+    return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
+           static_cast<std::size_t>(point);
+  }
+  material::PointProperties<Lane> properties(const Point& at, Lane temperature) const;
+  material::StructuralState<Lane> state(const Point& at, Lane temperature, Lane strain_trace,
+                                        Lane elastic_squared) const;
+
+  const mesh::BlockGeometry& geometry_;
+  material::Material thermoelastic_;  ///< without phase changes: their fraction and straining are held
+  PackVector<Point> points_;
+  double dt_ = 0;
+};
+
+/// The temperature at a point of a batch from nodal values.
+Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
+                    std::span<const double> nodal);
+
+}  // namespace solidus::mechanics
