@@ -1,0 +1,169 @@
+#include "material/library.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "base/document.hpp"
+
+namespace solidus::material {
+namespace {
+
+namespace fs = std::filesystem;
+
+PhaseFraction make_fraction(const FractionData& f) {
+  if (f.kind == "table") {
+    if (f.temperatures.size() != f.fractions.size())
+      throw std::invalid_argument("there are " + std::to_string(f.temperatures.size()) +
+                                  " temperatures and " + std::to_string(f.fractions.size()) + " fractions");
+    std::vector<std::pair<double, double>> points;
+    for (std::size_t i = 0; i < f.fractions.size(); ++i)
+      points.emplace_back(f.temperatures[i], f.fractions[i]);
+    return PhaseFraction::table(std::move(points));
+  }
+  if (f.kind == "lever_rule")
+    return PhaseFraction::lever_rule(f.melting_point, f.liquidus, f.eutectic, f.partition);
+  if (f.kind == "scheil") return PhaseFraction::scheil(f.melting_point, f.liquidus, f.eutectic, f.partition);
+  return PhaseFraction::linear(f.solidus, f.liquidus);
+}
+
+void add_phase_change(Material& material, const PhaseChangeData& data) {
+  for (const PhaseChange& other : material.phase_changes) {
+    if (other.name == data.name)
+      throw InputError(data.where, "there are two phase changes named '" + data.name + "'");
+    if (other.solidification && data.solidification)
+      throw InputError(
+          data.where,
+          "the phase changes '" + other.name + "' and '" + data.name + "' are both the solidification",
+          "at most one has solidification = true");
+  }
+  try {
+    material.phase_changes.push_back(
+        {data.name, make_fraction(data.fraction), data.latent_heat, data.volume_change, data.solidification});
+  } catch (const std::invalid_argument& error) {
+    throw InputError(data.fraction.where,
+                     "the fraction of the phase change '" + data.name + "': " + error.what());
+  }
+  material.notes.push_back({data.name, data.source, 0, 0});
+}
+
+/// The keys of `base` that `own` lacks, added to it.
+void inherit(Value& own, const Value& base) {
+  for (const auto& entry : base.entries())
+    if (own.find(entry.key) == nullptr) own.set(entry.key, entry.value);
+}
+
+bool names_a_file(const std::string& reference) {
+  return fs::path(reference).extension() == ".toml";
+}
+
+fs::path locate(const std::string& reference, std::span<const fs::path> library, const SourceLocation& where,
+                const fs::path& folder) {
+  std::error_code unreadable;
+  if (names_a_file(reference)) {
+    const fs::path file = folder / reference;
+    if (!fs::exists(file, unreadable))
+      throw InputError(where, "there is no material file '" + file.string() + "'");
+    return file;
+  }
+  for (const fs::path& place : library)
+    if (const fs::path file = place / (reference + ".toml"); fs::exists(file, unreadable)) return file;
+  throw InputError(where, "there is no material '" + reference + "'",
+                   one_of(material_names(library), reference));
+}
+
+/// The document of a file with what it inherits.
+Value load_with_base(const fs::path& file, std::span<const fs::path> library, int depth) {
+  Value document = load_document(file);
+  const Value* like = document.find("like");
+  if (like == nullptr || !like->is_text() || like->text().empty()) return document;
+  if (depth == 0)
+    throw InputError(like->where, "the material is like one that is like another, and so on without end");
+  const fs::path base = locate(like->text(), library, like->where, file.parent_path());
+  inherit(document, load_with_base(base, library, depth - 1));
+  return document;
+}
+
+}  // namespace
+
+Material make_material(std::string name, const MaterialData& data) {
+  Material m;
+  m.name = std::move(name);
+  m.title = data.title.empty() ? m.name : data.title;
+  m.expansion_reference = data.expansion_reference;
+  const auto note = [&m](const char* property, const Function& f) {
+    m.notes.push_back({property, f.source, f.valid ? (*f.valid)[0] : 0, f.valid ? (*f.valid)[1] : 0});
+    return f.table;
+  };
+  m.density = note("density", data.density).value(0);
+  m.conductivity = note("conductivity", data.conductivity);
+  m.specific_heat = note("specific_heat", data.specific_heat);
+  for (const PhaseChangeData& change : data.phase_changes) add_phase_change(m, change);
+
+  const bool elastic[] = {data.young_modulus.has_value(), data.poisson_ratio.has_value(),
+                          data.expansion.has_value()};
+  if (std::count(std::begin(elastic), std::end(elastic), true) % 3 != 0)
+    throw InputError(
+        data.where, "the mechanical properties of '" + m.name + "' are incomplete",
+        "young_modulus, poisson_ratio and expansion belong together; without all three the material conducts "
+        "heat only");
+  if (data.young_modulus) {
+    m.young_modulus = note("young_modulus", *data.young_modulus);
+    m.poisson_ratio = note("poisson_ratio", *data.poisson_ratio);
+    m.expansion = note("expansion", *data.expansion);
+    if (m.solidification() != nullptr && !data.twice_shear_viscosity)
+      throw InputError(data.where,
+                       "the key 'twice_shear_viscosity' is missing: '" + m.name +
+                           "' solidifies and has elastic properties",
+                       "the liquid's eta in s = eta * strain rate, for example \"1e9 Pa s\"");
+  }
+  if (data.twice_shear_viscosity)
+    m.liquid_viscosity = note("twice_shear_viscosity", *data.twice_shear_viscosity);
+  return m;
+}
+
+Material load_material(const fs::path& file, std::span<const fs::path> library) {
+  constexpr int deepest = 8;  // more generations than anyone needs: a circle
+  const Value document = load_with_base(file, library, deepest);
+  return make_material(file.stem().string(), material_section().read(document));
+}
+
+Material find_material(const std::string& reference, std::span<const fs::path> library,
+                       const SourceLocation& where, const fs::path& folder) {
+  return load_material(locate(reference, library, where, folder), library);
+}
+
+std::vector<std::string> material_names(std::span<const fs::path> library) {
+  std::vector<std::string> names;
+  for (const fs::path& folder : library) {
+    std::error_code unreadable;
+    for (const auto& entry : fs::directory_iterator(folder, unreadable))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::vector<LeftRange> left_ranges(const Material& material, double coldest, double hottest) {
+  std::vector<LeftRange> left;
+  const std::pair<const char*, const Table*> tables[] = {
+      {"conductivity", &material.conductivity},   {"specific_heat", &material.specific_heat},
+      {"young_modulus", &material.young_modulus}, {"poisson_ratio", &material.poisson_ratio},
+      {"expansion", &material.expansion},         {"twice_shear_viscosity", &material.liquid_viscosity}};
+  const auto refused = [&](const std::string& property) {
+    return std::any_of(std::begin(tables), std::end(tables), [&](const auto& entry) {
+      return property == entry.first && (entry.second->outside(coldest) || entry.second->outside(hottest));
+    });
+  };
+  for (const auto& [property, table] : tables)
+    if (refused(property)) left.push_back({property, table->x().front(), table->x().back(), true});
+  for (const PropertyNote& note : material.notes) {
+    const bool stated = note.valid_to > note.valid_from;
+    if (stated && (coldest < note.valid_from || hottest > note.valid_to) && !refused(note.property))
+      left.push_back({note.property, note.valid_from, note.valid_to, false});
+  }
+  return left;
+}
+
+}  // namespace solidus::material

@@ -1,0 +1,79 @@
+/// Material files: TOML with a unit, a source and a validity range for every property (docs/reference from
+/// the declared keys).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/keys.hpp"
+#include "material/material.hpp"
+
+namespace solidus::material {
+
+/// The keys of [phase_change.fraction].
+struct FractionData {
+  std::string kind;
+  double solidus = 0, liquidus = 0, melting_point = 0, eutectic = 0;  ///< [K], those that the kind takes
+  double partition = 0;
+  std::vector<double> temperatures, fractions;  ///< of kind "table"
+  SourceLocation where;
+};
+
+/// The keys of [[phase_change]].
+struct PhaseChangeData {
+  std::string name;
+  FractionData fraction;
+  double latent_heat = 0, volume_change = 0;  ///< [J/kg], 1
+  bool solidification = false;
+  std::string source;
+  SourceLocation where;
+};
+
+/// The keys of a material file, as read and in SI.
+struct MaterialData {
+  std::string title, like;
+  Function density, conductivity, specific_heat;
+  std::vector<PhaseChangeData> phase_changes;
+  std::optional<Function> young_modulus, poisson_ratio, expansion, twice_shear_viscosity;
+  double expansion_reference = 0;  ///< [K]
+  SourceLocation where;
+};
+
+/// The declaration of the keys, for reading, `explain`, the schema and the manual.
+const Section<MaterialData>& material_section();
+
+/// Checks what a single key cannot tell and builds the material. Throws InputError with the place.
+Material make_material(std::string name, const MaterialData& data);
+
+/// Reads a material file; its name is the file's name without ".toml". A file with `like = "other"` takes
+/// from the other material every key that it does not give itself.
+/// @param library  folders where `like` finds materials by name
+/// Throws InputError with file, line and column.
+Material load_material(const std::filesystem::path& file,
+                       std::span<const std::filesystem::path> library = {});
+
+/// The material that the user names: a name in the library, or a file (anything with ".toml" at its end)
+/// relative to `folder`. The first folder of the library that has the name wins.
+/// @param where  the place of the name in the user's input
+/// Throws InputError with the nearest name when there is none.
+Material find_material(const std::string& reference, std::span<const std::filesystem::path> library,
+                       const SourceLocation& where = {}, const std::filesystem::path& folder = {});
+
+/// All names in the library, sorted.
+std::vector<std::string> material_names(std::span<const std::filesystem::path> library);
+
+/// A property that was used at temperatures for which its data do not hold.
+struct LeftRange {
+  std::string property;
+  double valid_from, valid_to;  ///< [K]
+  bool refused;                 ///< its table has extrapolation = "error": the run must stop
+};
+
+/// The properties whose range the temperatures [coldest, hottest] of a run leave [K]: the stated validity,
+/// or, where the table refuses to continue, its points.
+std::vector<LeftRange> left_ranges(const Material& material, double coldest, double hottest);
+
+}  // namespace solidus::material

@@ -1,0 +1,118 @@
+/// The keys of a material file.
+#include "material/library.hpp"
+
+namespace solidus::material {
+namespace {
+
+Section<FractionData> fraction_keys() {
+  Section<FractionData> s("fraction", "The phase that is stable when cold, as a function of temperature.");
+  s.key("kind", &FractionData::kind)
+      .choices({"linear", "table", "lever_rule", "scheil"})
+      .initially("linear")
+      .doc(
+          "linear between solidus and liquidus (equal: isothermal), a table, the lever rule, or Scheil's "
+          "equation.");
+  s.quantity("solidus", &FractionData::solidus, "K")
+      .positive()
+      .when("kind", {"linear"})
+      .doc("The fraction is 1 below.");
+  s.quantity("liquidus", &FractionData::liquidus, "K")
+      .positive()
+      .when("kind", {"linear", "lever_rule", "scheil"})
+      .doc("The fraction is 0 above.");
+  s.quantity("melting_point", &FractionData::melting_point, "K")
+      .positive()
+      .when("kind", {"lever_rule", "scheil"})
+      .doc("Of the pure solvent.");
+  s.quantity("eutectic", &FractionData::eutectic, "K")
+      .positive()
+      .when("kind", {"lever_rule", "scheil"})
+      .doc("What is liquid there freezes isothermally.");
+  s.key("partition", &FractionData::partition)
+      .range(0, 1)
+      .when("kind", {"lever_rule", "scheil"})
+      .doc("Partition coefficient k of the solute.");
+  s.quantity("temperatures", &FractionData::temperatures, "K")
+      .positive()
+      .when("kind", {"table"})
+      .doc("Rising or falling; the same temperature twice is an isothermal part.");
+  s.key("fractions", &FractionData::fractions)
+      .range(0, 1)
+      .when("kind", {"table"})
+      .doc("One for each temperature, from 1 at the coldest to 0 at the hottest.");
+  s.place(&FractionData::where);
+  return s;
+}
+
+Section<PhaseChangeData> phase_change_keys() {
+  Section<PhaseChangeData> s("phase_change", "A phase change: solidification or a change in the solid.");
+  s.key("name", &PhaseChangeData::name).doc("For messages.");
+  s.key("solidification", &PhaseChangeData::solidification)
+      .initially(false)
+      .doc("Its fraction is the solid fraction; at most one phase change.");
+  s.quantity("latent_heat", &PhaseChangeData::latent_heat, "J/kg").at_least(0).doc("Released on cooling.");
+  s.key("volume_change", &PhaseChangeData::volume_change)
+      .initially(0.0)
+      .range(-0.5, 0.5)
+      .doc("Relative volume change on cooling through the whole change: negative shrinks, positive expands.");
+  s.section("fraction", &PhaseChangeData::fraction, fraction_keys());
+  s.key("source", &PhaseChangeData::source).initially("").doc("Where the data come from.");
+  s.place(&PhaseChangeData::where);
+  return s;
+}
+
+Section<MaterialData> material_keys() {
+  Section<MaterialData> s(
+      "", "A material: every property with unit, source and the temperatures for which it holds.");
+  s.key("title", &MaterialData::title).initially("").doc("What it is, in one line.");
+  s.key("like", &MaterialData::like)
+      .initially("")
+      .doc(
+          "Another material (a name in the library, or a file): every key that is not given here is taken "
+          "from it.");
+  const std::vector<Argument> temperature{Argument::temperature};
+  s.function("density", &MaterialData::density, "kg/m3").positive().doc("Of the reference configuration.");
+  s.function("conductivity", &MaterialData::conductivity, "W/m/K")
+      .positive()
+      .of(temperature)
+      .doc("Thermal conductivity.");
+  s.function("specific_heat", &MaterialData::specific_heat, "J/kg/K")
+      .positive()
+      .of(temperature)
+      .doc("Without the latent heat of the phase changes that are given below.");
+  s.function("young_modulus", &MaterialData::young_modulus, "Pa")
+      .positive()
+      .of(temperature)
+      .doc("Young's modulus.");
+  s.function("poisson_ratio", &MaterialData::poisson_ratio, "1")
+      .range(-0.99, 0.4999)
+      .of(temperature)
+      .doc("Poisson's ratio.");
+  s.function("expansion", &MaterialData::expansion, "1/K")
+      .range(-1e-3, 1e-3)
+      .of(temperature)
+      .doc("Mean coefficient of linear thermal expansion from expansion_reference to the temperature.");
+  s.quantity("expansion_reference", &MaterialData::expansion_reference, "K")
+      .initially("20 degC")
+      .positive()
+      .doc("Where the length is taken as 1 in the measurement of the expansion.");
+  s.function("twice_shear_viscosity", &MaterialData::twice_shear_viscosity, "Pa s")
+      .positive()
+      .of(temperature)
+      .doc(
+          "Of the liquid: eta in s = eta * strain rate (s the stress deviator, tensor strain rate), which is "
+          "TWICE the Newtonian "
+          "shear viscosity.");
+  s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
+  s.place(&MaterialData::where);
+  return s;
+}
+
+}  // namespace
+
+const Section<MaterialData>& material_section() {
+  static const Section<MaterialData> section = material_keys();
+  return section;
+}
+
+}  // namespace solidus::material

@@ -1,0 +1,236 @@
+#include "material/library.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+
+#include "base/document.hpp"
+
+namespace solidus::material {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::array<fs::path, 1> k_library{fs::path(SOLIDUS_SOURCE_DIR) / "materials"};
+
+TEST(MaterialLibrary, EveryPropertyOfEveryFileHasASourceAndEveryTableAValidityRange) {
+  const auto names = material_names(k_library);
+  EXPECT_GE(names.size(), 8u);
+  for (const std::string& name : names) {
+    const Material m = find_material(name, k_library);
+    EXPECT_EQ(m.name, name);
+    EXPECT_NE(m.title, name) << "no title";
+    EXPECT_GE(m.notes.size(), 3u);
+    for (const PropertyNote& note : m.notes) {
+      EXPECT_FALSE(note.source.empty()) << name << " " << note.property;
+      const bool always = note.property == "density" || note.property == "poisson_ratio" ||
+                          note.property == "twice_shear_viscosity" || note.property == "solidification" ||
+                          note.property == "graphite";
+      EXPECT_TRUE(always || note.valid_to > note.valid_from) << name << " " << note.property;
+    }
+    const EnthalpyCurve h = m.enthalpy();
+    EXPECT_NEAR(h.temperature(h.upper(500)), 500, 1e-9);
+  }
+}
+
+TEST(MaterialLibrary, AluminiumHasTheMonographsDataInSi) {
+  const Material m = find_material("aluminium_99_7", k_library);
+  EXPECT_NEAR(m.density, 2650, 1e-9);
+  EXPECT_NEAR(m.conductivity.value(273.15 + 659), 209.34, 1e-9);
+  EXPECT_NEAR(m.specific_heat.value(273.15 + 350), 1400, 1e-9);
+  EXPECT_NEAR(m.young_modulus.value(273.15), 69.3e9, 1);
+  EXPECT_NEAR(m.expansion.value(900), 1.47e-5, 1e-15);
+  EXPECT_NEAR(m.liquid_viscosity.value(1000), 1e13, 1);
+  ASSERT_NE(m.solidification(), nullptr);
+  EXPECT_NEAR(m.solidification()->latent_heat, 3.95e5, 1e-9);
+  EXPECT_NEAR(m.solidification()->fraction.solidus(), 932.15, 1e-12);
+  EXPECT_NEAR(m.solidification()->fraction.liquidus(), 933.15, 1e-12);
+  EXPECT_EQ(m.solid_fraction(900), 1);
+  EXPECT_TRUE(m.mechanical());
+  EXPECT_FALSE(find_material("green_sand", k_library).mechanical());
+}
+
+TEST(MaterialLibrary, GreyIronGrowsAndAluminiumShrinksOnFreezing) {
+  const auto growth = [](const char* name) {
+    double sum = 0;
+    for (const PhaseChange& change : find_material(name, k_library).phase_changes)
+      sum += change.volume_change;
+    return sum;
+  };
+  EXPECT_GT(growth("cast_iron"), 0);
+  EXPECT_LT(growth("aluminium_alsi7mg"), 0);
+}
+
+TEST(MaterialLibrary, AnUnknownNameIsAnsweredWithTheNearestAndThePlace) {
+  try {
+    find_material("aluminum_99_7", k_library, {"case.toml", 12, 12});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("case.toml:12:12: there is no material 'aluminum_99_7'"),
+                                    HasSubstr("did you mean 'aluminium_99_7'?")));
+  }
+  EXPECT_THROW(find_material("missing.toml", k_library), InputError);
+}
+
+TEST(LeftRanges, NamesThePropertiesThatARunTookOutsideTheirRange) {
+  const Material m = find_material("aluminium_99_7", k_library);
+  EXPECT_TRUE(left_ranges(m, 273.15 + 360, 273.15 + 670).empty());
+  const auto cold = left_ranges(m, 293.15, 900);
+  ASSERT_EQ(cold.size(), 3u);
+  EXPECT_EQ(cold[0].property, "conductivity");
+  EXPECT_EQ(cold[1].property, "specific_heat");
+  EXPECT_EQ(cold[2].property, "expansion");
+  EXPECT_NEAR(cold[1].valid_from, 623.15, 1e-12);
+  EXPECT_FALSE(cold[0].refused);
+}
+
+TEST(LeftRanges, ATableThatRefusesToContinueIsReportedByItsPoints) {
+  Material m;
+  m.conductivity = Table({300, 900}, {20, 30}, Extrapolation::error);
+  m.notes.push_back({"conductivity", "test", 200, 1000});
+  EXPECT_TRUE(left_ranges(m, 300, 900).empty());
+  const auto left = left_ranges(m, 300, 950);
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_TRUE(left[0].refused);
+  EXPECT_EQ(left[0].valid_to, 900);
+}
+
+/// A complete material file; tests replace parts of it.
+const std::string k_good = R"(density = "2650 kg/m3"
+conductivity = "200 W/m/K"
+specific_heat = { argument_unit = "degC", unit = "J/kg/K", points = [[20, 900], [600, 1100]] }
+young_modulus = "70 GPa"
+poisson_ratio = 0.3
+expansion = "2e-5 1/K"
+twice_shear_viscosity = "1e9 Pa s"
+[[phase_change]]
+name = "solidification"
+solidification = true
+latent_heat = "395 kJ/kg"
+fraction = { solidus = "900 K", liquidus = "930 K" }
+)";
+
+Material read(const std::string& text) {
+  return make_material("test", material_section().read(parse_document(text, "test.toml")));
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  const auto at = text.find(what);
+  if (at == std::string::npos) ADD_FAILURE() << what;
+  return text.replace(at, what.size(), with);
+}
+
+TEST(MaterialFile, ReadsWhatItShould) {
+  const Material m = read(k_good);
+  EXPECT_NEAR(m.specific_heat.value(273.15 + 310), 1000, 1e-9);
+  EXPECT_NEAR(m.solid_fraction(915), 0.5, 1e-12);
+  EXPECT_NEAR(m.expansion_reference, 293.15, 1e-12);
+}
+
+struct Broken {
+  const char *what, *with, *message;
+};
+
+TEST(MaterialFile, WhatIsWrongIsRefusedWithItsPlace) {
+  const Broken cases[] = {
+      {"2650 kg/m3", "-2650 kg/m3", "test.toml:1:11: 'density'"},
+      {"2650 kg/m3", "2650 kg/m2", "expected a density"},
+      {"2650 kg/m3", "2650 kq/m3", "not a known unit"},
+      {"density = \"2650 kg/m3\"", "density = 2650", "without a unit"},
+      {"density =", "densty =", "did you mean 'density'?"},
+      {"density = \"2650 kg/m3\"\n", "", "'density' is missing"},
+      {"200 W/m/K", "0 W/m/K", "test.toml:2:16: 'conductivity'"},
+      {"[600, 1100]", "[20, 1100]", "test.toml:3"},
+      {"[600, 1100]", "[10, 1100]", "must increase"},
+      {"[600, 1100]", "[600, -5]", "out of range"},
+      {"[600, 1100]", "[600, nan]", "test.toml:3"},
+      {"unit = \"J/kg/K\", ", "", "without a unit"},
+      {"poisson_ratio = 0.3", "poisson_ratio = 0.5", "test.toml:5:17: 'poisson_ratio'"},
+      {"poisson_ratio = 0.3", "poisson_ratio = -1", "out of range"},
+      {"poisson_ratio = 0.3\n", "", "belong together"},
+      {"twice_shear_viscosity = \"1e9 Pa s\"\n", "", "'twice_shear_viscosity' is missing"},
+      {"twice_shear_viscosity = ", "shear_viscosity = ", "did you mean 'twice_shear_viscosity'?"},
+      {"\"395 kJ/kg\"", "\"-1 J/kg\"", "'latent_heat'"},
+      {"solidus = \"900 K\"", "solidus = \"931 K\"", "the solidus lies above the liquidus"},
+      {"solidus = \"900 K\", ", "", "'solidus' is missing"},
+      {"{ solidus", "{ kind = \"lineal\", solidus", "did you mean 'linear'?"},
+      {"{ solidus", "{ kind = \"scheil\", solidus", "'solidus' does not belong"},
+      {"{ solidus = \"900 K\", liquidus = \"930 K\" }",
+       "{ kind = \"scheil\", melting_point = \"900 K\", liquidus = \"930 K\", eutectic = \"850 K\", "
+       "partition = 0.1 }",
+       "test.toml:12:12: the fraction of the phase change 'solidification': the melting point"},
+      {"{ solidus = \"900 K\", liquidus = \"930 K\" }",
+       "{ kind = \"table\", temperatures = [\"900 K\", \"930 K\"], fractions = [1] }",
+       "2 temperatures and 1 fractions"},
+      {"{ solidus = \"900 K\", liquidus = \"930 K\" }",
+       "{ kind = \"table\", temperatures = [\"900 K\", \"930 K\"], fractions = [1, 0.2] }",
+       "1 at its coldest point"},
+  };
+  for (const Broken& broken : cases) {
+    try {
+      read(replaced(k_good, broken.what, broken.with));
+      ADD_FAILURE() << "accepted: " << broken.with;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(broken.message)) << broken.with;
+      EXPECT_GT(error.where().line, 0) << error.what();
+    }
+  }
+}
+
+TEST(MaterialFile, TwoSolidificationsOrTwoChangesOfOneNameAreRefused) {
+  const std::string change = k_good.substr(k_good.find("[[phase_change]]"));
+  EXPECT_THROW(read(k_good + change), InputError);
+  EXPECT_THROW(read(k_good + replaced(change, "\"solidification\"", "\"again\"")), InputError);
+  EXPECT_EQ(read(k_good + replaced(replaced(change, "\"solidification\"", "\"again\""), "= true", "= false"))
+                .phase_changes.size(),
+            2u);
+}
+
+class MaterialOnDisk : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("solidus_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  fs::path folder_;
+};
+
+TEST_F(MaterialOnDisk, TakesFromTheMaterialThatItIsLikeWhatItDoesNotGive) {
+  write("soft.toml",
+        "like = \"aluminium_99_7\"\ntitle = \"Soft melt\"\ntwice_shear_viscosity = \"1e6 Pa s\"\n");
+  write("softer.toml", "like = \"soft.toml\"\npoisson_ratio = 0.25\n");
+  const Material base = find_material("aluminium_99_7", k_library);
+  const Material m = find_material("softer.toml", k_library, {}, folder_);
+  EXPECT_EQ(m.name, "softer");
+  EXPECT_EQ(m.title, "Soft melt");
+  EXPECT_EQ(m.liquid_viscosity.value(1000), 1e6);
+  EXPECT_EQ(m.poisson_ratio.value(300), 0.25);
+  EXPECT_EQ(m.density, base.density);
+  EXPECT_EQ(m.phase_changes.size(), 1u);
+}
+
+TEST_F(MaterialOnDisk, RefusesACircleOfLikesAndAnUnknownOneWithThePlace) {
+  write("a.toml", "like = \"b.toml\"\n");
+  write("b.toml", "like = \"a.toml\"\n");
+  write("c.toml", "like = \"steel_mold\"\n");
+  EXPECT_THROW(load_material(folder_ / "a.toml"), InputError);
+  try {
+    load_material(folder_ / "c.toml", k_library);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("c.toml:1:8"), HasSubstr("did you mean 'steel_mould'?")));
+  }
+}
+
+}  // namespace
+}  // namespace solidus::material
