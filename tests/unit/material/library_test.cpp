@@ -155,7 +155,7 @@ TEST(MaterialFile, WhatIsWrongIsRefusedWithItsPlace) {
       {"poisson_ratio = 0.3", "poisson_ratio = -1", "out of range"},
       {"poisson_ratio = 0.3\n", "", "belong together"},
       {"twice_shear_viscosity = \"1e9 Pa s\"\n", "", "'twice_shear_viscosity' is missing"},
-      {"twice_shear_viscosity = ", "shear_viscosity = ", "did you mean 'twice_shear_viscosity'?"},
+      {"twice_shear_viscosity = ", "twice_shear_viscosty = ", "did you mean 'twice_shear_viscosity'?"},
       {"\"395 kJ/kg\"", "\"-1 J/kg\"", "'latent_heat'"},
       {"solidus = \"900 K\"", "solidus = \"931 K\"", "the solidus lies above the liquidus"},
       {"solidus = \"900 K\", ", "", "'solidus' is missing"},
