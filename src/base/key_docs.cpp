@@ -30,11 +30,17 @@ std::string inside(const Key& key, const std::string& path) {
   return key.kind == Key::Kind::named_sections ? path + ".NAME" : path;
 }
 
+/// "closed | open", unless that is too long for one line.
+std::string choices_text(const Key& key) {
+  const std::string all = fmt::format("{}", fmt::join(key.allowed, " | "));
+  return all.size() <= 60 ? all : "choice";
+}
+
 std::string type_text(const Key& key) {
   const auto single = [&]() -> std::string {
     switch (key.kind) {
       case Key::Kind::text:
-        return key.allowed.empty() ? "text" : "choice";
+        return key.allowed.empty() ? "text" : choices_text(key);
       case Key::Kind::integer:
         return "whole number";
       case Key::Kind::number:
@@ -42,7 +48,7 @@ std::string type_text(const Key& key) {
       case Key::Kind::boolean:
         return "true or false";
       case Key::Kind::choice:
-        return "choice";
+        return choices_text(key);
       case Key::Kind::quantity:
         return key.unit == "1" ? "number" : fmt::format("quantity [{}]", key.unit);
       case Key::Kind::function: {

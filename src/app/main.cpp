@@ -1,0 +1,151 @@
+/// The program: reads the command line, runs a verb, turns failures into one message and an exit code.
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <new>
+#include <thread>
+
+#include "app/verbs.hpp"
+#include "base/errors.hpp"
+#include "base/keys.hpp"
+#include "base/log.hpp"
+
+namespace {
+
+using namespace solidus;
+using namespace solidus::app;
+
+/// Ends the run after a failure: process 0 speaks for all when all failed; a process that failed alone speaks
+/// for itself and takes the others down, which would wait for it for ever.
+ExitCode fail(ExitCode code, const std::string& message) {
+  int rank = 0, alike = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Request everybody = MPI_REQUEST_NULL;
+  MPI_Ibarrier(PETSC_COMM_WORLD, &everybody);
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!alike && std::chrono::steady_clock::now() < patience) {
+    MPI_Test(&everybody, &alike, MPI_STATUS_IGNORE);
+    if (!alike) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  if (rank == 0 || !alike) std::fputs(("solidus: " + message + "\n").c_str(), stderr);
+  if (!alike) MPI_Abort(PETSC_COMM_WORLD, code);
+  return code;
+}
+
+ExitCode guarded(const std::function<ExitCode()>& verb) {
+  try {
+    return verb();
+  } catch (const InputError& error) {
+    return fail(k_bad_input, error.what());
+  } catch (const StepRejected& error) {
+    return fail(k_cannot_go_on, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(k_cannot_go_on, "the memory is exhausted; use a coarser mesh or more processes");
+  } catch (const std::exception& error) {
+    return fail(
+        k_our_bug,
+        fmt::format("internal error: {}\n  This is a mistake in Solidus; please report it.", error.what()));
+  }
+}
+
+void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
+  verb.add_option("CASE", arguments.path, "A case file, or a folder with a case.toml")->required();
+  verb.add_option("--set", arguments.set, "Change a key, PATH=VALUE, for example --set time.step=\"0.5 s\"")
+      ->allow_extra_args(false);
+}
+
+void set_log_level(const std::string& wanted) {
+  using logging::Level;
+  const std::map<std::string, Level> levels = {
+      {"debug", Level::debug}, {"info", Level::info}, {"warn", Level::warn}, {"silent", Level::silent}};
+  const auto level = levels.find(wanted);
+  if (level == levels.end())
+    throw InputError({}, fmt::format("there is no log level '{}'", wanted),
+                     one_of({"debug", "info", "warn", "silent"}, wanted));
+  logging::set_level(level->second);
+}
+
+ExitCode parse_and_run(int argc, char** argv) {
+  CLI::App program("Solidus " SOLIDUS_VERSION ": how a metal casting solidifies in its mould.");
+  program.require_subcommand(1);
+  program.footer(
+      "Options of PETSc follow behind --, for example: solidus run CASE -- -heat_ksp_monitor\n"
+      "Exit codes: 0 done, 1 your input, 2 the simulation could not go on, 3 our bug.");
+  std::string level = "info";
+  program.add_option("--log", level, "debug, info, warn or silent");
+
+  CaseArguments arguments;
+  std::string key, name, unit = "m";
+  bool manual = false;
+  CLI::App* run_verb = program.add_subcommand("run", "Run a case");
+  add_case_arguments(*run_verb, arguments);
+  run_verb->add_option("-o,--output", arguments.output,
+                       "Folder of the results; default results/CASE/VARIANT");
+  run_verb->add_flag("!--no-progress", arguments.progress_bar, "Print plain lines, also on a terminal");
+  CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
+  add_case_arguments(*check_verb, arguments);
+  CLI::App* explain_verb = program.add_subcommand("explain", "Explain a key of the case file, or list all");
+  explain_verb->add_option("KEY", key, "For example time.step");
+  explain_verb->add_flag("--manual", manual, "The reference manual of all keys, in Markdown");
+  CLI::App* schema_verb =
+      program.add_subcommand("schema", "Print the JSON Schema of the case file, for editors");
+  CLI::App* mesh_verb = program.add_subcommand("mesh-info", "Report groups, sizes and quality of a mesh");
+  mesh_verb->add_option("CASE", arguments.path, "A mesh file, or a case")->required();
+  mesh_verb->add_option("--set", arguments.set, "Change a key of the case, PATH=VALUE")
+      ->allow_extra_args(false);
+  mesh_verb->add_option("--unit", unit, "Unit of length of a mesh file, for example mm");
+  CLI::App* materials_verb =
+      program.add_subcommand("materials", "List the material library, or print one material");
+  materials_verb->add_option("NAME", name, "A material of the library, or a material file");
+  CLI::App* version_verb = program.add_subcommand("version", "Print versions");
+  for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
+
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : program.get_subcommands({})) verbs.push_back(verb->get_name());
+    if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end())
+      throw InputError({}, fmt::format("there is no verb '{}'", argv[1]), one_of(verbs, argv[1]));
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    print(help.get_name() == "CallForHelp"
+              ? (program.get_subcommands().empty() ? program.help() : program.get_subcommands()[0]->help())
+              : program.help("", CLI::AppFormatMode::All));
+    return k_done;
+  } catch (const CLI::ParseError& error) {
+    throw InputError({}, error.what(), "`solidus --help` shows verbs and options");
+  }
+  set_log_level(level);
+  if (*run_verb) return run(arguments);
+  if (*check_verb) return check(arguments);
+  if (*explain_verb) return explain(key, manual);
+  if (*schema_verb) return schema();
+  if (*mesh_verb) return mesh_info(arguments, unit);
+  if (*materials_verb) return materials(name);
+  if (*version_verb) return version();
+  return k_our_bug;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // What stands behind "--" is PETSc's; its first argument is the program's name.
+  char** const end = argv + argc;
+  char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
+  std::vector<char*> for_petsc(separator == end ? end : separator + 1, end);
+  for_petsc.insert(for_petsc.begin(), argv[0]);
+  int petsc_argc = static_cast<int>(for_petsc.size());
+  for_petsc.push_back(nullptr);
+  char** petsc_argv = for_petsc.data();
+  if (PetscInitialize(&petsc_argc, &petsc_argv, nullptr, nullptr) != 0) return k_our_bug;
+
+  const int own_argc = static_cast<int>(separator - argv);
+  const ExitCode code = guarded([&] { return parse_and_run(own_argc, argv); });
+  PetscFinalize();
+  return code;
+}

@@ -1,0 +1,34 @@
+/// The verbs of the program. Each prints what the user asked for on stdout, from process 0; what goes wrong
+/// is thrown.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace solidus::app {
+
+/// What a shell sees (design.md section 6).
+enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_go_on = 2, k_our_bug = 3 };
+
+struct CaseArguments {
+  std::string path;              ///< a case file, or a folder with a case.toml
+  std::vector<std::string> set;  ///< "path=value"
+  std::string output;            ///< results folder; empty: by the case
+  bool progress_bar = true;      ///< on a terminal
+};
+
+/// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).
+void print(const std::string& text);
+
+ExitCode run(const CaseArguments& arguments);
+ExitCode check(const CaseArguments& arguments);
+/// @param key a path such as "time.step"; empty: all keys
+ExitCode explain(const std::string& key, bool manual);
+ExitCode schema();
+/// @param path a case, or a mesh file with the unit of its lengths
+ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit);
+/// @param name a material of the library or a file; empty: the list
+ExitCode materials(const std::string& name);
+ExitCode version();
+
+}  // namespace solidus::app

@@ -1,0 +1,22 @@
+/// The materials of a case, from the library and from files.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "material/material.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// Where materials are looked up by name, the first that has it wins: the folders of the environment variable
+/// SOLIDUS_MATERIALS (separated by colons), `share/solidus/materials` and `materials` in the folders above
+/// the program, and `materials` of the sources it was built from.
+std::vector<std::filesystem::path> material_folders();
+
+/// One material per body, in the order of the bodies.
+/// Throws InputError for an unknown material, a file that is wrong, and a property that the physics of the
+/// case needs.
+std::vector<material::Material> load_materials(const CaseSpec& spec);
+
+}  // namespace solidus::model
