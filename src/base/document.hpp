@@ -22,13 +22,13 @@ class Value {
   using List = std::vector<Value>;
   using Entries = std::vector<Entry>;
 
-  Value() : data_(Entries{}) {}
-  Value(const char* text) : data_(std::string(text)) {}  // NOLINT: defaults are written as plain literals
-  Value(std::string text) : data_(std::move(text)) {}    // NOLINT
-  Value(bool truth) : data_(truth) {}                    // NOLINT
-  Value(int number) : data_(std::int64_t{number}) {}     // NOLINT
-  Value(std::int64_t number) : data_(number) {}          // NOLINT
-  Value(double number) : data_(number) {}                // NOLINT
+  Value();
+  Value(const char* text);     // NOLINT: defaults are written as plain literals
+  Value(std::string text);     // NOLINT
+  Value(bool truth);           // NOLINT
+  Value(int number);           // NOLINT
+  Value(std::int64_t number);  // NOLINT
+  Value(double number);        // NOLINT
   /// A list of values, `Value::list({0, -1, 0})`.
   static Value list(std::initializer_list<Value> items = {});
 
@@ -71,6 +71,15 @@ struct Value::Entry {
   SourceLocation where;  ///< of the key
   Value value;
 };
+
+// Out of the class, where Entry is complete.
+inline Value::Value() : data_(Entries{}) {}
+inline Value::Value(const char* text) : data_(std::string(text)) {}
+inline Value::Value(std::string text) : data_(std::move(text)) {}
+inline Value::Value(bool truth) : data_(truth) {}
+inline Value::Value(int number) : data_(std::int64_t{number}) {}
+inline Value::Value(std::int64_t number) : data_(number) {}
+inline Value::Value(double number) : data_(number) {}
 
 /// Reads a TOML file. Throws InputError with the place for a missing, unreadable, empty, binary or malformed
 /// file, for numbers that are not finite, and for dates (no key takes one).
