@@ -1,0 +1,53 @@
+#include "results/field.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "base/errors.hpp"
+
+namespace solidus::results {
+
+void FieldSet::add(Field field) {
+  if (find(field.name) != nullptr) throw std::invalid_argument("two fields named '" + field.name + "'");
+  fields_.push_back(std::move(field));
+}
+
+const Field* FieldSet::find(std::string_view name) const {
+  const auto found =
+      std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.name == name; });
+  return found == fields_.end() ? nullptr : &*found;
+}
+
+FieldSet FieldSet::select(const std::vector<std::string>& names) const {
+  if (names.empty()) return *this;
+  std::string known;
+  for (const Field& field : fields_) known += (known.empty() ? "" : ", ") + field.name;
+  for (const std::string& name : names)
+    if (find(name) == nullptr)
+      throw InputError({}, "this analysis has no field '" + name + "'", "fields: " + known);
+  FieldSet chosen;
+  for (const Field& field : fields_)
+    if (std::find(names.begin(), names.end(), field.name) != names.end()) chosen.add(field);
+  return chosen;
+}
+
+std::size_t value_count(const mesh::Mesh& mesh, Place place, int components) {
+  std::size_t n = 0;
+  if (place == Place::node)
+    n = mesh.x.size();
+  else
+    for (const mesh::Block& block : mesh.blocks) n += static_cast<std::size_t>(block.size());
+  return n * static_cast<std::size_t>(components);
+}
+
+void check_size(const mesh::Mesh& mesh, const Field& field) {
+  const std::size_t needed = value_count(mesh, field.place, field.components);
+  if (field.values.size() != needed)
+    throw std::invalid_argument(
+        fmt::format("field '{}' has {} values, the mesh needs {}", field.name, field.values.size(), needed));
+}
+
+}  // namespace solidus::results

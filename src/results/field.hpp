@@ -1,0 +1,48 @@
+/// The fields of one moment, as views of data that belongs to somebody else: what vtu writes and probes read.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace solidus::results {
+
+enum class Place { node, cell };
+
+/// Values in SI. Shapes by place and number of components (1 scalar, 2 or 3 vector, 6 symmetric tensor in the
+/// order xx, yy, zz, xy, yz, xz):
+///   node  [local node][component]; ghosts hold their owner's value;
+///   cell  [block of Mesh::blocks][element, counted or not][component], the blocks one behind the other.
+struct Field {
+  std::string name;  ///< "temperature"
+  std::string unit;  ///< of the values, SI: "K"; "1" for a fraction
+  int components = 1;
+  Place place = Place::node;
+  std::span<const double> values;
+};
+
+class FieldSet {
+ public:
+  /// Throws std::invalid_argument for a second field of the same name.
+  void add(Field field);
+  /// Null when there is no such field.
+  const Field* find(std::string_view name) const;
+  const std::vector<Field>& all() const { return fields_; }
+  /// Only the fields named, in this set's order; an empty list means all. Throws InputError for a name that
+  /// is not there.
+  FieldSet select(const std::vector<std::string>& names) const;
+
+ private:
+  std::vector<Field> fields_;
+};
+
+/// Number of values a field of this place and number of components has on this process.
+std::size_t value_count(const mesh::Mesh& mesh, Place place, int components);
+
+/// Throws std::invalid_argument when the number of values does not fit the mesh (our bug).
+void check_size(const mesh::Mesh& mesh, const Field& field);
+
+}  // namespace solidus::results

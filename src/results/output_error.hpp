@@ -1,0 +1,35 @@
+/// What can go wrong when results are written, and how every process learns of it.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "base/errors.hpp"
+
+namespace solidus::results {
+
+/// A file or folder of the results cannot be written (full disk, no permission). The user's to solve, hence
+/// an InputError: "results/x/history.csv: cannot write: No space left on device".
+class OutputError : public InputError {
+ public:
+  OutputError(const std::string& path, const std::string& what, const std::string& advice = {});
+};
+
+/// A value on its way into a result file is not a number or infinite. Nothing of that file is written.
+class NotFiniteError : public std::runtime_error {
+ public:
+  /// @param field "field 'temperature'"
+  /// @param where "node 12 at (0.01, 0.02, 0)"
+  NotFiniteError(const std::string& field, const std::string& where);
+};
+
+/// Runs `work` on every process of PETSC_COMM_WORLD. If it throws anywhere, every process throws: the failing
+/// one its own exception, the others an OutputError with the message of the lowest failing process.
+/// Collective.
+void together(const std::function<void()>& work);
+
+/// Runs `work` on process 0; if it throws there, every process throws. Collective.
+void on_first_process(const std::function<void()>& work);
+
+}  // namespace solidus::results

@@ -1,0 +1,96 @@
+#include "results/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+namespace solidus::results {
+
+bool is_terminal(int descriptor) {
+  const char* kind = std::getenv("TERM");
+  return isatty(descriptor) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 1) return fmt::format("{:.0f} ms", 1000 * std::max(seconds, 0.0));
+  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+Progress::Progress(std::ostream& out, ProgressOptions options) : out_(out), options_(std::move(options)) {
+  if (!options_.clock)
+    options_.clock = [] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    };
+}
+
+void Progress::begin() {
+  began_ = options_.clock();
+  std::string head = fmt::format("{:>6} {:>11} {:>9}", "step", "time [s]", "dt [s]");
+  if (options_.heat) head += fmt::format(" {:>4} {:>8}", "heat", "residual");
+  if (options_.mechanics) head += fmt::format(" {:>4} {:>8}", "mech", "residual");
+  if (options_.melting) head += fmt::format(" {:>7}", "solid");
+  if (options_.contact) head += fmt::format(" {:>11}", "contact");
+  if (options_.heat) head += fmt::format(" {:>8}", "defect");
+  line(head + fmt::format(" {:>12}  {}", "left", "why this step"));
+}
+
+double Progress::seconds_left(double time) const {
+  const double done = time - options_.start;
+  return done > 0 ? (options_.clock() - began_) * (options_.end - time) / done : 0;
+}
+
+void Progress::step(const coupling::StepRecord& record) {
+  defect_ += record.energy.defect();
+  exchanged_ += record.energy.heat_exchanged;
+  std::string text = fmt::format("{:>6} {:>11.6g} {:>9.4g}", record.number, record.time, record.dt);
+  const auto phase = [&](const coupling::PhaseEffort& effort) {
+    text += fmt::format(" {:>4} {:>8.1e}", effort.iterations, effort.residual);
+  };
+  if (options_.heat) phase(record.heat);
+  if (options_.mechanics) phase(record.mechanics);
+  if (options_.melting) text += fmt::format(" {:>5.1f} %", 100 * record.solid_fraction);
+  if (options_.contact) {
+    int closed = 0, points = 0;
+    for (const auto& contact : record.contacts) closed += contact.closed_points, points += contact.points;
+    text += fmt::format(" {:>11}", fmt::format("{}/{}", closed, points));
+  }
+  if (options_.heat)  // of all steps together, relative to the heat that moved
+    text += fmt::format(" {:>8.1e}", exchanged_ > 0 ? std::abs(defect_) / exchanged_ : std::abs(defect_));
+  text += fmt::format(" {:>12}  {}", duration_text(seconds_left(record.time)), record.reason);
+  if (record.rejected > 0) text += fmt::format(" ({} rejected: {})", record.rejected, record.rejection);
+  line(text);
+  if (options_.terminal) draw_bar(record.time);
+}
+
+void Progress::end(const std::string& outcome) {
+  line(fmt::format("{} after {}", outcome, duration_text(options_.clock() - began_)));
+}
+
+void Progress::line(const std::string& text) {
+  if (bar_) out_ << "\r\033[K";
+  bar_ = false;
+  out_ << text << '\n' << std::flush;
+}
+
+void Progress::draw_bar(double time) {
+  const double span = options_.end - options_.start;
+  const double share = span > 0 ? std::clamp((time - options_.start) / span, 0.0, 1.0) : 1.0;
+  const auto full = static_cast<std::size_t>(std::lround(share * options_.width));
+  const auto rest = static_cast<std::size_t>(options_.width) - full;
+  out_ << fmt::format("[{}{}] {:3.0f} %  {} left", std::string(full, '='), std::string(rest, ' '),
+                      100 * share, duration_text(seconds_left(time)))
+       << std::flush;
+  bar_ = true;
+}
+
+}  // namespace solidus::results

@@ -1,0 +1,50 @@
+/// What the user sees of a run: one line a step, and on a terminal a bar below it.
+#pragma once
+
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "coupling/observer.hpp"
+
+namespace solidus::results {
+
+/// True when the descriptor is a terminal that understands control sequences.
+bool is_terminal(int descriptor);
+
+/// "850 ms", "12 s", "3 min 05 s", "2 h 10 min".
+std::string duration_text(double seconds);
+
+struct ProgressOptions {
+  double start = 0, end = 0;                                           ///< simulated time [s]
+  bool heat = true, mechanics = true, contact = true, melting = true;  ///< which columns the run has
+  bool terminal = false;  ///< draw the bar, which rewrites its own line
+  int width = 40;         ///< of the bar, in characters
+  /// Seconds since some moment; empty: the machine's steady clock. Tests bring their own.
+  std::function<double()> clock;
+};
+
+/// Writes to a stream the program hands over (the library itself never prints). One process uses it.
+class Progress {
+ public:
+  Progress(std::ostream& out, ProgressOptions options);
+
+  /// The header of the columns.
+  void begin();
+  void step(const coupling::StepRecord& record);
+  /// Removes the bar and says how it ended: "finished", "stopped: …", with the time it took.
+  void end(const std::string& outcome);
+
+ private:
+  void line(const std::string& text);
+  void draw_bar(double time);
+  double seconds_left(double time) const;
+
+  std::ostream& out_;
+  ProgressOptions options_;
+  double began_ = 0;
+  bool bar_ = false;                   ///< a bar stands on the present line
+  double defect_ = 0, exchanged_ = 0;  ///< [J], over all steps
+};
+
+}  // namespace solidus::results

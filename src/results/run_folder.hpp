@@ -1,0 +1,37 @@
+/// The folder of one run: results/CASE/VARIANT with everything in it.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace solidus::results {
+
+/// results/NAME/default for NAME/case.toml, results/NAME/VARIANT for NAME/VARIANT.toml, relative to the
+/// present folder.
+std::filesystem::path default_run_folder(const std::filesystem::path& case_file);
+
+/// ```
+/// case.toml     the case, fully resolved; its first line says that Solidus wrote it
+/// history.csv   probes and globals     steps.csv  every step     summary.json  how it went
+/// fields.pvd    the fields over time   fields/    the field files
+/// ```
+class RunFolder {
+ public:
+  /// Creates the folder, removes what an earlier run of ours left there and writes case.toml. Files that are
+  /// not ours stay; links are kept and written through. Collective. Throws OutputError on every process when
+  /// the folder cannot be made or written, or holds a case.toml, history.csv ... that Solidus did not write.
+  /// @param resolved_case  text of case.toml
+  RunFolder(std::filesystem::path root, std::string_view resolved_case);
+
+  const std::filesystem::path& root() const { return root_; }
+  std::filesystem::path history() const { return root_ / "history.csv"; }
+  std::filesystem::path steps() const { return root_ / "steps.csv"; }
+  std::filesystem::path summary() const { return root_ / "summary.json"; }
+  std::filesystem::path collection() const { return root_ / "fields.pvd"; }
+  std::filesystem::path fields() const { return root_ / "fields"; }
+
+ private:
+  std::filesystem::path root_;
+};
+
+}  // namespace solidus::results

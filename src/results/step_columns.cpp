@@ -1,0 +1,135 @@
+#include "results/step_columns.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/types.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+coupling::ContactSummary total(const std::vector<coupling::ContactSummary>& contacts) {
+  coupling::ContactSummary sum;
+  for (const auto& contact : contacts) {
+    sum.closed_points += contact.closed_points;
+    sum.points += contact.points;
+    sum.heat += contact.heat;
+    sum.force += contact.force;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Column> step_columns() {
+  return {{"time", "s"},
+          {"step", "1"},
+          {"dt", "s"},
+          {"reason", ""},
+          {"rejected", "1"},
+          {"rejection", ""},
+          {"output", "1"},
+          {"heat_iterations", "1"},
+          {"heat_linear_iterations", "1"},
+          {"heat_residual", "1"},
+          {"heat_seconds", "s"},
+          {"mechanics_iterations", "1"},
+          {"mechanics_linear_iterations", "1"},
+          {"mechanics_residual", "1"},
+          {"mechanics_seconds", "s"},
+          {"closed_points", "1"},
+          {"contact_points", "1"},
+          {"solid_fraction", "1"},
+          {"T_min", "degC"},
+          {"T_max", "degC"},
+          {"stored_heat", "J"},
+          {"structural_energy", "J"},
+          {"contact_energy", "J"},
+          {"work", "J"},
+          {"heat_in", "J"},
+          {"heat_exchanged", "J"},
+          {"energy_defect", "J"}};
+}
+
+std::vector<Cell> step_row(const coupling::StepRecord& r) {
+  const auto whole = [](int value) { return static_cast<std::int64_t>(value); };
+  const coupling::ContactSummary contact = total(r.contacts);
+  return {r.time,
+          whole(r.number),
+          r.dt,
+          r.reason,
+          whole(r.rejected),
+          r.rejection,
+          whole(r.output ? 1 : 0),
+          whole(r.heat.iterations),
+          whole(r.heat.linear_iterations),
+          r.heat.residual,
+          r.heat.seconds,
+          whole(r.mechanics.iterations),
+          whole(r.mechanics.linear_iterations),
+          r.mechanics.residual,
+          r.mechanics.seconds,
+          whole(contact.closed_points),
+          whole(contact.points),
+          r.solid_fraction,
+          r.min_temperature - k_zero_celsius,
+          r.max_temperature - k_zero_celsius,
+          r.energy.stored_heat,
+          r.energy.structural,
+          r.energy.contact,
+          r.energy.work,
+          r.energy.heat_in,
+          r.energy.heat_exchanged,
+          r.energy.defect()};
+}
+
+std::vector<Column> GlobalHistory::columns() const {
+  std::vector<Column> columns = {{"T_min", "degC"}, {"T_max", "degC"}};
+  if (options_.melting) columns.push_back({"solid_fraction", "1"});
+  if (options_.contact)
+    columns.insert(columns.end(), {{"closed_fraction", "1"}, {"contact_heat", "W"}, {"contact_force", "N"}});
+  columns.insert(columns.end(), {{"stored_heat", "J"}, {"heat_in", "J"}});
+  if (options_.mechanics) columns.insert(columns.end(), {{"structural_energy", "J"}, {"work", "J"}});
+  if (options_.mechanics && options_.contact) columns.push_back({"contact_energy", "J"});
+  columns.insert(columns.end(), {{"heat_exchanged", "J"}, {"energy_defect", "J"}});
+  return columns;
+}
+
+void GlobalHistory::start(const coupling::StepEffort& initial) {
+  last_ = initial;
+  sum_ = {};
+}
+
+void GlobalHistory::add(const coupling::StepEffort& step) {
+  last_ = step;
+  sum_.stored_heat += step.energy.stored_heat;
+  sum_.structural += step.energy.structural;
+  sum_.contact += step.energy.contact;
+  sum_.work += step.energy.work;
+  sum_.heat_in += step.energy.heat_in;
+  sum_.heat_exchanged += step.energy.heat_exchanged;
+}
+
+std::vector<double> GlobalHistory::values() const {
+  std::vector<double> values = {last_.min_temperature - k_zero_celsius,
+                                last_.max_temperature - k_zero_celsius};
+  if (options_.melting) values.push_back(last_.solid_fraction);
+  if (options_.contact) {
+    const coupling::ContactSummary contact = total(last_.contacts);
+    const double closed =
+        contact.points > 0 ? static_cast<double>(contact.closed_points) / contact.points : 0.0;
+    values.insert(values.end(), {closed, contact.heat, contact.force});
+  }
+  values.insert(values.end(), {sum_.stored_heat, sum_.heat_in});
+  if (options_.mechanics) values.insert(values.end(), {sum_.structural, sum_.work});
+  if (options_.mechanics && options_.contact) values.push_back(sum_.contact);
+  values.insert(values.end(), {sum_.heat_exchanged, sum_.defect()});
+  return values;
+}
+
+double GlobalHistory::relative_defect() const {
+  return sum_.heat_exchanged > 0 ? std::abs(sum_.defect()) / sum_.heat_exchanged : 0;
+}
+
+}  // namespace solidus::results

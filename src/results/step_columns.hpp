@@ -1,0 +1,39 @@
+/// What the tables say about steps: the columns of steps.csv and the global columns of history.csv.
+#pragma once
+
+#include <vector>
+
+#include "coupling/observer.hpp"
+#include "results/csv.hpp"
+
+namespace solidus::results {
+
+/// steps.csv: one row a step, all that StepRecord holds; energies are those of the step.
+std::vector<Column> step_columns();
+std::vector<Cell> step_row(const coupling::StepRecord& record);
+
+/// The columns of history.csv that concern the whole model: temperatures, solid fraction, contact, and the
+/// first law summed over the steps since the start. Which of them exist follows from the analysis.
+class GlobalHistory {
+ public:
+  struct Options {
+    bool melting = true, contact = true, mechanics = true;
+  };
+  explicit GlobalHistory(Options options) : options_(options) {}
+
+  std::vector<Column> columns() const;
+  /// The state before the first step; energies begin at zero.
+  void start(const coupling::StepEffort& initial);
+  void add(const coupling::StepEffort& step);
+  /// In the order of columns().
+  std::vector<double> values() const;
+  /// |sum of defects| / sum of heat exchanged; zero when no heat moved.
+  double relative_defect() const;
+
+ private:
+  Options options_;
+  coupling::StepEffort last_;
+  coupling::EnergyAudit sum_;
+};
+
+}  // namespace solidus::results

@@ -1,0 +1,89 @@
+#include "results/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <array>
+
+#include "algebra/parallel.hpp"
+#include "results/json.hpp"
+#include "results/output_file.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+template <class T>
+Json object(const std::vector<std::pair<std::string, T>>& members) {
+  Json json;
+  for (const auto& [name, value] : members) json.add(name, value);
+  return json;
+}
+
+GlobalIndex sum(Index counted) {
+  return static_cast<GlobalIndex>(algebra::global_sum(counted));
+}
+
+}  // namespace
+
+MeshCounts count(const mesh::Mesh& mesh) {
+  using mesh::Shape;
+  constexpr std::array k_shapes = {Shape::line2, Shape::line3, Shape::tri3,  Shape::tri6, Shape::quad4,
+                                   Shape::quad8, Shape::tet4,  Shape::tet10, Shape::hex8, Shape::hex20};
+  const auto counted = [&](const auto& belongs) {
+    Index n = 0;
+    for (const mesh::Block& block : mesh.blocks)
+      if (belongs(block)) n += block.n_counted;
+    return sum(n);
+  };
+  MeshCounts counts;
+  counts.nodes = mesh.n_global_nodes;
+  for (const Shape shape : k_shapes)
+    if (const GlobalIndex n = counted([&](const mesh::Block& b) { return b.shape == shape; }); n > 0)
+      counts.elements_of_shape.emplace_back(mesh::name(shape), n);
+  for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
+    counts.elements_of_body.emplace_back(mesh.bodies[body].name, counted([&](const mesh::Block& b) {
+                                           return b.body == static_cast<int>(body);
+                                         }));
+  return counts;
+}
+
+PeakMemory peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in kilobytes
+  return {algebra::global_max(bytes), algebra::global_sum(bytes)};
+}
+
+std::string summary_json(const Summary& s) {
+  Json::Array warnings(s.warnings.begin(), s.warnings.end());
+  Json mesh;
+  mesh.add("nodes", s.mesh.nodes)
+      .add("elements", object(s.mesh.elements_of_shape))
+      .add("bodies", object(s.mesh.elements_of_body));
+  Json memory;
+  memory.add("largest_process", s.memory.largest).add("all_processes", s.memory.sum);
+  Json json;
+  json.add("solidus", SOLIDUS_VERSION)
+      .add("case", s.case_file)
+      .add("variant", s.variant)
+      .add("title", s.title)
+      .add("outcome", s.outcome)
+      .add("processes", s.processes)
+      .add("mesh", std::move(mesh))
+      .add("steps", s.steps)
+      .add("rejected_steps", s.rejected)
+      .add("end_time[s]", s.end_time)
+      .add("seconds", object(s.seconds))
+      .add("peak_memory[bytes]", std::move(memory))
+      .add("tables[bytes]", object(s.table_bytes))
+      .add("relative_energy_defect", s.relative_energy_defect)
+      .add("final", object(s.final_values))
+      .add("warnings", std::move(warnings));
+  return json.text();
+}
+
+void write_summary(const std::filesystem::path& path, const Summary& summary) {
+  write_file(path, summary_json(summary));
+}
+
+}  // namespace solidus::results

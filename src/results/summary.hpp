@@ -1,0 +1,53 @@
+/// summary.json: how a run went, for people and for tests that watch time and memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace solidus::results {
+
+/// Sizes over all processes, each element counted once.
+struct MeshCounts {
+  GlobalIndex nodes = 0;
+  std::vector<std::pair<std::string, GlobalIndex>> elements_of_shape;  ///< "tri3"; only shapes that occur
+  std::vector<std::pair<std::string, GlobalIndex>> elements_of_body;   ///< in the order of Mesh::bodies
+};
+/// Collective.
+MeshCounts count(const mesh::Mesh& mesh);
+
+/// The largest resident memory so far: of one process, and the sum over the processes' peaks [bytes].
+struct PeakMemory {
+  double largest = 0, sum = 0;
+};
+/// Collective.
+PeakMemory peak_memory();
+
+/// Everything summary.json says. Lists keep their order; `final_values` pairs a header of history.csv with
+/// the last value of that column.
+struct Summary {
+  std::string case_file, variant, title;
+  std::string outcome;  ///< "finished", or "stopped: " with the reason
+  int processes = 1;
+  MeshCounts mesh;
+  int steps = 0, rejected = 0;
+  double end_time = 0;                                  ///< time reached [s]
+  std::vector<std::pair<std::string, double>> seconds;  ///< by phase; "total" is the wall time
+  PeakMemory memory;
+  std::vector<std::pair<std::string, std::size_t>> table_bytes;  ///< of process 0
+  double relative_energy_defect = 0;
+  std::vector<std::pair<std::string, double>> final_values;
+  std::vector<std::string> warnings;
+};
+
+std::string summary_json(const Summary& summary);
+
+/// Writes it atomically, from one process. Throws OutputError, NotFiniteError.
+void write_summary(const std::filesystem::path& path, const Summary& summary);
+
+}  // namespace solidus::results

@@ -1,0 +1,262 @@
+#include "results/vtu.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "results/output_file.hpp"
+#include "results/vtk_data.hpp"
+
+namespace solidus::results {
+
+using mesh::Block;
+using mesh::Mesh;
+using mesh::Shape;
+
+int vtk_cell_type(Shape shape) {
+  switch (shape) {
+    case Shape::point1:
+      return 1;
+    case Shape::line2:
+      return 3;
+    case Shape::tri3:
+      return 5;
+    case Shape::quad4:
+      return 9;
+    case Shape::tet4:
+      return 10;
+    case Shape::hex8:
+      return 12;
+    case Shape::line3:
+      return 21;
+    case Shape::tri6:
+      return 22;
+    case Shape::quad8:
+      return 23;
+    case Shape::tet10:
+      return 24;
+    case Shape::hex20:
+      return 25;
+  }
+  throw std::invalid_argument("shape without a VTK type");
+}
+
+std::span<const int> vtk_node_order(Shape shape) {
+  static constexpr std::array<int, 8> k_same = {0, 1, 2, 3, 4, 5, 6, 7};
+  // Gmsh numbers the edges (2,3), (1,3) of a tetrahedron 8, 9; VTK the other way round.
+  static constexpr std::array<int, 10> k_tet10 = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+  // VTK goes round the bottom, round the top, then up; Gmsh takes the edges in the order of their nodes.
+  static constexpr std::array<int, 20> k_hex20 = {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
+                                                  13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
+  if (shape == Shape::tet10) return k_tet10;
+  if (shape == Shape::hex20) return k_hex20;
+  return std::span<const int>(k_same).first(static_cast<std::size_t>(mesh::node_count(shape)));
+}
+
+namespace {
+
+// What one file holds: the counted cells of some blocks and the nodes they touch.
+struct Part {
+  const Mesh& mesh;
+  std::span<const Block> blocks;
+  bool volume;               // the blocks are Mesh::blocks: cell fields belong to them
+  std::vector<Index> nodes;  // local numbers, in the order of the file
+  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+};
+
+Part make_part(const Mesh& mesh, std::span<const Block> blocks, bool volume) {
+  Part part{mesh, blocks, volume, {}, {}, {}, {}};
+  std::vector<Index> number(mesh.x.size(), -1);
+  for (const Block& block : blocks)
+    for (Index e = 0; e < block.n_counted; ++e)
+      for (int a = 0; a < mesh::node_count(block.shape); ++a)
+        number[static_cast<std::size_t>(block.element(e)[a])] = 0;
+  for (std::size_t node = 0; node < number.size(); ++node)
+    if (number[node] == 0) {
+      number[node] = static_cast<Index>(part.nodes.size());
+      part.nodes.push_back(static_cast<Index>(node));
+    }
+  for (const Block& block : blocks) {
+    const auto order = vtk_node_order(block.shape);
+    const auto type = static_cast<std::uint8_t>(vtk_cell_type(block.shape));
+    for (Index e = 0; e < block.n_counted; ++e) {
+      for (const int a : order)
+        part.connectivity.push_back(number[static_cast<std::size_t>(block.element(e)[a])]);
+      part.offsets.push_back(static_cast<std::int64_t>(part.connectivity.size()));
+      part.types.push_back(type);
+    }
+  }
+  return part;
+}
+
+int file_components(const Field& field) {
+  return field.components == 2 ? 3 : field.components;
+}
+
+std::string near(const Mesh& mesh, Index node) {
+  const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]);
+}
+
+// The file's values of a field: those of the part's nodes or cells, two components padded to three. Throws
+// NotFiniteError with the place.
+std::vector<double> file_values(const Part& part, const Field& field) {
+  const auto nc = static_cast<std::size_t>(field.components);
+  const auto pad = static_cast<std::size_t>(file_components(field)) - nc;
+  std::vector<double> out;
+  const auto take = [&](std::size_t entity, const auto& where) {
+    for (const double value : field.values.subspan(entity * nc, nc)) {
+      if (!std::isfinite(value)) throw NotFiniteError("field '" + field.name + "'", where());
+      out.push_back(value);
+    }
+    out.insert(out.end(), pad, 0.0);
+  };
+  const Mesh& mesh = part.mesh;
+  if (field.place == Place::node) {
+    out.reserve(part.nodes.size() * (nc + pad));
+    for (const Index node : part.nodes)
+      take(static_cast<std::size_t>(node), [&] {
+        return fmt::format("node {} {}", mesh.input_node[static_cast<std::size_t>(node)], near(mesh, node));
+      });
+    return out;
+  }
+  out.reserve(part.types.size() * (nc + pad));
+  std::size_t first = 0;
+  for (const Block& block : part.blocks) {
+    for (Index e = 0; e < block.n_counted; ++e)
+      take(first + static_cast<std::size_t>(e), [&] {
+        return fmt::format("element {} near {}", block.input_element[static_cast<std::size_t>(e)],
+                           near(mesh, block.element(e)[0]));
+      });
+    first += static_cast<std::size_t>(block.size());
+  }
+  return out;
+}
+
+template <class T, class F>
+std::vector<T> of_cells(const Part& part, const F& value) {
+  std::vector<T> out;
+  out.reserve(part.types.size());
+  for (const Block& block : part.blocks)
+    for (Index e = 0; e < block.n_counted; ++e) out.push_back(static_cast<T>(value(block, e)));
+  return out;
+}
+
+// ' Scalars="temperature" Vectors="displacement"': what ParaView shows first.
+std::string active(const FieldSet& fields, Place place) {
+  std::string scalars, vectors;
+  for (const Field& field : fields.all()) {
+    if (field.place != place) continue;
+    if (field.components == 1 && scalars.empty()) scalars = field.name;
+    if (file_components(field) == 3 && vectors.empty()) vectors = field.name;
+  }
+  return (scalars.empty() ? "" : fmt::format(R"( Scalars="{}")", xml_text(scalars))) +
+         (vectors.empty() ? "" : fmt::format(R"( Vectors="{}")", xml_text(vectors)));
+}
+
+std::string vtk_head(std::string_view type) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\" "
+      "compressor=\"vtkZLibDataCompressor\">\n",
+      type, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+}
+
+ArrayHead head_of(const Field& field) {
+  return {field.name, file_components(field), field.unit};
+}
+
+void write_part(const std::filesystem::path& path, const Part& part, const FieldSet& fields, double time) {
+  for (const Field& field : fields.all()) check_size(part.mesh, field);
+  const Mesh& mesh = part.mesh;
+  AppendedData data;
+  std::string xml = vtk_head("UnstructuredGrid");
+  xml += "  <UnstructuredGrid>\n    <FieldData>\n";
+  xml += fmt::format(
+      "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}"
+      "</DataArray>\n    </FieldData>\n",
+      time);
+  xml += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", part.nodes.size(),
+                     part.types.size());
+
+  xml += fmt::format("      <PointData{}>\n", active(fields, Place::node));
+  for (const Field& field : fields.all())
+    if (field.place == Place::node) xml += data.add(head_of(field), file_values(part, field));
+  std::vector<std::int64_t> numbers;
+  for (const Index node : part.nodes) numbers.push_back(mesh.input_node[static_cast<std::size_t>(node)]);
+  xml += data.add({"node"}, numbers);
+  xml += "      </PointData>\n";
+
+  xml += fmt::format("      <CellData{}>\n", part.volume ? active(fields, Place::cell) : "");
+  if (part.volume)
+    for (const Field& field : fields.all())
+      if (field.place == Place::cell) xml += data.add(head_of(field), file_values(part, field));
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  xml += data.add({"element"}, of_cells<std::int64_t>(part, [](const Block& block, Index e) {
+                    return block.input_element[static_cast<std::size_t>(e)];
+                  }));
+  xml +=
+      data.add({"body"}, of_cells<std::int32_t>(part, [](const Block& block, Index) { return block.body; }));
+  xml += data.add({"process"}, of_cells<std::int32_t>(part, [rank](const Block&, Index) { return rank; }));
+  xml += "      </CellData>\n";
+
+  std::vector<double> points;
+  points.reserve(3 * part.nodes.size());
+  for (const Index node : part.nodes) {
+    const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
+    points.insert(points.end(), x.begin(), x.end());
+  }
+  xml += "      <Points>\n" + data.add({"Points", 3, "m"}, points) + "      </Points>\n";
+  xml += "      <Cells>\n" + data.add({"connectivity"}, part.connectivity) +
+         data.add({"offsets"}, part.offsets) + data.add({"types"}, part.types) + "      </Cells>\n";
+  xml += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _";
+
+  AtomicFile file(path);
+  file.write(xml);
+  file.write(data.bytes());
+  file.write("\n  </AppendedData>\n</VTKFile>\n");
+  file.commit();
+}
+
+}  // namespace
+
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const FieldSet& fields, double time) {
+  write_part(path, make_part(mesh, mesh.blocks, true), fields, time);
+}
+
+void write_surface_vtu(const std::filesystem::path& path, const Mesh& mesh, const mesh::Surface& surface,
+                       const FieldSet& fields, double time) {
+  write_part(path, make_part(mesh, surface.faces, false), fields, time);
+}
+
+void write_pvtu(const std::filesystem::path& path, const std::vector<std::string>& parts,
+                const FieldSet& fields, bool surface) {
+  const auto array = [](const ArrayHead& head, std::string_view type) {
+    return fmt::format("      <PDataArray {}>{}</PDataArray>\n", array_attributes(head, type),
+                       array_information(head));
+  };
+  std::string xml = vtk_head("PUnstructuredGrid") + "  <PUnstructuredGrid GhostLevel=\"0\">\n";
+  xml += fmt::format("    <PPointData{}>\n", active(fields, Place::node));
+  for (const Field& field : fields.all())
+    if (field.place == Place::node) xml += array(head_of(field), vtk_type<double>());
+  xml += array({"node"}, vtk_type<std::int64_t>());
+  xml += fmt::format("    </PPointData>\n    <PCellData{}>\n", surface ? "" : active(fields, Place::cell));
+  if (!surface)
+    for (const Field& field : fields.all())
+      if (field.place == Place::cell) xml += array(head_of(field), vtk_type<double>());
+  xml += array({"element"}, vtk_type<std::int64_t>()) + array({"body"}, vtk_type<std::int32_t>()) +
+         array({"process"}, vtk_type<std::int32_t>());
+  xml += "    </PCellData>\n    <PPoints>\n" + array({"Points", 3, "m"}, vtk_type<double>()) +
+         "    </PPoints>\n";
+  for (const std::string& part : parts) xml += fmt::format("    <Piece Source=\"{}\"/>\n", xml_text(part));
+  xml += "  </PUnstructuredGrid>\n</VTKFile>\n";
+  write_file(path, xml);
+}
+
+}  // namespace solidus::results
