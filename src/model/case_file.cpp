@@ -67,15 +67,8 @@ void resolve_paths(Value& document) {
 }  // namespace
 
 std::string Case::toml() const {
-  return fmt::format("# The resolved case, written by Solidus {} from {}.\n{}", SOLIDUS_VERSION,
+  return fmt::format("# Solidus {}, from {}\n{}", SOLIDUS_VERSION,
                      fs::absolute(file).lexically_normal().string(), to_toml(document));
-}
-
-std::filesystem::path Case::result_name() const {
-  const fs::path absolute = fs::absolute(file).lexically_normal();
-  const std::string folder = absolute.parent_path().filename().string();
-  const std::string stem = absolute.stem().string();
-  return fs::path(folder.empty() ? "case" : folder) / (stem == "case" ? "default" : stem);
 }
 
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {

@@ -17,8 +17,6 @@ struct Case {
 
   /// The case as a TOML file that gives the same run from anywhere: paths are absolute.
   std::string toml() const;
-  /// "CASE/VARIANT": the folder's name and the file's stem, "default" for case.toml.
-  std::filesystem::path result_name() const;
 };
 
 /// Reads a case, or the case.toml of a folder; follows `include`, lays overrides over it, fills in defaults,

@@ -73,7 +73,6 @@ TEST_F(CaseFile, AFolderMeansItsCaseToml) {
   EXPECT_EQ(c.spec.title, "A block cools");
   EXPECT_EQ(c.spec.bodies[0].mesh_group(), "block");
   EXPECT_DOUBLE_EQ(c.spec.thermal_conditions[0].ambient.table.value(0), 293.15);
-  EXPECT_EQ(c.result_name(), fs::path("cooling/default"));
 }
 
 TEST_F(CaseFile, AVariantIsLaidOverTheCaseItIncludes) {
@@ -89,7 +88,6 @@ TEST_F(CaseFile, AVariantIsLaidOverTheCaseItIncludes) {
   ASSERT_EQ(c.spec.bodies.size(), 1u);
   EXPECT_DOUBLE_EQ(c.spec.bodies[0].initial_temperature, 573.15);
   EXPECT_EQ(c.spec.thermal_conditions.size(), 2u);
-  EXPECT_EQ(c.result_name(), fs::path("cooling/hot"));
 }
 
 TEST_F(CaseFile, ErrorsPointToTheFileThatHoldsTheMistake) {
