@@ -1,0 +1,239 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <regex>
+
+#include "results/csv.hpp"
+#include "results/json.hpp"
+#include "results/pvd.hpp"
+#include "results/step_columns.hpp"
+#include "results/summary.hpp"
+#include "sample.hpp"
+#include "vtu_reader.hpp"
+
+namespace solidus::results {
+namespace {
+
+const std::vector<Column> k_columns = {{"time", "s"}, {"T_center", "degC"}};
+
+std::vector<Cell> row(double time, double value) {
+  return {time, value};
+}
+
+TEST(CsvTable, HasUnitsInItsHeaderAndARowPerLine) {
+  test::TemporaryFolder folder;
+  CsvTable table(folder.path / "history.csv", k_columns);
+  table.add(row(0, 670));
+  table.add(row(1, 659.5));
+  // Read while the table is still open: rows are there as soon as they are added.
+  EXPECT_EQ(test::read_text(folder.path / "history.csv"), "time[s],T_center[degC]\n0,670\n1,659.5\n");
+}
+
+TEST(CsvTable, NumbersReadBackAsTheSameBits) {
+  for (const double x : {1.0 / 3.0, 6.02214076e23, -2.3e-307, 659.85000000000002, 1e300, 0.1})
+    EXPECT_EQ(std::stod(number_text(x)), x) << number_text(x);
+  EXPECT_EQ(number_text(-0.0), "0");
+}
+
+TEST(CsvTable, QuotesTextThatHoldsCommasOrQuotes) {
+  EXPECT_EQ(csv_text("as asked"), "as asked");
+  EXPECT_EQ(csv_text("cut, because \"heat\" failed"), "\"cut, because \"\"heat\"\" failed\"");
+}
+
+TEST(CsvTable, NamesTheColumnWhoseValueIsNotANumber) {
+  test::TemporaryFolder folder;
+  CsvTable table(folder.path / "history.csv", k_columns);
+  try {
+    table.add(row(0, std::numeric_limits<double>::quiet_NaN()));
+    FAIL() << "must throw";
+  } catch (const NotFiniteError& error) {
+    EXPECT_STREQ(error.what(), "column 'T_center[degC]' is not finite; it is not written to the results");
+  }
+  EXPECT_EQ(test::read_text(folder.path / "history.csv"), "time[s],T_center[degC]\n");
+}
+
+TEST(CsvTable, GoesOnAfterARestartWithoutLaterOrHalfRows) {
+  test::TemporaryFolder folder;
+  const auto path = folder.path / "history.csv";
+  std::ofstream(path) << "time[s],T_center[degC]\n0,670\n1,660\n2,650\n3,64";
+  CsvTable(path, k_columns, 5.0).add(row(6, 600));
+  EXPECT_EQ(test::read_text(path), "time[s],T_center[degC]\n0,670\n1,660\n2,650\n6,600\n");
+  CsvTable(path, k_columns, 1.0).add(row(2, 655));
+  EXPECT_EQ(test::read_text(path), "time[s],T_center[degC]\n0,670\n1,660\n2,655\n");
+  EXPECT_THROW(CsvTable(path, {{"time", "s"}, {"other", "K"}}, 1.0), OutputError);
+  EXPECT_THROW(CsvTable(folder.path / "none.csv", k_columns, 1.0), OutputError);
+}
+
+TEST(CsvTable, SaysWhichFileDoesNotFitOnTheDisk) {
+  // The header already fails: it is handed to the system at once.
+  try {
+    CsvTable table("/dev/full", k_columns);
+    FAIL() << "must throw";
+  } catch (const OutputError& error) {
+    EXPECT_STREQ(error.what(), "/dev/full: cannot write: No space left on device");
+    EXPECT_EQ(error.where().file, "/dev/full");
+  }
+}
+
+TEST(CsvTable, SaysWhichFolderIsNotThere) {
+  test::TemporaryFolder folder;
+  try {
+    CsvTable table(folder.path / "none" / "history.csv", k_columns);
+    FAIL() << "must throw";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("cannot open for writing: No such file or directory"),
+              std::string::npos);
+  }
+}
+
+TEST(PvdCollection, IsWholeAfterEveryAddition) {
+  test::TemporaryFolder folder;
+  const auto path = folder.path / "fields.pvd";
+  PvdCollection collection(path);
+  collection.add(0, "fields/fields_00000.vtu");
+  EXPECT_NE(test::read_text(path).find("</VTKFile>"), std::string::npos);
+  collection.add({{0.1, 0, "fields/fields_00001.vtu"}, {0.1, 1, "fields/surface_a_00001.vtu"}});
+  EXPECT_EQ(test::read_text(path), R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="0.1">
+  <Collection>
+    <DataSet timestep="0" part="0" file="fields/fields_00000.vtu"/>
+    <DataSet timestep="0.1" part="0" file="fields/fields_00001.vtu"/>
+    <DataSet timestep="0.1" part="1" file="fields/surface_a_00001.vtu"/>
+  </Collection>
+</VTKFile>
+)");
+  PvdCollection again(path, 0.05);
+  ASSERT_EQ(again.entries().size(), 1U);
+  again.add(0.2, "fields/fields_00001.vtu");
+  EXPECT_EQ(PvdCollection(path, 1).entries()[1].time, 0.2);
+}
+
+TEST(PvdCollection, KeepsItsOldContentWhenTheDiskIsFull) {
+  test::TemporaryFolder folder;
+  const auto path = folder.path / "fields.pvd";
+  PvdCollection collection(path);
+  collection.add(0, "a.vtu");
+  const std::string before = test::read_text(path);
+  std::filesystem::create_symlink("/dev/full", path.string() + ".part");
+  EXPECT_THROW(collection.add(1, "b.vtu"), OutputError);
+  EXPECT_EQ(test::read_text(path), before);
+  EXPECT_EQ(collection.entries().size(), 1U);
+}
+
+TEST(Json, WritesEveryKindOfValue) {
+  Json json;
+  json.add("flag", true).add("count", 3).add("x", 0.5).add("text", "a \"b\"\n\\ \x01");
+  json.add("list", Json::Array{1, 2.5, "c"}).add("none", Json::Array{}).add("object", Json().add("y", 1));
+  EXPECT_EQ(json.text(), R"({
+  "flag": true,
+  "count": 3,
+  "x": 0.5,
+  "text": "a \"b\"\n\\ \u0001",
+  "list": [
+    1,
+    2.5,
+    "c"
+  ],
+  "none": [],
+  "object": {
+    "y": 1
+  }
+}
+)");
+}
+
+TEST(Json, NamesTheMemberThatIsNotANumber) {
+  Json json;
+  json.add("final", Json().add("T", std::numeric_limits<double>::infinity()));
+  try {
+    json.text();
+    FAIL() << "must throw";
+  } catch (const NotFiniteError& error) {
+    EXPECT_NE(std::string(error.what()).find("'final.T'"), std::string::npos);
+  }
+}
+
+TEST(Summary, SaysHowTheRunWent) {
+  const mesh::Mesh mesh = test::triangles_and_quad();
+  Summary summary;
+  summary.case_file = "cases/a/case.toml";
+  summary.outcome = "finished";
+  summary.mesh = count(mesh);
+  summary.steps = 90;
+  summary.seconds = {{"total", 12.5}, {"heat", 3.0}};
+  summary.memory = peak_memory();
+  summary.final_values = {{"T_center[degC]", 312.5}};
+  summary.warnings = {"aluminium was used at 950 K, its data end at 933 K"};
+  const std::string text = summary_json(summary);
+  for (const char* piece :
+       {R"("nodes": 6)", R"("tri3": 2)", R"("quad4": 1)", R"("part": 2)", R"("mould": 1)", R"("steps": 90)",
+        R"("T_center[degC]": 312.5)", R"("aluminium was used at 950 K, its data end at 933 K")"})
+    EXPECT_NE(text.find(piece), std::string::npos) << piece << " in\n" << text;
+  // A test program of this size needs more than a megabyte and less than four gigabytes.
+  EXPECT_GT(summary.memory.largest, 1e6);
+  EXPECT_LT(summary.memory.largest, 4e9);
+  EXPECT_GE(summary.memory.sum, summary.memory.largest);
+}
+
+coupling::StepRecord sample_step() {
+  coupling::StepRecord record;
+  record.number = 3;
+  record.time = 3;
+  record.dt = 1;
+  record.reason = "as asked";
+  record.solid_fraction = 0.25;
+  record.min_temperature = 473.15;
+  record.max_temperature = 943.15;
+  record.energy.stored_heat = -10;
+  record.energy.heat_in = -9;
+  record.energy.work = 0.5;
+  record.energy.heat_exchanged = 30;
+  record.contacts = {{3, 4, 100.0, 2.0}, {0, 4, 5.0, 0.0}};
+  return record;
+}
+
+TEST(StepColumns, FitTheRow) {
+  const auto columns = step_columns();
+  const auto cells = step_row(sample_step());
+  ASSERT_EQ(columns.size(), cells.size());
+  EXPECT_EQ(columns.front().header(), "time[s]");
+  EXPECT_EQ(columns.back().header(), "energy_defect[J]");
+  EXPECT_DOUBLE_EQ(std::get<double>(cells.back()), -1.5);
+}
+
+TEST(GlobalHistory, SumsTheFirstLawOverTheSteps) {
+  GlobalHistory history({true, true, true});
+  history.start({});
+  history.add(sample_step());
+  history.add(sample_step());
+  const auto columns = history.columns();
+  const auto values = history.values();
+  ASSERT_EQ(columns.size(), values.size());
+  const auto value = [&](const std::string& header) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i].header() == header) return values[i];
+    ADD_FAILURE() << header;
+    return 0.0;
+  };
+  EXPECT_DOUBLE_EQ(value("solid_fraction[1]"), 0.25);
+  EXPECT_DOUBLE_EQ(value("closed_fraction[1]"), 3.0 / 8.0);
+  EXPECT_DOUBLE_EQ(value("contact_heat[W]"), 105.0);
+  EXPECT_DOUBLE_EQ(value("stored_heat[J]"), -20.0);
+  EXPECT_DOUBLE_EQ(value("energy_defect[J]"), -3.0);
+  EXPECT_DOUBLE_EQ(value("T_min[degC]"), 200.0);
+  EXPECT_DOUBLE_EQ(history.relative_defect(), 3.0 / 60.0);
+}
+
+TEST(GlobalHistory, HasNoColumnsOfPhysicsThatIsNotThere) {
+  const GlobalHistory history({false, false, false});
+  EXPECT_EQ(history.columns().size(), history.values().size());
+  for (const Column& column : history.columns()) {
+    EXPECT_EQ(column.name.find("contact"), std::string::npos);
+    EXPECT_NE(column.name, "work");
+    EXPECT_NE(column.name, "solid_fraction");
+  }
+}
+
+}  // namespace
+}  // namespace solidus::results
