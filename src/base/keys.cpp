@@ -386,10 +386,12 @@ Value SectionInfo::completed(const Value& table, const std::string& path) const 
       const std::string text = kind ? keys::choice_text(*kind, *find(key.when_key)) : std::string();
       if (std::find(key.when_values.begin(), key.when_values.end(), text) == key.when_values.end()) {
         if (value)
-          throw InputError(value->where,
-                           fmt::format("'{}' does not belong to {} with {} = \"{}\"", key.name, section,
-                                       key.when_key, text),
-                           fmt::format("it needs {} = {}", key.when_key, fmt::join(key.when_values, " or ")));
+          throw InputError(
+              value->where,
+              kind ? fmt::format("'{}' does not belong to {} with {} = \"{}\"", key.name, section,
+                                 key.when_key, text)
+                   : fmt::format("'{}' does not belong to {} without '{}'", key.name, section, key.when_key),
+              fmt::format("it needs {} = {}", key.when_key, fmt::join(key.when_values, " or ")));
         continue;
       }
     }
