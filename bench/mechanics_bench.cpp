@@ -1,0 +1,109 @@
+/// Nanoseconds per element of the mechanical tangent and residual (viscoelastic law), assembly into the block
+/// matrix included.
+///
+///   OMP_NUM_THREADS=1 ./mechanics_bench        (build with -DSOLIDUS_MARCH=native for the numbers of the
+///   design)
+#include <benchmark/benchmark.h>
+#include <petscsys.h>
+
+#include <cmath>
+
+#include "lattice.hpp"
+#include "mechanics/block_kernel.hpp"
+
+namespace solidus {
+namespace {
+
+material::Material steel() {
+  material::Material m;
+  m.density = 7800;
+  m.young_modulus = 2e11;
+  m.poisson_ratio = 0.3;
+  m.expansion = 1e-5;
+  m.liquid_viscosity = 1.0;
+  return m;
+}
+
+/// One block ready to compute, with its matrix.
+struct Prepared {
+  mesh::Mesh mesh;
+  material::Material material = steel();
+  int components;
+  std::unique_ptr<mechanics::BlockKernel> kernel;
+  std::unique_ptr<algebra::BlockMatrix> matrix;
+  mechanics::BlockHistory history;
+  std::vector<double> temperature, u, forces;
+
+  Prepared(mesh::Shape shape, int cells, AnalysisKind kind)
+      : mesh(test::make_mesh({.shape = shape, .cells = {cells, cells, cells}, .distortion = 0.1})),
+        components(displacement_components(kind)),
+        kernel(mechanics::make_block_kernel(mesh, mesh.blocks.front(), kind, material, true)),
+        temperature(mesh.x.size(), 300.0),
+        u(mesh.x.size() * static_cast<std::size_t>(components)),
+        forces(u.size()) {
+    algebra::NodeGraph graph(mesh);
+    graph.add_cliques(mesh.blocks.front().nodes, mesh::node_count(shape));
+    matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));
+    kernel->bind(*matrix);
+    history = kernel->initial_history();
+    kernel->prepare({temperature, temperature, &history, 1.0});
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1e-4 * std::sin(static_cast<double>(i));
+  }
+  void report(benchmark::State& state) const {
+    const auto n = static_cast<double>(mesh.blocks.front().size());
+    state.counters["elements"] = n;
+    state.counters["per_element"] =
+        benchmark::Counter(n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  }
+};
+
+void tangent(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
+  Prepared p(shape, cells, kind);
+  for (auto _ : state) {
+    p.matrix->set_zero();
+    p.kernel->add_tangent(p.u, *p.matrix);
+  }
+  p.report(state);
+}
+
+/// The tangent, and PETSc's copy of it.
+void hand_over(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
+  Prepared p(shape, cells, kind);
+  p.kernel->add_tangent(p.u, *p.matrix);
+  for (auto _ : state) benchmark::DoNotOptimize(p.matrix->matrix());
+  p.report(state);
+}
+
+void residual(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
+  Prepared p(shape, cells, kind);
+  for (auto _ : state) benchmark::DoNotOptimize(p.kernel->add_forces(p.u, p.forces));
+  p.report(state);
+}
+
+constexpr auto k_solid = AnalysisKind::solid;
+constexpr auto k_axisymmetric = AnalysisKind::axisymmetric;
+BENCHMARK_CAPTURE(tangent, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hand_over, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, hex8, mesh::Shape::hex8, 30, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hand_over, hex8, mesh::Shape::hex8, 30, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, hex8, mesh::Shape::hex8, 30, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, tet10, mesh::Shape::tet10, 12, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tet10, mesh::Shape::tet10, 12, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, hex20, mesh::Shape::hex20, 10, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, hex20, mesh::Shape::hex20, 10, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, tri3, mesh::Shape::tri3, 200, k_axisymmetric)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tri3, mesh::Shape::tri3, 200, k_axisymmetric)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, quad4, mesh::Shape::quad4, 200, k_axisymmetric)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hand_over, quad4, mesh::Shape::quad4, 200, k_axisymmetric)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, quad4, mesh::Shape::quad4, 200, k_axisymmetric)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace solidus
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (PetscInitialize(nullptr, nullptr, nullptr, nullptr) != 0) return 3;
+  benchmark::RunSpecifiedBenchmarks();
+  return PetscFinalize() == 0 ? 0 : 3;
+}

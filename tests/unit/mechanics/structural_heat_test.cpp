@@ -1,0 +1,138 @@
+/// Structural heating and its energy.
+#include <gtest/gtest.h>
+
+#include "body.hpp"
+#include "mechanics/structural_heat.hpp"
+
+namespace solidus {
+namespace {
+
+using mechanics::StructuralForm;
+using mechanics::StructuralHeat;
+using mesh::Shape;
+using test::Body;
+using test::Solved;
+
+/// A distorted block stretched through its sides; moduli and expansion vary with temperature.
+struct Stretched {
+  Body body;
+  Stretched(Shape shape, AnalysisKind kind, bool constant, double end = 1e-3)
+      : body({.shape = shape,
+              .cells = {2, 2, 2},
+              .distortion = 0.1,
+              .map =
+                  [](const mesh::Point& x) {
+                    return mesh::Point{x[0] + 0.5, x[1], x[2]};
+                  }},
+             kind, material(constant)) {
+    body.hold("bottom", 1);
+    body.hold("top", 1, Table({0, 1}, {0, end}, Extrapolation::linear));
+    if (kind != AnalysisKind::axisymmetric) body.hold("left", 0);
+    if (kind == AnalysisKind::solid) body.hold("back", 2);
+    body.temperature.assign(body.mesh.x.size(), 320.0);
+  }
+  static material::Material material(bool constant) {
+    material::Material m = test::elastic_material(2e11, 0.3, 1.2e-5);
+    if (constant) return m;
+    m.young_modulus = Table({300, 500}, {2e11, 1.5e11});
+    m.poisson_ratio = Table({300, 500}, {0.3, 0.35});
+    m.expansion = Table({300, 500}, {1.0e-5, 1.4e-5});
+    return m;
+  }
+  /// Nodal temperatures that vary in space.
+  std::vector<double> warm(double shift) const {
+    std::vector<double> t;
+    for (const mesh::Point& x : body.mesh.x) t.push_back(320 + 10 * x[0] - 7 * x[1] + shift);
+    return t;
+  }
+};
+
+std::vector<double> residual(StructuralHeat& heat, const Body& body, const std::vector<double>& temperature) {
+  std::vector<double> r(static_cast<std::size_t>(body.mesh.n_owned_nodes), 0.0);
+  heat.add_residual(temperature, r);
+  return r;
+}
+
+double total(const std::vector<double>& r) {
+  double s = 0;
+  for (double value : r) s += value;
+  return algebra::global_sum(s);
+}
+
+TEST(StructuralHeat, StretchingAtConstantTemperatureTakesThermoelasticHeat) {
+  Stretched s(Shape::hex8, AnalysisKind::solid, true);
+  s.body.temperature.assign(s.body.mesh.x.size(), 300.0);  // no thermal strain
+  const Solved solved(s.body);
+  StructuralHeat heat(*solved.phase, StructuralForm::entropy);
+  // Uniaxial: tr ε = (1 − 2ν) ε; S = 3 α k tr ε with constant moduli; the volume is one.
+  const double bulk = 2e11 / (3 * 0.4), exact = 300 * 3 * 1.2e-5 * bulk * 0.4 * 1e-3;
+  EXPECT_NEAR(total(residual(heat, s.body, s.body.temperature)), exact, 1e-9 * exact);
+}
+
+TEST(StructuralHeat, TheTangentIsTheRowSumOfTheDerivative) {
+  for (StructuralForm form : {StructuralForm::entropy, StructuralForm::energy})
+    for (auto [shape, kind] : {std::pair{Shape::quad4, AnalysisKind::plane_strain},
+                               {Shape::tri6, AnalysisKind::axisymmetric},
+                               {Shape::tet4, AnalysisKind::solid}}) {
+      Stretched s(shape, kind, false);
+      const Solved solved(s.body);
+      StructuralHeat heat(*solved.phase, form);
+      algebra::BlockMatrix matrix(s.body.mesh, 1, algebra::NodeGraph(s.body.mesh));
+      heat.bind(matrix);
+      matrix.set_zero();
+      heat.add_tangent(s.warm(0), matrix);
+      const double h = 1e-2;
+      const auto plus = residual(heat, s.body, s.warm(h)), minus = residual(heat, s.body, s.warm(-h));
+      double size = 0;
+      for (std::size_t i = 0; i < plus.size(); ++i)
+        size = std::max(size, std::abs(plus[i] - minus[i]) / (2 * h));
+      for (Index i = 0; i < s.body.mesh.n_owned_nodes; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        // differences of a smooth function: h² in the truncation
+        EXPECT_NEAR(*matrix.diagonal_block(i), (plus[k] - minus[k]) / (2 * h), 1e-5 * size);
+      }
+    }
+}
+
+TEST(StructuralHeat, TheEnergyFormGivesExactlyEnergyMinusWork) {
+  Stretched s(Shape::quad4, AnalysisKind::axisymmetric, false);
+  const Solved solved(s.body);
+  StructuralHeat heat(*solved.phase, StructuralForm::energy);
+  const auto end = s.warm(5);
+  const double stored = heat.energy_change(end) - solved.report.work.internal_work;  // Δt = 1
+  EXPECT_NEAR(total(residual(heat, s.body, end)), stored, 1e-9 * std::abs(stored));
+}
+
+TEST(StructuralHeat, BothFormsDifferAtSecondOrderInTheStep) {
+  double difference[2];
+  for (int k = 0; k < 2; ++k) {
+    const double part = k == 0 ? 1.0 : 0.5;  // of a step: displacement and temperature change in proportion
+    Stretched s(Shape::quad4, AnalysisKind::plane_strain, false, 1e-3 * part);
+    s.body.initial_temperature = s.body.temperature;  // stress-free at the start
+    const Solved solved(s.body);
+    const std::vector<double> end(s.body.mesh.x.size(), 320 + 8 * part);
+
+    StructuralHeat entropy(*solved.phase, StructuralForm::entropy),
+        energy(*solved.phase, StructuralForm::energy);
+    difference[k] = total(residual(entropy, s.body, end)) - total(residual(energy, s.body, end));
+  }
+  const double order = std::log2(difference[0] / difference[1]);
+  EXPECT_GT(order, 1.8);
+  EXPECT_LT(order, 2.2);
+}
+
+TEST(StructuralHeat, NoDeformationNoHeat) {
+  Body body({.shape = Shape::quad4, .cells = {2, 2, 1}}, AnalysisKind::plane_strain,
+            test::elastic_material(2e11, 0.3, 1e-5));
+  body.hold("body", 0);
+  body.hold("body", 1);
+  const Solved solved(body);
+  for (StructuralForm form : {StructuralForm::entropy, StructuralForm::energy}) {
+    StructuralHeat heat(*solved.phase, form);
+    for (double r : residual(heat, body, body.temperature)) EXPECT_EQ(r, 0.0);
+    EXPECT_EQ(heat.energy_change(body.temperature), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace solidus
