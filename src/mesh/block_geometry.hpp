@@ -9,8 +9,8 @@
 
 namespace solidus::mesh {
 
-/// Gradients, weights and node numbers of a block at the points of a rule. The last batch is padded with copies of the last
-/// element whose weights are zero.
+/// Gradients, weights and node numbers of a block at the points of a rule. The last batch is padded with
+/// copies of the last element whose weights are zero.
 struct BlockGeometry {
   BlockGeometry(const Mesh& mesh, const Block& block, AnalysisKind kind, const Rule& rule);
 
@@ -29,13 +29,15 @@ struct BlockGeometry {
     return gradients.data() + (static_cast<std::ptrdiff_t>(batch) * n_points + point) * n_nodes * dim;
   }
   Lane weight_at(Index batch, int point) const {
-    return weight[static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_points) + static_cast<std::size_t>(point)];
+    return weight[static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_points) +
+                  static_cast<std::size_t>(point)];
   }
   std::size_t bytes() const;
 };
 
-/// The nodal weights of the closed rule, ∫ N_a dV > 0 for linear shapes; for quadratic shapes diagonal scaling
-/// V ∫N_a² dV / Σ_b ∫N_b² dV (Hinton, Rock, Zienkiewicz 1976), which is positive too: [batch][node] [m³].
+/// The nodal weights of the closed rule, ∫ N_a dV > 0 for linear shapes; for quadratic shapes diagonal
+/// scaling V ∫N_a² dV / Σ_b ∫N_b² dV (Hinton, Rock, Zienkiewicz 1976), which is positive too: [batch][node]
+/// [m³].
 PackVector<Lane> nodal_weights(const Mesh& mesh, const Block& block, AnalysisKind kind);
 
 /// Boundary faces: values of N and surface weights (area × 2π r | 1) and outward unit normals, face by face.
@@ -43,9 +45,9 @@ struct FaceGeometry {
   FaceGeometry(const Mesh& mesh, const Block& faces, AnalysisKind kind, const Rule& rule);
   int n_nodes = 0, n_points = 0;
   Index n_faces = 0, n_counted = 0;
-  std::vector<double> values;   ///< [point][node]
-  std::vector<double> weight;   ///< [face][point] [m²]
-  std::vector<Point> normal;    ///< [face][point]
+  std::vector<double> values;  ///< [point][node]
+  std::vector<double> weight;  ///< [face][point] [m²]
+  std::vector<Point> normal;   ///< [face][point]
 };
 
 }  // namespace solidus::mesh

@@ -88,7 +88,7 @@ Rule triangle(int degree) {
     add_triangle_orbit(rule, (6 - r) / 21, (155 - r) / 2400);
     add_triangle_orbit(rule, (6 + r) / 21, (155 + r) / 2400);
   } else {
-    return collapsed_simplex(2, degree / 2 + 1);
+    return collapsed_simplex(2, (degree + 3) / 2);
   }
   return rule;
 }

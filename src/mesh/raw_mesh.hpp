@@ -11,18 +11,18 @@ namespace solidus::mesh {
 
 struct RawBlock {
   Shape shape;
-  std::vector<Index> nodes;                 ///< [element][node], numbers into RawMesh::x
+  std::vector<Index> nodes;  ///< [element][node], numbers into RawMesh::x
   std::vector<GlobalIndex> input_element;
 };
 struct RawGroup {
-  int dimension;                            ///< of its elements; 0 for points
+  int dimension;  ///< of its elements; 0 for points
   std::vector<RawBlock> blocks;
 };
 struct RawMesh {
   int dimension = 2;
-  std::vector<Point> x;                     ///< [m]
+  std::vector<Point> x;  ///< [m]
   std::vector<GlobalIndex> input_node;
-  std::map<std::string, RawGroup> groups;   ///< named groups of every dimension, as in the input
+  std::map<std::string, RawGroup> groups;  ///< named groups of every dimension, as in the input
 };
 
 /// Reads any format Gmsh reads (.msh 2.2/4.1, .geo, STEP meshed in process, .inp, .unv). Rank 0 only.
@@ -30,15 +30,18 @@ struct RawMesh {
 /// @param unit_in_metres length of one unit of the file in metres (0.001 for millimetres)
 /// @param element_size   target size [m] for files that Gmsh meshes itself (.geo, STEP); 0: as the file says
 /// @param element_order  1 or 2, for files that Gmsh meshes itself
-RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size = 0, int element_order = 1);
+RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size = 0,
+                  int element_order = 1);
 
-/// Checks that every element has a positive Jacobian (reorients mirrored elements, throws InputError with number and place for
-/// degenerate or inverted ones), finite coordinates, no unused bodies; boundary faces are oriented outward of their element.
+/// Checks that every element has a positive Jacobian (reorients mirrored elements, throws InputError with
+/// number and place for degenerate or inverted ones), finite coordinates, no unused bodies; boundary faces
+/// are oriented outward of their element.
 void validate_and_orient(RawMesh& mesh, const std::string& path);
 
 /// Splits a mesh over the processes of PETSC_COMM_WORLD (collective; `raw` matters on rank 0 only).
 /// @param bodies      groups of full dimension that take part, in this order: Mesh::bodies
 /// @param replicated  surfaces that every process holds (contact)
-Mesh distribute(const RawMesh& raw, const std::vector<std::string>& bodies, const std::vector<std::string>& replicated);
+Mesh distribute(const RawMesh& raw, const std::vector<std::string>& bodies,
+                const std::vector<std::string>& replicated);
 
 }  // namespace solidus::mesh

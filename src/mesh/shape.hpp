@@ -13,8 +13,8 @@ enum class Shape { point1, line2, line3, tri3, tri6, quad4, quad8, tet4, tet10, 
 
 int node_count(Shape shape);
 int vertex_count(Shape shape);
-int dimension(Shape shape);   ///< of the reference shape: 0 to 3
-int order(Shape shape);       ///< polynomial order: 1 or 2
+int dimension(Shape shape);          ///< of the reference shape: 0 to 3
+int order(Shape shape);              ///< polynomial order: 1 or 2
 std::string_view name(Shape shape);  ///< "tri3", ...
 /// Number of faces (edges of a 2-D shape) and their local nodes, outward when seen with Gmsh's orientation.
 int face_count(Shape shape);
@@ -23,8 +23,8 @@ std::span<const int> face_nodes(Shape shape, int face);
 
 using Point = std::array<double, 3>;
 
-/// Basis functions N_a(ξ), a = 0 … node_count − 1, at a reference point (Gmsh's reference coordinates: simplices in [0, 1],
-/// quads and hexes in [−1, 1]).
+/// Basis functions N_a(ξ), a = 0 … node_count − 1, at a reference point (Gmsh's reference coordinates:
+/// simplices in [0, 1], quads and hexes in [−1, 1]).
 void basis_values(Shape shape, const Point& xi, std::span<double> values);
 /// ∂N_a/∂ξ_i stored as gradients[a * dimension + i].
 void basis_gradients(Shape shape, const Point& xi, std::span<double> gradients);

@@ -1,0 +1,26 @@
+#include "mesh/faces.hpp"
+
+namespace solidus::mesh {
+
+void find_face_owners(const RawMesh& mesh, const std::vector<std::string>& bodies, FaceOwners& wanted) {
+  std::vector<Index> nodes;
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
+    const RawGroup& group = mesh.groups.at(bodies[static_cast<std::size_t>(b)]);
+    for (int k = 0; k < static_cast<int>(group.blocks.size()); ++k) {
+      const RawBlock& block = group.blocks[static_cast<std::size_t>(k)];
+      const int nn = node_count(block.shape), n_vertices = vertex_count(face_shape(block.shape));
+      const Index n_elements = static_cast<Index>(block.nodes.size()) / nn;
+      for (Index e = 0; e < n_elements; ++e) {
+        const Index* element = block.nodes.data() + static_cast<std::ptrdiff_t>(e) * nn;
+        for (int f = 0; f < face_count(block.shape); ++f) {
+          nodes.clear();
+          for (const int a : face_nodes(block.shape, f)) nodes.push_back(element[a]);
+          const auto found = wanted.find(face_key(nodes.data(), n_vertices));
+          if (found != wanted.end() && found->second.body < 0) found->second = {b, k, f, e};
+        }
+      }
+    }
+  }
+}
+
+}  // namespace solidus::mesh
