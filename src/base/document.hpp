@@ -58,7 +58,8 @@ class Value {
   /// What a user sees: `the text "1 s"`, `the number 3`, `a list of 2 values`, `a table`.
   std::string describe() const;
 
-  SourceLocation where;  ///< of the value
+  SourceLocation where;    ///< of the value
+  bool laid_over = false;  ///< it took the place of an inherited value (a variant, --set)
   bool written_inline =
       false;  ///< a table written { like = "this" }: one value, replaced as a whole by a variant
 

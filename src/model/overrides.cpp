@@ -63,7 +63,7 @@ void lay_over(Value& base, const Value& over) {
     else if (old && is_section_list(*old) && is_section_list(value))
       lay_list_over(*old, value);
     else if (old)
-      *old = value;
+      (*old = value).laid_over = true;
     else
       base.entries().push_back({key, where, value});
   }
@@ -97,7 +97,7 @@ void apply_override(Value& base, const std::string& assignment) {
         throw InputError(
             where, fmt::format("'{}' is {}, so there is no '{}' in it", walked, place->describe(), part));
       if (dot == std::string::npos) {
-        place->set(part, parse_value(trimmed(assignment.substr(equals + 1)), where.file));
+        place->set(part, parse_value(trimmed(assignment.substr(equals + 1)), where.file)).laid_over = true;
         return;
       }
       Value* next = place->find(part);

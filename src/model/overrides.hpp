@@ -7,9 +7,10 @@
 
 namespace solidus::model {
 
-/// Lays `over` on `base`: sections merge key by key; lists of sections ([[body]]) merge by their `name`, new
-/// names are added behind; everything else (numbers, texts, lists, tables written inline) replaces what was
-/// there. Places stay those of the file a value came from.
+/// Lays `over` on `base` (a variant that changes the `kind` of a section drops what only the old kind takes):
+/// sections merge key by key; lists of sections ([[body]]) merge by their `name`, new names are added behind;
+/// everything else (numbers, texts, lists, tables written inline) replaces what was there. Places stay those
+/// of the file a value came from.
 void lay_over(Value& base, const Value& over);
 
 /// Applies "time.step=0.5 s" or "body.part.material=steel" to a case. A list of sections is addressed by name

@@ -90,6 +90,20 @@ TEST_F(CaseFile, AVariantIsLaidOverTheCaseItIncludes) {
   EXPECT_EQ(c.spec.thermal_conditions.size(), 2u);
 }
 
+TEST_F(CaseFile, AVariantThatChangesAKindDropsTheKeysOfTheOldOne) {
+  write("case.toml", k_block);
+  const fs::path variant = write("held.toml",
+                                 "include = \"case.toml\"\n[[thermal_condition]]\nname = \"cooling\"\n"
+                                 "kind = \"temperature\"\ntemperature = \"20 degC\"\n");
+  const Case c = load_case(variant);
+  EXPECT_EQ(c.spec.thermal_conditions[0].kind, ThermalConditionSpec::Kind::temperature);
+  EXPECT_EQ(c.document.find("thermal_condition")->items()[0].find("ambient"), nullptr);
+  EXPECT_THAT(error(write("both.toml",
+                          "include = \"case.toml\"\n[[thermal_condition]]\nname = \"cooling\"\n"
+                          "kind = \"temperature\"\ntemperature = \"20 degC\"\nambient = \"1 K\"\n")),
+              HasSubstr("both.toml:6:11: 'ambient' does not belong"));
+}
+
 TEST_F(CaseFile, ErrorsPointToTheFileThatHoldsTheMistake) {
   write("case.toml", k_block);
   EXPECT_THAT(error(write("bad.toml", "include = \"case.toml\"\n[time]\nstep = \"2 kg\"\n")),
@@ -152,6 +166,16 @@ TEST_F(CaseFile, KeysThatContradictEachOtherAreRefused) {
   EXPECT_THAT(error(file, {"time.max_step=20 s"}), HasSubstr("adaptive"));
   EXPECT_THAT(error(file, {"analysis.physics=mechanics"}), HasSubstr("no heat in this analysis"));
   EXPECT_THAT(error(file, {"analysis.gravity_direction=[0, 0]"}), HasSubstr("no length"));
+}
+
+TEST(CaseKeys, TheExampleOfTheGuideIsACase) {
+  std::ifstream guide(SOLIDUS_SOURCE_DIR "/docs/guide/case_file.md");
+  const std::string text((std::istreambuf_iterator<char>(guide)), std::istreambuf_iterator<char>());
+  const std::size_t begin = text.find("```toml\n") + 8;
+  const CaseSpec spec =
+      case_keys().read(parse_document(text.substr(begin, text.find("```", begin) - begin), "guide"));
+  EXPECT_NO_THROW(check_case(spec));
+  EXPECT_EQ(spec.bodies[0].material, "steel_mould");
 }
 
 TEST(CaseKeys, EveryKeyIsExplained) {
