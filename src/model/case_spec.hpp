@@ -132,8 +132,9 @@ struct MechanicsSpec {
 struct CouplingSpec {
   enum class Scheme { isothermal };
   Scheme scheme = Scheme::isothermal;
-  bool structural_heating = true;  ///< H^ep of 2.127b in the heat balance
-  bool dissipation = true;         ///< D_mech in the heat balance
+  /// How deformation enters the heat balance (mechanics/structural_heat.hpp); none: not at all.
+  enum class StructuralHeating { entropy, energy, none };
+  StructuralHeating structural_heating = StructuralHeating::entropy;
 };
 
 struct ProbeSpec {

@@ -67,12 +67,15 @@ Section<CouplingSpec> coupling_keys() {
              "mechanical phase at fixed temperature, then thermal phase at fixed configuration"}})
       .initially("isothermal")
       .doc("The operator split.");
-  s.key("structural_heating", &CouplingSpec::structural_heating)
-      .initially(true)
-      .doc("Heat that deformation takes up or releases (2.127).");
-  s.key("dissipation", &CouplingSpec::dissipation)
-      .initially(true)
-      .doc("Heat from viscous dissipation (2.116).");
+  using Heating = CouplingSpec::StructuralHeating;
+  s.choice("structural_heating", &CouplingSpec::structural_heating,
+           {{"entropy", Heating::entropy,
+             "temperature x difference of the structural entropy, less dissipation (4.48a)"},
+            {"energy", Heating::energy,
+             "difference of the structural energy, less the stress power: closes the first law"},
+            {"none", Heating::none, "deformation neither takes up nor releases heat"}})
+      .initially("entropy")
+      .doc("How deformation and viscous dissipation enter the heat balance.");
   return s;
 }
 

@@ -1,0 +1,60 @@
+#include "model/mechanics_input.hpp"
+
+#include <cmath>
+
+namespace solidus::model {
+
+std::array<double, 3> gravity(const AnalysisSpec& analysis) {
+  std::array<double, 3> direction{};
+  if (analysis.gravity_direction.empty()) {
+    direction[analysis.kind == AnalysisKind::solid ? 2 : 1] = -1;
+  } else {
+    for (std::size_t i = 0; i < analysis.gravity_direction.size(); ++i)
+      direction[i] = analysis.gravity_direction[i];
+  }
+  const double length = std::hypot(direction[0], direction[1], direction[2]);
+  for (double& d : direction) d *= analysis.gravity / length;
+  return direction;
+}
+
+mechanics::Conditions mechanical_conditions(const CaseSpec& spec) {
+  using Kind = MechanicalConditionSpec::Kind;
+  mechanics::Conditions conditions;
+  conditions.gravity = gravity(spec.analysis);
+  const bool axisymmetric = spec.analysis.kind == AnalysisKind::axisymmetric;
+  for (const auto& c : spec.mechanical_conditions) {
+    const auto prescribe = [&](const std::optional<Function>& value, int component) {
+      if (value) conditions.displacements.push_back({c.group, component, value->table});
+    };
+    switch (c.kind) {
+      case Kind::displacement:
+        prescribe(c.ux, 0);
+        prescribe(c.ur, 0);
+        prescribe(c.uy, 1);
+        prescribe(c.uz, axisymmetric ? 1 : 2);
+        break;
+      case Kind::pressure:
+        conditions.pressures.push_back({c.group, c.pressure.table});
+        break;
+      case Kind::traction: {
+        mechanics::Traction traction{c.group, {Table(0), Table(0), Table(0)}};
+        for (std::size_t i = 0; i < c.traction.size(); ++i) traction.value[i] = c.traction[i].table;
+        conditions.tractions.push_back(std::move(traction));
+        break;
+      }
+    }
+  }
+  return conditions;
+}
+
+mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
+  mechanics::MechanicsOptions options;
+  options.newton.tolerance = spec.mechanics.tolerance;
+  options.newton.max_iterations = spec.mechanics.max_iterations;
+  options.newton.line_search = spec.mechanics.line_search;
+  options.b_bar = spec.mechanics.b_bar;
+  options.solver = spec.mechanics.solver;
+  return options;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,17 @@
+/// From the case to the mechanical phase's conditions and options.
+#pragma once
+
+#include <array>
+
+#include "mechanics/mechanical_phase.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// Acceleration of gravity [m/s²] in the coordinates of the mesh.
+std::array<double, 3> gravity(const AnalysisSpec& analysis);
+
+mechanics::Conditions mechanical_conditions(const CaseSpec& spec);
+mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec);
+
+}  // namespace solidus::model

@@ -1,0 +1,86 @@
+#include "model/mesh_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace solidus::model {
+
+namespace {
+
+using mesh::RawMesh;
+
+std::string what_it_is(int dimension, int of_mesh) {
+  if (dimension == of_mesh) return "a body";
+  if (dimension == of_mesh - 1) return "a surface";
+  return dimension == 0 ? "a point" : "a line";
+}
+
+/// The names of the groups of a dimension; of all groups for −1.
+std::vector<std::string> group_names(const RawMesh& mesh, int dimension) {
+  std::vector<std::string> names;
+  for (const auto& [name, group] : mesh.groups)
+    if (dimension < 0 || group.dimension == dimension) names.push_back(name);
+  return names;
+}
+
+/// @param dimension that the group must have; −1: any
+void require(const RawMesh& mesh, const std::string& name, int dimension, const SourceLocation& where,
+             const std::string& user) {
+  const auto group = mesh.groups.find(name);
+  if (group == mesh.groups.end())
+    throw InputError(where, fmt::format("the mesh has no group '{}' ({})", name, user),
+                     one_of(group_names(mesh, dimension), name));
+  if (dimension >= 0 && group->second.dimension != dimension)
+    throw InputError(where,
+                     fmt::format("the group '{}' is {} ({})", name,
+                                 what_it_is(group->second.dimension, mesh.dimension), user),
+                     fmt::format("{} is needed, {}", what_it_is(dimension, mesh.dimension),
+                                 one_of(group_names(mesh, dimension), name)));
+}
+
+void require_body(const CaseSpec& spec, const std::string& name, const SourceLocation& where,
+                  const std::string& user) {
+  std::vector<std::string> bodies;
+  for (const BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
+  if (std::find(bodies.begin(), bodies.end(), name) == bodies.end())
+    throw InputError(where, fmt::format("the group '{}' is no body of the case ({})", name, user),
+                     one_of(bodies, name));
+}
+
+}  // namespace
+
+void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
+  const int dimension = spec.dimension(), surface = dimension - 1;
+  if (mesh.dimension != dimension)
+    throw InputError(
+        spec.mesh.where,
+        fmt::format("{}: the mesh has {} dimensions, the analysis {}",
+                    spec.mesh.file ? *spec.mesh.file : *spec.mesh.shape, mesh.dimension, dimension),
+        "another `kind` in [analysis], or another mesh");
+  std::vector<std::string> bodies;
+  for (const BodySpec& body : spec.bodies) {
+    require(mesh, body.mesh_group(), dimension, body.where, "body '" + body.name + "'");
+    if (std::find(bodies.begin(), bodies.end(), body.mesh_group()) != bodies.end())
+      throw InputError(body.where, fmt::format("the group '{}' belongs to two bodies", body.mesh_group()));
+    bodies.push_back(body.mesh_group());
+  }
+  for (const auto& c : spec.thermal_conditions) {
+    const std::string user = "thermal condition '" + c.name + "'";
+    if (c.kind == ThermalConditionSpec::Kind::source)
+      require_body(spec, c.group, c.where, user);
+    else
+      require(mesh, c.group, c.kind == ThermalConditionSpec::Kind::temperature ? -1 : surface, c.where, user);
+  }
+  for (const auto& c : spec.mechanical_conditions)
+    require(mesh, c.group, c.kind == MechanicalConditionSpec::Kind::displacement ? -1 : surface, c.where,
+            "mechanical condition '" + c.name + "'");
+  for (const auto& c : spec.contacts) {
+    require(mesh, c.slave, surface, c.where, "slave of contact '" + c.name + "'");
+    require(mesh, c.master, surface, c.where, "master of contact '" + c.name + "'");
+  }
+  for (const auto& p : spec.probes)
+    if (p.kind == ProbeSpec::Kind::mean) require(mesh, p.group, -1, p.where, "probe '" + p.name + "'");
+}
+
+}  // namespace solidus::model

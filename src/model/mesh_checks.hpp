@@ -1,0 +1,14 @@
+/// Checks of a case against its mesh.
+#pragma once
+
+#include "mesh/raw_mesh.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// That the mesh has the dimension of the analysis and every group the case names, each of a dimension that
+/// can do what is asked of it. Throws InputError with the place in the case and the groups there are. Where
+/// the mesh is: on process 0.
+void check_groups(const CaseSpec& spec, const mesh::RawMesh& mesh);
+
+}  // namespace solidus::model
