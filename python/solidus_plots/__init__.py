@@ -1,0 +1,1 @@
+"""Reads the results of Solidus and draws them: numpy and matplotlib only."""

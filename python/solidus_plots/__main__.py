@@ -1,0 +1,3 @@
+from solidus_plots.plot_case import main
+
+raise SystemExit(main())

@@ -1,0 +1,222 @@
+"""Pictures of plane and axisymmetric sections: fields as colour maps, and deformed meshes."""
+
+import matplotlib.pyplot as plt
+from matplotlib.collections import LineCollection
+from matplotlib.tri import Triangulation
+import numpy as np
+
+from solidus_plots import style
+from solidus_plots.vtu import ResultError, read_fields
+
+MM = 1e3  # sections are drawn in millimetres
+
+
+class Section:
+    """The moments of a run that a picture asks for; each file is read once."""
+
+    def __init__(self, times, files, bodies):
+        self._times, self._files, self.bodies, self._grids = times, files, bodies, {}
+        self.missing = []  # what was asked for and not written, for the user
+
+    def those_of(self, times):
+        """The moments among `times` that were written; a run that stopped early lacks the later ones."""
+        grids = []
+        for time in times:
+            try:
+                grids.append(self.at(time))
+            except ResultError as error:
+                self.missing.append(str(error))
+        if not grids:
+            raise ResultError("none of the moments asked for was written")
+        return grids
+
+    def at(self, time):
+        """The fields of the moment nearest to `time` ("last" for the last one); it must be a written one."""
+        index = len(self._times) - 1 if time == "last" else int(np.argmin(np.abs(self._times - time)))
+        if time != "last" and abs(self._times[index] - time) > 1e-6 * max(1.0, abs(time)):
+            raise ResultError(f"plots.toml: no fields were written at {time} s; there are those of "
+                              f"{', '.join(f'{t:g}' for t in self._times)} s")
+        if index not in self._grids:
+            self._grids[index] = read_fields(self._files[index])
+            if not self._grids[index].triangles()[0].size:
+                raise ResultError("maps and deformed meshes are drawn of plane sections only; for 3-D open "
+                                  "fields.pvd in ParaView")
+        return self._grids[index]
+
+    def body_mask(self, grid, names):
+        """Cells of the bodies named; all when `names` is empty."""
+        if not names:
+            return np.ones(len(grid.cell_types), bool)
+        unknown = [name for name in names if name not in self.bodies]
+        if unknown:
+            raise ResultError(f"plots.toml: no body {', '.join(unknown)}; there are {', '.join(self.bodies)}")
+        return np.isin(grid.cell_data["body"], [self.bodies.index(name) for name in names])
+
+
+def _place(grid, magnification, side=1.0):
+    """Nodes in the drawing plane [mm], moved by their magnified displacement; side -1: the mirror image."""
+    place = grid.points[:, :2].copy()
+    if magnification and "displacement" in grid.point_data:
+        place += magnification * grid.point_data["displacement"][:, :2]
+    return MM * place * [side, 1.0]
+
+
+def _outline(grid, mask, place, mirror):
+    """The boundary of the bodies; with a mirror image the axis is no boundary."""
+    sequences, counts = grid.edges(mask)
+    inside = np.full(len(place), mirror) & (np.abs(grid.points[:, 0]) < 1e-9 * np.ptp(grid.points[:, 0]))
+    return [place[sequence] for sequence, count in zip(sequences, counts)
+            if count == 1 and not inside[sequence].all()]
+
+
+def _nodes(grid, mask):
+    """The nodes of the cells of a mask."""
+    triangles, cells = grid.triangles()
+    return np.unique(triangles[mask[cells]])
+
+
+def _frame(axes, places):
+    """Shows what is drawn with a small margin; nodes of bodies that are left out do not count."""
+    low = np.min([place.min(axis=0) for place in places], axis=0)
+    high = np.max([place.max(axis=0) for place in places], axis=0)
+    margin = 0.02 * (high - low).max()
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
+
+
+def _values(grid, name, unit, component):
+    """Values of a field at the nodes or in the cells, and where they stand."""
+    for kind in ("point_data", "cell_data"):
+        if name in getattr(grid, kind):
+            values = getattr(grid, kind)[name]
+            if values.ndim > 1:
+                values = np.linalg.norm(values, axis=1) if component is None else values[:, component]
+            return kind, style.convert(values, grid.units[name], unit)
+    known = [name for data in (grid.point_data, grid.cell_data) for name in data]
+    raise ResultError(f"plots.toml: no field '{name}' was written; there are {', '.join(known)}")
+
+
+def _limits(grids, spec, unit, section):
+    low, high = np.inf, -np.inf
+    for grid in grids:
+        kind, values = _values(grid, spec["field"], unit, spec.get("component"))
+        mask = section.body_mask(grid, spec.get("bodies"))
+        if kind == "cell_data":
+            shown = values[mask]
+        else:
+            shown = values[_nodes(grid, mask)]
+        low, high = min(low, shown.min()), max(high, shown.max())
+    low, high = spec.get("range", (low, high))
+    return low, high if high > low else low + 1.0
+
+
+def _note(spec):
+    factor = spec.get("magnification", 0)
+    return f"displacements × {factor:g}" if factor else ""
+
+
+def _bare(axes, mirror):
+    axes.set_aspect("equal")
+    axes.grid(False)
+    axes.set_xlabel("r [mm]" if mirror else "x [mm]")
+    for side in ("left", "bottom"):
+        axes.spines[side].set_visible(False)
+    axes.tick_params(length=2, labelsize=7.5)
+    if mirror:  # the radius is positive on both sides of the axis
+        axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):g}")
+
+
+def _crosses(level, values, triangles):
+    shown = values[triangles]
+    return shown.min() < level < shown.max()
+
+
+def field_maps(spec, section, folder):
+    """One [[maps]] of plots.toml: the same field at several times with one colour bar."""
+    grids = section.those_of(spec.get("times", ["last"]))
+    unit, mirror = spec.get("unit", ""), spec.get("mirror", False)
+    low, high = _limits(grids, spec, unit, section)
+    margin = 1e-9 * max(abs(low), abs(high))  # the largest value belongs to the top colour
+    levels, lines = np.linspace(low - margin, high + margin, 65), spec.get("contours", 8)
+    if isinstance(lines, int):
+        lines = np.linspace(low, high, lines + 2)[1:-1]
+    nodes = _nodes(grids[0], section.body_mask(grids[0], spec.get("bodies")))
+    extent = np.ptp(grids[0].points[nodes, :2], axis=0) * [2 if mirror else 1, 1]
+    height = 4.2
+    width = min(max(height * extent[0] / extent[1], 1.3), 5.0)
+    figure, panels = plt.subplots(1, len(grids), figsize=((width + 0.35) * len(grids) + 0.9, height + 0.6),
+                                  sharex=True, sharey=True, squeeze=False, constrained_layout=True)
+    colours, places = None, []
+    for axes, grid in zip(panels[0], grids):
+        mask = section.body_mask(grid, spec.get("bodies"))
+        triangles, cells = grid.triangles()
+        triangles, cells = triangles[mask[cells]], cells[mask[cells]]
+        kind, values = _values(grid, spec["field"], unit, spec.get("component"))
+        for side in (1.0, -1.0) if mirror else (1.0,):
+            place = _place(grid, spec.get("magnification", 0), side)
+            places.append(place[_nodes(grid, mask)])
+            shape = Triangulation(place[:, 0], place[:, 1], triangles)
+            look = {"cmap": style.SEQUENTIAL.get(spec["field"], "viridis")}
+            if kind == "point_data":
+                shown = np.clip(values, low, high)
+                colours = axes.tricontourf(shape, shown, levels=levels, **look)
+                for layer in colours.collections:  # no hairlines between the levels
+                    layer.set(edgecolor="face", linewidth=0.2)
+                crossed = [line for line in lines if places[-1].size and _crosses(line, values, triangles)]
+                if crossed:
+                    axes.tricontour(shape, values, levels=crossed, colors="white", linewidths=0.5, alpha=0.75)
+            else:
+                colours = axes.tripcolor(shape, facecolors=values[cells], vmin=low, vmax=high, **look)
+            outline = _outline(grid, mask, place, mirror)
+            axes.add_collection(LineCollection(outline, colors="black", linewidths=0.7, zorder=5))
+        _bare(axes, mirror)
+        axes.set_title(f"{grid.time:g} s")
+    _frame(panels[0][0], places)
+    panels[0][0].set_ylabel("z [mm]" if mirror else "y [mm]")
+    bar = figure.colorbar(colours, ax=panels[0].tolist(), pad=0.015, aspect=32, shrink=0.92)
+    bar.set_label(style.axis_label(spec.get("quantity", spec["field"].replace("_", " ")), unit))
+    bar.outline.set_visible(False)
+    bar.locator = plt.MaxNLocator(8)
+    bar.update_ticks()
+    if len(lines) and kind == "point_data":
+        bar.ax.hlines(lines, *bar.ax.get_xlim(), colors="white", linewidths=0.5, alpha=0.75)
+    title = ", ".join(part for part in (spec.get("title", ""), _note(spec)) if part)
+    figure.suptitle(title, fontsize=10)
+    return style.save(figure, folder, spec["file"], vector=False)
+
+
+def deformed_mesh(spec, section, folder):
+    """One [[deformed]] of plots.toml: the mesh as it was, and moved by its magnified displacements."""
+    grid, mirror = section.at(spec.get("time", "last")), spec.get("mirror", False)
+    if "displacement" not in grid.point_data:
+        raise ResultError("plots.toml: a deformed mesh needs the field displacement")
+    factor = spec.get("magnification", 1)
+    figure, axes = plt.subplots(figsize=(4.6, 5.6), constrained_layout=True)
+    bodies = spec.get("bodies") or section.bodies
+    handles = []
+    for index, name in enumerate(bodies):
+        mask, colour = section.body_mask(grid, [name]), style.COLOURS[index % len(style.COLOURS)]
+        before = _place(grid, 0, -1.0 if mirror else 1.0)
+        after = _place(grid, factor)
+        sequences, _ = grid.edges(mask)
+        if mirror:  # the original mesh on the left of the axis, the deformed one on the right
+            axes.add_collection(LineCollection([before[s] for s in sequences], colors=colour, linewidths=0.3,
+                                               alpha=0.6))
+            axes.add_collection(LineCollection(_outline(grid, mask, before, mirror), colors=colour,
+                                               linewidths=1.0))
+        axes.add_collection(LineCollection(_outline(grid, mask, _place(grid, 0), mirror), colors="#7f7f7f",
+                                           linewidths=0.7))
+        axes.add_collection(LineCollection([after[s] for s in sequences], colors=colour, linewidths=0.35,
+                                           alpha=0.75))
+        outline = LineCollection(_outline(grid, mask, after, mirror), colors=colour, linewidths=1.1,
+                                 label=name)
+        handles.append(axes.add_collection(outline))
+    axes.autoscale_view()
+    _bare(axes, mirror)
+    axes.set_ylabel("z [mm]" if mirror else "y [mm]")
+    axes.set_title(spec.get("title", "Deformed mesh") + f" at {grid.time:g} s, displacements × {factor:g}")
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.09), ncol=len(handles))
+    if mirror:
+        for x, text, side in ((0.02, "original", "left"), (0.98, "deformed", "right")):
+            axes.text(x, 0.985, text, transform=axes.transAxes, ha=side, va="top", **style.REMARK)
+    return style.save(figure, folder, spec["file"], vector=False)

@@ -1,0 +1,103 @@
+"""Draws the results of a run: python3 -m solidus_plots RESULTS_DIR.
+
+Every case gets one picture per unit of history.csv and one of its steps. What else is drawn stands in the
+`plots.toml` beside the case file; docs/guide/plots.md describes it. Pictures go to RESULTS_DIR/plots.
+"""
+
+import argparse
+import json
+from pathlib import Path
+import sys
+import tomllib
+
+from solidus_plots import curves, maps, style
+from solidus_plots.history import read_table
+from solidus_plots.vtu import ResultError, read_collection
+
+# What plots.toml may say; anything else is a typo.
+KEYS = {"curves": {"file", "title", "quantity", "lines", "levels", "moments", "compare"},
+        "maps": {"file", "title", "quantity", "field", "component", "unit", "times", "mirror",
+                 "magnification", "bodies", "contours", "range"},
+        "deformed": {"file", "title", "time", "mirror", "magnification", "bodies"}}
+
+
+def find_spec(results, summary):
+    """plots.toml beside the case file the run was made of, else cases/CASE/plots.toml of this repository."""
+    repository = Path(__file__).resolve().parents[2]
+    case_file = Path(summary.get("case", ""))
+    places = [case_file.parent, repository / case_file.parent] if case_file.name else []
+    places.append(repository / "cases" / results.resolve().parent.name)
+    return next((place / "plots.toml" for place in places if (place / "plots.toml").exists()), None)
+
+
+def read_spec(path):
+    try:
+        spec = tomllib.loads(path.read_text())
+    except tomllib.TOMLDecodeError as error:
+        raise ResultError(f"{path}: {error}") from error
+    for section, pictures in spec.items():
+        if section not in KEYS:
+            raise ResultError(f"{path}: unknown section '{section}'; there are {', '.join(KEYS)}")
+        for picture in pictures:
+            unknown = set(picture) - KEYS[section]
+            if unknown:
+                raise ResultError(f"{path}: unknown key '{unknown.pop()}' in [[{section}]]; there are "
+                                  f"{', '.join(sorted(KEYS[section]))}")
+    return spec
+
+
+def draw(results, spec_file=None):
+    """Draws everything; returns the files written and what could not be drawn."""
+    style.setup()
+    summary_file = results / "summary.json"
+    summary = json.loads(summary_file.read_text()) if summary_file.exists() else {}
+    folder = results / "plots"
+    folder.mkdir(exist_ok=True)
+    history = read_table(results / "history.csv")
+    files, problems = curves.unit_groups(history, folder), []
+    if (results / "steps.csv").exists():
+        files += curves.steps(read_table(results / "steps.csv"), folder)
+
+    spec_file = spec_file or find_spec(results, summary)
+    spec = read_spec(spec_file) if spec_file else {}
+
+    def attempt(work, *arguments):
+        # One picture that cannot be drawn (a run that stopped early) must not cost the others.
+        try:
+            files.extend(work(*arguments, folder))
+        except (ResultError, ValueError) as error:
+            problems.append(str(error))
+
+    for picture in spec.get("curves", []):
+        others = {}
+        for variant in picture.get("compare", []):
+            other = results.resolve().parent / variant / "history.csv"
+            if variant != results.resolve().name and other.exists():
+                others[variant] = read_table(other)
+        attempt(curves.chosen, picture, history, others)
+    if "maps" in spec or "deformed" in spec:
+        times, moments = read_collection(results / "fields.pvd")
+        section = maps.Section(times, moments, list(summary.get("mesh", {}).get("bodies", {})))
+        for picture in spec.get("maps", []):
+            attempt(maps.field_maps, picture, section)
+        for picture in spec.get("deformed", []):
+            attempt(maps.deformed_mesh, picture, section)
+        problems += list(dict.fromkeys(section.missing))
+    return files, problems
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="solidus_plots", description=__doc__.splitlines()[0])
+    parser.add_argument("results", type=Path, metavar="RESULTS_DIR")
+    parser.add_argument("--plots", type=Path, metavar="FILE", help="a plots.toml other than the case's own")
+    options = parser.parse_args(arguments)
+    try:
+        files, problems = draw(options.results, options.plots)
+    except (ResultError, OSError) as error:
+        print(f"solidus_plots: {error}", file=sys.stderr)
+        return 1
+    for file in files:
+        print(file)
+    for problem in problems:
+        print(f"solidus_plots: not drawn: {problem}", file=sys.stderr)
+    return 0

@@ -1,0 +1,67 @@
+"""How every picture looks: sizes, colours that colour-blind readers can tell apart, units in words."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
+
+# Okabe and Ito (2008), without the yellow that vanishes on white.
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"]
+REMARK = {"fontsize": 7.5, "color": "#595959"}
+DASHES = ["-", "--", "-.", ":"]
+SEQUENTIAL = {"temperature": "inferno", "solid_fraction": "cividis"}
+
+# What people read instead of UDUNITS' ASCII.
+UNIT_TEXT = {"degC": "°C", "W/m2/K": "W/(m² K)", "W/m2": "W/m²", "m2": "m²", "m3": "m³", "um": "µm"}
+QUANTITY = {"degC": "Temperature", "K": "Temperature", "mm": "Length", "m": "Length", "J": "Energy",
+            "W": "Heat flow", "N": "Force", "MPa": "Stress", "Pa": "Stress", "1": "Share", "s": "Time",
+            "W/m2/K": "Conductance"}
+
+# Units a picture may ask for: (SI unit, unit) -> (factor, offset).
+CONVERSIONS = {("K", "degC"): (1.0, -273.15), ("m", "mm"): (1e3, 0.0), ("m", "um"): (1e6, 0.0),
+               ("Pa", "MPa"): (1e-6, 0.0), ("1", "%"): (100.0, 0.0), ("J", "kJ"): (1e-3, 0.0)}
+
+
+def setup():
+    plt.rcParams.update({
+        "figure.dpi": 100, "savefig.dpi": 200, "savefig.bbox": "tight", "savefig.pad_inches": 0.06,
+        "font.family": "DejaVu Sans", "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9,
+        "axes.prop_cycle": matplotlib.cycler(color=COLOURS), "axes.grid": True, "axes.axisbelow": True,
+        "axes.spines.top": False, "axes.spines.right": False, "axes.linewidth": 0.8,
+        "grid.color": "#d9d9d9", "grid.linewidth": 0.6, "lines.linewidth": 1.6,
+        "legend.frameon": False, "legend.fontsize": 8, "svg.fonttype": "none", "svg.hashsalt": "solidus",
+    })
+
+
+def unit_text(unit):
+    return UNIT_TEXT.get(unit, unit)
+
+
+def axis_label(quantity, unit):
+    return quantity if unit in ("", "1") else f"{quantity} [{unit_text(unit)}]"
+
+
+def line_style(index):
+    """Different colours first, then dashes."""
+    dash = index // len(COLOURS) % len(DASHES)
+    return {"color": COLOURS[index % len(COLOURS)], "linestyle": DASHES[dash]}
+
+
+def convert(values, unit, wanted):
+    """Values in SI to the unit a picture asks for; says so when it does not know how."""
+    if not wanted or unit == wanted:
+        return values
+    if (unit, wanted) not in CONVERSIONS:
+        raise ValueError(f"cannot show a field in {unit} as {wanted}")
+    factor, offset = CONVERSIONS[unit, wanted]
+    return factor * values + offset
+
+
+def save(figure, folder, name, vector):
+    """Writes NAME.png (and NAME.svg for line plots) and closes the figure."""
+    files = [folder / f"{name}.png"] + ([folder / f"{name}.svg"] if vector else [])
+    for file in files:
+        # Without a date the same results give the same files.
+        figure.savefig(file, metadata={"Date": None} if file.suffix == ".svg" else None)
+    plt.close(figure)
+    return files
