@@ -1,0 +1,61 @@
+#include "model/mesh_input.hpp"
+
+#include <array>
+#include <stdexcept>
+
+#include "base/units.hpp"
+#include "mesh/shapes.hpp"
+#include "model/mesh_checks.hpp"
+#include "results/output_error.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+mesh::Shape shape_named(const std::string& wanted) {
+  using mesh::Shape;
+  for (const Shape shape : {Shape::tri3, Shape::tri6, Shape::quad4, Shape::quad8, Shape::tet4, Shape::tet10,
+                            Shape::hex8, Shape::hex20})
+    if (mesh::name(shape) == wanted) return shape;
+  throw std::logic_error("the declaration of mesh.element allows an unknown element");
+}
+
+mesh::RawMesh built_in_shape(const MeshSpec& m) {
+  const mesh::Shape shape = shape_named(m.element);
+  if (m.block) return mesh::make_block({m.block->size, m.block->origin, m.block->divisions}, shape);
+  const CylinderInMouldSpec& c = *m.cylinder_in_mould;
+  return mesh::make_cylinder_in_mould({c.radius, c.height, c.mould_wall, c.mould_bottom, c.mould_height,
+                                       c.element_size, c.mould_element_size},
+                                      shape);
+}
+
+}  // namespace
+
+mesh::RawMesh raw_mesh(const CaseSpec& spec) {
+  const MeshSpec& m = spec.mesh;
+  mesh::RawMesh result;
+  if (m.file) {
+    result = mesh::read_mesh(*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order);
+  } else {
+    try {
+      result = built_in_shape(m);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(m.where, "the shape '" + *m.shape + "': " + error.what());
+    }
+  }
+  check_groups(spec, result);
+  mesh::validate_and_orient(result, m.file ? *m.file : *m.shape);
+  return result;
+}
+
+mesh::Mesh load_mesh(const CaseSpec& spec) {
+  mesh::RawMesh raw;
+  results::on_first_process([&] { raw = raw_mesh(spec); });
+  std::vector<std::string> bodies, replicated;
+  for (const BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
+  for (const ContactSpec& contact : spec.contacts)
+    for (const std::string& surface : {contact.slave, contact.master}) replicated.push_back(surface);
+  return mesh::distribute(raw, bodies, replicated);
+}
+
+}  // namespace solidus::model
