@@ -9,6 +9,8 @@ namespace solidus {
 namespace {
 
 constexpr std::size_t k_max_buckets = 4096;
+/// Tables of so few pieces choose by comparison for all lanes at once; longer ones look up lane by lane.
+constexpr std::size_t k_few_pieces = 6;
 
 /// ∫_a^b y/x dx of y = y_a + m (x − a):  (y_a − m a) ln(b/a) + m (b − a).
 double entropy_of_part(double a, double b, double y_a, double m) {
@@ -66,14 +68,41 @@ bool Table::flat(double x) const {
 double Table::value(double x) const {
   if (constant()) return y_[0];
   if (flat(x)) return x < x_.front() ? y_.front() : y_.back();
+  if (x == x_.back()) return y_.back();  // exact at the points
   const std::size_t i = interval(x);
-  const double t = x - x_[i];
-  if (x == x_[i + 1]) return y_[i + 1];  // exact at the points
-  return y_[i] + slope_[i] * t;
+  return y_[i] + slope_[i] * (x - x_[i]);
 }
 
 double Table::derivative(double x) const {
   return constant() || flat(x) ? 0.0 : slope_[interval(x)];
+}
+
+Table::Line<Lane> Table::line_of_lanes(Lane x) const {
+  Lane x0(x_[0]), y0(y_[0]), slope(slope_[0]);
+  if (slope_.size() <= k_few_pieces) {
+    for (std::size_t i = 1; i < slope_.size(); ++i) {
+      const LaneMask beyond = x >= Lane(x_[i]);
+      x0 = select(beyond, Lane(x_[i]), x0);
+      y0 = select(beyond, Lane(y_[i]), y0);
+      slope = select(beyond, Lane(slope_[i]), slope);
+    }
+  } else {
+    for (int lane = 0; lane < k_lanes; ++lane) {
+      const std::size_t i = interval(x[lane]);
+      x0.set(lane, x_[i]);
+      y0.set(lane, y_[i]);
+      slope.set(lane, slope_[i]);
+    }
+  }
+  Lane y = y0 + slope * (x - x0);
+  const Lane last(x_.back());
+  y = select(x == last, Lane(y_.back()), y);  // as value(double): exact at the points
+  if (extrapolation_ != Extrapolation::linear) {
+    const LaneMask below = x<Lane(x_.front()), above = x> last;
+    y = select(below, Lane(y_.front()), select(above, Lane(y_.back()), y));
+    slope = select(below | above, Lane(0.0), slope);
+  }
+  return {y, slope};
 }
 
 template <class Part>

@@ -33,12 +33,15 @@ class Table {
   /// ∫_a^b y/x dx for a, b > 0, closed form (entropy from a capacity).
   double integral_over_x(double a, double b) const;
 
-  Lane value(Lane x) const {
-    return constant() ? Lane(y_[0]) : for_each_lane(x, [this](double s) { return value(s); });
-  }
-  Lane derivative(Lane x) const {
-    return constant() ? Lane(0.0) : for_each_lane(x, [this](double s) { return derivative(s); });
-  }
+  /// y and dy/dx near an argument: the line that the table follows there.
+  template <class T>
+  struct Line {
+    T value, slope;
+  };
+  Line<double> line(double x) const { return {value(x), derivative(x)}; }
+  Line<Lane> line(Lane x) const { return constant() ? Line<Lane>{Lane(y_[0]), Lane(0.0)} : line_of_lanes(x); }
+  Lane value(Lane x) const { return constant() ? Lane(y_[0]) : line_of_lanes(x).value; }
+  Lane derivative(Lane x) const { return constant() ? Lane(0.0) : line_of_lanes(x).slope; }
 
   bool constant() const { return y_.size() == 1; }
   /// True where x lies outside the points and the policy is `error`.
@@ -53,7 +56,8 @@ class Table {
 
  private:
   std::size_t interval(double x) const;  ///< i with x_[i] <= x < x_[i+1], clamped to the pieces
-  bool flat(double x) const;             ///< x lies outside and the continuation is constant
+  Line<Lane> line_of_lanes(Lane x) const;
+  bool flat(double x) const;  ///< x lies outside and the continuation is constant
   /// Adds up `part(from, to, y_from, slope)` over the linear parts of [a, b].
   template <class Part>
   double add_parts(double a, double b, Part part) const;

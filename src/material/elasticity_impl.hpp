@@ -23,12 +23,21 @@ T value(const Curve& curve, const T& x) {
     return T(curve.derivative(at)) * (x - T(at)) + T(curve.value(at));
   }
 }
-template <class T, class Curve>
-T slope(const Curve& curve, const T& x) {
+/// Value and slope of a table.
+template <class T>
+Table::Line<T> line(const Table& table, const T& x) {
+  if constexpr (is_plain<T>) {
+    return table.line(x);
+  } else {
+    return {value(table, x), T(table.derivative(x.value()))};
+  }
+}
+template <class T>
+T slope(const PhaseFraction& fraction, const T& x) {
   if constexpr (is_plain<T>)
-    return curve.derivative(x);
+    return fraction.derivative(x);
   else
-    return T(curve.derivative(x.value()));
+    return T(fraction.derivative(x.value()));
 }
 
 }  // namespace detail
@@ -64,18 +73,16 @@ PointProperties<T> properties_at(const Material& material, const T& temperature,
 template <class T>
 PointDerivatives<T> derivatives_at(const Material& material, const T& temperature,
                                    const T& /*initial_temperature*/) {
-  const T young = detail::value(material.young_modulus, temperature);
-  const T poisson = detail::value(material.poisson_ratio, temperature);
-  const T young_slope = detail::slope(material.young_modulus, temperature);
-  const T poisson_slope = detail::slope(material.poisson_ratio, temperature);
-  const T q = T(1.0) / (T(1.0) - T(2.0) * poisson);
-  const T r = T(1.0) / (T(1.0) + poisson);
+  const auto young = detail::line(material.young_modulus, temperature);
+  const auto poisson = detail::line(material.poisson_ratio, temperature);
+  const auto expansion = detail::line(material.expansion, temperature);
+  const T q = T(1.0) / (T(1.0) - T(2.0) * poisson.value);
+  const T r = T(1.0) / (T(1.0) + poisson.value);
   PointDerivatives<T> d;
-  d.bulk = T(1.0 / 3.0) * q * (young_slope + T(2.0) * young * poisson_slope * q);
-  d.shear = T(0.5) * r * (young_slope - young * poisson_slope * r);
-  d.thermal_strain = T(3.0) * (detail::value(material.expansion, temperature) +
-                               detail::slope(material.expansion, temperature) *
-                                   (temperature - T(material.expansion_reference)));
+  d.bulk = T(1.0 / 3.0) * q * (young.slope + T(2.0) * young.value * poisson.slope * q);
+  d.shear = T(0.5) * r * (young.slope - young.value * poisson.slope * r);
+  d.thermal_strain =
+      T(3.0) * (expansion.value + expansion.slope * (temperature - T(material.expansion_reference)));
   d.solid_fraction = T(0.0);
   for (const PhaseChange& change : material.phase_changes) {
     if (change.volume_change == 0 && !change.solidification) continue;
@@ -88,16 +95,14 @@ PointDerivatives<T> derivatives_at(const Material& material, const T& temperatur
 
 template <class T>
 PointCurvatures<T> curvatures_at(const Material& material, const T& temperature) {
-  const T young = detail::value(material.young_modulus, temperature);
-  const T poisson = detail::value(material.poisson_ratio, temperature);
-  const T young_slope = detail::slope(material.young_modulus, temperature);
-  const T poisson_slope = detail::slope(material.poisson_ratio, temperature);
-  const T q = T(1.0) / (T(1.0) - T(2.0) * poisson);
-  const T r = T(1.0) / (T(1.0) + poisson);
+  const auto young = detail::line(material.young_modulus, temperature);
+  const auto poisson = detail::line(material.poisson_ratio, temperature);
+  const T q = T(1.0) / (T(1.0) - T(2.0) * poisson.value);
+  const T r = T(1.0) / (T(1.0) + poisson.value);
   PointCurvatures<T> c;
-  c.bulk = T(4.0 / 3.0) * poisson_slope * q * q * (young_slope + T(2.0) * young * poisson_slope * q);
-  c.shear = -poisson_slope * r * r * (young_slope - young * poisson_slope * r);
-  c.thermal_strain = T(6.0) * detail::slope(material.expansion, temperature);
+  c.bulk = T(4.0 / 3.0) * poisson.slope * q * q * (young.slope + T(2.0) * young.value * poisson.slope * q);
+  c.shear = -poisson.slope * r * r * (young.slope - young.value * poisson.slope * r);
+  c.thermal_strain = T(6.0) * detail::line(material.expansion, temperature).slope;
   return c;
 }
 

@@ -3,7 +3,8 @@
 /// h(Θ) = ∫ ρ C dΘ + Σ_k ρ L_k (1 − f_k(Θ)) [J/m³], zero at the lowest temperature of its range. C continues
 /// beyond its points as a constant; with Extrapolation::linear it follows its line first, for one more width
 /// of its table (never below half its end value). With piecewise-linear C and f it is piecewise quadratic
-/// with upward jumps (isothermal changes), so the value and the inverse are closed forms. Heat is always stored as a difference of h: exact for every step (4.149).
+/// with upward jumps (isothermal changes), so the value and the inverse are closed forms. Heat is always
+/// stored as a difference of h: exact for every step (4.149).
 #pragma once
 
 #include <span>

@@ -99,13 +99,31 @@ TEST(Table, IntegralOverAShortStepKeepsItsDigits) {
   EXPECT_NEAR(table.integral_over_x(a, b) / ((b - a) * table.value(a) / a), 1, 1e-11);
 }
 
-TEST(Table, LanesAnswerAsNumbersDo) {
-  Lane x;
-  for (int i = 0; i < k_lanes; ++i) x.set(i, 250 + 170.3 * i);
-  const Lane y = k_uneven.value(x), slope = k_uneven.derivative(x);
-  for (int i = 0; i < k_lanes; ++i) {
-    EXPECT_EQ(y[i], k_uneven.value(x[i]));
-    EXPECT_EQ(slope[i], k_uneven.derivative(x[i]));
+TEST(Table, LanesAnswerAsNumbersDoForShortAndLongTablesInsideOutsideAndAtThePoints) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(200, 1600);
+  for (const auto policy : {Extrapolation::constant, Extrapolation::linear}) {
+    const Table few({300, 310, 310.5, 700, 1500}, {4, 5, 3, 8, 2}, policy);
+    std::vector<double> x, y;
+    for (int i = 0; i < 20; ++i) {
+      x.push_back(300 + 3 * i * i);
+      y.push_back(uniform(random));
+    }
+    for (const Table& table : {few, Table(x, y, policy)})
+      for (int k = 0; k < 200; ++k) {
+        Lane at;
+        for (int i = 0; i < k_lanes; ++i) {
+          const auto point = static_cast<std::size_t>(k * k_lanes + i);
+          at.set(i, point < table.x().size() ? table.x()[point] : uniform(random));
+        }
+        const auto line = table.line(at);
+        for (int i = 0; i < k_lanes; ++i) {
+          ASSERT_EQ(table.value(at)[i], table.value(at[i])) << at[i];
+          ASSERT_EQ(table.derivative(at)[i], table.derivative(at[i])) << at[i];
+          ASSERT_EQ(line.value[i], table.line(at[i]).value);
+          ASSERT_EQ(line.slope[i], table.line(at[i]).slope);
+        }
+      }
   }
 }
 
