@@ -26,7 +26,7 @@ struct FaceKeyHash {
 inline FaceKey face_key(const Index* nodes, int n_vertices) {
   FaceKey k;
   std::copy_n(nodes, n_vertices, k.vertices.begin());
-  std::sort(k.vertices.begin(), k.vertices.begin() + n_vertices);
+  std::sort(k.vertices.begin(), k.vertices.end());  // −1 where a face has fewer than four
   return k;
 }
 

@@ -1,0 +1,209 @@
+// The only file that knows Gmsh.
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <unordered_map>
+
+#include "base/errors.hpp"
+#include "mesh/raw_mesh.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+// Gmsh's element types (Gmsh reference manual, "MSH file format").
+const std::map<int, Shape>& shapes_of_gmsh() {
+  static const std::map<int, Shape> shapes{{1, Shape::line2},  {8, Shape::line3},  {2, Shape::tri3},
+                                           {9, Shape::tri6},   {3, Shape::quad4},  {16, Shape::quad8},
+                                           {4, Shape::tet4},   {11, Shape::tet10}, {5, Shape::hex8},
+                                           {17, Shape::hex20}, {15, Shape::point1}};
+  return shapes;
+}
+
+/// Gmsh's state is global: one session at a time, closed whatever happens.
+class Session {
+ public:
+  Session() {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.Verbosity", 0);
+    gmsh::logger::start();
+  }
+  ~Session() { gmsh::finalize(); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// What Gmsh complained about, in its words.
+  static std::string complaints() {
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    std::string text;
+    for (const std::string& line : log)
+      if (line.starts_with("Error")) text += (text.empty() ? "" : "; ") + line;
+    return text;
+  }
+};
+
+std::string extension(const std::string& path) {
+  std::string e = std::filesystem::path(path).extension().string();
+  std::transform(e.begin(), e.end(), e.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return e;
+}
+
+bool is_geometry(const std::string& path) {
+  const std::string e = extension(path);
+  return e == ".geo" || e == ".step" || e == ".stp" || e == ".brep" || e == ".iges" || e == ".igs";
+}
+
+void check_readable(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError({path}, "the mesh file does not exist");
+  if (!std::filesystem::is_regular_file(path, error)) throw InputError({path}, "the mesh is not a file");
+  if (std::filesystem::file_size(path, error) == 0) throw InputError({path}, "the mesh file is empty");
+  if (!std::ifstream(path)) throw InputError({path}, "the mesh file cannot be read");
+}
+
+void open(const std::string& path) {
+  const std::string advice = "any format Gmsh reads: .msh 2.2 or 4.1, .geo, .step, .unv, .med, .bdf, …";
+  try {
+    gmsh::open(path);
+  } catch (const std::string& complaint) {
+    throw InputError({path}, "the mesh cannot be read: " + complaint, advice);
+  } catch (const std::exception& e) {
+    throw InputError({path}, std::string("the mesh cannot be read: ") + e.what(), advice);
+  }
+  // A damaged .msh does not make open() throw; what it logs is the only sign.
+  if (const std::string complaints = Session::complaints(); !complaints.empty())
+    throw InputError({path}, "the mesh cannot be read: " + complaints, advice);
+}
+
+void generate(const std::string& path, double size, int element_order) {
+  try {
+    if (size > 0) {
+      gmsh::option::setNumber("Mesh.MeshSizeMax", size);
+      gmsh::option::setNumber("Mesh.MeshSizeMin", size / 10);
+    }
+    if (element_order == 2) gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
+    gmsh::vectorpair volumes;
+    gmsh::model::getEntities(volumes, 3);
+    gmsh::model::mesh::generate(volumes.empty() ? 2 : 3);
+    gmsh::model::mesh::setOrder(element_order);
+  } catch (const std::string& complaint) {
+    throw InputError({path}, "Gmsh could not mesh the geometry: " + complaint);
+  }
+}
+
+std::unordered_map<std::size_t, Index> read_nodes(double unit, RawMesh& mesh) {
+  std::vector<std::size_t> tags;
+  std::vector<double> x, parametric;
+  gmsh::model::mesh::getNodes(tags, x, parametric);
+  std::unordered_map<std::size_t, Index> index;
+  index.reserve(tags.size());
+  // In the order of their numbers: the same mesh however the file is sorted.
+  std::vector<std::size_t> order(tags.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
+  for (const std::size_t i : order) {
+    if (!index.emplace(tags[i], static_cast<Index>(mesh.x.size())).second) continue;
+    mesh.x.push_back({unit * x[3 * i], unit * x[3 * i + 1], unit * x[3 * i + 2]});
+    mesh.input_node.push_back(static_cast<GlobalIndex>(tags[i]));
+  }
+  return index;
+}
+
+void read_entity(const std::string& path, int dimension, int entity,
+                 const std::unordered_map<std::size_t, Index>& index, RawGroup& group) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
+  for (std::size_t t = 0; t < types.size(); ++t) {
+    const auto shape = shapes_of_gmsh().find(types[t]);
+    if (shape == shapes_of_gmsh().end()) {
+      std::string name;
+      int d = 0, order = 0, n = 0, primary = 0;
+      std::vector<double> local;
+      gmsh::model::mesh::getElementProperties(types[t], name, d, order, n, local, primary);
+      throw InputError({path}, "the mesh has elements of the type '" + name + "'",
+                       "tri3, tri6, quad4, quad8, tet4, tet10, hex8, hex20");
+    }
+    auto block = std::find_if(group.blocks.begin(), group.blocks.end(),
+                              [&](const RawBlock& b) { return b.shape == shape->second; });
+    if (block == group.blocks.end())
+      block = group.blocks.insert(group.blocks.end(), RawBlock{shape->second, {}, {}});
+    for (const std::size_t tag : nodes[t]) {
+      const auto found = index.find(tag);
+      if (found == index.end())
+        throw InputError(
+            {path}, "an element refers to node " + std::to_string(tag) + ", which the mesh does not have");
+      block->nodes.push_back(found->second);
+    }
+    for (const std::size_t tag : elements[t]) block->input_element.push_back(static_cast<GlobalIndex>(tag));
+  }
+}
+
+// Physical groups by name; entities without any become body_1, body_2, … so that a plain mesh of one body
+// works as it is.
+void read_groups(const std::string& path, const std::unordered_map<std::size_t, Index>& index,
+                 RawMesh& mesh) {
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups);
+  for (const auto& [dimension, tag] : groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, tag, name);
+    if (name.empty()) name = "group_" + std::to_string(dimension) + "d_" + std::to_string(tag);
+    std::vector<int> entities;
+    gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
+    RawGroup group{dimension, {}};
+    for (const int entity : entities) read_entity(path, dimension, entity, index, group);
+    if (group.blocks.empty()) continue;
+    // The same name for a body and its boundary would be ambiguous.
+    if (mesh.groups.contains(name)) name += "_" + std::to_string(dimension) + "d";
+    mesh.groups.emplace(name, std::move(group));
+  }
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, mesh.dimension);
+  int number = 0;
+  for (const auto& [dimension, entity] : entities) {
+    std::vector<int> tags;
+    gmsh::model::getPhysicalGroupsForEntity(dimension, entity, tags);
+    if (!tags.empty()) continue;
+    RawGroup group{dimension, {}};
+    read_entity(path, dimension, entity, index, group);
+    if (!group.blocks.empty()) mesh.groups.emplace("body_" + std::to_string(++number), std::move(group));
+  }
+}
+
+int mesh_dimension() {
+  for (int d = 3; d > 1; --d) {
+    std::vector<int> types;
+    gmsh::model::mesh::getElementTypes(types, d);
+    if (!types.empty()) return d;
+  }
+  return 0;
+}
+
+}  // namespace
+
+RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order) {
+  check_readable(path);
+  const Session session;
+  open(path);
+  if (is_geometry(path)) generate(path, element_size / unit_in_metres, element_order);
+
+  RawMesh mesh;
+  mesh.dimension = mesh_dimension();
+  if (mesh.dimension == 0)
+    throw InputError(
+        {path}, "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
+        "any format Gmsh reads: .msh 2.2 or 4.1, .geo, .step, .unv, .med, .bdf, …");
+  const auto index = read_nodes(unit_in_metres, mesh);
+  read_groups(path, index, mesh);
+  return mesh;
+}
+
+}  // namespace solidus::mesh
