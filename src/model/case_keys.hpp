@@ -17,7 +17,7 @@ Section<BodySpec> body_keys();
 Section<ThermalConditionSpec> thermal_condition_keys();
 Section<MechanicalConditionSpec> mechanical_condition_keys();
 Section<ContactSpec> contact_keys();
-Section<HeatSpec> heat_keys();
+Section<heat::HeatOptions> heat_keys();
 Section<MechanicsSpec> mechanics_keys();
 Section<CouplingSpec> coupling_keys();
 Section<ProbeSpec> probe_keys();

@@ -9,6 +9,7 @@
 #include "algebra/linear_solver.hpp"
 #include "base/keys.hpp"
 #include "base/types.hpp"
+#include "heat/thermal_phase.hpp"
 
 namespace solidus::model {
 
@@ -112,15 +113,6 @@ struct ContactSpec {
   SourceLocation where;
 };
 
-struct HeatSpec {
-  enum class Integration { closed, open };
-  Integration integration = Integration::closed;
-  std::optional<int> degree;  ///< of the open rule
-  double tolerance = 0;
-  int max_iterations = 0;
-  algebra::SolverKind solver = algebra::SolverKind::automatic;
-};
-
 struct MechanicsSpec {
   double tolerance = 0;
   int max_iterations = 0;
@@ -167,7 +159,7 @@ struct CaseSpec {
   std::vector<ThermalConditionSpec> thermal_conditions;
   std::vector<MechanicalConditionSpec> mechanical_conditions;
   std::vector<ContactSpec> contacts;
-  HeatSpec heat;
+  heat::HeatOptions heat;
   MechanicsSpec mechanics;
   CouplingSpec coupling;
   std::vector<ProbeSpec> probes;

@@ -18,24 +18,30 @@ Key& solver_choice(Section<S>& s) {
 
 }  // namespace
 
-Section<HeatSpec> heat_keys() {
-  Section<HeatSpec> s("heat", "Numerics of the thermal phase.");
-  s.choice("integration", &HeatSpec::integration,
-           {{"closed", HeatSpec::Integration::closed, "heat content at the nodes: no over- or undershoot"},
-            {"open", HeatSpec::Integration::open, "heat content at Gauss points"}})
+Section<heat::HeatOptions> heat_keys() {
+  using heat::HeatOptions;
+  using heat::Integration;
+  Section<HeatOptions> s("heat", "Numerics of the thermal phase.");
+  s.choice("integration", &HeatOptions::integration,
+           {{"closed", Integration::closed, "heat content at the nodes: no over- or undershoot"},
+            {"open", Integration::open, "heat content at Gauss points"}})
       .initially("closed")
       .doc("Where heat content is integrated (monograph 6.3).");
-  s.key("degree", &HeatSpec::degree)
-      .range(1, 10)
-      .doc("Polynomial degree that the open rule integrates exactly; without it by element.");
-  s.key("tolerance", &HeatSpec::tolerance)
+  s.key("open_degree", &HeatOptions::open_degree)
+      .initially(0)
+      .range(0, 10)
+      .doc("Polynomial degree that the open rule integrates exactly; 0: by element.");
+  s.key("tolerance", &HeatOptions::tolerance)
       .initially(1e-9)
       .positive()
-      .doc("Newton stops when the residual falls below this share of the heat moved.");
-  s.key("max_iterations", &HeatSpec::max_iterations)
+      .doc("Newton stops when the residual falls below this share of the heat moved in the step.");
+  s.key("max_iterations", &HeatOptions::max_iterations)
       .initially(50)
       .range(1, 1000)
       .doc("Newton iterations before a step is cut.");
+  s.key("exact_conductivity", &HeatOptions::exact_conductivity)
+      .initially(false)
+      .doc("The slope of the conductivity enters the tangent: fewer iterations, an unsymmetric matrix.");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
   return s;
 }
