@@ -1,0 +1,172 @@
+#include "heat/enthalpy_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr double k_round_off = 2e-15;  ///< of heat contents and of conductance × temperature
+constexpr double k_plateau_stiffness =
+    1e13;  ///< times the diagonal: δΘ = 0 to rounding, without a change of structure
+constexpr double k_accept_rise = 0.5;   ///< the full step stands if the slope behind it is at most this share
+constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope is this share
+constexpr int k_search_trials = 40;
+
+}  // namespace
+
+EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
+                               HeatSolver& solver, const algebra::GhostExchange& ghosts,
+                               EnthalpyNewtonOptions options)
+    : mesh_(mesh), system_(system), storage_(storage), solver_(solver), ghosts_(ghosts), options_(options) {
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  for (auto* v : {&r_, &b_, &step_h_, &inverse_, &balance_}) v->resize(n);
+  step_t_.resize(mesh.x.size());
+}
+
+void EnthalpyNewton::evaluate(std::span<const double> temperature) {
+  double moved = system_.residual(temperature, r_), norm = 0, contents = 0;
+  const std::vector<char>& fixed = system_.fixed();
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const double stored = (heat_[i] - old_heat_[i]) / dt_;
+    r_[i] += stored;
+    moved += std::abs(stored);
+    contents += std::abs(heat_[i]) / dt_;
+    (fixed[i] ? moved : norm) += std::abs(r_[i]);
+  }
+  norm_ = algebra::global_sum(norm);
+  moved_ = 0.5 * algebra::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
+  round_off_ = k_round_off * (algebra::global_sum(contents) + conductance_);
+}
+
+bool EnthalpyNewton::converged() const {
+  return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_;
+}
+
+/// J + D; nodes on a plateau are held.
+void EnthalpyNewton::assemble(std::span<const double> temperature) {
+  system_.assemble(temperature, options_.exact_conductivity);
+  double conductance = 0;
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const auto node = static_cast<Index>(i);
+    double& diagonal = *system_.matrix().diagonal_block(node);
+    conductance += std::abs(diagonal * temperature[i]);
+    inverse_[i] = storage_.slope(node, heat_[i], temperature[i]);
+    const bool held = inverse_[i] == 0.0;
+    const double capacity = held ? storage_.capacity(node, temperature[i]) : 1.0 / inverse_[i];
+    if (held)
+      diagonal = k_plateau_stiffness * (std::abs(diagonal) + capacity / dt_);
+    else
+      diagonal += capacity / dt_;
+    // A held node has no equation here: its residual must not set the scale of the linear solver.
+    b_[i] = held || system_.fixed()[i] ? 0.0 : -r_[i];
+  }
+  conductance_ = algebra::global_sum(conductance);
+}
+
+/// δH from δΘ; step_t_ has its ghosts.
+void EnthalpyNewton::directions(std::span<const double> temperature) {
+  system_.matrix().multiply(step_t_, step_h_);
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    if (system_.fixed()[i])
+      step_h_[i] = 0;
+    else
+      step_h_[i] = inverse_[i] == 0.0 ? -dt_ * (r_[i] + step_h_[i]) : step_t_[i] / inverse_[i];
+    if (!has_balance_) balance_[i] = temperature[i] + step_t_[i];
+  }
+}
+
+/// dE/dα at H + α δH.
+double EnthalpyNewton::slope(double alpha, std::span<const double> temperature) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    if (system_.fixed()[i] || step_h_[i] == 0.0) continue;
+    const double t = storage_.temperature(static_cast<Index>(i), heat_[i] + alpha * step_h_[i]);
+    const double balance = (1 - alpha) * balance_[i] + alpha * (temperature[i] + step_t_[i]);
+    sum += step_h_[i] * (t - balance);
+  }
+  return algebra::global_sum(sum);
+}
+
+double EnthalpyNewton::search(std::span<const double> temperature) const {
+  const double start = slope(0.0, temperature);
+  if (!(start < 0)) return 1.0;  // rounding, or a conductivity that moved more than the rest
+  double low = 0, low_slope = start, high = 1, high_slope = slope(1.0, temperature), alpha = 1;
+  if (high_slope <= -k_accept_rise * start) return 1.0;
+  int side = 0;
+  for (int trial = 0; trial < k_search_trials; ++trial) {
+    // The Illinois rule, kept inside the bracket.
+    alpha = (low * high_slope - high * low_slope) / (high_slope - low_slope);
+    alpha = std::clamp(alpha, low + 0.05 * (high - low), high - 0.05 * (high - low));
+    const double s = slope(alpha, temperature);
+    if (std::abs(s) <= -k_accept_slope * start) break;
+    if (s < 0) {
+      low = alpha;
+      low_slope = s;
+      if (side == 1) high_slope *= 0.5;
+      side = 1;
+    } else {
+      high = alpha;
+      high_slope = s;
+      if (side == -1) low_slope *= 0.5;
+      side = -1;
+    }
+  }
+  return alpha;
+}
+
+algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, double dt,
+                                            std::span<double> temperature, std::span<double> heat) {
+  old_heat_ = old_heat;
+  heat_ = heat;
+  dt_ = dt;
+  conductance_ = 0;
+  has_balance_ = false;
+  const auto n = r_.size();
+  algebra::NewtonReport report;
+  while (true) {
+    evaluate(temperature);
+    report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
+    if (!std::isfinite(norm_)) {
+      report.reason = "the residual is not a number";
+      break;
+    }
+    if (converged()) {
+      report.converged = true;
+      break;
+    }
+    if (report.iterations == options_.max_iterations) {
+      report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
+      break;
+    }
+    assemble(temperature);
+    const algebra::LinearReport linear = solver_.solve(system_.matrix(), b_, std::span(step_t_).first(n));
+    ++report.iterations;
+    report.linear_iterations += linear.iterations;
+    if (!linear.converged) {
+      report.reason = "linear solver: " + linear.reason;
+      break;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      if (inverse_[i] == 0.0 || system_.fixed()[i]) step_t_[i] = 0.0;
+    ghosts_.update(step_t_, 1);
+    const bool first = !has_balance_;
+    directions(temperature);
+    has_balance_ = true;
+    const double alpha = first ? 1.0 : search(temperature);
+    for (std::size_t i = 0; i < n; ++i) {
+      balance_[i] = (1 - alpha) * balance_[i] + alpha * (temperature[i] + step_t_[i]);
+      if (system_.fixed()[i]) continue;
+      heat[i] += alpha * step_h_[i];
+      temperature[i] = storage_.temperature(static_cast<Index>(i), heat[i]);
+    }
+    ghosts_.update(temperature, 1);
+  }
+  ghosts_.update(heat, 1);
+  return report;
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,79 @@
+/// Semismooth Newton's method for one step of the closed rule, with the nodal enthalpy as unknown.
+///
+///   F_i(H) = (H_i − H_i^n)/Δt + r_i(Θ(H)) = 0                                                  [W]
+///
+/// Θ_i(H) is continuous, rises, and is flat on a plateau. Each iteration solves, symmetric,
+///
+///   (D + J) δΘ = −F,   D_i = 1/(Δt dΘ_i/dH)  or  δΘ_i = 0 on a plateau,   J = ∂r/∂Θ
+///   δH_i = δΘ_i / (dΘ_i/dH)  or  −Δt (F + J δΘ)_i on a plateau
+///
+/// Why it converges for every step: with J = A symmetric positive semi-definite and constant, F = 0 is the
+/// minimum of the strongly convex functional
+///
+///   E(H) = Σ_i ∫Θ_i dH + Δt/2 |(H − H^n)/Δt − b|²_{A⁻¹},   ∇E = Θ(H) − B,   A B = b − (H − H^n)/Δt,
+///
+/// whose gradient is Lipschitz continuous: Newton's method with a line search that lowers E converges from
+/// any start, and ends after finitely many iterations where Θ_i(H) is piecewise linear. B is the temperature
+/// that the heat balance asks for; a full step makes it Θ + δΘ, so the slope of E along δH costs no solve:
+/// the search only evaluates Θ_i(H), node by node. With a conductivity that varies, B holds to the order of
+/// that variation.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algebra/newton.hpp"
+#include "heat/heat_solver.hpp"
+#include "heat/heat_system.hpp"
+#include "heat/nodal_enthalpy.hpp"
+
+namespace solidus::heat {
+
+struct EnthalpyNewtonOptions {
+  double tolerance = 1e-9;  ///< Σ|F_i| <= tolerance × heat moved per time
+  int max_iterations = 50;
+  bool exact_conductivity = false;
+};
+
+class EnthalpyNewton {
+ public:
+  EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage, HeatSolver& solver,
+                 const algebra::GhostExchange& ghosts, EnthalpyNewtonOptions options);
+
+  /// From the start values in `temperature` and `heat` ([local node]); `old_heat` is H^n. Where the
+  /// temperature is prescribed, `temperature` already holds it and `heat` a value of the node's graph.
+  /// Collective.
+  algebra::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
+                              std::span<double> heat);
+  /// F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the heat that
+  /// holds it.
+  std::span<const double> residual() const { return r_; }
+  double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
+
+ private:
+  void evaluate(std::span<const double> temperature);
+  bool converged() const;
+  void assemble(std::span<const double> temperature);
+  void directions(std::span<const double> temperature);
+  double slope(double alpha, std::span<const double> temperature) const;
+  double search(std::span<const double> temperature) const;
+
+  const mesh::Mesh& mesh_;
+  HeatSystem& system_;
+  const NodalEnthalpy& storage_;
+  HeatSolver& solver_;
+  const algebra::GhostExchange& ghosts_;
+  EnthalpyNewtonOptions options_;
+
+  double dt_ = 1;
+  std::span<const double> old_heat_;
+  std::span<double> heat_;
+  std::vector<double> r_, b_, step_h_;  ///< [owned node]
+  std::vector<double> inverse_;         ///< dΘ/dH, [owned node] [K/J]
+  std::vector<double> balance_;         ///< B, [owned node] [K]
+  std::vector<double> step_t_;          ///< δΘ, [local node]
+  bool has_balance_ = false;
+  double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
+};
+
+}  // namespace solidus::heat

@@ -1,0 +1,52 @@
+#include "heat/heat_solver.hpp"
+
+#include <algorithm>
+
+namespace solidus::heat {
+
+namespace {
+constexpr int k_slow = 200;         ///< iterations of CG + Jacobi above which the strong solver takes over
+constexpr int k_quick_limit = 400;  ///< iterations after which CG + Jacobi gives up
+}  // namespace
+
+HeatSolver::HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool symmetric,
+                       double relative_tolerance)
+    : mesh_(mesh),
+      options_{
+          .prefix = "heat_", .kind = kind, .symmetric = symmetric, .relative_tolerance = relative_tolerance} {
+}
+
+algebra::LinearSolver& HeatSolver::strong() {
+  if (!strong_) strong_ = std::make_unique<algebra::LinearSolver>(mesh_, options_);
+  return *strong_;
+}
+
+void HeatSolver::begin(bool transient) {
+  use_quick_ = transient && options_.kind == algebra::SolverKind::automatic;
+  if (!use_quick_ || quick_) return;
+  algebra::LinearSolverOptions quick = options_;
+  quick.transient_heat = true;
+  quick.max_iterations = k_quick_limit;
+  quick_ = std::make_unique<algebra::LinearSolver>(mesh_, quick);
+}
+
+algebra::LinearReport HeatSolver::solve(algebra::BlockMatrix& a, std::span<const double> b,
+                                        std::span<double> x) {
+  if (!use_quick_) return strong().solve(a, b, x);
+  algebra::LinearReport report = quick_->solve(a, b, x);
+  use_quick_ = report.converged && report.iterations <= k_slow;
+  if (report.converged) return report;
+  const int spent = report.iterations;
+  report = strong().solve(a, b, x);
+  report.iterations += spent;
+  return report;
+}
+
+double HeatSolver::seconds() const {
+  double total = 0;
+  for (const auto* solver : {quick_.get(), strong_.get()})
+    if (solver) total += solver->seconds_setup() + solver->seconds_solve();
+  return total;
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,31 @@
+/// The linear solver of the thermal phase: a cheap one first, a strong one when the matrix asks for it.
+#pragma once
+
+#include <memory>
+
+#include "algebra/linear_solver.hpp"
+
+namespace solidus::heat {
+
+/// A transient step is diagonally strong and CG + Jacobi serves, unless the step is so long that the matrix
+/// is nearly that of the steady state. Then the steady solver of design.md section 4 takes over (MUMPS or
+/// multigrid) until the end of the step. A kind that the user chose is used alone.
+class HeatSolver {
+ public:
+  HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool symmetric, double relative_tolerance);
+  /// Call at the start of a step, so that the same step gives the same bits.
+  /// @param transient false: the strong solver at once
+  void begin(bool transient);
+  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x);
+  /// The solver that runs now, for algebra::newton().
+  algebra::LinearSolver& strong();
+  double seconds() const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  algebra::LinearSolverOptions options_;
+  std::unique_ptr<algebra::LinearSolver> quick_, strong_;
+  bool use_quick_ = false;
+};
+
+}  // namespace solidus::heat

@@ -1,0 +1,216 @@
+#include "heat/heat_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "base/errors.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+template <class Map>
+const typename Map::mapped_type& find(const Map& groups, const std::string& name, const char* what) {
+  const auto found = groups.find(name);
+  if (found != groups.end()) return found->second;
+  std::string allowed;
+  for (const auto& group : groups) allowed += (allowed.empty() ? "" : ", ") + group.first;
+  throw InputError({}, std::string("no ") + what + " '" + name + "' in the mesh", allowed);
+}
+
+}  // namespace
+
+HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
+                       const std::vector<material::Material>& materials, Conditions conditions, bool closed,
+                       std::vector<algebra::Contribution*> contributions)
+    : mesh_(mesh), contributions_(std::move(contributions)) {
+  add_conduction(kind, materials, closed);
+  const auto add_surface = [&](const auto& condition) {
+    surfaces_.emplace_back(mesh, kind, find(mesh.surfaces, condition.surface, "surface"), condition.name,
+                           SurfaceLaw(condition), closed);
+  };
+  for (const Flux& flux : conditions.fluxes) add_surface(flux);
+  for (const Film& film : conditions.films) add_surface(film);
+  for (const Radiation& radiation : conditions.radiations) add_surface(radiation);
+  add_sources(kind, conditions.sources);
+  add_prescribed(conditions.temperatures);
+
+  algebra::NodeGraph graph(mesh);
+  for (const mesh::Block& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+  for (const SurfaceHeat& surface : surfaces_) surface.add_to_graph(graph);
+  for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
+  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, std::move(graph));
+  matrix_->set_fixed(fixed_);
+  for (const auto& block : conduction_) block->bind(*matrix_);
+  for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
+  for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
+
+  local_.resize(mesh.x.size());
+  contributed_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
+  surface_power_.resize(surfaces_.size());
+  source_power_.resize(sources_.size());
+  contribution_power_.resize(contributions_.size());
+}
+
+HeatSystem::~HeatSystem() = default;
+
+void HeatSystem::add_conduction(AnalysisKind kind, const std::vector<material::Material>& materials,
+                                bool closed) {
+  for (const material::Material& m : materials) conductivity_.push_back({&m.conductivity, {}, {}, {}});
+  for (const mesh::Block& block : mesh_.blocks) {
+    const auto body = static_cast<std::size_t>(block.body);
+    conduction_.push_back(make_conduction_block(mesh_, block, kind, materials[body], closed));
+    auto& nodes = conductivity_[body].nodes;
+    if (!conductivity_[body].table->constant())
+      nodes.insert(nodes.end(), block.nodes.begin(), block.nodes.end());
+  }
+  for (NodalTable& k : conductivity_) {
+    std::sort(k.nodes.begin(), k.nodes.end());
+    k.nodes.erase(std::unique(k.nodes.begin(), k.nodes.end()), k.nodes.end());
+    if (k.nodes.empty()) continue;
+    k.value.resize(mesh_.x.size());
+    k.slope.resize(mesh_.x.size());
+  }
+}
+
+void HeatSystem::add_sources(AnalysisKind kind, const std::vector<Source>& sources) {
+  for (const Source& source : sources) {
+    std::map<std::string, int> bodies;
+    for (std::size_t i = 0; i < mesh_.bodies.size(); ++i) bodies[mesh_.bodies[i].name] = static_cast<int>(i);
+    const int body = find(bodies, source.body, "body");
+    std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
+    for (const mesh::Block& block : mesh_.blocks) {
+      if (block.body != body) continue;
+      // N times det J times the radius.
+      const mesh::BlockGeometry g(mesh_, block, kind,
+                                  mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1));
+      for (Index e = 0; e < g.n_elements; ++e)
+        for (int a = 0; a < g.n_nodes; ++a) {
+          const Index node = block.element(e)[a];
+          if (node >= mesh_.n_owned_nodes) continue;
+          for (int q = 0; q < g.n_points; ++q)
+            weight[static_cast<std::size_t>(node)] += g.weight_at(e / k_lanes, q)[e % k_lanes] *
+                                                      g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+        }
+    }
+    sources_.push_back({source.name, source.power, std::move(weight)});
+  }
+}
+
+void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& conditions) {
+  std::vector<int> holder(mesh_.x.size(), -1);  // the later condition in the list holds
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    for (Index node : find(mesh_.node_sets, conditions[i].node_set, "group"))
+      holder[static_cast<std::size_t>(node)] = static_cast<int>(i);
+  for (const PrescribedTemperature& c : conditions) prescribed_.push_back({c.name, c.value, {}});
+  fixed_.assign(mesh_.x.size(), 0);
+  for (std::size_t node = 0; node < holder.size(); ++node) {
+    if (holder[node] < 0) continue;
+    fixed_[node] = 1;
+    prescribed_[static_cast<std::size_t>(holder[node])].nodes.push_back(static_cast<Index>(node));
+  }
+}
+
+void HeatSystem::set_time(double time) {
+  for (SurfaceHeat& surface : surfaces_) surface.set_time(time);
+  for (Volume& source : sources_) source.now = source.power.value(time);
+  for (Prescribed& p : prescribed_) p.now = p.value.value(time);
+}
+
+void HeatSystem::prescribe(std::span<double> temperature) const {
+  for (const Prescribed& p : prescribed_)
+    for (Index node : p.nodes) temperature[static_cast<std::size_t>(node)] = p.now;
+}
+
+void HeatSystem::update_conductivity(std::span<const double> temperature, bool slopes) {
+  for (NodalTable& k : conductivity_)
+    for (Index node : k.nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      k.value[i] = k.table->value(temperature[i]);
+      if (slopes) k.slope[i] = k.table->derivative(temperature[i]);
+    }
+}
+
+double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
+  update_conductivity(temperature, false);
+  double moved = 0;
+  std::fill(local_.begin(), local_.end(), 0.0);
+  for (std::size_t b = 0; b < conduction_.size(); ++b) {
+    const NodalTable& k = conductivity_[static_cast<std::size_t>(mesh_.blocks[b].body)];
+    conduction_[b]->add_heat(temperature, {k.value, k.slope}, local_);
+  }
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    surface_power_[s] = surfaces_[s].add_residual(temperature, local_);
+    moved += std::abs(surface_power_[s]);
+  }
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const Volume& source = sources_[s];
+    source_power_[s] = 0;
+    for (std::size_t i = 0; i < source.weight.size(); ++i) {
+      local_[i] -= source.now * source.weight[i];
+      source_power_[s] += source.now * source.weight[i];
+    }
+    moved += std::abs(source_power_[s]);
+  }
+  std::copy_n(local_.begin(), r.size(), r.begin());
+  for (std::size_t c = 0; c < contributions_.size(); ++c) {
+    std::fill(contributed_.begin(), contributed_.end(), 0.0);
+    contributions_[c]->add_residual(temperature, contributed_);
+    contribution_power_[c] = 0;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      r[i] += contributed_[i];
+      contribution_power_[c] -= contributed_[i];
+      moved += std::abs(contributed_[i]);
+    }
+  }
+  return moved;
+}
+
+void HeatSystem::assemble(std::span<const double> temperature, bool exact) {
+  update_conductivity(temperature, exact);
+  matrix_->set_zero();
+  for (std::size_t b = 0; b < conduction_.size(); ++b) {
+    const NodalTable& k = conductivity_[static_cast<std::size_t>(mesh_.blocks[b].body)];
+    conduction_[b]->add_tangent(temperature, {k.value, k.slope}, exact, *matrix_);
+  }
+  for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
+  for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(temperature, *matrix_);
+}
+
+std::vector<HeatSystem::Power> HeatSystem::powers() const {
+  std::vector<Power> all;
+  for (std::size_t s = 0; s < surfaces_.size(); ++s)
+    all.push_back({surfaces_[s].name(), algebra::global_sum(surface_power_[s])});
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+    all.push_back({sources_[s].name, algebra::global_sum(source_power_[s])});
+  return all;
+}
+
+std::vector<double> HeatSystem::contribution_powers() const {
+  std::vector<double> all;
+  for (double power : contribution_power_) all.push_back(algebra::global_sum(power));
+  return all;
+}
+
+std::vector<HeatSystem::Power> HeatSystem::reaction_powers(std::span<const double> reactions) const {
+  std::vector<Power> all;
+  for (const Prescribed& p : prescribed_) {
+    double sum = 0;
+    for (Index node : p.nodes)
+      if (node < mesh_.n_owned_nodes) sum += reactions[static_cast<std::size_t>(node)];
+    all.push_back({p.name, algebra::global_sum(sum)});
+  }
+  return all;
+}
+
+std::size_t HeatSystem::bytes() const {
+  std::size_t total = matrix_->bytes() + (local_.capacity() + contributed_.capacity()) * sizeof(double);
+  for (const auto& block : conduction_) total += block->bytes();
+  for (const NodalTable& k : conductivity_)
+    total += k.nodes.capacity() * sizeof(Index) + (k.value.capacity() + k.slope.capacity()) * sizeof(double);
+  return total;
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,92 @@
+/// Everything of the thermal balance but storage: conduction, surfaces, sources, contributions from outside.
+///
+///   r_i = ∫ ∇N_i · k ∇Θ dV − ∫ N_i q dA − ∫ N_i R dV + contributions      [W], heat that leaves node i
+///
+/// (monograph 2.150 without the capacity terms).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algebra/contribution.hpp"
+#include "heat/conditions.hpp"
+#include "heat/conduction_block.hpp"
+#include "heat/surface_heat.hpp"
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::heat {
+
+class HeatSystem {
+ public:
+  /// @param couple_elements what the storage term needs besides conduction is the same graph
+  /// Throws InputError for a condition that names no group of the mesh.
+  HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
+             Conditions conditions, bool closed, std::vector<algebra::Contribution*> contributions);
+  ~HeatSystem();
+
+  void set_time(double time);
+  /// Writes the prescribed temperatures of the time set, ghosts too.
+  void prescribe(std::span<double> temperature) const;
+  /// [local node]: one where the temperature is prescribed.
+  const std::vector<char>& fixed() const { return fixed_; }
+
+  /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
+  /// contributions, magnitudes before they cancel.
+  double residual(std::span<const double> temperature, std::span<double> r);
+  /// Fills the matrix with ∂r/∂Θ; `exact` includes the slope of the conductivity (unsymmetric).
+  void assemble(std::span<const double> temperature, bool exact);
+  algebra::BlockMatrix& matrix() { return *matrix_; }
+
+  /// Heat into the bodies at the last residual() by every surface and source, over all processes [W].
+  struct Power {
+    std::string name;
+    double value;
+  };
+  std::vector<Power> powers() const;
+  std::vector<double> contribution_powers() const;  ///< [W]
+  /// Sums the reactions [owned node] of each prescribed temperature: heat into the body by it [W].
+  std::vector<Power> reaction_powers(std::span<const double> reactions) const;
+  std::size_t bytes() const;
+
+ private:
+  struct Prescribed {
+    std::string name;
+    Table value;
+    std::vector<Index> nodes;  ///< local; of the condition that holds
+    double now = 0;
+  };
+  struct Volume {
+    std::string name;
+    Table power;
+    std::vector<double> weight;  ///< ∫ N_i dV of the body [m³], [owned node]
+    double now = 0;
+  };
+  /// Conductivity at the nodes of one body.
+  struct NodalTable {
+    const Table* table;
+    std::vector<Index> nodes;
+    std::vector<double> value, slope;  ///< [local node]
+  };
+  void add_prescribed(const std::vector<PrescribedTemperature>& conditions);
+  void add_sources(AnalysisKind kind, const std::vector<Source>& sources);
+  void add_conduction(AnalysisKind kind, const std::vector<material::Material>& materials, bool closed);
+  void update_conductivity(std::span<const double> temperature, bool slopes);
+
+  const mesh::Mesh& mesh_;
+  std::vector<algebra::Contribution*> contributions_;
+  std::vector<std::unique_ptr<ConductionBlock>> conduction_;  ///< one per mesh block
+  std::vector<NodalTable> conductivity_;                      ///< one per body
+  std::vector<SurfaceHeat> surfaces_;
+  std::vector<Volume> sources_;
+  std::vector<Prescribed> prescribed_;
+  std::vector<char> fixed_;
+  std::unique_ptr<algebra::BlockMatrix> matrix_;
+  std::vector<double> local_;                                              ///< work, [local node]
+  std::vector<double> contributed_;                                        ///< work, [owned node]
+  std::vector<double> surface_power_, source_power_, contribution_power_;  ///< of this process, last residual
+};
+
+}  // namespace solidus::heat

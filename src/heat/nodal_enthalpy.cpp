@@ -1,0 +1,163 @@
+#include "heat/nodal_enthalpy.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::heat {
+
+NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
+                             const std::vector<material::Material>& materials)
+    : materials_(materials) {
+  for (const material::Material& m : materials_) {
+    curves_.push_back(m.enthalpy());
+    for (const auto& piece : curves_.back().pieces()) {
+      breaks_.push_back(piece.t0);
+      breaks_.push_back(piece.t1);
+    }
+  }
+  std::sort(breaks_.begin(), breaks_.end());
+  breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
+
+  std::vector<std::vector<Share>> of_node(static_cast<std::size_t>(mesh.n_owned_nodes));
+  for (const mesh::Block& block : mesh.blocks) {
+    const PackVector<Lane> weights = mesh::nodal_weights(mesh, block, kind);
+    const Index n = mesh::node_count(block.shape);
+    for (Index e = 0; e < block.size(); ++e)
+      for (Index a = 0; a < n; ++a) {
+        const Index node = block.element(e)[a];
+        if (node >= mesh.n_owned_nodes) continue;
+        const double w = weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+        auto& list = of_node[static_cast<std::size_t>(node)];
+        const auto found =
+            std::find_if(list.begin(), list.end(), [&](const Share& s) { return s.body == block.body; });
+        if (found != list.end())
+          found->weight += w;
+        else
+          list.push_back({block.body, w});
+      }
+  }
+  start_.assign(1, 0);
+  for (const auto& list : of_node) {
+    assert(!list.empty() && "every owned node belongs to an element");
+    shares_.insert(shares_.end(), list.begin(), list.end());
+    start_.push_back(shares_.size());
+  }
+}
+
+double NodalEnthalpy::lower(Index node, double temperature) const {
+  double h = 0;
+  for (const Share& s : shares(node)) h += s.weight * curve(s).lower(temperature);
+  return h;
+}
+
+double NodalEnthalpy::upper(Index node, double temperature) const {
+  double h = 0;
+  for (const Share& s : shares(node)) h += s.weight * curve(s).upper(temperature);
+  return h;
+}
+
+double NodalEnthalpy::capacity(Index node, double temperature) const {
+  double c = 0;
+  for (const Share& s : shares(node)) c += s.weight * curve(s).capacity(temperature);
+  return c;
+}
+
+/// Nodes of several materials: the break below the heat by bisection, then the sum's own quadratic.
+double NodalEnthalpy::mixed_temperature(std::span<const Share> shares, double heat, bool& plateau) const {
+  const auto sum = [&](auto f) {
+    double h = 0;
+    for (const Share& s : shares) h += s.weight * f(curve(s));
+    return h;
+  };
+  const auto lower_at = [&](double t) { return sum([t](const auto& c) { return c.lower(t); }); };
+  const auto upper_at = [&](double t) { return sum([t](const auto& c) { return c.upper(t); }); };
+  const auto capacity_at = [&](double t) { return sum([t](const auto& c) { return c.capacity(t); }); };
+  plateau = false;
+  const auto above =
+      std::partition_point(breaks_.begin(), breaks_.end(), [&](double t) { return lower_at(t) <= heat; });
+  if (above == breaks_.begin())
+    return breaks_.front() + (heat - lower_at(breaks_.front())) / capacity_at(breaks_.front() - 1.0);
+  const double t0 = *(above - 1), h = heat - upper_at(t0);
+  if (h <= 0) {
+    plateau = h < 0 && heat > lower_at(t0);
+    return t0;
+  }
+  const double c0 = capacity_at(t0);
+  if (above == breaks_.end()) return t0 + h / c0;
+  const double width = *above - t0, c1 = 2.0 * (capacity_at(t0 + 0.5 * width) - c0) / width;
+  return std::min(t0 + 2.0 * h / (c0 + std::sqrt(std::max(0.0, c0 * c0 + 2.0 * c1 * h))), *above);
+}
+
+double NodalEnthalpy::temperature(Index node, double heat) const {
+  const auto list = shares(node);
+  if (list.size() == 1) return curve(list[0]).temperature(heat / list[0].weight);
+  bool plateau = false;
+  return mixed_temperature(list, heat, plateau);
+}
+
+double NodalEnthalpy::slope(Index node, double heat, double temperature) const {
+  const auto list = shares(node);
+  if (list.size() == 1) return curve(list[0]).inverse_slope(heat / list[0].weight) / list[0].weight;
+  bool plateau = false;
+  mixed_temperature(list, heat, plateau);
+  return plateau ? 0.0 : 1.0 / capacity(node, temperature);
+}
+
+double NodalEnthalpy::plateau_share(Index node, double heat, double temperature) const {
+  const double low = lower(node, temperature), high = upper(node, temperature);
+  return high > low ? std::clamp((heat - low) / (high - low), 0.0, 1.0) : 0.0;
+}
+
+double NodalEnthalpy::solid_fraction(Index node, double heat, double temperature) const {
+  double volume = 0, solid = 0;
+  for (const Share& s : shares(node)) {
+    if (!can_melt(s.body)) continue;
+    volume += s.weight;
+    solid += solid_volume(node, s.body, heat, temperature);
+  }
+  return volume > 0 ? solid / volume : 1.0;
+}
+
+double NodalEnthalpy::volume(Index node, int body) const {
+  for (const Share& s : shares(node))
+    if (s.body == body) return s.weight;
+  return 0.0;
+}
+
+double NodalEnthalpy::solid_volume(Index node, int body, double heat, double temperature) const {
+  const double all = volume(node, body);
+  const material::PhaseChange* change = materials_[static_cast<std::size_t>(body)].solidification();
+  if (!change || all == 0) return all;
+  const double below = change->fraction.below(temperature), above = change->fraction.above(temperature);
+  if (below == above) return all * below;
+  return all * (below - plateau_share(node, heat, temperature) * (below - above));
+}
+
+double NodalEnthalpy::latent(Index node, double heat, double temperature) const {
+  const double share = plateau_share(node, heat, temperature);
+  double latent = 0;
+  for (const Share& s : shares(node)) {
+    const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
+    for (const material::PhaseChange& change : m.phase_changes) {
+      const double below = change.fraction.below(temperature), above = change.fraction.above(temperature);
+      latent += s.weight * m.density * change.latent_heat * (1.0 - below + share * (below - above));
+    }
+  }
+  return latent;
+}
+
+double NodalEnthalpy::mixed_heat(Index node, std::span<const double> body_temperature) const {
+  double heat = 0;
+  for (const Share& s : shares(node))
+    heat += s.weight * curve(s).upper(body_temperature[static_cast<std::size_t>(s.body)]);
+  return heat;
+}
+
+std::size_t NodalEnthalpy::bytes() const {
+  return start_.capacity() * sizeof start_[0] + shares_.capacity() * sizeof shares_[0];
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,70 @@
+/// The closed rule's storage of heat: one monotone graph H_i(Θ) = Σ_m w_im h_m(Θ) per node (monograph 6.3.1,
+/// 4.149).
+///
+/// The weights are those of the closed rule (mesh::nodal_weights), the curves those of the materials around
+/// the node. The graph rises strictly and is vertical where a change is isothermal, so its inverse Θ_i(H) is
+/// a continuous function with slope zero there: a plateau.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::heat {
+
+class NodalEnthalpy {
+ public:
+  /// @param materials one per body; copied as far as needed
+  NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials);
+
+  Index n_nodes() const { return static_cast<Index>(start_.size()) - 1; }  ///< owned ones
+  /// Θ_i(H) [K]; H in joules.
+  double temperature(Index node, double heat) const;
+  /// dΘ_i/dH [K/J]; zero within a plateau.
+  double slope(Index node, double heat, double temperature) const;
+  /// H_i at a temperature; at a jump both ends.
+  double lower(Index node, double temperature) const;
+  double upper(Index node, double temperature) const;
+  /// How far the isothermal change at this temperature has come: 0 cold end to 1 hot end; 0 without a jump.
+  double plateau_share(Index node, double heat, double temperature) const;
+  /// Mean solid fraction of the materials of a node that can melt, 1 if none can (2.65).
+  double solid_fraction(Index node, double heat, double temperature) const;
+  /// The part of the heat that is latent [J].
+  double latent(Index node, double heat, double temperature) const;
+  /// Σ_m w_im h_m(Θ_m) of bodies at different temperatures [J]; molten at the temperature of a change.
+  double mixed_heat(Index node, std::span<const double> body_temperature) const;
+  /// Volume [m³] that the node holds of a body.
+  double volume(Index node, int body) const;
+  /// Solid volume [m³] that the node holds of a body.
+  double solid_volume(Index node, int body, double heat, double temperature) const;
+  bool can_melt(int body) const {
+    return materials_[static_cast<std::size_t>(body)].solidification() != nullptr;
+  }
+  /// ∂H/∂Θ at the node without jumps [J/K].
+  double capacity(Index node, double temperature) const;
+  std::size_t bytes() const;
+
+ private:
+  struct Share {
+    int body;
+    double weight;  ///< [m³]
+  };
+  std::span<const Share> shares(Index node) const {
+    const auto i = static_cast<std::size_t>(node);
+    return {shares_.data() + start_[i], start_[i + 1] - start_[i]};
+  }
+  const material::EnthalpyCurve& curve(const Share& share) const {
+    return curves_[static_cast<std::size_t>(share.body)];
+  }
+  double mixed_temperature(std::span<const Share> shares, double heat, bool& plateau) const;
+
+  std::vector<material::Material> materials_;
+  std::vector<material::EnthalpyCurve> curves_;  ///< per body
+  std::vector<double> breaks_;                   ///< temperatures where any curve bends or jumps, rising [K]
+  std::vector<std::size_t> start_;               ///< first share of each owned node
+  std::vector<Share> shares_;
+};
+
+}  // namespace solidus::heat

@@ -1,0 +1,47 @@
+/// The open rule's storage of heat: enthalpy differences at Gauss points (monograph 6.3, 4.149).
+///
+///   r_a += ∫ N_a (h(Θ) − h(Θ_n))/Δt dV,   K_ab += ∫ N_a N_b (dh/dΘ)/Δt dV
+///
+/// A point has a temperature and no enthalpy of its own, so isothermal changes are spread over k_spread
+/// below their temperature. The row of a point whose temperature crosses a change is then steep but smooth,
+/// and the line search of Newton's method on the convex functional takes it.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "algebra/block_matrix.hpp"
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::heat {
+
+inline constexpr double k_spread = 0.05;  ///< [K], width that an isothermal change is given by the open rule
+
+/// The material with its isothermal changes spread.
+material::Material spread_isothermal(material::Material material, double width = k_spread);
+
+class PointStorage {
+ public:
+  virtual ~PointStorage() = default;
+  virtual void bind(const algebra::BlockMatrix& matrix) = 0;
+  /// h(Θ_n) at the points.
+  virtual void start(std::span<const double> old_temperature, double dt) = 0;
+  /// r += stored heat per time [W], [local node]; ghost rows are scrap.
+  virtual void add_residual(std::span<const double> temperature, std::span<double> r) const = 0;
+  virtual void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const = 0;
+  /// Change of the heat content over the step and of its latent part, counted elements [J].
+  virtual double stored(std::span<const double> temperature) const = 0;
+  virtual double latent(std::span<const double> old_temperature,
+                        std::span<const double> temperature) const = 0;
+  virtual std::size_t bytes() const = 0;
+};
+
+/// @param material kept by reference, isothermal changes already spread
+/// @param degree   polynomial degree that the rule integrates; 0: 3 for linear shapes, 4 for quadratic
+/// simplices, 5 for others
+std::unique_ptr<PointStorage> make_point_storage(const mesh::Mesh& mesh, const mesh::Block& block,
+                                                 AnalysisKind kind, const material::Material& material,
+                                                 int degree);
+
+}  // namespace solidus::heat

@@ -1,0 +1,39 @@
+/// The thermal equations with the temperature as unknown: the open rule and the steady state.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "algebra/newton.hpp"
+#include "heat/heat_system.hpp"
+#include "heat/point_storage.hpp"
+
+namespace solidus::heat {
+
+class TemperatureSystem final : public algebra::NonlinearSystem {
+ public:
+  /// @param points storage of every mesh block (open rule); empty for the steady state only
+  TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system,
+                    std::span<const std::unique_ptr<PointStorage>> points, bool exact_conductivity);
+
+  /// With or without storage from now on.
+  void use_storage(bool on) { storing_ = on; }
+  /// The sum of the nodal residuals' magnitudes is at most √N times their norm, so ‖r‖ is measured against
+  /// the heat moved over √N: the balance then closes to the tolerance.
+  double residual(std::span<const double> x, std::span<double> r) override;
+  algebra::BlockMatrix& tangent() override;
+  double moved() const { return moved_; }  ///< of the last residual, all processes [W]
+  /// Residuals that rounding alone leaves.
+  double round_off() const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  HeatSystem& system_;
+  std::span<const std::unique_ptr<PointStorage>> points_;
+  bool exact_, storing_ = false;
+  double moved_ = 0;
+  std::vector<double> x_, local_;
+};
+
+}  // namespace solidus::heat

@@ -1,0 +1,114 @@
+/// The nonlinear thermal phase: temperature and latent heat at t_{n+1} with the configuration held
+/// (monograph 2.123a, 2.150, 4.149, 6.3).
+///
+///   (H(Θ_{n+1}) − H(Θ_n))/Δt + conduction − surfaces − sources + contributions = 0
+///
+/// Backward Euler in time. Heat is stored as an exact enthalpy difference, so the residual at convergence is
+/// the only defect of the heat balance.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algebra/contribution.hpp"
+#include "base/types.hpp"
+#include "heat/conditions.hpp"
+#include "heat/thermal_state.hpp"
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::heat {
+
+class HeatSystem;
+class HeatSolver;
+class NodalEnthalpy;
+class EnthalpyNewton;
+class TemperatureSystem;
+class PointStorage;
+
+enum class Integration {
+  closed,  ///< heat content at the nodes, conduction of quads and hexes too: no over- or undershoot
+  open     ///< heat content at Gauss points
+};
+
+struct HeatOptions {
+  Integration integration = Integration::closed;
+  int open_degree = 0;  ///< polynomial degree of the open rule; 0: by element
+  double tolerance =
+      1e-9;  ///< what the nodal residuals may add up to, as a share of the heat moved in the step
+  int max_iterations = 50;
+  algebra::SolverKind solver = algebra::SolverKind::automatic;
+  double linear_tolerance = 1e-11;  ///< iterative solvers, relative
+  /// The slope of the conductivity enters the tangent: quadratic convergence, unsymmetric matrix.
+  bool exact_conductivity = false;
+  bool symmetric = true;  ///< false when a contribution's tangent is not
+};
+
+class ThermalPhase {
+ public:
+  /// @param materials      one per body of the mesh; copied
+  /// @param contributions  further terms in the temperature (heat through contact, structural heating); must
+  ///                       outlive the phase
+  /// Throws InputError for a condition that names no group of the mesh.
+  ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
+               Conditions conditions, HeatOptions options = {},
+               std::vector<algebra::Contribution*> contributions = {});
+  ~ThermalPhase();
+
+  /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
+  /// their heats add up. A body that starts at the temperature of an isothermal change is molten.
+  ThermalState initial_state(std::span<const double> body_temperature) const;
+  /// From nodal temperatures [K], [local node], ghosts up to date.
+  ThermalState initial_state_at_nodes(std::span<const double> temperature) const;
+
+  /// Solves for t_{n+1} = time from the state at time − dt. `trial` is written only on success; it may be
+  /// `old`. Prescribed temperatures hold at t_{n+1}; at the temperature of an isothermal change such a node
+  /// keeps as much of its old heat as that temperature allows. Throws StepRejected (on all processes) when
+  /// the iteration fails; the place is the node of the largest residual.
+  PhaseReport solve(const ThermalState& old, ThermalState& trial, double time, double dt);
+  /// The steady state for the conditions at `time`, started from `start`; balance in watts. Something must
+  /// hold the temperature of every body (prescribed, film, radiation, contact).
+  PhaseReport solve_steady(const ThermalState& start, ThermalState& trial, double time);
+
+  /// Heat needed to hold prescribed temperatures in the last solve, [owned node] [W], zero elsewhere.
+  std::span<const double> reactions() const { return reactions_; }
+
+  /// Solid fraction of the materials around each node that can melt, 1 if none can; [local node].
+  std::vector<double> solid_fraction(const ThermalState& state) const;
+  /// Mean over the volume of a body, over all processes.
+  double mean_solid_fraction(const ThermalState& state, int body) const;
+  /// Mean over the volume of all bodies that can melt, 1 if none can.
+  double mean_solid_fraction(const ThermalState& state) const;
+  /// Mean temperature of a body over its volume [K].
+  double mean_temperature(const ThermalState& state, int body) const;
+
+  const mesh::Mesh& mesh() const { return mesh_; }
+  std::size_t bytes() const;
+  double seconds_solver() const;
+
+ private:
+  algebra::NewtonReport solve_temperature(std::span<double> temperature);
+  void keep_reactions(std::span<const double> residual);
+  HeatBalance measure(double dt) const;
+  double heat_at(const ThermalState& state, Index node) const;
+  /// Throws StepRejected on all processes unless the report is of a converged iteration.
+  void require(const algebra::NewtonReport& report, std::span<const double> residual,
+               std::span<const double> temperature) const;
+
+  const mesh::Mesh& mesh_;
+  HeatOptions options_;
+  std::vector<material::Material> materials_;
+  std::vector<algebra::Contribution*> contributions_;
+  algebra::GhostExchange ghosts_;
+  std::unique_ptr<NodalEnthalpy> storage_;
+  std::unique_ptr<HeatSystem> system_;
+  std::vector<std::unique_ptr<PointStorage>> points_;  ///< open rule only
+  std::unique_ptr<HeatSolver> solver_;
+  std::unique_ptr<EnthalpyNewton> enthalpy_newton_;
+  std::unique_ptr<TemperatureSystem> temperature_system_;
+  std::vector<double> reactions_;
+};
+
+}  // namespace solidus::heat

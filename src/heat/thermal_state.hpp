@@ -1,0 +1,49 @@
+/// What the thermal phase reads at t_n and writes at t_{n+1}, and what it reports of a step.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algebra/newton.hpp"
+
+namespace solidus::heat {
+
+/// The committed thermal state. With the closed rule the nodal enthalpy is the unknown, of which the
+/// temperature is a function; it alone says how much of a node on an isothermal plateau is solid.
+struct ThermalState {
+  std::vector<double> temperature;  ///< [K], [local node], ghosts up to date
+  std::vector<double> enthalpy;     ///< [J], [local node], ghosts up to date; empty with the open rule
+};
+
+/// Heat that one condition brought into the bodies during a step (steady analysis: per second).
+struct ConditionHeat {
+  std::string name;
+  double heat =
+      0;  ///< [J] (steady: [W]); axisymmetric: of the whole revolution; plane: per metre of thickness
+};
+
+/// The first law of the thermal phase alone, over one step and all processes.
+struct HeatBalance {
+  double stored = 0;    ///< change of the heat content, by exact enthalpy differences [J]
+  double sensible = 0;  ///< the part of `stored` that changed temperature [J]
+  double latent = 0;    ///< the part of `stored` that changed phase, positive when melting [J]
+  std::vector<ConditionHeat> conditions;  ///< prescribed temperatures, fluxes, films, radiations, sources
+  std::vector<double> contributions;      ///< heat into the bodies by each contribution, in their order [J]
+  double exchanged =
+      0;  ///< half the sum of the magnitudes of all heat moved: what the defect is measured against
+
+  double heat_in() const {  ///< by conditions and contributions [J]
+    double sum = 0;
+    for (const ConditionHeat& condition : conditions) sum += condition.heat;
+    for (double heat : contributions) sum += heat;
+    return sum;
+  }
+  double defect() const { return stored - heat_in(); }
+};
+
+struct PhaseReport {
+  algebra::NewtonReport newton;
+  HeatBalance balance;
+};
+
+}  // namespace solidus::heat
