@@ -1,0 +1,202 @@
+#include "contact/integration.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "algebra/parallel.hpp"
+#include "contact/point_list.hpp"
+#include "mesh/quadrature.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+// At the edge of the master, points of the rules `nodal` and `gauss` that miss it by this much, in reference
+// coordinates of its face, still belong to it: on curved surfaces the two discrete edges never coincide.
+constexpr double k_edge_tolerance = 0.02;
+
+double circumference(AnalysisKind kind, const Point& x) {
+  return kind == AnalysisKind::axisymmetric ? 2 * std::numbers::pi * x[0] : 1.0;
+}
+
+Point node_xi(mesh::Shape shape, std::size_t a) {
+  const auto v = reference_vertices(shape);
+  return a < v.size() ? v[a] : scale(0.5, add(v[a - v.size()], v[(a - v.size() + 1) % v.size()]));
+}
+
+double measure_of(const Face& face, AnalysisKind kind) {
+  double sum = 0;
+  for (const auto& q : mesh::gauss_rule(face.shape, face.affine() ? 2 : 6))
+    sum += q.weight * face.jacobian(q.xi) * circumference(kind, face.at(q.xi));
+  return sum;
+}
+
+// ∫ N_a dA of a face with 2πr, or, where one of them is negative (quad8), the whole measure shared out in
+// the ratio of ∫ N_a² dA (Hinton, Rock, Zienkiewicz 1976).
+std::vector<double> nodal_measures(const Face& face, AnalysisKind kind) {
+  const auto n = static_cast<std::size_t>(face.n_nodes);
+  std::vector<double> first(n, 0), second(n, 0), values(n);
+  double total = 0;
+  for (const auto& q : mesh::gauss_rule(face.shape, 8)) {
+    mesh::basis_values(face.shape, q.xi, values);
+    const double w = q.weight * face.jacobian(q.xi) * circumference(kind, face.at(q.xi));
+    total += w;
+    for (std::size_t a = 0; a < n; ++a) {
+      first[a] += w * values[a];
+      second[a] += w * values[a] * values[a];
+    }
+  }
+  if (std::all_of(first.begin(), first.end(), [&](double f) { return f > -1e-12 * total; })) {
+    for (double& f : first) f = std::abs(f) <= 1e-12 * total ? 0 : f;
+    return first;
+  }
+  double sum = 0;
+  for (double s : second) sum += s;
+  for (double& s : second) s *= total / sum;
+  return second;
+}
+
+class Builder {
+ public:
+  Builder(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
+          const ContactSurface& master, const IntegrationOptions& options)
+      : mesh_(mesh),
+        kind_(kind),
+        slave_(slave),
+        master_(master),
+        options_(options),
+        search_(reference_faces(master)) {}
+
+  ContactPoints build() {
+    for (Index f = 0; f < slave_.n_faces(); ++f) add_slave_face(f);
+    points_.paired_measure = algebra::global_sum(points_.paired_measure);
+    return std::move(points_);
+  }
+
+ private:
+  bool owns_any(std::span<const Index> nodes) const {
+    return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return n < mesh_.n_owned_nodes; });
+  }
+
+  // Master faces that a normal line of the slave face within the search distance may meet.
+  std::vector<Index> candidates_of(const Face& face) const {
+    auto [low, high] = face.box();
+    const double reach = options_.search_distance, margin = 1e-6 * distance(low, high);
+    // The normals of a face of straight edges are one; of a curved one they turn, hence every direction.
+    const Point n = face.normal(reference_centre(face.shape));
+    const bool flat = face.affine();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double r = (flat ? std::abs(n[i]) : 1.0) * reach + margin;
+      low[i] -= r;
+      high[i] += r;
+    }
+    return search_.candidates(low, high);
+  }
+
+  void add_slave_face(Index f) {
+    const Face face = slave_.reference_face(f);
+    points_.slave_measure += measure_of(face, kind_);
+    const auto slave_nodes = slave_.nodes(f);
+    const std::vector<Index> candidates = candidates_of(face);
+    const bool mine =
+        owns_any(slave_nodes) || std::any_of(candidates.begin(), candidates.end(),
+                                             [&](Index m) { return owns_any(master_.nodes(m)); });
+    if (!mine) return;
+    found_.clear();
+    switch (options_.rule) {
+      case IntegrationRule::segments:
+        (face.dimension() == 1 ? cut_line : cut_face)(face, search_, candidates, options_.search_distance,
+                                                      found_);
+        break;
+      case IntegrationRule::gauss:
+        for (const auto& q : mesh::gauss_rule(face.shape, options_.gauss_degree))
+          add_point(face, q.xi, q.weight * face.jacobian(q.xi), candidates);
+        break;
+      case IntegrationRule::nodal:
+        add_nodal_points(face, candidates);
+        break;
+    }
+    std::stable_sort(found_.begin(), found_.end(), [](const PairedPoint& a, const PairedPoint& b) {
+      return a.master_face < b.master_face;
+    });
+    for (std::size_t first = 0; first < found_.size();) {
+      std::size_t last = first;
+      while (last < found_.size() && found_[last].master_face == found_[first].master_face) ++last;
+      store(f, face, std::span(found_).subspan(first, last - first));
+      first = last;
+    }
+  }
+
+  void add_point(const Face& face, const Point& xi, double measure, const std::vector<Index>& candidates) {
+    const SurfacePoint partner =
+        search_.along(face.at(xi), face.normal(xi), options_.search_distance, k_edge_tolerance, candidates);
+    if (partner.face >= 0) found_.push_back({partner.face, xi, partner.projection.xi, measure});
+  }
+
+  void add_nodal_points(const Face& face, const std::vector<Index>& candidates) {
+    const std::vector<double> measures = nodal_measures(face, kind_);
+    for (std::size_t a = 0; a < measures.size(); ++a)
+      if (measures[a] > 0) add_point(face, node_xi(face.shape, a), measures[a], candidates);
+  }
+
+  // Points of one slave face and one master face become a pairing, when they touch a node of this process.
+  void store(Index slave_face, const Face& face, std::span<const PairedPoint> found) {
+    const Index master_face = found.front().master_face;
+    const auto s = slave_.nodes(slave_face), m = master_.nodes(master_face);
+    if (!owns_any(s) && !owns_any(m)) return;
+    Pairing p;
+    p.slave_face = slave_face;
+    p.master_face = master_face;
+    p.n_slave = static_cast<int>(s.size());
+    p.n_master = static_cast<int>(m.size());
+    p.first_node = points_.nodes.size();
+    p.first_point = points_.n_points();
+    p.n_points = static_cast<Index>(found.size());
+    p.first_shape = points_.shape.size();
+    p.counted = s[0] < mesh_.n_owned_nodes;
+    points_.nodes.insert(points_.nodes.end(), s.begin(), s.end());
+    points_.nodes.insert(points_.nodes.end(), m.begin(), m.end());
+    const Face& partner = search_.face(master_face);
+    std::array<double, k_max_face_nodes> values;
+    for (const PairedPoint& point : found) {
+      mesh::basis_values(face.shape, point.slave_xi, values);
+      points_.shape.insert(points_.shape.end(), values.begin(), values.begin() + p.n_slave);
+      mesh::basis_values(partner.shape, point.master_xi, values);
+      for (std::size_t b = 0; b < m.size(); ++b) points_.shape.push_back(-values[b]);
+      const Point x = face.at(point.slave_xi), n = face.normal(point.slave_xi);
+      // The nodal rule's measures hold the circumference already.
+      const double w =
+          point.measure * (options_.rule == IntegrationRule::nodal ? 1.0 : circumference(kind_, x));
+      points_.weight.push_back(w);
+      points_.normal.push_back(n);
+      points_.position.push_back(x);
+      points_.initial_penetration.push_back(dot(subtract(x, partner.at(point.master_xi)), n));
+      if (p.counted) points_.paired_measure += w;
+    }
+    points_.pairings.push_back(p);
+  }
+
+  const mesh::Mesh& mesh_;
+  AnalysisKind kind_;
+  const ContactSurface& slave_;
+  const ContactSurface& master_;
+  IntegrationOptions options_;
+  FaceSearch search_;
+  ContactPoints points_;
+  std::vector<PairedPoint> found_;
+};
+
+}  // namespace
+
+std::size_t ContactPoints::bytes() const {
+  return pairings.capacity() * sizeof(Pairing) + nodes.capacity() * sizeof(Index) +
+         (shape.capacity() + weight.capacity() + initial_penetration.capacity()) * sizeof(double) +
+         (normal.capacity() + position.capacity()) * sizeof(Point);
+}
+
+ContactPoints integrate(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
+                        const ContactSurface& master, const IntegrationOptions& options) {
+  return Builder(mesh, kind, slave, master, options).build();
+}
+
+}  // namespace solidus::contact

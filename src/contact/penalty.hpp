@@ -1,0 +1,17 @@
+/// The penalty from the stiffness of the elements next to the surfaces.
+#pragma once
+
+#include <span>
+
+#include "contact/surface.hpp"
+
+namespace solidus::contact {
+
+/// ⟨E/h⟩ over the faces of a surface, weighted by their areas [Pa/m]: E of the body behind a face, h the
+/// height of its element over the face. One value for the whole surface: a uniform pressure then goes with a
+/// uniform penetration, as the patch test wants. Collective.
+/// @param modulus E [Pa] of every body of the mesh
+double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
+                       std::span<const double> modulus);
+
+}  // namespace solidus::contact

@@ -1,0 +1,39 @@
+/// What the user says about a pair of surfaces, in SI.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/errors.hpp"
+#include "contact/heat_transfer.hpp"
+#include "contact/integration.hpp"
+
+namespace solidus::contact {
+
+struct ContactSpec {
+  std::string name;    ///< for messages and column names
+  std::string slave;   ///< surface that is integrated over; the finer or softer one
+  std::string master;  ///< surface that it is projected on
+  /// ε_N [Pa/m], or the factor on the local stiffness E/h (`penalty_is_factor`).
+  double penalty = 10;
+  bool penalty_is_factor = true;
+  /// Stiffness of every point in all directions, as a part of ε_N, that the tangent gets on top of the law's.
+  /// It is not in the forces, so a converged solution does not feel it; it keeps the matrix regular while a
+  /// body has lost support (all points open) or may slide freely. Zero: none.
+  double stabilisation = 1e-6;
+  IntegrationRule integration = IntegrationRule::segments;
+  int gauss_degree = 4;  ///< rule `gauss`
+  /// How far partners are looked for along the normal [m]; absent: a tenth of the slave's extent.
+  std::optional<double> search_distance;
+  /// Initial gaps and penetrations up to this size are taken as touching, g_N = 0 [m]; absent: 1e-6 of the
+  /// mean size of the slave's faces, which is rounding. Larger values close the gaps that faceted curved
+  /// surfaces leave between them.
+  std::optional<double> touching;
+  std::optional<HeatTransferSpec> heat;  ///< absent: no heat passes
+  /// Heat between nodes of the two sides only (a graph Laplacian): keeps the thermal matrix of non-negative
+  /// type, as the closed integration rule needs (6.3.1). False: consistent integrals, for the open rule.
+  bool nodal_heat = true;
+  SourceLocation where;
+};
+
+}  // namespace solidus::contact
