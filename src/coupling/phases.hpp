@@ -1,0 +1,26 @@
+/// The phases that a scheme drives, owned by whoever built them.
+#pragma once
+
+#include <vector>
+
+#include "contact/pair.hpp"
+#include "coupling/observer.hpp"
+#include "coupling/state.hpp"
+#include "heat/thermal_phase.hpp"
+#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/structural_heat.hpp"
+
+namespace solidus::coupling {
+
+struct Phases {
+  heat::ThermalPhase* heat = nullptr;               ///< null: mechanics alone
+  mechanics::MechanicalPhase* mechanics = nullptr;  ///< null: heat alone
+  mechanics::StructuralHeat* structural = nullptr;  ///< null: deformation does no heat
+  std::vector<contact::ContactPair*> contacts;
+  std::vector<double> temperature;                  ///< [K], [local node]: of a mechanical phase alone
+};
+
+/// What every scheme reports of the state it reached: temperatures, solid fraction, contact.
+void summarise(const Phases& phases, const State& state, StepEffort& effort);
+
+}  // namespace solidus::coupling
