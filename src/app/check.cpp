@@ -1,0 +1,69 @@
+/// The verb `check`: everything but solving.
+#include <fmt/format.h>
+
+#include "app/verbs.hpp"
+#include "base/units.hpp"
+#include "model/case_file.hpp"
+#include "model/case_materials.hpp"
+#include "model/mesh_input.hpp"
+#include "results/summary.hpp"
+
+namespace solidus::app {
+
+namespace {
+
+const char* text(AnalysisKind kind) {
+  switch (kind) {
+    case AnalysisKind::plane_strain:
+      return "plane strain";
+    case AnalysisKind::axisymmetric:
+      return "axisymmetric";
+    case AnalysisKind::solid:
+      return "three-dimensional";
+  }
+  return "";
+}
+
+const char* text(model::Physics physics) {
+  switch (physics) {
+    case model::Physics::heat:
+      return "heat";
+    case model::Physics::mechanics:
+      return "mechanics";
+    case model::Physics::thermomechanical:
+      return "heat and mechanics";
+  }
+  return "";
+}
+
+}  // namespace
+
+ExitCode check(const CaseArguments& arguments) {
+  const model::Case c = model::load_case(arguments.path, arguments.set);
+  const model::CaseSpec& spec = c.spec;
+  model::load_materials(spec);
+  const mesh::Mesh mesh = model::load_mesh(spec);
+  const results::MeshCounts counts = results::count(mesh);
+
+  std::string out = fmt::format("{}\n  analysis    {}, {}\n  mesh        {} nodes", spec.title,
+                                text(spec.analysis.kind), text(spec.analysis.physics), counts.nodes);
+  for (const auto& [shape, n] : counts.elements_of_shape) out += fmt::format(", {} {}", n, shape);
+  for (std::size_t i = 0; i < spec.bodies.size(); ++i)
+    out += fmt::format("\n  body        {}: {} at {:.6g} degC, {} elements", spec.bodies[i].name,
+                       spec.bodies[i].material,
+                       units::to_display(spec.bodies[i].initial_temperature, "K", "degC"),
+                       counts.elements_of_body[i].second);
+  for (const auto& t : spec.thermal_conditions)
+    out += fmt::format("\n  heat        {} on {}", t.name, t.group);
+  for (const auto& m : spec.mechanical_conditions)
+    out += fmt::format("\n  mechanics   {} on {}", m.name, m.group);
+  for (const auto& k : spec.contacts)
+    out += fmt::format("\n  contact     {}: {} on {}", k.name, k.slave, k.master);
+  out += spec.time.steady
+             ? "\n  time        steady"
+             : fmt::format("\n  time        {:.6g} s in steps of {:.6g} s", *spec.time.end, *spec.time.step);
+  print(out + "\nThe case is in order.\n");
+  return k_done;
+}
+
+}  // namespace solidus::app
