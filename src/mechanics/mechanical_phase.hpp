@@ -105,7 +105,6 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
 
   const mesh::Mesh& mesh_;
-  AnalysisKind kind_;
   int components_;
   MechanicsOptions options_;
   std::vector<algebra::Contribution*> contributions_;
