@@ -1,0 +1,270 @@
+#include "results/probes.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "algebra/parallel.hpp"
+#include "mesh/locate.hpp"
+#include "results/output_error.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+using mesh::Mesh;
+
+// A point this far outside, in sizes of the element there, still counts as inside: a chord of a curved
+// boundary with six elements to the quarter turn runs 3 % of its length below the arc.
+constexpr double k_slack = 0.05;
+
+std::size_t cell_offset(const Mesh& mesh, std::size_t block) {
+  std::size_t offset = 0;
+  for (std::size_t b = 0; b < block; ++b) offset += static_cast<std::size_t>(mesh.blocks[b].size());
+  return offset;
+}
+
+int body_index(const Mesh& mesh, const std::string& name) {
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
+    if (mesh.bodies[b].name == name) return static_cast<int>(b);
+  return -1;
+}
+
+std::string group_names(const Mesh& mesh) {
+  std::string names;
+  for (const mesh::Body& body : mesh.bodies) names += (names.empty() ? "" : ", ") + body.name;
+  for (const auto& [name, surface] : mesh.surfaces) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& [name, nodes] : mesh.node_sets)
+    if (mesh.surfaces.count(name) == 0 && body_index(mesh, name) < 0)
+      names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+// The extent of an element in its widest direction.
+double element_size(const Mesh& mesh, const mesh::Block& block, Index e) {
+  double size = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = [&](int a) { return mesh.x[static_cast<std::size_t>(block.element(e)[a])][i]; };
+    double low = at(0), high = at(0);
+    for (int a = 1; a < mesh::node_count(block.shape); ++a) {
+      low = std::min(low, at(a));
+      high = std::max(high, at(a));
+    }
+    size = std::max(size, high - low);
+  }
+  return size;
+}
+
+double component_of(const Field& field, std::size_t entity, int component) {
+  const auto nc = static_cast<std::size_t>(field.components);
+  const double* v = field.values.data() + entity * nc;
+  if (component != k_magnitude) return v[component];
+  double square = 0;
+  for (std::size_t c = 0; c < nc; ++c) square += v[c] * v[c];
+  return std::sqrt(square);
+}
+
+units::Conversion conversion_to(const Column& column, const std::string& si, units::Temperature kind,
+                                const SourceLocation& where) {
+  if (!units::compatible(column.unit, si))
+    throw InputError(where, fmt::format("probe '{}': the unit '{}' does not fit", column.name, column.unit),
+                     fmt::format("it measures {}, for example in '{}'", units::dimension_name(si), si));
+  return units::conversion(si, column.unit, kind);
+}
+
+}  // namespace
+
+int component_index(std::string_view name, int components, AnalysisKind kind) {
+  using Names = std::vector<std::pair<std::string_view, int>>;
+  const bool turned = kind == AnalysisKind::axisymmetric;
+  Names names;
+  if (components == 1)
+    names = {{"", 0}};
+  else if (components == 6)
+    names = turned ? Names{{"rr", 0}, {"zz", 1}, {"tt", 2}, {"rz", 3}, {"xx", 0}, {"yy", 1}, {"xy", 3}}
+                   : Names{{"xx", 0}, {"yy", 1}, {"zz", 2}, {"xy", 3}, {"yz", 4}, {"xz", 5}};
+  else
+    names = turned ? Names{{"r", 0}, {"z", 1}, {"x", 0}, {"y", 1}, {"magnitude", k_magnitude}}
+                   : Names{{"x", 0}, {"y", 1}, {"z", 2}, {"magnitude", k_magnitude}};
+  std::string known;
+  for (const auto& [text, index] : names) {
+    if (index >= components) continue;
+    if (text == name) return index;
+    known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", text);
+  }
+  throw std::invalid_argument("components: " + known);
+}
+
+Probes::Probes(const Mesh& mesh, AnalysisKind kind, const std::vector<Probe>& probes,
+               const FieldSet& fields) {
+  const auto field_of = [&](const Sampled& probe) -> const Field& {
+    if (const Field* field = fields.find(probe.field)) return *field;
+    std::string known;
+    for (const Field& field : fields.all()) known += (known.empty() ? "" : ", ") + field.name;
+    throw InputError(probe.where,
+                     fmt::format("probe '{}': there is no field '{}'", probe.column.name, probe.field),
+                     "fields: " + known);
+  };
+  for (const Probe& probe : probes) {
+    if (const auto* point = std::get_if<PointProbe>(&probe))
+      samples_.push_back(point_sample(mesh, *point, field_of(*point)));
+    else if (const auto* group = std::get_if<GroupProbe>(&probe))
+      samples_.push_back(group_sample(mesh, kind, *group, field_of(*group)));
+    else
+      samples_.push_back(linear_sample(std::get<LinearProbe>(probe)));
+    columns_.push_back(std::visit([](const auto& p) { return p.column; }, probe));
+  }
+}
+
+Probes::Sample Probes::point_sample(const Mesh& mesh, const PointProbe& probe, const Field& field) const {
+  Sample sample;
+  sample.field = probe.field;
+  sample.component = probe.component;
+  sample.unit = field.unit;
+  sample.shown = conversion_to(probe.column, field.unit, units::Temperature::absolute, probe.where);
+  const mesh::LocatedPoint place = mesh::locate(mesh, probe.at, probe.body);
+  const auto block = static_cast<std::size_t>(std::max(place.block, Index{0}));
+  const double size =
+      algebra::global_max(place.here ? element_size(mesh, mesh.blocks[block], place.element) : 0.0);
+  if (!(place.distance <= k_slack * size)) {
+    const std::string body =
+        probe.body < 0 ? "the mesh" : "body '" + mesh.bodies[static_cast<std::size_t>(probe.body)].name + "'";
+    throw InputError(probe.where,
+                     fmt::format("probe '{}': the point ({:g}, {:g}, {:g}) m lies outside {}",
+                                 probe.column.name, probe.at[0], probe.at[1], probe.at[2], body),
+                     fmt::format("the nearest element is {:.3g} m away", place.distance));
+  }
+  if (place.here && field.place == Place::cell)
+    sample.weights = {{cell_offset(mesh, block) + static_cast<std::size_t>(place.element), 1.0}};
+  else
+    for (std::size_t a = 0; a < place.nodes.size(); ++a)
+      sample.weights.emplace_back(static_cast<std::size_t>(place.nodes[a]), place.weights[a]);
+  return sample;
+}
+
+Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const GroupProbe& probe,
+                                    const Field& field) const {
+  const auto refuse = [&](const std::string& what, const std::string& allowed) {
+    throw InputError(probe.where, fmt::format("probe '{}': {}", probe.column.name, what), allowed);
+  };
+  const int body = body_index(mesh, probe.group);
+  const bool extreme = probe.statistic == Statistic::minimum || probe.statistic == Statistic::maximum;
+  const auto nodes = mesh.node_sets.find(probe.group);
+  if (nodes == mesh.node_sets.end())
+    refuse(fmt::format("there is no group '{}'", probe.group), "groups: " + group_names(mesh));
+  if (field.place == Place::cell && (body < 0 || !extreme))
+    refuse(fmt::format("the field '{}' belongs to elements", probe.field),
+           "it has a minimum and a maximum over a body, and values at points");
+
+  Sample sample;
+  sample.field = probe.field;
+  sample.component = probe.component;
+  sample.unit = field.unit;
+  if (extreme) {
+    sample.reduce = probe.statistic == Statistic::minimum ? Reduce::minimum : Reduce::maximum;
+    if (field.place == Place::node) {
+      for (const Index node : nodes->second)
+        if (node < mesh.n_owned_nodes) sample.weights.emplace_back(static_cast<std::size_t>(node), 1.0);
+    } else {
+      for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+        for (Index e = 0; mesh.blocks[b].body == body && e < mesh.blocks[b].n_counted; ++e)
+          sample.weights.emplace_back(cell_offset(mesh, b) + static_cast<std::size_t>(e), 1.0);
+    }
+    if (!algebra::any_process(!sample.weights.empty()))
+      refuse(fmt::format("the group '{}' is empty", probe.group), {});
+  } else {
+    const mesh::NodalFunctional mean = mesh::group_mean(mesh, probe.group, kind);
+    for (std::size_t a = 0; a < mean.nodes.size(); ++a)
+      sample.weights.emplace_back(static_cast<std::size_t>(mean.nodes[a]), mean.weights[a]);
+  }
+  if (probe.statistic == Statistic::integral) {
+    const double measure = mesh::group_measure(mesh, probe.group, kind);
+    if (!(measure > 0))
+      refuse(fmt::format("'{}' is a set of points; it has no integral", probe.group),
+             "take a body or a surface");
+    sample.factor = measure;
+    sample.unit = (field.unit == "1" ? "" : field.unit + " ") + (body < 0 ? "m2" : "m3");
+  }
+  sample.shown = conversion_to(probe.column, sample.unit, units::Temperature::absolute, probe.where);
+  return sample;
+}
+
+Probes::Sample Probes::linear_sample(const LinearProbe& probe) const {
+  Sample sample;
+  sample.reduce = Reduce::linear;
+  double sum = 0;
+  for (const auto& [factor, name] : probe.terms) {
+    const auto found =
+        std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
+    if (found == columns_.end()) {
+      std::string known;
+      for (const Column& column : columns_) known += (known.empty() ? "" : ", ") + column.name;
+      throw InputError(probe.where,
+                       fmt::format("probe '{}': there is no probe '{}' before it", probe.column.name, name),
+                       "probes so far: " + known);
+    }
+    const auto index = static_cast<std::size_t>(found - columns_.begin());
+    const std::string& unit = samples_[index].unit;
+    if (!sample.unit.empty() && !units::compatible(unit, sample.unit))
+      throw InputError(probe.where, fmt::format("probe '{}': '{}' measures something else than '{}'",
+                                                probe.column.name, name, probe.terms.front().second));
+    if (sample.unit.empty()) sample.unit = unit;
+    sample.terms.emplace_back(factor, index);
+    sum += factor;
+  }
+  if (sample.terms.empty())
+    throw InputError(probe.where, fmt::format("probe '{}' combines nothing", probe.column.name));
+  const bool absolute = std::abs(sum - 1) < 1e-12;
+  sample.shown =
+      conversion_to(probe.column, sample.unit,
+                    absolute ? units::Temperature::absolute : units::Temperature::difference, probe.where);
+  return sample;
+}
+
+std::vector<double> Probes::values(const FieldSet& fields) const {
+  // In SI; minima and maxima in one reduction (the maximum of the negated value is the minimum).
+  std::vector<double> sums(samples_.size(), 0.0), peaks(samples_.size(), 0.0);
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    const Sample& sample = samples_[s];
+    if (sample.reduce == Reduce::linear) continue;
+    const Field* field = fields.find(sample.field);
+    if (field == nullptr) throw std::invalid_argument("probes: no field '" + sample.field + "'");
+    const double sign = sample.reduce == Reduce::minimum ? -1.0 : 1.0;
+    if (sample.reduce != Reduce::sum) peaks[s] = -std::numeric_limits<double>::infinity();
+    for (const auto& [entity, weight] : sample.weights) {
+      const double value = component_of(*field, entity, sample.component);
+      if (sample.reduce == Reduce::sum)
+        sums[s] += weight * value;
+      else
+        // Written so that a NaN stays and is found below, which std::max would lose.
+        peaks[s] = sign * value <= peaks[s] ? peaks[s] : sign * value;
+    }
+  }
+  const int n = static_cast<int>(samples_.size());
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), n, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, peaks.data(), n, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+
+  std::vector<double> si(samples_.size()), shown(samples_.size());
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    const Sample& sample = samples_[s];
+    if (sample.reduce == Reduce::sum) si[s] = sums[s] * sample.factor;
+    if (sample.reduce == Reduce::maximum) si[s] = peaks[s];
+    if (sample.reduce == Reduce::minimum) si[s] = -peaks[s];
+    for (const auto& [factor, term] : sample.terms) si[s] += factor * si[term];
+    shown[s] = sample.shown(si[s]);
+    if (!std::isfinite(shown[s])) throw NotFiniteError("probe '" + columns_[s].header() + "'", {});
+  }
+  return shown;
+}
+
+std::size_t Probes::bytes() const {
+  std::size_t bytes = 0;
+  for (const Sample& sample : samples_) bytes += sample.weights.size() * sizeof(sample.weights[0]);
+  return bytes;
+}
+
+}  // namespace solidus::results
