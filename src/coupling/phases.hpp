@@ -17,10 +17,13 @@ struct Phases {
   mechanics::MechanicalPhase* mechanics = nullptr;  ///< null: heat alone
   mechanics::StructuralHeat* structural = nullptr;  ///< null: deformation does no heat
   std::vector<contact::ContactPair*> contacts;
-  std::vector<double> temperature;                  ///< [K], [local node]: of a mechanical phase alone
+  std::vector<double> temperature;  ///< [K], [local node]: of a mechanical phase alone
 };
 
 /// What every scheme reports of the state it reached: temperatures, solid fraction, contact.
 void summarise(const Phases& phases, const State& state, StepEffort& effort);
+
+/// Energy in the contact penalties at the last update of the pairs [J]. Collective.
+double contact_energy(const Phases& phases);
 
 }  // namespace solidus::coupling

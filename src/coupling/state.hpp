@@ -7,9 +7,9 @@
 namespace solidus::coupling {
 
 struct State {
-  double time = 0;                        ///< [s]
-  heat::ThermalState heat;                ///< empty without a thermal phase
-  mechanics::MechanicalState mechanics;   ///< empty without a mechanical phase
+  double time = 0;                       ///< [s]
+  heat::ThermalState heat;               ///< empty without a thermal phase
+  mechanics::MechanicalState mechanics;  ///< empty without a mechanical phase
 };
 
 }  // namespace solidus::coupling

@@ -1,0 +1,64 @@
+#include "coupling/isothermal.hpp"
+
+#include <mpi.h>
+
+namespace solidus::coupling {
+
+namespace {
+
+PhaseEffort effort_of(const algebra::NewtonReport& newton, double seconds) {
+  return {newton.iterations, newton.linear_iterations,
+          newton.residuals.empty() ? 0.0 : newton.residuals.back(), seconds};
+}
+
+}  // namespace
+
+void IsothermalSplit::synchronise(const State& state) {
+  if (phases_.mechanics == nullptr) return;  // without deformation the gaps stay as they were made
+  for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
+}
+
+StepEffort IsothermalSplit::advance(const State& old, State& trial, double time, double dt) {
+  StepEffort effort;
+  if (phases_.mechanics != nullptr) mechanical_phase(old, trial, time, dt, effort);
+  if (phases_.heat != nullptr) thermal_phase(old, trial, time, dt, effort);
+  summarise(phases_, trial, effort);
+  return effort;
+}
+
+// Equilibrium at the temperature of t_n (4.46), then gaps and conductances of the configuration found.
+void IsothermalSplit::mechanical_phase(const State& old, State& trial, double time, double dt,
+                                       StepEffort& effort) {
+  const double start = MPI_Wtime();
+  const double spring_energy = contact_energy(phases_);
+  const std::vector<double>& temperature =
+      phases_.heat != nullptr ? old.heat.temperature : phases_.temperature;
+  const mechanics::PhaseReport report =
+      phases_.mechanics->solve(old.mechanics, trial.mechanics, temperature, time, dt);
+  for (contact::ContactPair* pair : phases_.contacts) pair->update(trial.mechanics.displacement);
+
+  effort.energy.contact = contact_energy(phases_) - spring_energy;
+  effort.energy.work = report.work.external_work + report.work.support_work;
+  effort.mechanics = effort_of(report.newton, MPI_Wtime() - start);
+}
+
+// The balance of energy at the new configuration (4.53): Γ stays as the mechanical phase left it.
+void IsothermalSplit::thermal_phase(const State& old, State& trial, double time, double dt,
+                                    StepEffort& effort) {
+  const double start = MPI_Wtime();
+  const heat::PhaseReport report = phases_.heat->solve(old.heat, trial.heat, time, dt);
+
+  effort.energy.stored_heat = report.balance.stored;
+  for (const heat::ConditionHeat& condition : report.balance.conditions)
+    effort.energy.heat_in += condition.heat;
+  effort.energy.heat_exchanged = report.balance.exchanged;
+  if (phases_.structural != nullptr) {
+    effort.energy.structural = phases_.structural->energy_change(trial.heat.temperature);
+  } else {
+    // Deformation exchanges nothing with heat: the first law is that of the thermal phase alone.
+    effort.energy.work = effort.energy.contact = 0;
+  }
+  effort.heat = effort_of(report.newton, MPI_Wtime() - start);
+}
+
+}  // namespace solidus::coupling

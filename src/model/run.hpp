@@ -1,0 +1,27 @@
+/// From a checked case to a finished results folder.
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+
+#include "model/case_file.hpp"
+
+namespace solidus::model {
+
+struct RunOptions {
+  std::filesystem::path folder;      ///< of the results
+  std::ostream* progress = nullptr;  ///< where steps are shown; null: nowhere (process 0 only)
+  bool terminal = false;             ///< draw a progress bar
+};
+
+struct RunResult {
+  bool finished = true;
+  std::string reason;  ///< why it stopped, with place and advice
+};
+
+/// Loads materials and mesh, builds the phases, runs and writes the results. Collective. Throws InputError for what the case or the
+/// place for the results has wrong, before anything is computed where that can be known.
+RunResult run_case(const Case& c, const RunOptions& options);
+
+}  // namespace solidus::model
