@@ -1,5 +1,6 @@
 #include "mesh/block_geometry.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -110,28 +111,62 @@ std::size_t BlockGeometry::bytes() const {
          sizeof(Lane) * (gradients.size() + weight.size() + inverse_radius.size() + counted.size());
 }
 
-PackVector<Lane> nodal_weights(const Mesh& mesh, const Block& block, AnalysisKind kind) {
-  const bool quadratic = order(block.shape) == 2;
-  // N (or N²) × det J × r: exact on affine shapes, as good as the geometry on curved ones.
-  const BlockGeometry geometry(mesh, block, kind, gauss_rule(block.shape, quadratic ? 6 : 4));
-  const auto nn = static_cast<std::size_t>(geometry.n_nodes),
-             np = static_cast<std::size_t>(geometry.n_points),
-             nb = static_cast<std::size_t>(geometry.n_batches);
-  PackVector<Lane> weights(nb * nn);
-  for (std::size_t b = 0; b < nb; ++b) {
-    Lane volume(0.0), scale(0.0);
-    for (std::size_t p = 0; p < np; ++p) {
-      const Lane w = geometry.weight[b * np + p];
-      volume += w;
-      for (std::size_t a = 0; a < nn; ++a) {
-        const double n = geometry.values[p * nn + a];
-        weights[b * nn + a] += w * Lane(quadratic ? n * n : n);
+namespace {
+
+// A rule that integrates N (or N²) × det J × r exactly on affine shapes, and as well as the geometry deserves
+// on curved ones.
+Rule weighting_rule(Shape shape, bool squared) {
+  const bool simplex = vertex_count(shape) == dimension(shape) + 1;
+  if (order(shape) == 2) return gauss_rule(shape, simplex ? (squared ? 5 : 4) : (squared ? 6 : 5));
+  return gauss_rule(shape, simplex ? 2 : 3);
+}
+
+// ∫ f(N_a) dV and ∫ dV of every element. Gradients are of no interest here, so the geometry is made for a few
+// batches at a time.
+template <class Function>
+void integrate_basis(const Mesh& mesh, const Block& block, AnalysisKind kind, const Rule& rule, Function f,
+                     PackVector<Lane>& integral, PackVector<Lane>& volume) {
+  constexpr Index k_chunk = 64 * k_lanes;
+  const auto nn = static_cast<std::size_t>(node_count(block.shape));
+  integral.assign(static_cast<std::size_t>(batches(block.size())) * nn, Lane(0.0));
+  volume.assign(static_cast<std::size_t>(batches(block.size())), Lane(0.0));
+  for (Index first = 0; first < block.size(); first += k_chunk) {
+    const Index n = std::min(k_chunk, block.size() - first);
+    Block part;
+    part.shape = block.shape;
+    part.nodes.assign(block.element(first), block.element(first) + n * node_count(block.shape));
+    const BlockGeometry geometry(mesh, part, kind, rule);
+    const auto from = static_cast<std::size_t>(first / k_lanes);
+    for (std::size_t b = 0; b < static_cast<std::size_t>(geometry.n_batches); ++b)
+      for (std::size_t p = 0; p < rule.size(); ++p) {
+        const Lane w = geometry.weight[b * rule.size() + p];
+        volume[from + b] += w;
+        for (std::size_t a = 0; a < nn; ++a)
+          integral[(from + b) * nn + a] += w * Lane(f(geometry.values[p * nn + a]));
       }
-    }
-    if (!quadratic) continue;
+  }
+}
+
+}  // namespace
+
+PackVector<Lane> basis_integrals(const Mesh& mesh, const Block& block, AnalysisKind kind) {
+  PackVector<Lane> integral, volume;
+  integrate_basis(
+      mesh, block, kind, weighting_rule(block.shape, false), [](double n) { return n; }, integral, volume);
+  return integral;
+}
+
+PackVector<Lane> nodal_weights(const Mesh& mesh, const Block& block, AnalysisKind kind) {
+  if (order(block.shape) == 1) return basis_integrals(mesh, block, kind);
+  PackVector<Lane> weights, volume;
+  integrate_basis(
+      mesh, block, kind, weighting_rule(block.shape, true), [](double n) { return n * n; }, weights, volume);
+  const auto nn = static_cast<std::size_t>(node_count(block.shape));
+  for (std::size_t b = 0; b < volume.size(); ++b) {
+    Lane scale(0.0);
     for (std::size_t a = 0; a < nn; ++a) scale += weights[b * nn + a];
     for (int lane = 0; lane < k_lanes; ++lane)  // padding lanes have no volume
-      scale.set(lane, scale[lane] > 0 ? volume[lane] / scale[lane] : 0.0);
+      scale.set(lane, scale[lane] > 0 ? volume[b][lane] / scale[lane] : 0.0);
     for (std::size_t a = 0; a < nn; ++a) weights[b * nn + a] *= scale;
   }
   return weights;

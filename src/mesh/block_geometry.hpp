@@ -40,6 +40,9 @@ struct BlockGeometry {
 /// [m³].
 PackVector<Lane> nodal_weights(const Mesh& mesh, const Block& block, AnalysisKind kind);
 
+/// ∫ N_a dV of every element, which the nodal weights are for linear shapes: [batch][node] [m³].
+PackVector<Lane> basis_integrals(const Mesh& mesh, const Block& block, AnalysisKind kind);
+
 /// Boundary faces: values of N and surface weights (area × 2π r | 1) and outward unit normals, face by face.
 struct FaceGeometry {
   FaceGeometry(const Mesh& mesh, const Block& faces, AnalysisKind kind, const Rule& rule);

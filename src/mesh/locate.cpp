@@ -1,0 +1,324 @@
+#include "mesh/locate.hpp"
+
+#include <mpi.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+double global_sum(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return value;
+}
+bool on_any_process(bool value) {
+  int n = value ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
+  return n > 0;
+}
+
+// Inside up to this much of the reference shape: points on edges count for every element that has the edge.
+constexpr double k_inside = 1e-9;
+
+bool inside(Shape shape, const Point& xi) {
+  const int dim = dimension(shape);
+  const bool simplex = dim > 1 && vertex_count(shape) == dim + 1;
+  double sum = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i) {
+    sum += xi[i];
+    if (simplex ? xi[i] < -k_inside : std::abs(xi[i]) > 1 + k_inside) return false;
+  }
+  return !simplex || sum <= 1 + k_inside;
+}
+
+Point centre(Shape shape) {
+  const int dim = dimension(shape);
+  const bool simplex = dim > 1 && vertex_count(shape) == dim + 1;
+  const double c = simplex ? 1.0 / (dim + 1) : 0.0;
+  return {dim > 0 ? c : 0, dim > 1 ? c : 0, dim > 2 ? c : 0};
+}
+
+// Solves the symmetric positive system a y = b of up to three unknowns by elimination; false if singular.
+bool solve(std::array<std::array<double, 3>, 3> a, Point b, std::size_t n, Point& y) {
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(a[k][k] > 0)) return false;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double f = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < n; ++j) a[i][j] -= f * a[k][j];
+      b[i] -= f * b[k];
+    }
+  }
+  y = {};
+  for (std::size_t k = n; k-- > 0;) {
+    y[k] = b[k];
+    for (std::size_t j = k + 1; j < n; ++j) y[k] -= a[k][j] * y[j];
+    y[k] /= a[k][k];
+  }
+  return true;
+}
+
+struct Nearest {
+  double distance = std::numeric_limits<double>::infinity();
+  Shape shape = Shape::point1;  // the element itself, or the face, edge or vertex that holds the place
+  std::vector<int> local;       // its nodes among the element's
+  Point xi{};                   // in `shape`
+};
+
+class Search {
+ public:
+  Search(const Mesh& mesh, const Point& target) : mesh_(mesh), target_(target) {}
+
+  // The place of the element nearest to the target: in its interior, or, where that has no stationary point,
+  // on one of its faces, and so on down to the vertices.
+  Nearest element(Shape shape, const Index* nodes) {
+    std::vector<int> all(static_cast<std::size_t>(node_count(shape)));
+    for (std::size_t a = 0; a < all.size(); ++a) all[a] = static_cast<int>(a);
+    Nearest best;
+    descend(shape, nodes, all, best);
+    return best;
+  }
+
+ private:
+  // Gauss–Newton on |x(ξ) − target|².
+  bool stationary(Shape shape, const Index* nodes, const std::vector<int>& local, Point& xi,
+                  double& distance) {
+    const auto dim = static_cast<std::size_t>(dimension(shape));
+    std::array<double, 20> value{};
+    std::array<double, 60> slope{};
+    xi = centre(shape);
+    for (int iteration = 0;; ++iteration) {
+      basis_values(shape, xi, value);
+      basis_gradients(shape, xi, slope);
+      Point r = target_;
+      std::array<Point, 3> tangent{};
+      for (std::size_t a = 0; a < local.size(); ++a) {
+        const Point& x = mesh_.x[static_cast<std::size_t>(nodes[local[a]])];
+        for (std::size_t i = 0; i < 3; ++i) {
+          r[i] -= value[a] * x[i];
+          for (std::size_t k = 0; k < dim; ++k) tangent[k][i] += slope[a * dim + k] * x[i];
+        }
+      }
+      distance = std::hypot(r[0], r[1], r[2]);
+      std::array<std::array<double, 3>, 3> metric{};
+      Point rhs{}, step{};
+      for (std::size_t k = 0; k < dim; ++k) {
+        for (std::size_t i = 0; i < 3; ++i) rhs[k] += tangent[k][i] * r[i];
+        for (std::size_t l = 0; l < dim; ++l)
+          for (std::size_t i = 0; i < 3; ++i) metric[k][l] += tangent[k][i] * tangent[l][i];
+      }
+      if (!solve(metric, rhs, dim, step)) return false;
+      double size = 0;
+      for (std::size_t k = 0; k < dim; ++k) size = std::max(size, std::abs(step[k]));
+      if (size < 1e-12) return true;
+      if (iteration == 50 || !(size < 1e3)) return false;
+      for (std::size_t k = 0; k < dim; ++k) xi[k] += step[k] * std::min(1.0, 2.0 / size);
+    }
+  }
+
+  void descend(Shape shape, const Index* nodes, const std::vector<int>& local, Nearest& best) {
+    Point xi{};
+    double distance = 0;
+    if (dimension(shape) == 0) {
+      const Point& x = mesh_.x[static_cast<std::size_t>(nodes[local[0]])];
+      distance = std::hypot(x[0] - target_[0], x[1] - target_[1], x[2] - target_[2]);
+      if (distance < best.distance) best = {distance, shape, local, xi};
+      return;
+    }
+    if (stationary(shape, nodes, local, xi, distance) && inside(shape, xi)) {
+      // An interior stationary point of full dimension is the target itself.
+      if (dimension(shape) == mesh_.dimension) distance = 0;
+      if (distance < best.distance) best = {distance, shape, local, xi};
+      return;
+    }
+    for (int f = 0; f < face_count(shape); ++f) {
+      std::vector<int> face;
+      for (const int a : face_nodes(shape, f)) face.push_back(local[static_cast<std::size_t>(a)]);
+      descend(face_shape(shape), nodes, face, best);
+    }
+  }
+
+  const Mesh& mesh_;
+  Point target_;
+};
+
+// A lower bound of the distance to an element: to the box around its nodes, widened for curved edges.
+double distance_to_box(const Mesh& mesh, const Block& block, Index e, const Point& p) {
+  const Index* nodes = block.element(e);
+  double squared = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int a = 0; a < node_count(block.shape); ++a) {
+      const double c = mesh.x[static_cast<std::size_t>(nodes[a])][i];
+      low = std::min(low, c);
+      high = std::max(high, c);
+    }
+    const double margin = (order(block.shape) == 2 ? 0.25 : 1e-6) * (high - low);
+    const double outside = std::max({low - margin - p[i], p[i] - high - margin, 0.0});
+    squared += outside * outside;
+  }
+  return std::sqrt(squared);
+}
+
+struct Candidate {
+  double distance = std::numeric_limits<double>::infinity();
+  double body = 0, number = 0, process = 0;  // who answers when several are equally near
+  auto key() const { return std::array{distance, body, number, process}; }
+};
+
+}  // namespace
+
+double NodalFunctional::share(std::span<const double> field, int n_components, int component) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    sum += weights[k] * field[static_cast<std::size_t>(nodes[k]) * static_cast<std::size_t>(n_components) +
+                              static_cast<std::size_t>(component)];
+  return sum;
+}
+
+LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
+  int rank = 0, n_processes = 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+
+  Search search(mesh, point);
+  LocatedPoint located;
+  Nearest nearest;
+  Candidate best;
+  best.process = rank;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const Block& block = mesh.blocks[b];
+    if (body >= 0 && block.body != body) continue;
+    for (Index e = 0; e < block.n_counted; ++e) {
+      if (distance_to_box(mesh, block, e, point) > best.distance) continue;
+      Nearest here = search.element(block.shape, block.element(e));
+      const Candidate candidate{here.distance, static_cast<double>(block.body),
+                                static_cast<double>(block.input_element[static_cast<std::size_t>(e)]),
+                                static_cast<double>(rank)};
+      if (!(candidate.key() < best.key())) continue;
+      best = candidate;
+      nearest = std::move(here);
+      located.block = static_cast<Index>(b);
+      located.element = e;
+    }
+  }
+
+  std::vector<Candidate> all(static_cast<std::size_t>(n_processes));
+  static_assert(sizeof(Candidate) == 4 * sizeof(double));
+  MPI_Allgather(&best, 4, MPI_DOUBLE, all.data(), 4, MPI_DOUBLE, PETSC_COMM_WORLD);
+  best = *std::min_element(all.begin(), all.end(),
+                           [](const Candidate& a, const Candidate& b) { return a.key() < b.key(); });
+  located.distance = best.distance;
+  located.here = static_cast<int>(best.process) == rank && located.element >= 0;
+  if (!located.here) {
+    located.block = located.element = -1;
+    return located;
+  }
+
+  // From the face's coordinates to the element's: reference faces are flat.
+  const Block& block = mesh.blocks[static_cast<std::size_t>(located.block)];
+  std::vector<double> values(nearest.local.size());
+  basis_values(nearest.shape, nearest.xi, values);
+  const Rule reference_nodes = nodal_rule(block.shape);
+  for (std::size_t a = 0; a < values.size(); ++a)
+    for (std::size_t i = 0; i < 3; ++i)
+      located.xi[i] += values[a] * reference_nodes[static_cast<std::size_t>(nearest.local[a])].xi[i];
+  for (std::size_t a = 0; a < values.size(); ++a) {
+    located.nodes.push_back(block.element(located.element)[nearest.local[a]]);
+    located.weights.push_back(values[a]);
+  }
+  return located;
+}
+
+namespace {
+
+enum class GroupKind { none, surface, body, nodes };
+
+// A surface or body may have no part on a process, so all ask together.
+GroupKind kind_of(const Mesh& mesh, const std::string& group) {
+  if (std::any_of(mesh.bodies.begin(), mesh.bodies.end(), [&](const Body& b) { return b.name == group; }))
+    return GroupKind::body;
+  if (on_any_process(mesh.surfaces.contains(group))) return GroupKind::surface;
+  if (on_any_process(mesh.node_sets.contains(group))) return GroupKind::nodes;
+  return GroupKind::none;
+}
+
+// ∫ N_a over what this process counts, summed into the nodes; zero-weight terms left out.
+NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind group_kind,
+                         AnalysisKind kind) {
+  std::vector<double> weight(static_cast<std::size_t>(mesh.n_nodes()), 0.0);
+  if (group_kind == GroupKind::body) {
+    for (const Block& block : mesh.blocks) {
+      if (mesh.bodies[static_cast<std::size_t>(block.body)].name != group) continue;
+      const PackVector<Lane> integrals = basis_integrals(mesh, block, kind);
+      const int nn = node_count(block.shape);
+      for (Index e = 0; e < block.n_counted; ++e)
+        for (int a = 0; a < nn; ++a)
+          weight[static_cast<std::size_t>(block.element(e)[a])] +=
+              integrals[static_cast<std::size_t>(e / k_lanes) * static_cast<std::size_t>(nn) +
+                        static_cast<std::size_t>(a)][e % k_lanes];
+    }
+  } else if (group_kind == GroupKind::surface && mesh.surfaces.contains(group)) {
+    for (const Block& faces : mesh.surfaces.at(group).faces) {
+      const FaceGeometry geometry(mesh, faces, kind, gauss_rule(faces.shape, 5));
+      const auto nn = static_cast<std::size_t>(geometry.n_nodes),
+                 np = static_cast<std::size_t>(geometry.n_points);
+      for (Index f = 0; f < faces.n_counted; ++f)
+        for (std::size_t p = 0; p < np; ++p)
+          for (std::size_t a = 0; a < nn; ++a)
+            weight[static_cast<std::size_t>(faces.element(f)[a])] +=
+                geometry.weight[static_cast<std::size_t>(f) * np + p] * geometry.values[p * nn + a];
+    }
+  } else if (group_kind == GroupKind::nodes && mesh.node_sets.contains(group)) {
+    for (const Index i : mesh.node_sets.at(group))
+      if (i < mesh.n_owned_nodes) weight[static_cast<std::size_t>(i)] = 1;
+  }
+  NodalFunctional functional;
+  for (std::size_t i = 0; i < weight.size(); ++i)
+    if (weight[i] != 0) {
+      functional.nodes.push_back(static_cast<Index>(i));
+      functional.weights.push_back(weight[i]);
+    }
+  return functional;
+}
+
+double total(const NodalFunctional& functional) {
+  double sum = 0;
+  for (const double w : functional.weights) sum += w;
+  return global_sum(sum);
+}
+
+GroupKind require_group(const Mesh& mesh, const std::string& group) {
+  const GroupKind kind = kind_of(mesh, group);
+  if (kind != GroupKind::none) return kind;
+  std::string names;
+  for (const auto& [name, nodes] : mesh.node_sets) names += (names.empty() ? "" : ", ") + name;
+  throw InputError({}, "the mesh has no group '" + group + "'", "groups of the mesh: " + names);
+}
+
+}  // namespace
+
+NodalFunctional group_mean(const Mesh& mesh, const std::string& group, AnalysisKind kind) {
+  const GroupKind group_kind = require_group(mesh, group);
+  NodalFunctional mean = integral(mesh, group, group_kind, kind);
+  double sum = total(mean);
+  if (!(sum > 0)) {  // the axis of revolution has no area: there, nodes count alike
+    mean = integral(mesh, group, GroupKind::nodes, kind);
+    sum = total(mean);
+  }
+  for (double& w : mean.weights) w /= sum;
+  return mean;
+}
+
+double group_measure(const Mesh& mesh, const std::string& group, AnalysisKind kind) {
+  const GroupKind group_kind = require_group(mesh, group);
+  return group_kind == GroupKind::nodes ? 0.0 : total(integral(mesh, group, group_kind, kind));
+}
+
+}  // namespace solidus::mesh
