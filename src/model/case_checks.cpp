@@ -137,10 +137,6 @@ void check_contacts(const CaseSpec& spec) {
     if (c.heat && c.heat->exponent > 0 && !c.heat->hardness)
       throw InputError(c.heat->where, "'hardness' is missing: an exponent needs it",
                        "hardness = \"... MPa\"");
-    if (c.heat && c.heat->gap_law == ContactHeatSpec::GapLaw::table &&
-        c.heat->gap_conductance.of == Argument::constant)
-      throw InputError(c.heat->where, "'gap_conductance' is a constant",
-                       "a table of the gap, or gap_law = \"constant\"");
   }
 }
 

@@ -9,6 +9,7 @@
 #include "algebra/linear_solver.hpp"
 #include "base/keys.hpp"
 #include "base/types.hpp"
+#include "contact/spec.hpp"
 #include "heat/thermal_phase.hpp"
 
 namespace solidus::model {
@@ -92,24 +93,16 @@ struct MechanicalConditionSpec {
   SourceLocation where;
 };
 
-struct ContactHeatSpec {
-  enum class GapLaw { constant, table, gas };
-  double conductance = 0;          ///< h_co [W/(m² K)], from body to body
-  double exponent = 0;             ///< ε of 3.49
-  std::optional<double> hardness;  ///< H_e of 3.49 [Pa]
-  GapLaw gap_law = GapLaw::constant;
-  Function gap_conductance;     ///< h(g) [W/(m² K)]
-  double gas_conductivity = 0;  ///< k_a of 3.50 [W/(m K)]
-  SourceLocation where;
-};
-
+/// A contact pair; model/contact_input.hpp makes the contact room's specification of it.
 struct ContactSpec {
-  enum class Integration { segments, nodal, gauss };
   std::string name, slave, master;
-  std::optional<double> penalty;  ///< ε_N [N/m³]
-  double penalty_factor = 0;  ///< ε_N = factor × stiffness of the slave / element size, without `penalty`
-  Integration integration = Integration::segments;
-  std::optional<ContactHeatSpec> heat;  ///< absent: no heat passes
+  std::optional<double> penalty;  ///< ε_N [N/m³]; absent: from the factor
+  double penalty_factor = 0;      ///< ε_N = factor × E / height of the slave's elements
+  double stabilisation = 0;       ///< share of ε_N added to the tangent only
+  contact::IntegrationRule integration = contact::IntegrationRule::segments;
+  int gauss_degree = 0;
+  std::optional<double> search_distance, touching;  ///< [m]
+  std::optional<contact::HeatTransferSpec> heat;    ///< absent: no heat passes
   SourceLocation where;
 };
 

@@ -20,8 +20,9 @@ struct RunResult {
   std::string reason;  ///< why it stopped, with place and advice
 };
 
-/// Loads materials and mesh, builds the phases, runs and writes the results. Collective. Throws InputError for what the case or the
-/// place for the results has wrong, before anything is computed where that can be known.
+/// Loads materials and mesh, builds the phases, runs and writes the results. Collective. Throws InputError
+/// for what the case or the place for the results has wrong, before anything is computed where that can be
+/// known.
 RunResult run_case(const Case& c, const RunOptions& options);
 
 }  // namespace solidus::model

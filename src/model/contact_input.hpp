@@ -1,0 +1,20 @@
+/// From the case to the contact pairs.
+#pragma once
+
+#include <vector>
+
+#include "contact/spec.hpp"
+#include "material/material.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// One per [[contact]]. Heat passes between nodes only when heat content is integrated there too (closed
+/// rule).
+std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec);
+
+/// Young's modulus of every body at room temperature [Pa], for penalties given as a factor; of bodies without
+/// one, 1 GPa (in an analysis of heat alone it is never used).
+std::vector<double> contact_moduli(const std::vector<material::Material>& materials);
+
+}  // namespace solidus::model

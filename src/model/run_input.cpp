@@ -1,0 +1,82 @@
+#include "model/run_input.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace solidus::model {
+
+namespace {
+
+results::Sampled sampled(const CaseSpec& spec, const ProbeSpec& probe) {
+  results::Sampled result;
+  result.column = {probe.name, probe.unit};
+  result.field = probe.field;
+  result.where = probe.where;
+  try {
+    result.component =
+        results::component_index(probe.component, field_components(spec, probe.field), spec.analysis.kind);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(probe.where,
+                     fmt::format("probe '{}' of the field '{}': {}", probe.name, probe.field, error.what()));
+  }
+  return result;
+}
+
+results::PointProbe point_probe(const CaseSpec& spec, const ProbeSpec& probe) {
+  results::PointProbe result{sampled(spec, probe)};
+  for (std::size_t i = 0; i < probe.point.size(); ++i) result.at[i] = probe.point[i];
+  if (probe.body)
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+      if (spec.bodies[b].name == *probe.body) result.body = static_cast<int>(b);
+  return result;
+}
+
+}  // namespace
+
+coupling::TimeOptions time_options(const CaseSpec& spec) {
+  const TimeSpec& t = spec.time;
+  coupling::TimeOptions options;
+  options.end = *t.end;
+  options.step.step = *t.step;
+  options.step.adaptive = t.adaptive;
+  options.step.min_step = t.min_step.value_or(0);
+  options.step.max_step = t.max_step.value_or(0);
+  options.step.growth = t.growth;
+  options.step.cut = t.cut;
+  options.step.easy_iterations = t.easy_iterations;
+  options.output_times = spec.output.times;
+  if (spec.output.every) {
+    const double every = *spec.output.every;
+    const auto n = static_cast<long>(std::floor(options.end / every * (1 + 1e-12)));
+    for (long i = 1; i <= n; ++i) options.output_times.push_back(static_cast<double>(i) * every);
+  }
+  return options;
+}
+
+int field_components(const CaseSpec& spec, const std::string& field) {
+  if (field == "displacement") return displacement_components(spec.analysis.kind);
+  return field == "stress" || field == "viscous_strain" ? 6 : 1;
+}
+
+std::vector<results::Probe> probes(const CaseSpec& spec) {
+  std::vector<results::Probe> result;
+  for (const ProbeSpec& probe : spec.probes) {
+    switch (probe.kind) {
+      case ProbeSpec::Kind::point:
+        result.emplace_back(point_probe(spec, probe));
+        break;
+      case ProbeSpec::Kind::mean:
+        result.emplace_back(results::GroupProbe{sampled(spec, probe), probe.group, results::Statistic::mean});
+        break;
+      case ProbeSpec::Kind::difference:
+        result.emplace_back(results::LinearProbe{
+            {probe.name, probe.unit}, {{1.0, probe.of[0]}, {-1.0, probe.of[1]}}, probe.where});
+        break;
+    }
+  }
+  return result;
+}
+
+}  // namespace solidus::model
