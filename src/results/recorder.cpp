@@ -1,0 +1,124 @@
+#include "results/recorder.hpp"
+
+#include <petscsys.h>
+
+#include "base/log.hpp"
+#include "results/output_error.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options) {
+  return {phases.heat != nullptr && options.melting, !phases.contacts.empty(), phases.mechanics != nullptr};
+}
+
+int process() {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+
+}  // namespace
+
+Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupling::Phases& phases,
+                   RecorderOptions options)
+    : folder_(folder),
+      phases_(phases),
+      options_(std::move(options)),
+      rank_(process()),
+      fields_(mesh, phases),
+      probes_(mesh, options_.kind, options_.probes, fields_.bodies()),
+      globals_(global_columns(phases, options_)),
+      output_(folder, mesh),
+      began_(MPI_Wtime()) {
+  fields_.bodies().select(options_.fields);  // complains about a field there is not
+  on_first_process([&] {
+    std::vector<Column> columns{{"time", "s"}};
+    columns.insert(columns.end(), probes_.columns().begin(), probes_.columns().end());
+    for (const Column& c : globals_.columns()) columns.push_back(c);
+    history_.emplace(folder.history(), columns);
+    steps_.emplace(folder.steps(), step_columns());
+    if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
+  });
+}
+
+void Recorder::begin(const coupling::State& state) {
+  coupling::StepEffort initial;
+  coupling::summarise(phases_, state, initial);
+  globals_.start(initial);
+  fields_.update(state);
+  add_history_row(state.time);
+  write_fields(state);
+  if (progress_) progress_->begin();
+}
+
+void Recorder::step(const coupling::StepRecord& record, const coupling::State& state) {
+  const double start = MPI_Wtime();
+  globals_.add(record);
+  fields_.update(state);
+  on_first_process([&] { steps_->add(step_row(record)); });
+  add_history_row(state.time);
+  if (record.output) write_fields(state);
+  if (progress_) progress_->step(record);
+  seconds_heat_ += record.heat.seconds;
+  seconds_mechanics_ += record.mechanics.seconds;
+  seconds_output_ += MPI_Wtime() - start;
+  options_.summary.steps = record.number;
+  options_.summary.rejected += record.rejected;
+}
+
+void Recorder::stopped(const std::string& reason, const coupling::State& state) {
+  write_fields(state);
+  if (progress_) progress_->end("stopped: " + reason);
+  write_summary_file("stopped: " + reason, state);
+}
+
+void Recorder::end(const coupling::State& state) {
+  if (progress_) progress_->end("finished");
+  write_summary_file("finished", state);
+}
+
+void Recorder::add_history_row(double time) {
+  last_row_ = {time};
+  for (const double v : probes_.values(fields_.bodies())) last_row_.push_back(v);
+  for (const double v : globals_.values()) last_row_.push_back(v);
+  on_first_process([&] { history_->add(last_row_); });
+}
+
+void Recorder::write_fields(const coupling::State& state) {
+  output_.write(state.time, fields_.bodies().select(options_.fields), fields_.surfaces());
+}
+
+void Recorder::write_summary_file(const std::string& outcome, const coupling::State& state) {
+  Summary& s = options_.summary;
+  s.outcome = outcome;
+  s.end_time = state.time;
+  s.memory = peak_memory();
+  s.relative_energy_defect = globals_.relative_defect();
+  s.seconds.emplace_back("heat", seconds_heat_);
+  s.seconds.emplace_back("mechanics", seconds_mechanics_);
+  s.seconds.emplace_back("output", seconds_output_);
+  s.seconds.emplace_back("run", MPI_Wtime() - began_);
+  if (phases_.heat != nullptr) {
+    s.seconds.emplace_back("heat_solver", phases_.heat->seconds_solver());
+    s.table_bytes.emplace_back("heat", phases_.heat->bytes());
+  }
+  if (phases_.mechanics != nullptr) {
+    s.seconds.emplace_back("mechanics_assembly", phases_.mechanics->seconds_assembly());
+    s.seconds.emplace_back("mechanics_residual", phases_.mechanics->seconds_residual());
+    s.seconds.emplace_back("mechanics_solver", phases_.mechanics->seconds_solver());
+    s.table_bytes.emplace_back("mechanics", phases_.mechanics->bytes());
+  }
+  for (const contact::ContactPair* pair : phases_.contacts)
+    s.table_bytes.emplace_back("contact " + pair->spec().name, pair->bytes());
+  s.warnings = logging::warnings();
+  on_first_process([&] {
+    const auto& columns = history_->columns();
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      s.final_values.emplace_back(columns[i].header(), last_row_[i]);
+    write_summary(folder_.summary(), s);
+  });
+}
+
+}  // namespace solidus::results

@@ -1,0 +1,61 @@
+/// The observer that fills a run's folder: fields, history, steps, progress and the summary.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "coupling/phases.hpp"
+#include "results/field_output.hpp"
+#include "results/probes.hpp"
+#include "results/progress.hpp"
+#include "results/run_folder.hpp"
+#include "results/state_fields.hpp"
+#include "results/step_columns.hpp"
+#include "results/summary.hpp"
+
+namespace solidus::results {
+
+struct RecorderOptions {
+  AnalysisKind kind = AnalysisKind::plane_strain;
+  std::vector<Probe> probes;
+  std::vector<std::string> fields;   ///< to write; empty: all
+  std::ostream* progress = nullptr;  ///< process 0; null: none
+  ProgressOptions progress_options;
+  bool melting = true;  ///< a material can melt
+  Summary summary;      ///< what is known before the run: names, mesh, seconds of setting up
+};
+
+class Recorder : public coupling::Observer {
+ public:
+  /// Finds probes and opens the tables. Collective. Throws InputError (probes), OutputError.
+  Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupling::Phases& phases,
+           RecorderOptions options);
+
+  void begin(const coupling::State& state) override;
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const std::string& reason, const coupling::State& state) override;
+  void end(const coupling::State& state) override;
+
+ private:
+  void add_history_row(double time);
+  void write_fields(const coupling::State& state);
+  void write_summary_file(const std::string& outcome, const coupling::State& state);
+
+  const RunFolder& folder_;
+  const coupling::Phases& phases_;
+  RecorderOptions options_;
+  int rank_ = 0;
+  StateFields fields_;
+  Probes probes_;
+  GlobalHistory globals_;
+  FieldOutput output_;
+  std::optional<CsvTable> history_, steps_;  // on process 0
+  std::optional<Progress> progress_;         // on process 0
+  std::vector<double> last_row_;
+  double seconds_heat_ = 0, seconds_mechanics_ = 0, seconds_output_ = 0, began_ = 0;
+};
+
+}  // namespace solidus::results

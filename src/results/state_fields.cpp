@@ -1,0 +1,105 @@
+#include "results/state_fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace solidus::results {
+
+namespace {
+
+// Copies [element][component] of one block behind what is there already.
+template <std::size_t n>
+void append(std::vector<double>& to, std::size_t& at, const std::vector<std::array<double, n>>& from) {
+  for (const auto& values : from)
+    for (const double v : values) to[at++] = v;
+}
+void append(std::vector<double>& to, std::size_t& at, const std::vector<double>& from) {
+  for (const double v : from) to[at++] = v;
+}
+
+}  // namespace
+
+StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
+    : mesh_(mesh), phases_(phases), ghosts_(mesh) {
+  if (phases.heat != nullptr) {
+    add("temperature", "K", 1, Place::node);
+    add("solid_fraction", "1", 1, Place::node);
+  }
+  if (phases.mechanics != nullptr) {
+    add("displacement", "m", phases.mechanics->components(), Place::node);
+    add("stress", "Pa", 6, Place::cell);
+    add("von_mises", "Pa", 1, Place::cell);
+    add("pressure", "Pa", 1, Place::cell);
+    add("viscous_strain", "1", 6, Place::cell);
+  }
+  for (const auto& v : values_) bodies_.add({v->name, v->unit, v->components, v->place, v->values});
+  if (phases.contacts.empty()) return;
+
+  FieldSet contact;
+  for (const auto& v : values_)
+    if (v->place == Place::node) contact.add({v->name, v->unit, v->components, v->place, v->values});
+  for (const auto& [name, unit] :
+       {std::pair{"gap", "m"}, {"contact_pressure", "Pa"}, {"conductance", "W/m2/K"}}) {
+    const std::vector<double>& values = add(name, unit, 1, Place::node);
+    contact.add({name, unit, 1, Place::node, values});
+    bodies_.add({name, unit, 1, Place::node, values});
+  }
+  for (const contact::ContactPair* pair : phases.contacts)
+    for (const std::string& surface : {pair->spec().slave, pair->spec().master}) surfaces_[surface] = contact;
+}
+
+std::vector<double>& StateFields::add(std::string name, std::string unit, int components, Place place) {
+  auto v = std::make_unique<Values>(Values{std::move(name), std::move(unit), components, place, {}});
+  v->values.assign(value_count(mesh_, place, components), 0.0);
+  by_name_[v->name] = &v->values;
+  values_.push_back(std::move(v));
+  return values_.back()->values;
+}
+
+void StateFields::update(const coupling::State& state) {
+  if (phases_.heat != nullptr) {
+    std::copy(state.heat.temperature.begin(), state.heat.temperature.end(), by_name_["temperature"]->begin());
+    const std::vector<double> solid = phases_.heat->solid_fraction(state.heat);
+    std::copy(solid.begin(), solid.end(), by_name_["solid_fraction"]->begin());
+  }
+  if (phases_.mechanics != nullptr) {
+    std::copy(state.mechanics.displacement.begin(), state.mechanics.displacement.end(),
+              by_name_["displacement"]->begin());
+    update_elements();
+  }
+  if (!phases_.contacts.empty()) update_contacts();
+}
+
+void StateFields::update_elements() {
+  const std::vector<mechanics::ElementFields> blocks = phases_.mechanics->element_fields();
+  std::array<std::size_t, 4> at{};
+  for (const mechanics::ElementFields& block : blocks) {
+    append(*by_name_["stress"], at[0], block.stress);
+    append(*by_name_["von_mises"], at[1], block.von_mises);
+    append(*by_name_["pressure"], at[2], block.pressure);
+    append(*by_name_["viscous_strain"], at[3], block.inelastic_strain);
+  }
+}
+
+// A node of several pairs shows its closest partner; nodes away from the surfaces show zero.
+void StateFields::update_contacts() {
+  std::vector<double>&gap = *by_name_["gap"], &pressure = *by_name_["contact_pressure"],
+  &conductance = *by_name_["conductance"];
+  for (std::vector<double>* field : {&gap, &pressure, &conductance})
+    std::fill(field->begin(), field->end(), 0.0);
+  std::vector<char> seen(gap.size(), 0);
+  for (const contact::ContactPair* pair : phases_.contacts) {
+    const contact::ContactNodalFields fields = pair->nodal_fields();
+    for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
+      const auto i = static_cast<std::size_t>(fields.nodes[k]);
+      if (!std::isfinite(fields.opening[k]) || (seen[i] != 0 && gap[i] <= fields.opening[k])) continue;
+      seen[i] = 1;
+      gap[i] = fields.opening[k];
+      pressure[i] = fields.pressure[k];
+      conductance[i] = fields.conductance[k];
+    }
+  }
+  for (std::vector<double>* field : {&gap, &pressure, &conductance}) ghosts_.update(*field, 1);
+}
+
+}  // namespace solidus::results

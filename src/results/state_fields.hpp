@@ -1,0 +1,49 @@
+/// The fields of a state under the names that users know, ready for files and probes.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "algebra/parallel.hpp"
+#include "coupling/phases.hpp"
+#include "results/field.hpp"
+
+namespace solidus::results {
+
+/// temperature [K], solid_fraction, displacement [m] at nodes; stress, von_mises, pressure [Pa],
+/// viscous_strain in elements; and on contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m²
+/// K)]. Those exist that the analysis has.
+class StateFields {
+ public:
+  StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases);
+
+  /// Takes the values of a state that the phases have just reached (stresses and gaps are those of their last
+  /// solve). Collective.
+  void update(const coupling::State& state);
+
+  /// Fields of the bodies, and of each contact surface by its name. Views that hold until this object goes.
+  const FieldSet& bodies() const { return bodies_; }
+  const std::map<std::string, FieldSet>& surfaces() const { return surfaces_; }
+
+ private:
+  struct Values {
+    std::string name, unit;
+    int components;
+    Place place;
+    std::vector<double> values;
+  };
+  std::vector<double>& add(std::string name, std::string unit, int components, Place place);
+  void update_elements();
+  void update_contacts();
+
+  const mesh::Mesh& mesh_;
+  const coupling::Phases& phases_;
+  algebra::GhostExchange ghosts_;
+  std::vector<std::unique_ptr<Values>> values_;  // stable addresses: the sets hold views
+  std::map<std::string, std::vector<double>*> by_name_;
+  FieldSet bodies_;
+  std::map<std::string, FieldSet> surfaces_;
+};
+
+}  // namespace solidus::results
