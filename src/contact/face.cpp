@@ -38,7 +38,7 @@ std::array<Point, 2> Face::tangents(const Point& xi) const {
   std::array<Point, 2> t{};
   for (std::size_t a = 0; a < static_cast<std::size_t>(n_nodes); ++a)
     for (std::size_t i = 0; i < dim; ++i) t[i] = add_scaled(t[i], g[a * dim + i], x[a]);
-  if (dim == 1) t[1] = {0, 0, -1};
+  if (dim == 1) t[1] = {0, 0, 1};
   return t;
 }
 

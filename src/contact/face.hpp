@@ -21,7 +21,7 @@ struct Face {
   int dimension() const { return mesh::dimension(shape); }
   /// x(ξ) [m] (monograph 3.1).
   Point at(const Point& xi) const;
-  /// The convected basis ∂x/∂ξ_α (3.2). For lines the second vector is −e_z, so that the cross product of
+  /// The convected basis ∂x/∂ξ_α (3.2). For lines the second vector is e_z, so that the cross product of
   /// both is the outward normal of a 2-D body whose boundary runs anticlockwise.
   std::array<Point, 2> tangents(const Point& xi) const;
   /// ∂²x/∂ξ_α∂ξ_β in the order 11, 22, 12.

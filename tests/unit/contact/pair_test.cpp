@@ -1,0 +1,315 @@
+#include "contact/pair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "algebra/parallel.hpp"
+#include "bodies.hpp"
+
+namespace solidus::contact {
+namespace {
+
+using mesh::Shape;
+
+ContactSpec spec(IntegrationRule rule = IntegrationRule::segments) {
+  ContactSpec s;
+  s.name = "interface";
+  s.slave = "lower_top";
+  s.master = "upper_bottom";
+  s.penalty = 1e10;
+  s.penalty_is_factor = false;
+  s.stabilisation = 0;
+  s.integration = rule;
+  return s;
+}
+
+HeatTransferSpec heat_spec() {
+  HeatTransferSpec h;
+  h.conductance = 2300;
+  h.gap_law = HeatTransferSpec::GapLaw::table;
+  h.gap_table = Table({0, 6e-5, 1e-4}, {2300, 350, 300});
+  return h;
+}
+
+AnalysisKind kind_of(const mesh::Mesh& mesh) {
+  return mesh.dimension == 2 ? AnalysisKind::axisymmetric : AnalysisKind::solid;
+}
+std::size_t last_axis(const mesh::Mesh& mesh) {
+  return static_cast<std::size_t>(mesh.dimension - 1);
+}
+
+// A smooth displacement under which the interface is closed on one side and open on the other.
+std::vector<double> rocking(const mesh::Mesh& mesh, double lift = 0) {
+  return test::nodal_field(mesh, mesh.dimension, [&](const Point& x, bool upper) {
+    std::vector<double> u(static_cast<std::size_t>(mesh.dimension));
+    u[0] = 1e-4 * std::sin(9 * x[0]);
+    u[last_axis(mesh)] = upper ? lift + 2e-4 * (x[0] - 0.14) + 1e-4 * x[1] : 3e-5 * std::cos(8 * x[0]);
+    return u;
+  });
+}
+
+algebra::BlockMatrix make_matrix(const mesh::Mesh& mesh, int block, algebra::Contribution& term) {
+  algebra::NodeGraph graph(mesh);
+  term.add_to_graph(graph);
+  return {mesh, block, std::move(graph)};
+}
+
+// max |(r(x + h d) − r(x − h d)) / 2h − K d| / max |K d| over the owned rows, for a smooth d.
+double tangent_defect(const mesh::Mesh& mesh, algebra::Contribution& term, int block,
+                      const std::vector<double>& x, double h) {
+  algebra::BlockMatrix matrix = make_matrix(mesh, block, term);
+  term.bind(matrix);
+  term.add_tangent(x, matrix);
+  std::vector<double> d(x.size()), up = x, down = x;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto& p = mesh.x[i / static_cast<std::size_t>(block)];
+    d[i] = std::sin(31 * p[0] + 17 * p[1] + 13 * p[2] +
+                    static_cast<double>(i % static_cast<std::size_t>(block)));
+    up[i] += h * d[i];
+    down[i] -= h * d[i];
+  }
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes * block);
+  std::vector<double> r_up(n, 0), r_down(n, 0), product(n, 0);
+  term.add_residual(up, r_up);
+  term.add_residual(down, r_down);
+  matrix.multiply(d, product);
+  double defect = 0, size = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    defect = std::max(defect, std::abs((r_up[i] - r_down[i]) / (2 * h) - product[i]));
+    size = std::max(size, std::abs(product[i]));
+  }
+  return algebra::global_max(defect) / algebra::global_max(size);
+}
+
+TEST(ContactForces, HaveTheTangentThatFiniteDifferencesShow) {
+  for (Shape shape : {Shape::tri3, Shape::quad8, Shape::tet4, Shape::hex8, Shape::tet10})
+    for (auto rule : {IntegrationRule::segments, IntegrationRule::nodal, IntegrationRule::gauss}) {
+      SCOPED_TRACE(mesh::name(shape));
+      const mesh::Mesh mesh = test::two_blocks(shape);
+      ContactPair pair(mesh, kind_of(mesh), spec(rule));
+      const std::vector<double> u = rocking(mesh);
+      pair.update(u);
+      const ContactSums sums = pair.sums({});
+      EXPECT_GT(sums.closed_points, 0);
+      EXPECT_LT(sums.closed_points, sums.points);
+      // Piecewise linear in u: the difference is exact but for rounding unless a point changes its state.
+      EXPECT_LT(tangent_defect(mesh, pair.mechanics(), mesh.dimension, u, 1e-10), 1e-5);
+    }
+}
+
+TEST(ContactForces, BalanceBetweenTheBodiesInSumAndMoment) {
+  for (Shape shape : {Shape::quad4, Shape::hex8, Shape::tet10}) {
+    SCOPED_TRACE(mesh::name(shape));
+    const mesh::Mesh mesh = test::two_blocks(shape, 1e-3);
+    const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+    ContactPair pair(mesh, kind, spec());
+    const auto dim = static_cast<std::size_t>(mesh.dimension);
+    std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes) * dim, 0);
+    pair.mechanics().add_residual(rocking(mesh, -1e-3), r);
+    std::array<double, 3> force{}, moment{};
+    double size = 0;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(mesh.n_owned_nodes); ++n) {
+      Point f{};
+      for (std::size_t i = 0; i < dim; ++i) f[i] = r[n * dim + i];
+      const Point m = cross(mesh.x[n], f);
+      size += norm(f);
+      for (std::size_t i = 0; i < 3; ++i) {
+        force[i] += f[i];
+        moment[i] += m[i];
+      }
+    }
+    size = algebra::global_sum(size);
+    EXPECT_GT(size, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(algebra::global_sum(force[i]), 0, 1e-13 * size);
+      EXPECT_NEAR(algebra::global_sum(moment[i]), 0, 1e-13 * size);
+    }
+  }
+}
+
+TEST(ContactForces, OfBodiesThatJustTouchAreZeroWithAStiffTangent) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactPair pair(mesh, AnalysisKind::plane_strain, spec());
+  EXPECT_EQ(pair.sums({}).closed_points, pair.sums({}).points);
+  EXPECT_EQ(pair.sums({}).force, 0);
+  auto matrix = make_matrix(mesh, 2, pair.mechanics());
+  pair.mechanics().bind(matrix);
+  const std::vector<double> u(mesh.x.size() * 2, 0.0);
+  pair.mechanics().add_tangent(u, matrix);
+  // The work of a rigid approach v is ½ v K v = ½ ε_N A v².
+  const auto v = test::nodal_field(mesh, 2, [](const Point&, bool upper) {
+    return std::vector<double>{0, upper ? -1.0 : 0.0};
+  });
+  std::vector<double> product(static_cast<std::size_t>(mesh.n_owned_nodes) * 2, 0);
+  matrix.multiply(v, product);
+  double work = 0;
+  for (std::size_t i = 0; i < product.size(); ++i) work += v[i] * product[i];
+  EXPECT_NEAR(algebra::global_sum(work), 1e10 * 0.3, 1e-13 * 3e9);
+}
+
+TEST(ContactSums, OfAnInclinedApproachAreTheClosedFormOnAnyNumberOfProcesses) {
+  // g = a (x − c): closed for x > c; the segment rule integrates the pieces that lie wholly on one side.
+  const double a = 1e-3;
+  const mesh::Mesh mesh = test::two_blocks(Shape::hex8);
+  ContactPair pair(mesh, AnalysisKind::solid, spec());
+  pair.update(test::nodal_field(mesh, 3, [&](const Point& x, bool upper) {
+    return std::vector<double>{0, 0, upper ? -a * (x[0] - 0.15) : 0.0};
+  }));
+  // The master's line x = 0.15 cuts the slave's faces, so no piece changes sign inside.
+  const ContactSums sums = pair.sums({});
+  EXPECT_NEAR(sums.closed_area, 0.15 * 0.2, 1e-14);
+  EXPECT_NEAR(sums.force, 1e10 * a * 0.5 * 0.15 * 0.15 * 0.2, 1e-12 * sums.force);
+  EXPECT_NEAR(sums.energy, 0.5 * 1e10 * a * a * 0.15 * 0.15 * 0.15 / 3 * 0.2, 1e-12 * sums.energy);
+}
+
+TEST(NodalFields, OfAUniformApproachAreUniformOnBothSides) {
+  for (Shape shape : {Shape::tri3, Shape::hex20}) {
+    const mesh::Mesh mesh = test::two_blocks(shape);
+    ContactSpec s = spec();
+    s.heat = heat_spec();
+    ContactPair pair(mesh, kind_of(mesh), s);
+    for (double approach : {1e-5, -3e-5}) {
+      pair.update(test::nodal_field(mesh, mesh.dimension, [&](const Point&, bool upper) {
+        std::vector<double> u(static_cast<std::size_t>(mesh.dimension), 0.0);
+        u[last_axis(mesh)] = upper ? -approach : 0;
+        return u;
+      }));
+      const ContactNodalFields fields = pair.nodal_fields();
+      for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
+        EXPECT_NEAR(fields.opening[i], -approach, 1e-16);
+        EXPECT_NEAR(fields.pressure[i], approach > 0 ? 1e10 * approach : 0, 1e-4);
+        EXPECT_NEAR(fields.conductance[i], approach > 0 ? 2300 : 0.5 * (2300 + 350), 1e-7);
+      }
+    }
+  }
+}
+
+std::vector<double> warm(const mesh::Mesh& mesh) {
+  return test::nodal_field(mesh, 1, [](const Point& x, bool upper) {
+    return std::vector<double>{(upper ? 500.0 : 900.0) + 50 * std::sin(12 * x[0] + 5 * x[1])};
+  });
+}
+
+TEST(InterfaceHeat, HasTheTangentThatFiniteDifferencesShow) {
+  for (Shape shape : {Shape::tri3, Shape::quad8, Shape::hex8, Shape::tet10})
+    for (bool nodal : {true, false}) {
+      SCOPED_TRACE(mesh::name(shape));
+      const mesh::Mesh mesh = test::two_blocks(shape);
+      ContactSpec s = spec();
+      s.heat = heat_spec();
+      s.nodal_heat = nodal;
+      ContactPair pair(mesh, kind_of(mesh), s);
+      pair.update(rocking(mesh));
+      // Linear in the temperature; differences of 1e5 W lose digits to rounding only.
+      EXPECT_LT(tangent_defect(mesh, *pair.heat(), 1, warm(mesh), 1.0), 1e-11);
+    }
+}
+
+TEST(InterfaceHeat, ByRadiationHasTheMeanOfBothDerivativesAsItsTangent) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.heat = heat_spec();
+  s.heat->slave_emissivity = 0.8;
+  s.heat->master_emissivity = 0.6;
+  s.heat->conductance = 0;
+  s.heat->gap_law = HeatTransferSpec::GapLaw::constant;
+  ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+  // Where both sides have one temperature the two derivatives, 4σΘ³ and −4σΘ³, are the tangent's.
+  const std::vector<double> equal(mesh.x.size(), 800.0);
+  EXPECT_LT(tangent_defect(mesh, *pair.heat(), 1, equal, 1e-2), 1e-8);
+  // And the heat is that of the law, not of its linearisation.
+  const auto hot_and_cold = test::nodal_field(
+      mesh, 1, [](const Point&, bool upper) { return std::vector{upper ? 400.0 : 1000.0}; });
+  const double factor = k_stefan_boltzmann / (1 / 0.8 + 1 / 0.6 - 1);
+  const double expected = factor * 0.3 * (std::pow(1000.0, 4) - std::pow(400.0, 4));
+  EXPECT_NEAR(pair.sums(hot_and_cold).heat, expected, 1e-12 * expected);
+}
+
+TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
+  for (bool nodal : {true, false})
+    for (Shape shape : {Shape::tri3, Shape::hex8, Shape::hex20}) {
+      SCOPED_TRACE(mesh::name(shape));
+      const mesh::Mesh mesh = test::two_blocks(shape);
+      ContactSpec s = spec();
+      s.heat = heat_spec();
+      s.heat->slave_emissivity = s.heat->master_emissivity = 0.5;
+      s.nodal_heat = nodal;
+      ContactPair pair(mesh, kind_of(mesh), s);
+      pair.update(rocking(mesh));
+      const std::vector<double> temperature = warm(mesh);
+      const std::vector<double> heat = pair.nodal_heat(temperature);
+      std::vector<char> is_upper(mesh.x.size(), 0);
+      for (Index n : mesh.node_sets.at("upper")) is_upper[static_cast<std::size_t>(n)] = 1;
+      double out = 0, in = 0;
+      for (std::size_t n = 0; n < heat.size(); ++n) (is_upper[n] ? in : out) += heat[n];
+      const double sum = pair.sums(temperature).heat;
+      EXPECT_GT(sum, 0);
+      EXPECT_NEAR(algebra::global_sum(out), sum, 1e-12 * sum);
+      EXPECT_NEAR(algebra::global_sum(in), -sum, 1e-12 * sum);
+    }
+}
+
+TEST(InterfaceHeat, InNodalFormKeepsTheMatrixOfNonNegativeTypeForLinearShapes) {
+  for (Shape shape : {Shape::tri3, Shape::quad4, Shape::tet4, Shape::hex8}) {
+    SCOPED_TRACE(mesh::name(shape));
+    const mesh::Mesh mesh = test::two_blocks(shape);
+    ContactSpec s = spec();
+    s.heat = heat_spec();
+    ContactPair pair(mesh, kind_of(mesh), s);
+    auto matrix = make_matrix(mesh, 1, *pair.heat());
+    pair.heat()->bind(matrix);
+    pair.heat()->add_tangent(warm(mesh), matrix);
+    double largest = 0;
+    for (const Pairing& p : pair.points().pairings)
+      for (int a = 0; a < p.n_nodes(); ++a)
+        for (int b = 0; b < p.n_nodes(); ++b) {
+          const Index row = pair.points().nodes[p.first_node + static_cast<std::size_t>(a)];
+          const Index column = pair.points().nodes[p.first_node + static_cast<std::size_t>(b)];
+          if (row != column && row < mesh.n_owned_nodes)
+            largest = std::max(largest, *matrix.block(matrix.slot(row, column)));
+        }
+    EXPECT_LE(largest, 0);
+  }
+}
+
+TEST(PenaltyFactor, IsTimesTheMeanStiffnessOfTheElementsAtTheStifferSurface) {
+  // Heights: lower 0.1/2, upper 0.2/2; moduli 70 and 210 GPa.
+  const std::vector<double> modulus{70e9, 210e9};
+  for (Shape shape : {Shape::tri3, Shape::quad4, Shape::quad8, Shape::hex8, Shape::hex20}) {
+    SCOPED_TRACE(mesh::name(shape));
+    const mesh::Mesh mesh = test::two_blocks(shape);
+    ContactSpec s = spec();
+    s.penalty = 20;
+    s.penalty_is_factor = true;
+    const ContactPair pair(mesh, kind_of(mesh), s, modulus);
+    EXPECT_NEAR(pair.penalty(), 20 * 210e9 / 0.1, 1e-9 * pair.penalty());
+  }
+}
+
+TEST(ContactPair, RefusesSurfacesThatDoNotMeet) {
+  const mesh::Mesh far = test::two_blocks(Shape::quad4, 0.5);
+  EXPECT_THROW(ContactPair(far, AnalysisKind::plane_strain, spec()), InputError);
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.master = s.slave;
+  EXPECT_THROW(ContactPair(mesh, AnalysisKind::plane_strain, s), InputError);
+  s.master = "nowhere";
+  EXPECT_THROW(ContactPair(mesh, AnalysisKind::plane_strain, s), InputError);
+  s = spec();
+  s.penalty_is_factor = true;
+  EXPECT_THROW(ContactPair(mesh, AnalysisKind::plane_strain, s), InputError) << "no stiffness known";
+}
+
+TEST(ContactPair, TakesSmallInitialGapsAsTouchingWhenToldTo) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-5);
+  ContactSpec s = spec();
+  EXPECT_EQ(ContactPair(mesh, AnalysisKind::plane_strain, s).sums({}).closed_points, 0);
+  s.touching = 2e-5;
+  const ContactSums sums = ContactPair(mesh, AnalysisKind::plane_strain, s).sums({});
+  EXPECT_EQ(sums.closed_points, sums.points);
+}
+
+}  // namespace
+}  // namespace solidus::contact
