@@ -1,9 +1,14 @@
 #include "results/run_folder.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
+#include "mesh/raw_mesh.hpp"
+#include "mesh/shapes.hpp"
 #include "results/csv.hpp"
 #include "results/field_output.hpp"
 #include "results/output_error.hpp"
@@ -22,7 +27,7 @@ TEST(RunFolder, IsNamedAfterCaseAndVariant) {
 }
 
 TEST(RunFolder, HoldsTheResolvedCaseAtOnce) {
-  test::TemporaryFolder folder;
+  test::SharedFolder folder;
   const RunFolder run(folder.path / "results" / "a" / "default", "title = \"A\"\n");
   const std::string text = test::read_text(run.root() / "case.toml");
   EXPECT_EQ(text.front(), '#');
@@ -31,7 +36,7 @@ TEST(RunFolder, HoldsTheResolvedCaseAtOnce) {
 }
 
 TEST(RunFolder, ReplacesAnEarlierRunAndKeepsForeignFiles) {
-  test::TemporaryFolder folder;
+  test::SharedFolder folder;
   const fs::path root = folder.path / "run";
   RunFolder(root, "");
   const std::vector<std::string> ours = {"history.csv",
@@ -43,16 +48,18 @@ TEST(RunFolder, ReplacesAnEarlierRunAndKeepsForeignFiles) {
                                          "fields/fields_00004.vtu.part"};
   const std::vector<std::string> foreign = {"notes.txt", "plots.png", "fields/mine.vtu",
                                             "fields/mine_00001.vtu"};
-  for (const auto& name : ours) std::ofstream(root / name) << "old";
-  for (const auto& name : foreign) std::ofstream(root / name) << "keep";
+  test::on_first([&] {
+    for (const auto& name : ours) std::ofstream(root / name) << "old";
+    for (const auto& name : foreign) std::ofstream(root / name) << "keep";
+  });
   RunFolder(root, "");
   for (const auto& name : ours) EXPECT_FALSE(fs::exists(root / name)) << name;
   for (const auto& name : foreign) EXPECT_EQ(test::read_text(root / name), "keep") << name;
 }
 
 TEST(RunFolder, NeverTakesACaseFolderForAResultsFolder) {
-  test::TemporaryFolder folder;
-  std::ofstream(folder.path / "case.toml") << "title = \"mine\"\n";
+  test::SharedFolder folder;
+  test::on_first([&] { std::ofstream(folder.path / "case.toml") << "title = \"mine\"\n"; });
   try {
     RunFolder(folder.path, "");
     FAIL() << "must throw";
@@ -65,15 +72,15 @@ TEST(RunFolder, NeverTakesACaseFolderForAResultsFolder) {
 }
 
 TEST(RunFolder, KeepsTablesThatSomebodyElseWrote) {
-  test::TemporaryFolder folder;
-  std::ofstream(folder.path / "history.csv") << "mine";
+  test::SharedFolder folder;
+  test::on_first([&] { std::ofstream(folder.path / "history.csv") << "mine"; });
   EXPECT_THROW(RunFolder(folder.path, ""), OutputError);
   EXPECT_EQ(test::read_text(folder.path / "history.csv"), "mine");
 }
 
 TEST(RunFolder, SaysWhenItCannotBeMade) {
-  test::TemporaryFolder folder;
-  std::ofstream(folder.path / "file") << "";
+  test::SharedFolder folder;
+  test::on_first([&] { std::ofstream(folder.path / "file") << ""; });
   try {
     RunFolder(folder.path / "file" / "run", "");
     FAIL() << "must throw";
@@ -97,40 +104,102 @@ TEST(RunFolder, SaysWhenItIsNotWritable) {
 }
 
 TEST(RunFolder, KeepsLinksSoThatTablesCanLiveElsewhere) {
-  test::TemporaryFolder folder;
-  fs::create_symlink("/dev/full", folder.path / "history.csv");
+  test::SharedFolder folder;
+  test::on_first([&] { fs::create_symlink("/dev/full", folder.path / "history.csv"); });
   const RunFolder run(folder.path, "");
   EXPECT_THROW(CsvTable(run.history(), {{"time", "s"}}), OutputError) << "goes to the full device";
 }
 
-TEST(FieldOutput, NumbersFilesAndCollectsThem) {
-  test::TemporaryFolder folder;
+// A block of 6 × 4 cells split over the processes, with a linear field at nodes and the input number in
+// cells.
+struct Distributed : ::testing::Test {
+  test::SharedFolder folder;
+  mesh::Mesh mesh;
+  std::vector<double> temperature, number;
+  FieldSet fields;
+  int rank = 0, size = 1;
+
+  Distributed() {
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    MPI_Comm_size(PETSC_COMM_WORLD, &size);
+    mesh::RawMesh raw;
+    if (rank == 0) raw = mesh::make_block({{3, 2}, {}, {6, 4}, "part"}, mesh::Shape::quad8);
+    mesh = mesh::distribute(raw, {"part"}, {"x_max"});
+    for (const mesh::Point& x : mesh.x) temperature.push_back(300 + 10 * x[0] + x[1]);
+    for (const mesh::Block& b : mesh.blocks)
+      for (const GlobalIndex e : b.input_element) number.push_back(static_cast<double>(e));
+    fields.add({"temperature", "K", 1, Place::node, temperature});
+    fields.add({"number", "1", 1, Place::cell, number});
+  }
+  std::string file(const std::string& name) const { return name + (size == 1 ? ".vtu" : ".pvtu"); }
+};
+
+TEST_F(Distributed, FieldsAreNumberedAndCollected) {
   const RunFolder run(folder.path, "");
-  mesh::Mesh mesh = test::triangles_and_quad();
-  mesh.surfaces["part/wall"] = {};
   FieldOutput output(run, mesh);
-  output.write(0, {});
-  output.write(1.5, {}, {{"part/wall", {}}});
+  output.write(0, fields);
+  FieldSet surface;
+  surface.add({"temperature", "K", 1, Place::node, temperature});
+  output.write(1.5, fields, {{"x_max", surface}});
   EXPECT_EQ(output.written(), 2);
-  for (const char* name : {"fields_00000.vtu", "fields_00001.vtu", "surface_part_wall_00001.vtu"})
-    EXPECT_TRUE(fs::exists(run.fields() / name)) << name;
+  for (const char* name : {"fields_00000", "fields_00001", "surface_x_max_00001"})
+    EXPECT_TRUE(fs::exists(run.fields() / file(name))) << name;
   const std::string pvd = test::read_text(run.collection());
-  EXPECT_NE(pvd.find("timestep=\"1.5\" part=\"1\" file=\"fields/surface_part_wall_00001.vtu\""),
+  EXPECT_NE(pvd.find("timestep=\"1.5\" part=\"1\" file=\"fields/" + file("surface_x_max_00001") + "\""),
             std::string::npos)
       << pvd;
 }
 
-TEST(FieldOutput, KeepsTheCollectionWhenAFileFails) {
-  test::TemporaryFolder folder;
+TEST_F(Distributed, EveryElementIsWrittenByOneProcess) {
   const RunFolder run(folder.path, "");
-  const mesh::Mesh mesh = test::triangles_and_quad();
   FieldOutput output(run, mesh);
-  output.write(0, {});
+  output.write(0, fields);
+  test::on_first([&] {
+    std::vector<std::int64_t> elements;
+    for (int process = 0; process < size; ++process) {
+      const std::string part = size == 1 ? "fields_00000.vtu" : fmt::format("fields_00000_p{}.vtu", process);
+      const test::VtuFile vtu(run.fields() / part);
+      const auto mine = vtu.array<std::int64_t>("element");
+      elements.insert(elements.end(), mine.begin(), mine.end());
+      EXPECT_EQ(vtu.array<std::int32_t>("process"), std::vector<std::int32_t>(mine.size(), process));
+      const auto x = vtu.array<double>("Points"), t = vtu.array<double>("temperature");
+      for (std::size_t i = 0; i < t.size(); ++i) EXPECT_EQ(t[i], 300 + 10 * x[3 * i] + x[3 * i + 1]);
+    }
+    std::sort(elements.begin(), elements.end());
+    EXPECT_EQ(elements.size(), 24U);
+    EXPECT_EQ(std::adjacent_find(elements.begin(), elements.end()), elements.end()) << "none twice";
+  });
+}
+
+TEST_F(Distributed, PythonReadsTheSameFields) {
+  const RunFolder run(folder.path, "");
+  FieldOutput output(run, mesh);
+  output.write(0, fields);
+  output.write(2.5, fields);
+  test::on_first([&] {
+    const std::string command = fmt::format(
+        "PYTHONPATH='{0}/python' PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "
+        "'{0}/tests/unit/results/read_fields.py' '{1}' 2>&1",
+        SOLIDUS_SOURCE_DIR, run.collection().string());
+    EXPECT_EQ(std::system(command.c_str()), 0);
+  });
+}
+
+TEST_F(Distributed, CollectionStaysAsItWasWhenOneProcessCannotWrite) {
+  const RunFolder run(folder.path, "");
+  FieldOutput output(run, mesh);
+  output.write(0, fields);
   const std::string before = test::read_text(run.collection());
-  fs::create_symlink("/dev/full", run.fields() / "fields_00001.vtu.part");
-  EXPECT_THROW(output.write(1, {}), OutputError);
+  const std::string part = size == 1 ? "fields_00001.vtu" : fmt::format("fields_00001_p{}.vtu", size - 1);
+  test::on_first([&] { fs::create_symlink("/dev/full", run.fields() / (part + ".part")); });
+  try {
+    output.write(1, fields);
+    FAIL() << "must throw on every process";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("cannot write: No space left on device"), std::string::npos);
+  }
   EXPECT_EQ(test::read_text(run.collection()), before);
-  EXPECT_FALSE(fs::exists(run.fields() / "fields_00001.vtu"));
+  EXPECT_FALSE(fs::exists(run.fields() / file("fields_00001")));
 }
 
 TEST(Together, ThrowsOnEveryProcessWhenOneFails) {

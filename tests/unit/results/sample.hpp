@@ -29,6 +29,36 @@ class TemporaryFolder {
   std::filesystem::path path;
 };
 
+/// Runs on process 0 while the others wait.
+template <class F>
+void on_first(const F& work) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (rank == 0) work();
+  MPI_Barrier(PETSC_COMM_WORLD);
+}
+
+/// The same folder on every process. Collective.
+class SharedFolder {
+ public:
+  SharedFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "solidus-XXXXXX").string();
+    on_first([&] {
+      if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    });
+    MPI_Bcast(name.data(), static_cast<int>(name.size()), MPI_CHAR, 0, PETSC_COMM_WORLD);
+    path = name;
+  }
+  SharedFolder(const SharedFolder&) = delete;
+  SharedFolder& operator=(const SharedFolder&) = delete;
+  ~SharedFolder() {
+    MPI_Barrier(PETSC_COMM_WORLD);
+    std::error_code ignored;
+    on_first([&] { std::filesystem::remove_all(path, ignored); });
+  }
+  std::filesystem::path path;
+};
+
 /// Nodes and one block per shape; `nodes` of each block are local numbers.
 inline mesh::Mesh make_mesh(int dimension, std::vector<mesh::Point> x, std::vector<mesh::Block> blocks) {
   mesh::Mesh mesh;

@@ -155,7 +155,10 @@ TEST(Json, NamesTheMemberThatIsNotANumber) {
 }
 
 TEST(Summary, SaysHowTheRunWent) {
-  const mesh::Mesh mesh = test::triangles_and_quad();
+  mesh::Mesh mesh = test::triangles_and_quad();
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (rank > 0) mesh.blocks.clear();  // process 0 counts all elements
   Summary summary;
   summary.case_file = "cases/a/case.toml";
   summary.outcome = "finished";
