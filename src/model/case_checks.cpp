@@ -6,6 +6,7 @@
 
 #include "base/units.hpp"
 #include "model/case_file.hpp"
+#include "model/run_input.hpp"
 
 namespace solidus::model {
 
@@ -157,6 +158,14 @@ std::string probe_unit(const CaseSpec& spec, const ProbeSpec& probe) {
   return field_unit(first->field);
 }
 
+/// The unit of an integral follows from the dimension of its group, which only the mesh knows.
+bool has_integral(const CaseSpec& spec, const ProbeSpec& probe) {
+  const auto integral = [](const ProbeSpec& p) { return p.kind == ProbeSpec::Kind::integral; };
+  if (probe.kind != ProbeSpec::Kind::difference) return integral(probe);
+  return std::any_of(spec.probes.begin(), spec.probes.end(),
+                     [&](const ProbeSpec& p) { return p.name == probe.of[0] && integral(p); });
+}
+
 void check_probes(const CaseSpec& spec) {
   check_names(spec.probes, "[[probe]]");
   const std::vector<std::string> bodies = names_of(spec.bodies), probes = names_of(spec.probes);
@@ -184,19 +193,9 @@ void check_probes(const CaseSpec& spec) {
     if (p.body && std::find(bodies.begin(), bodies.end(), *p.body) == bodies.end())
       throw InputError(p.where, fmt::format("the probe '{}' is on an unknown body '{}'", p.name, *p.body),
                        one_of(bodies, *p.body));
-    if (!units::compatible(p.unit, probe_unit(spec, p)))
+    if (!has_integral(spec, p) && !units::compatible(p.unit, probe_unit(spec, p)))
       throw InputError(p.where, fmt::format("the probe '{}' cannot be given in '{}'", p.name, p.unit),
                        "a unit of " + units::dimension_name(probe_unit(spec, p)));
-    const bool vector = p.field == "displacement",
-               tensor = p.field == "stress" || p.field == "viscous_strain";
-    if (p.kind != ProbeSpec::Kind::difference && (vector || tensor) == p.component.empty())
-      throw InputError(
-          p.where,
-          fmt::format("the probe '{}' {}", p.name,
-                      p.component.empty() ? "needs a component" : "has a component, but its field has none"),
-          vector   ? "component = \"x\", \"y\", \"z\" or \"r\""
-          : tensor ? "component = \"xx\", \"yy\", ..."
-                   : "no component");
   }
 }
 
@@ -212,6 +211,12 @@ void check_case(const CaseSpec& spec) {
   check_conditions(spec);
   check_contacts(spec);
   check_probes(spec);
+  probes(spec);  // components that their fields do not have
+  if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
+    throw InputError(spec.time.where, "more than a million outputs are asked for",
+                     "a longer `every` in [output]");
+  if (spec.time.steady && spec.has_mechanics())
+    throw InputError(spec.time.where, "a steady analysis solves for heat alone", "physics = \"heat\"");
 }
 
 }  // namespace solidus::model

@@ -123,13 +123,13 @@ struct CouplingSpec {
 };
 
 struct ProbeSpec {
-  enum class Kind { point, mean, difference };
+  enum class Kind { point, mean, minimum, maximum, integral, difference };
   std::string name;
   Kind kind = Kind::point;
   std::string field, component;     ///< component empty: a scalar field
   std::vector<double> point;        ///< [m]
   std::optional<std::string> body;  ///< the body the point belongs to, where bodies touch
-  std::string group;                ///< of a mean
+  std::string group;                ///< of a mean, minimum, maximum, integral
   std::vector<std::string> of;      ///< two probes: first minus second
   std::string unit;                 ///< for display
   SourceLocation where;

@@ -48,9 +48,24 @@ void require_body(const CaseSpec& spec, const std::string& name, const SourceLoc
                      one_of(bodies, name));
 }
 
+void check_radius(const CaseSpec& spec, const RawMesh& mesh) {
+  if (spec.analysis.kind != AnalysisKind::axisymmetric) return;
+  double least = 0, greatest = 0;
+  for (const mesh::Point& x : mesh.x) {
+    least = std::min(least, x[0]);
+    greatest = std::max(greatest, x[0]);
+  }
+  constexpr double k_rounding = 1e-9;  // of what meshing programs leave at the axis
+  if (least < -k_rounding * greatest)
+    throw InputError(spec.mesh.where,
+                     fmt::format("the mesh has a node at x = {:.6g} m, a negative radius", least),
+                     "x >= 0 in an axisymmetric analysis");
+}
+
 }  // namespace
 
 void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
+  check_radius(spec, mesh);
   const int dimension = spec.dimension(), surface = dimension - 1;
   if (mesh.dimension != dimension)
     throw InputError(
@@ -80,7 +95,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
     require(mesh, c.master, surface, c.where, "master of contact '" + c.name + "'");
   }
   for (const auto& p : spec.probes)
-    if (p.kind == ProbeSpec::Kind::mean) require(mesh, p.group, -1, p.where, "probe '" + p.name + "'");
+    if (!p.group.empty()) require(mesh, p.group, -1, p.where, "probe '" + p.name + "'");
 }
 
 }  // namespace solidus::model

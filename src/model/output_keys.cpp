@@ -8,6 +8,9 @@ const std::vector<std::string> k_fields = {
     "temperature", "displacement",   "solid_fraction",   "stress", "von_mises",
     "pressure",    "viscous_strain", "contact_pressure", "gap",    "conductance"};
 
+/// The kinds of probe that sample a field.
+const std::vector<std::string> k_sampling = {"point", "mean", "minimum", "maximum", "integral"};
+
 }  // namespace
 
 Section<ProbeSpec> probe_keys() {
@@ -17,17 +20,22 @@ Section<ProbeSpec> probe_keys() {
   s.choice("kind", &P::kind,
            {{"point", P::Kind::point, "the field at a point"},
             {"mean", P::Kind::mean, "its mean over a group"},
+            {"minimum", P::Kind::minimum, "its least value in a group"},
+            {"maximum", P::Kind::maximum, "its greatest value in a group"},
+            {"integral", P::Kind::integral, "its integral over a group"},
             {"difference", P::Kind::difference, "the difference of two other probes"}})
       .initially("point")
       .doc("What is taken.");
-  s.key("field", &P::field).choices(k_fields).when("kind", {"point", "mean"}).doc("The field.");
+  s.key("field", &P::field).choices(k_fields).when("kind", k_sampling).doc("The field.");
   s.key("component", &P::component)
       .initially("")
-      .when("kind", {"point", "mean"})
+      .when("kind", k_sampling)
       .doc("Component of a vector or tensor: \"x\", \"r\", \"xx\", ...; axisymmetric: r, z or x, y.");
   s.quantity("point", &P::point, "m").when("kind", {"point"}).doc("Coordinates of the point.");
   s.key("body", &P::body).when("kind", {"point"}).doc("The body that is meant, where a point lies on two.");
-  s.key("group", &P::group).when("kind", {"mean"}).doc("Group of the mesh: a body or a surface.");
+  s.key("group", &P::group)
+      .when("kind", {"mean", "minimum", "maximum", "integral"})
+      .doc("Group of the mesh: a body or a surface.");
   s.key("of", &P::of).when("kind", {"difference"}).doc("Two probes: the first minus the second.");
   s.key("unit", &P::unit).doc("Unit of the column: \"degC\", \"mm\"; \"1\" for a fraction.");
   s.place(&P::where);

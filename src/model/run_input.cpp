@@ -24,6 +24,19 @@ results::Sampled sampled(const CaseSpec& spec, const ProbeSpec& probe) {
   return result;
 }
 
+results::Statistic statistic(ProbeSpec::Kind kind) {
+  switch (kind) {
+    case ProbeSpec::Kind::minimum:
+      return results::Statistic::minimum;
+    case ProbeSpec::Kind::maximum:
+      return results::Statistic::maximum;
+    case ProbeSpec::Kind::integral:
+      return results::Statistic::integral;
+    default:
+      return results::Statistic::mean;
+  }
+}
+
 results::PointProbe point_probe(const CaseSpec& spec, const ProbeSpec& probe) {
   results::PointProbe result{sampled(spec, probe)};
   for (std::size_t i = 0; i < probe.point.size(); ++i) result.at[i] = probe.point[i];
@@ -68,7 +81,10 @@ std::vector<results::Probe> probes(const CaseSpec& spec) {
         result.emplace_back(point_probe(spec, probe));
         break;
       case ProbeSpec::Kind::mean:
-        result.emplace_back(results::GroupProbe{sampled(spec, probe), probe.group, results::Statistic::mean});
+      case ProbeSpec::Kind::minimum:
+      case ProbeSpec::Kind::maximum:
+      case ProbeSpec::Kind::integral:
+        result.emplace_back(results::GroupProbe{sampled(spec, probe), probe.group, statistic(probe.kind)});
         break;
       case ProbeSpec::Kind::difference:
         result.emplace_back(results::LinearProbe{

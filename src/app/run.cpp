@@ -1,0 +1,55 @@
+/// The verb `run`.
+#include "model/run.hpp"
+
+#include <petscsys.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "app/verbs.hpp"
+#include "results/progress.hpp"
+#include "results/run_folder.hpp"
+
+namespace solidus::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The repository that the present folder belongs to, else the present folder.
+fs::path results_root() {
+  const fs::path here = fs::current_path();
+  std::error_code error;
+  for (fs::path folder = here; folder.has_relative_path(); folder = folder.parent_path())
+    if (fs::exists(folder / ".git", error)) return folder;
+  return here;
+}
+
+/// -o, else the case's own wish (seen from the present folder), else results/CASE/VARIANT.
+fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
+  if (!arguments.output.empty()) return arguments.output;
+  if (c.spec.output.folder) return *c.spec.output.folder;
+  return results_root() / results::default_run_folder(c.file);
+}
+
+}  // namespace
+
+ExitCode run(const CaseArguments& arguments) {
+  const model::Case c = model::load_case(arguments.path, arguments.set);
+  model::RunOptions options;
+  options.folder = results_folder(arguments, c);
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  options.progress = rank == 0 ? &std::cout : nullptr;
+  options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
+  const model::RunResult result = model::run_case(c, options);
+  if (!result.finished) {
+    if (rank == 0) std::cerr << "solidus: the simulation could not go on: " << result.reason << std::endl;
+    return k_cannot_go_on;
+  }
+  print("Results in " + options.folder.lexically_normal().string() + "\n");
+  return k_done;
+}
+
+}  // namespace solidus::app
