@@ -1,0 +1,235 @@
+#include "model/run.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "algebra/parallel.hpp"
+#include "base/log.hpp"
+#include "base/units.hpp"
+#include "coupling/isothermal.hpp"
+#include "coupling/simulation.hpp"
+#include "material/library.hpp"
+#include "model/case_materials.hpp"
+#include "model/contact_input.hpp"
+#include "model/heat_input.hpp"
+#include "model/mechanics_input.hpp"
+#include "model/mesh_input.hpp"
+#include "model/run_input.hpp"
+#include "results/recorder.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+// Everything a scheme drives, built from a case; the phases refer to the mesh and to each other.
+struct Assembly {
+  mesh::Mesh mesh;
+  std::vector<material::Material> materials;
+  std::vector<std::unique_ptr<contact::ContactPair>> contacts;
+  std::unique_ptr<mechanics::MechanicalPhase> mechanics;
+  std::unique_ptr<mechanics::StructuralHeat> structural;
+  std::unique_ptr<heat::ThermalPhase> heat;
+  coupling::Phases phases;
+  coupling::State initial;
+};
+
+// Of mechanics alone: every body at its temperature for the whole run.
+std::vector<double> nodal_temperature(const mesh::Mesh& mesh, const std::vector<double>& of_body) {
+  std::vector<double> temperature(static_cast<std::size_t>(mesh.n_nodes()), of_body.front());
+  for (const mesh::Block& block : mesh.blocks)
+    for (const Index i : block.nodes)
+      temperature[static_cast<std::size_t>(i)] = of_body[static_cast<std::size_t>(block.body)];
+  return temperature;
+}
+
+void build_contacts(const CaseSpec& spec, Assembly& a) {
+  const std::vector<double> moduli = contact_moduli(a.materials);
+  for (contact::ContactSpec& pair : contact_specs(spec)) {
+    a.contacts.push_back(
+        std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
+    a.phases.contacts.push_back(a.contacts.back().get());
+    if (a.contacts.back()->coverage() < 0.999)
+      logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
+                    a.contacts.back()->spec().name, 100 * a.contacts.back()->coverage(),
+                    a.contacts.back()->spec().slave);
+  }
+}
+
+void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
+  std::vector<algebra::Contribution*> contributions;
+  for (const auto& pair : a.contacts) contributions.push_back(&pair->mechanics());
+  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(a.mesh, spec.analysis.kind, a.materials,
+                                                             initial_temperature, mechanical_conditions(spec),
+                                                             mechanics_options(spec), contributions);
+  a.phases.mechanics = a.mechanics.get();
+  a.initial.mechanics = a.mechanics->initial_state();
+}
+
+void build_heat(const CaseSpec& spec, const std::vector<double>& body_temperature, Assembly& a) {
+  std::vector<algebra::Contribution*> contributions;
+  for (const auto& pair : a.contacts)
+    if (pair->heat() != nullptr) contributions.push_back(pair->heat());
+  if (a.structural) contributions.push_back(a.structural.get());
+  a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
+                                                thermal_conditions(spec), spec.heat, contributions);
+  a.phases.heat = a.heat.get();
+  a.initial.heat = a.heat->initial_state(body_temperature);
+}
+
+void build(const CaseSpec& spec, Assembly& a) {
+  std::vector<double> body_temperature;
+  for (const BodySpec& body : spec.bodies) body_temperature.push_back(body.initial_temperature);
+  build_contacts(spec, a);
+  a.phases.temperature = nodal_temperature(a.mesh, body_temperature);
+  if (spec.has_mechanics()) {
+    build_mechanics(spec, a.phases.temperature, a);
+    using Heating = CouplingSpec::StructuralHeating;
+    if (spec.has_heat() && spec.coupling.structural_heating != Heating::none) {
+      const auto form = spec.coupling.structural_heating == Heating::energy
+                            ? mechanics::StructuralForm::energy
+                            : mechanics::StructuralForm::entropy;
+      a.structural = std::make_unique<mechanics::StructuralHeat>(*a.mechanics, form);
+      a.phases.structural = a.structural.get();
+    }
+  }
+  if (spec.has_heat()) build_heat(spec, body_temperature, a);
+}
+
+// Watches the temperatures of each body and warns once when a property is used outside the range of its
+// source.
+class RangeWatch : public coupling::Observer {
+ public:
+  RangeWatch(const CaseSpec& spec, const Assembly& a) : spec_(spec), a_(a), warned_(spec.bodies.size()) {}
+  void begin(const coupling::State& state) override { look(state); }
+  void step(const coupling::StepRecord&, const coupling::State& state) override { look(state); }
+  void stopped(const std::string&, const coupling::State&) override {}
+  void end(const coupling::State&) override {}
+
+ private:
+  void look(const coupling::State& state) {
+    const std::vector<double>& temperature = a_.heat ? state.heat.temperature : a_.phases.temperature;
+    std::vector<double> low(spec_.bodies.size(), 1e300), high(spec_.bodies.size(), -1e300);
+    for (const mesh::Block& block : a_.mesh.blocks)
+      for (const Index i : block.nodes) {
+        const auto b = static_cast<std::size_t>(block.body);
+        low[b] = std::min(low[b], temperature[static_cast<std::size_t>(i)]);
+        high[b] = std::max(high[b], temperature[static_cast<std::size_t>(i)]);
+      }
+    for (std::size_t b = 0; b < low.size(); ++b)
+      report(b, algebra::global_min(low[b]), algebra::global_max(high[b]));
+  }
+
+  void report(std::size_t body, double low, double high) {
+    for (const material::LeftRange& left : material::left_ranges(a_.materials[body], low, high)) {
+      const std::string text = fmt::format(
+          "body '{}', material '{}': {} is used between {:.1f} and {:.1f} degC, its data hold from {:.1f} to "
+          "{:.1f} degC",
+          spec_.bodies[body].name, a_.materials[body].name, left.property, low - k_zero_celsius,
+          high - k_zero_celsius, left.valid_from - k_zero_celsius, left.valid_to - k_zero_celsius);
+      if (left.refused)
+        throw InputError(spec_.bodies[body].where, text,
+                         "a table that reaches further, or another extrapolation");
+      auto& said = warned_[body];
+      if (std::find(said.begin(), said.end(), left.property) != said.end()) continue;
+      said.push_back(left.property);
+      logging::warn("{}", text);
+    }
+  }
+
+  const CaseSpec& spec_;
+  const Assembly& a_;
+  std::vector<std::vector<std::string>> warned_;
+};
+
+// Remembers why a run stopped, for the caller.
+class StopReason : public coupling::Observer {
+ public:
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord&, const coupling::State&) override {}
+  void stopped(const std::string& why, const coupling::State&) override { reason = why; }
+  void end(const coupling::State&) override {}
+  std::string reason;
+};
+
+bool melts(const std::vector<material::Material>& materials) {
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const material::Material& m) { return m.solidification() != nullptr; });
+}
+
+results::RecorderOptions recorder_options(const Case& c, const RunOptions& options, const Assembly& a) {
+  const CaseSpec& spec = c.spec;
+  results::RecorderOptions r;
+  r.kind = spec.analysis.kind;
+  r.probes = probes(spec);
+  r.fields = spec.output.fields;
+  r.progress = options.progress;
+  r.progress_options.end = spec.time.end.value_or(0);
+  r.progress_options.heat = spec.has_heat();
+  r.progress_options.mechanics = spec.has_mechanics();
+  r.progress_options.contact = !spec.contacts.empty();
+  r.progress_options.melting = r.melting = spec.has_heat() && melts(a.materials);
+  r.progress_options.terminal = options.terminal;
+  r.summary.case_file = c.file.string();
+  r.summary.variant = results::default_run_folder(c.file).filename().string();
+  r.summary.title = spec.title;
+  r.summary.mesh = results::count(a.mesh);
+  MPI_Comm_size(PETSC_COMM_WORLD, &r.summary.processes);
+  return r;
+}
+
+RunResult run_steady(Assembly& a, results::Recorder& recorder) {
+  recorder.begin(a.initial);
+  coupling::StepRecord record;
+  coupling::State steady = a.initial;
+  try {
+    const double start = MPI_Wtime();
+    const heat::PhaseReport report = a.heat->solve_steady(a.initial.heat, steady.heat, 0);
+    record.heat = {report.newton.iterations, report.newton.linear_iterations,
+                   report.newton.residuals.empty() ? 0.0 : report.newton.residuals.back(),
+                   MPI_Wtime() - start};
+    coupling::summarise(a.phases, steady, record);
+  } catch (const StepRejected& rejected) {
+    recorder.stopped(rejected.what(), a.initial);
+    return {false, rejected.what()};
+  }
+  record.number = 1;
+  record.reason = "steady";
+  record.output = true;
+  recorder.step(record, steady);
+  recorder.end(steady);
+  return {};
+}
+
+RunResult run_transient(const CaseSpec& spec, Assembly& a, results::Recorder& recorder) {
+  coupling::Simulation simulation(std::make_unique<coupling::IsothermalSplit>(a.phases), time_options(spec));
+  RangeWatch watch(spec, a);
+  StopReason stop;
+  simulation.add(watch);
+  simulation.add(recorder);
+  simulation.add(stop);
+  const coupling::Outcome outcome = simulation.run(a.initial);
+  return {outcome == coupling::Outcome::finished, stop.reason};
+}
+
+}  // namespace
+
+RunResult run_case(const Case& c, const RunOptions& options) {
+  const double start = MPI_Wtime();
+  Assembly a;
+  a.materials = load_materials(c.spec);
+  a.mesh = load_mesh(c.spec);
+  const double loaded = MPI_Wtime();
+  build(c.spec, a);
+
+  const results::RunFolder folder(options.folder, c.toml());
+  results::RecorderOptions r = recorder_options(c, options, a);
+  r.summary.seconds.emplace_back("mesh", loaded - start);
+  r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
+  results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));
+  return c.spec.time.steady ? run_steady(a, recorder) : run_transient(c.spec, a, recorder);
+}
+
+}  // namespace solidus::model
