@@ -52,6 +52,7 @@ std::string FieldOutput::write_one(const std::string& name, const mesh::Surface*
 
 void FieldOutput::write(double time, const FieldSet& fields,
                         const std::map<std::string, FieldSet>& surfaces) {
+  if (written_ > 0 && time == last_time_) return;
   std::vector<std::string> files = {write_one(fmt::format("fields_{:05}", written_), nullptr, fields, time)};
   for (const auto& [name, values] : surfaces)
     files.push_back(write_one(fmt::format("surface_{}_{:05}", file_name(name), written_),
@@ -62,6 +63,7 @@ void FieldOutput::write(double time, const FieldSet& fields,
     collection_.add(entries);
   });
   ++written_;
+  last_time_ = time;
 }
 
 }  // namespace solidus::results

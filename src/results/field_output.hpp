@@ -16,8 +16,9 @@ class FieldOutput {
  public:
   FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh);
 
-  /// Writes one moment. Collective; what fails on one process is thrown on all (OutputError, NotFiniteError),
-  /// and the collection then stays as it was.
+  /// Writes one moment; the time written last is not written again (a run that stops there). Collective; what
+  /// fails on one process is thrown on all (OutputError, NotFiniteError), and the collection then stays as it
+  /// was.
   /// @param surfaces  fields (at nodes) for surfaces of the mesh that get files of their own, by their name
   void write(double time, const FieldSet& fields, const std::map<std::string, FieldSet>& surfaces = {});
 
@@ -31,6 +32,7 @@ class FieldOutput {
   std::filesystem::path fields_;
   PvdCollection collection_;
   int written_ = 0;
+  double last_time_ = 0;
 };
 
 }  // namespace solidus::results

@@ -9,8 +9,10 @@ namespace solidus::results {
 
 namespace {
 
-GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options) {
-  return {phases.heat != nullptr && options.melting, !phases.contacts.empty(), phases.mechanics != nullptr};
+GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
+                                      const Probes& probes) {
+  return {phases.heat != nullptr && options.melting, !phases.contacts.empty(), phases.mechanics != nullptr,
+          probes.columns()};
 }
 
 int process() {
@@ -29,7 +31,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       rank_(process()),
       fields_(mesh, phases),
       probes_(mesh, options_.kind, options_.probes, fields_.bodies()),
-      globals_(global_columns(phases, options_)),
+      globals_(global_columns(phases, options_, probes_)),
       output_(folder, mesh),
       began_(MPI_Wtime()) {
   fields_.bodies().select(options_.fields);  // complains about a field there is not

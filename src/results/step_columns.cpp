@@ -1,5 +1,6 @@
 #include "results/step_columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -84,15 +85,39 @@ std::vector<Cell> step_row(const coupling::StepRecord& r) {
           r.energy.defect()};
 }
 
+std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
+  std::vector<std::pair<Column, double>> all = {{{"T_min", "degC"}, last_.min_temperature - k_zero_celsius},
+                                                {{"T_max", "degC"}, last_.max_temperature - k_zero_celsius}};
+  const auto add = [&all](const char* name, const char* unit, double value) {
+    all.push_back({{name, unit}, value});
+  };
+  if (options_.melting) add("solid_fraction", "1", last_.solid_fraction);
+  if (options_.contact) {
+    const coupling::ContactSummary contact = total(last_.contacts);
+    add("closed_fraction", "1",
+        contact.points > 0 ? static_cast<double>(contact.closed_points) / contact.points : 0.0);
+    add("contact_heat", "W", contact.heat);
+    add("contact_force", "N", contact.force);
+  }
+  add("stored_heat", "J", sum_.stored_heat);
+  add("heat_in", "J", sum_.heat_in);
+  if (options_.mechanics) {
+    add("structural_energy", "J", sum_.structural);
+    add("work", "J", sum_.work);
+  }
+  if (options_.mechanics && options_.contact) add("contact_energy", "J", sum_.contact);
+  add("heat_exchanged", "J", sum_.heat_exchanged);
+  add("energy_defect", "J", sum_.defect());
+  std::erase_if(all, [this](const auto& entry) {
+    return std::any_of(options_.taken.begin(), options_.taken.end(),
+                       [&](const Column& c) { return c.header() == entry.first.header(); });
+  });
+  return all;
+}
+
 std::vector<Column> GlobalHistory::columns() const {
-  std::vector<Column> columns = {{"T_min", "degC"}, {"T_max", "degC"}};
-  if (options_.melting) columns.push_back({"solid_fraction", "1"});
-  if (options_.contact)
-    columns.insert(columns.end(), {{"closed_fraction", "1"}, {"contact_heat", "W"}, {"contact_force", "N"}});
-  columns.insert(columns.end(), {{"stored_heat", "J"}, {"heat_in", "J"}});
-  if (options_.mechanics) columns.insert(columns.end(), {{"structural_energy", "J"}, {"work", "J"}});
-  if (options_.mechanics && options_.contact) columns.push_back({"contact_energy", "J"});
-  columns.insert(columns.end(), {{"heat_exchanged", "J"}, {"energy_defect", "J"}});
+  std::vector<Column> columns;
+  for (const auto& [column, value] : entries()) columns.push_back(column);
   return columns;
 }
 
@@ -112,19 +137,8 @@ void GlobalHistory::add(const coupling::StepEffort& step) {
 }
 
 std::vector<double> GlobalHistory::values() const {
-  std::vector<double> values = {last_.min_temperature - k_zero_celsius,
-                                last_.max_temperature - k_zero_celsius};
-  if (options_.melting) values.push_back(last_.solid_fraction);
-  if (options_.contact) {
-    const coupling::ContactSummary contact = total(last_.contacts);
-    const double closed =
-        contact.points > 0 ? static_cast<double>(contact.closed_points) / contact.points : 0.0;
-    values.insert(values.end(), {closed, contact.heat, contact.force});
-  }
-  values.insert(values.end(), {sum_.stored_heat, sum_.heat_in});
-  if (options_.mechanics) values.insert(values.end(), {sum_.structural, sum_.work});
-  if (options_.mechanics && options_.contact) values.push_back(sum_.contact);
-  values.insert(values.end(), {sum_.heat_exchanged, sum_.defect()});
+  std::vector<double> values;
+  for (const auto& [column, value] : entries()) values.push_back(value);
   return values;
 }
 

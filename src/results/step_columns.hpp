@@ -1,6 +1,7 @@
 /// What the tables say about steps: the columns of steps.csv and the global columns of history.csv.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "coupling/observer.hpp"
@@ -18,8 +19,10 @@ class GlobalHistory {
  public:
   struct Options {
     bool melting = true, contact = true, mechanics = true;
+    /// Columns that probes of the same header give already; they are left out here.
+    std::vector<Column> taken = {};
   };
-  explicit GlobalHistory(Options options) : options_(options) {}
+  explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 
   std::vector<Column> columns() const;
   /// The state before the first step; energies begin at zero.
@@ -31,6 +34,9 @@ class GlobalHistory {
   double relative_defect() const;
 
  private:
+  /// Column and value, in order.
+  std::vector<std::pair<Column, double>> entries() const;
+
   Options options_;
   coupling::StepEffort last_;
   coupling::EnergyAudit sum_;

@@ -228,6 +228,12 @@ TEST(GlobalHistory, SumsTheFirstLawOverTheSteps) {
   EXPECT_DOUBLE_EQ(history.relative_defect(), 3.0 / 60.0);
 }
 
+TEST(GlobalHistory, LeavesOutWhatAProbeGivesUnderTheSameHeader) {
+  const GlobalHistory history({true, true, true, {{"solid_fraction", "1"}, {"T_min", "K"}}});
+  EXPECT_EQ(history.columns().size(), history.values().size());
+  EXPECT_EQ(history.columns().size(), GlobalHistory({true, true, true}).columns().size() - 1);
+}
+
 TEST(GlobalHistory, HasNoColumnsOfPhysicsThatIsNotThere) {
   const GlobalHistory history({false, false, false});
   EXPECT_EQ(history.columns().size(), history.values().size());
