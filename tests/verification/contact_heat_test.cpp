@@ -1,0 +1,208 @@
+/// Two bars in thermal contact, against closed forms.
+///
+///   Θ_hot ├─── lower, k_1, L_1 ───┤ h ├─── upper, k_2, L_2 ───┤ Θ_cold
+///
+/// Steady flux q = (Θ_hot − Θ_cold)/(L_1/k_1 + 1/h + L_2/k_2), linear temperatures in both bars.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact_bodies.hpp"
+
+namespace solidus {
+namespace {
+
+using mesh::Shape;
+using HeatLaw = contact::HeatTransferSpec;
+
+constexpr double k_hot = 900, k_cold = 300;  // [K]
+constexpr double k_l1 = 0.1, k_l2 = 0.2;     // [m]
+constexpr double k_k1 = 200, k_k2 = 40;      // [W/(m K)]
+
+heat::Conditions ends(const mesh::Mesh& mesh) {
+  const std::string last = mesh.dimension == 2 ? "y" : "z";
+  heat::Conditions c;
+  c.temperatures.push_back({"hot", "lower_" + last + "_min", k_hot});
+  c.temperatures.push_back({"cold", "upper_" + last + "_max", k_cold});
+  return c;
+}
+
+std::vector<material::Material> bars(double expansion = 0) {
+  return {test::elastic(70e9, 0.33, expansion, k_k1), test::elastic(210e9, 0.3, expansion, k_k2)};
+}
+
+struct Steady {
+  heat::ThermalState state;
+  heat::HeatBalance balance;
+};
+Steady steady(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactPair& pair,
+              heat::Integration integration = heat::Integration::closed) {
+  heat::HeatOptions options;
+  options.integration = integration;
+  options.tolerance = 1e-12;
+  options.solver = algebra::SolverKind::direct;
+  heat::ThermalPhase phase(mesh, kind, bars(), ends(mesh), options, {pair.heat()});
+  Steady result{phase.initial_state(std::vector<double>{600, 600}), {}};
+  const heat::ThermalState start = result.state;
+  result.balance = phase.solve_steady(start, result.state, 1).balance;
+  return result;
+}
+
+// Largest deviation of the interface's nodes from the two interface temperatures.
+double deviation(const mesh::Mesh& mesh, const heat::ThermalState& state, double lower, double upper) {
+  double worst = 0;
+  const auto scan = [&](const char* surface, double expected) {
+    for (Index n : mesh.surfaces.at(surface).nodes)
+      if (n < mesh.n_owned_nodes)
+        worst = std::max(worst, std::abs(state.temperature[static_cast<std::size_t>(n)] - expected));
+  };
+  scan("lower_top", lower);
+  scan("upper_bottom", upper);
+  return algebra::global_max(worst);
+}
+
+contact::ContactSpec conducting(double h) {
+  contact::ContactSpec s = test::interface();
+  s.heat = HeatLaw{};
+  s.heat->conductance = h;
+  return s;
+}
+
+TEST(TwoBars, InThermalContactHaveTheInterfaceTemperaturesOfTheClosedForm) {
+  for (Shape shape : {Shape::tri3, Shape::quad4, Shape::quad8, Shape::tet4, Shape::hex8, Shape::hex20})
+    for (auto integration : {heat::Integration::closed, heat::Integration::open})
+      for (auto rule : {contact::IntegrationRule::segments, contact::IntegrationRule::nodal}) {
+        // On meshes that do not match, only segments integrate the master's side exactly; the nodal rule is
+        // recorded, not required.
+        if (rule == contact::IntegrationRule::nodal && integration == heat::Integration::open) continue;
+        const mesh::Mesh mesh = test::two_blocks(shape);
+        const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+        contact::ContactSpec spec = conducting(2300);
+        spec.integration = rule;
+        spec.nodal_heat = integration == heat::Integration::closed;
+        contact::ContactPair pair(mesh, kind, spec, std::vector<double>{70e9, 210e9});
+        const Steady found = steady(mesh, kind, pair, integration);
+        const double q = (k_hot - k_cold) / (k_l1 / k_k1 + 1 / 2300.0 + k_l2 / k_k2);
+        const double worst = deviation(mesh, found.state, k_hot - q * k_l1 / k_k1, k_cold + q * k_l2 / k_k2);
+        const std::string name = std::string(mesh::name(shape)) +
+                                 (integration == heat::Integration::closed ? "_closed" : "_open") +
+                                 (rule == contact::IntegrationRule::segments ? "_segments" : "_nodal");
+        RecordProperty(name, fmt::format("{:.1e}", worst));
+        if (rule == contact::IntegrationRule::segments) {
+          EXPECT_LT(worst, 1e-6 * k_hot) << name;
+          const double area = mesh.dimension == 2 ? 0.3 : 0.06;
+          EXPECT_NEAR(pair.sums(found.state.temperature).heat, q * area, 1e-9 * q * area) << name;
+        }
+      }
+}
+
+TEST(TwoBars, WithRadiationBesideConductionBalanceTheFourthPowers) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-3);
+  contact::ContactSpec spec = conducting(20);
+  spec.heat->slave_emissivity = 0.9;
+  spec.heat->master_emissivity = 0.7;
+  contact::ContactPair pair(mesh, AnalysisKind::plane_strain, spec, std::vector<double>{70e9, 210e9});
+  const Steady found = steady(mesh, AnalysisKind::plane_strain, pair);
+  // Newton for the scalar balance q = h (a − b) + f (a⁴ − b⁴), a = hot − q L_1/k_1, b = cold + q L_2/k_2.
+  const double f = k_stefan_boltzmann / (1 / 0.9 + 1 / 0.7 - 1);
+  double q = 1e4;
+  for (int i = 0; i < 50; ++i) {
+    const double a = k_hot - q * k_l1 / k_k1, b = k_cold + q * k_l2 / k_k2;
+    const double r = 20 * (a - b) + f * (std::pow(a, 4) - std::pow(b, 4)) - q;
+    const double slope = -(20 + 4 * f * a * a * a) * k_l1 / k_k1 - (20 + 4 * f * b * b * b) * k_l2 / k_k2 - 1;
+    q -= r / slope;
+  }
+  const double worst = deviation(mesh, found.state, k_hot - q * k_l1 / k_k1, k_cold + q * k_l2 / k_k2);
+  RecordProperty("worst", fmt::format("{:.1e}", worst));
+  EXPECT_LT(worst, 1e-6 * k_hot);
+}
+
+// Two bars that expand and close the gap between them. Both stand on rigid ends; sideways they are held, so
+// the problem is one-dimensional with the strain ε_y = (1+ν)/(1−ν) α (Θ − Θ_ref) + σ/M, M the oedometer
+// modulus. Unknowns q and the pressure p (or the opening g), with h = h_o(g) or h_o(0) + h_co (p/H)^ε.
+struct ClosedForm {
+  double alpha, gap0, penalty;
+  contact::HeatTransferLaw law;
+  double q = 0, opening = 0, pressure = 0;
+
+  // Free thermal elongation of both bars for the flux q; their mean temperatures are those at mid length.
+  double elongation(double flux) const {
+    const double mean1 = k_hot - 0.5 * flux * k_l1 / k_k1, mean2 = k_cold + 0.5 * flux * k_l2 / k_k2;
+    return alpha *
+           ((1 + 0.33) / (1 - 0.33) * k_l1 * (mean1 - 300) + (1 + 0.3) / (1 - 0.3) * k_l2 * (mean2 - 300));
+  }
+  void mechanics(double flux) {
+    const auto oedometer = [](double e, double nu) { return e * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); };
+    const double excess = elongation(flux) - gap0;
+    pressure =
+        excess > 0 ? excess / (k_l1 / oedometer(70e9, 0.33) + k_l2 / oedometer(210e9, 0.3) + 1 / penalty) : 0;
+    opening = excess > 0 ? -pressure / penalty : -excess;
+  }
+  void solve() {
+    // The balance q (R_1 + R_2) + q/h(q) = ΔΘ has one root: bisection.
+    double low = 0, high = (k_hot - k_cold) / (k_l1 / k_k1 + k_l2 / k_k2);
+    for (int i = 0; i < 200; ++i) {
+      q = 0.5 * (low + high);
+      mechanics(q);
+      const double h = law.conductance(opening, pressure);
+      (q * (k_l1 / k_k1 + k_l2 / k_k2 + 1 / h) > k_hot - k_cold ? high : low) = q;
+    }
+  }
+};
+
+void expand(double gap0, double alpha, bool closes) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, gap0);
+  contact::ContactSpec spec = conducting(3000);
+  spec.heat->exponent = 0.95;
+  spec.heat->hardness = 5e8;
+  spec.heat->gap_law = HeatLaw::GapLaw::gas;
+  spec.heat->open_conductance = 1500;
+  spec.heat->gas_conductivity = 0.05;
+  contact::ContactPair pair(mesh, AnalysisKind::plane_strain, spec, std::vector<double>{70e9, 210e9});
+
+  mechanics::Conditions supports = test::symmetric_supports(2);
+  for (const char* side : {"lower_x_max", "upper_x_max"}) supports.displacements.push_back({side, 0, 0.0});
+  supports.displacements.push_back({"upper_y_max", 1, 0.0});
+  const std::vector<double> cold(mesh.x.size(), 300.0);
+  const std::vector<material::Material> materials = bars(alpha);
+  mechanics::MechanicalPhase phase(mesh, AnalysisKind::plane_strain, materials, cold, supports,
+                                   test::strict_mechanics(), {&pair.mechanics()});
+  mechanics::MechanicalState state = phase.initial_state();
+  heat::ThermalState thermal;
+  double before = 0, flux = 0;
+  int passes = 0;
+  do {
+    thermal = steady(mesh, AnalysisKind::plane_strain, pair).state;
+    const mechanics::MechanicalState old = state;
+    phase.solve(old, state, thermal.temperature, 1, 1);
+    pair.update(state.displacement);
+    before = flux;
+    flux = pair.sums(thermal.temperature).heat / 0.3;
+  } while (std::abs(flux - before) > 1e-11 * std::abs(flux) && ++passes < 200);
+  ASSERT_LT(passes, 200);
+
+  ClosedForm exact{alpha, gap0, pair.penalty(), contact::HeatTransferLaw(*spec.heat)};
+  exact.solve();
+  EXPECT_EQ(closes, exact.pressure > 0);
+  // Opening and pressure are measured against the elongation and the stress that it would take to hold it.
+  for (double g : pair.penetration()) EXPECT_NEAR(g, -exact.opening, 1e-7 * exact.elongation(exact.q));
+  for (double p : pair.pressure()) EXPECT_NEAR(p, exact.pressure, 1e-6 * exact.pressure);
+  EXPECT_NEAR(flux, exact.q, 1e-6 * exact.q);
+  EXPECT_LT(deviation(mesh, thermal, k_hot - exact.q * k_l1 / k_k1, k_cold + exact.q * k_l2 / k_k2),
+            1e-6 * k_hot);
+  ::testing::Test::RecordProperty("flux", fmt::format("{:.8g} (closed form {:.8g})", flux, exact.q));
+  ::testing::Test::RecordProperty("pressure", fmt::format("{:.8g}", exact.pressure));
+  ::testing::Test::RecordProperty("opening", fmt::format("{:.8g}", exact.opening));
+}
+
+TEST(TwoExpandingBars, ThatStayApartConductThroughTheGasInTheRemainingGap) {
+  expand(2.5e-3, 1e-5, false);
+}
+
+TEST(TwoExpandingBars, ThatCloseTheirGapPressAndConductAsTheClosedFormSays) {
+  expand(2e-4, 1e-5, true);
+}
+
+}  // namespace
+}  // namespace solidus
