@@ -149,7 +149,8 @@ TEST_F(CaseFile, TheResolvedCaseReadsBackToTheSameCase) {
 
 TEST_F(CaseFile, PathsAreSeenFromTheFileTheyAreWrittenIn) {
   const std::string text =
-      "title = \"m\"\n[analysis]\nkind = \"solid\"\n[mesh]\nfile = \"part.msh\"\n[time]\nsteady = "
+      "title = \"m\"\n[analysis]\nkind = \"solid\"\nphysics = \"heat\"\n[mesh]\nfile = "
+      "\"part.msh\"\n[time]\nsteady = "
       "true\n[[body]]\nname = \"part\"\nmaterial = \"own.toml\"\ninitial_temperature = \"20 degC\"\n";
   write("shared/case.toml", text);
   const Case c = load_case(write("study/variant.toml", "include = \"../shared/case.toml\"\n"));
