@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "base/errors.hpp"
+#include "mesh/abaqus_input.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
@@ -69,7 +70,7 @@ void check_readable(const std::string& path) {
 }
 
 void open(const std::string& path) {
-  const std::string advice = "any format Gmsh reads: .msh 2.2 or 4.1, .geo, .step, .unv, .med, .bdf, …";
+  const std::string advice = ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .unv, .med, .bdf, …";
   try {
     gmsh::open(path);
   } catch (const std::string& complaint) {
@@ -191,6 +192,7 @@ int mesh_dimension() {
 
 RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order) {
   check_readable(path);
+  if (extension(path) == ".inp") return read_abaqus_input(path, unit_in_metres);
   const Session session;
   open(path);
   if (is_geometry(path)) generate(path, element_size / unit_in_metres, element_order);
@@ -200,7 +202,7 @@ RawMesh read_mesh(const std::string& path, double unit_in_metres, double element
   if (mesh.dimension == 0)
     throw InputError(
         {path}, "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
-        "any format Gmsh reads: .msh 2.2 or 4.1, .geo, .step, .unv, .med, .bdf, …");
+        ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .unv, .med, .bdf, …");
   const auto index = read_nodes(unit_in_metres, mesh);
   read_groups(path, index, mesh);
   return mesh;

@@ -1,0 +1,69 @@
+// Abaqus Analysis User's Guide, "Element Library": node ordering and face numbering.
+#include "mesh/abaqus_elements.hpp"
+
+#include <array>
+#include <cctype>
+
+namespace solidus::mesh {
+
+namespace {
+
+struct Family {
+  std::string_view prefix;
+  int dimension;
+};
+// The number of nodes stands behind the prefix. Longer prefixes first where one begins another.
+constexpr std::array<Family, 23> k_families{
+    {{"DC3D", 3}, {"AC3D", 3}, {"F3D", 3},  {"C3D", 3},  {"CPEG", 2},  {"CPE", 2}, {"CPS", 2}, {"CAX", 2},
+     {"DC2D", 2}, {"DCAX", 2}, {"AC2D", 2}, {"ACAX", 2}, {"SFM3D", 2}, {"M3D", 2}, {"R3D", 2}, {"STRI", 2},
+     {"DS", 2},   {"S", 2},    {"T2D", 1},  {"T3D", 1},  {"DC1D", 1},  {"R2D", 1}, {"B", 1}}};
+
+constexpr std::array<int, 10> k_tet10{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+constexpr std::array<int, 20> k_hex20{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14};
+constexpr std::array<int, 4> k_tet_face{0, 1, 3, 2};
+constexpr std::array<int, 6> k_hex_face{0, 5, 1, 3, 4, 2};
+
+std::optional<Shape> shape_with(int dimension, int nodes) {
+  constexpr std::array<Shape, 10> shapes{Shape::line2, Shape::line3, Shape::tri3,  Shape::tri6, Shape::quad4,
+                                         Shape::quad8, Shape::tet4,  Shape::tet10, Shape::hex8, Shape::hex20};
+  for (const Shape s : shapes)
+    if (mesh::dimension(s) == dimension && node_count(s) == nodes) return s;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Shape> shape_of_abaqus_type(std::string_view type) {
+  for (const Family& family : k_families) {
+    if (!type.starts_with(family.prefix)) continue;
+    std::string_view rest = type.substr(family.prefix.size());
+    int digits = 0, number = 0;
+    while (static_cast<std::size_t>(digits) < rest.size() &&
+           std::isdigit(static_cast<unsigned char>(rest[static_cast<std::size_t>(digits)])) != 0)
+      number = 10 * number + (rest[static_cast<std::size_t>(digits++)] - '0');
+    if (digits == 0) continue;
+    if (family.prefix == "B") {  // B31: in space, linear; B32: quadratic
+      if (digits != 2 || number % 10 > 2) return std::nullopt;
+      return shape_with(1, number % 10 + 1);
+    }
+    if (family.prefix == "STRI" && number == 65) number = 6;
+    return shape_with(family.dimension, number);
+  }
+  return std::nullopt;
+}
+
+std::span<const int> abaqus_node_order(Shape shape) {
+  if (shape == Shape::tet10) return k_tet10;
+  if (shape == Shape::hex20) return k_hex20;
+  return {};
+}
+
+std::optional<int> face_of_abaqus_label(Shape shape, int label) {
+  if (label < 1 || label > face_count(shape)) return std::nullopt;
+  const auto i = static_cast<std::size_t>(label - 1);
+  if (shape == Shape::tet4 || shape == Shape::tet10) return k_tet_face[i];
+  if (shape == Shape::hex8 || shape == Shape::hex20) return k_hex_face[i];
+  return label - 1;
+}
+
+}  // namespace solidus::mesh

@@ -1,0 +1,23 @@
+/// What the element types and face labels of Abaqus and CalculiX mean.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "mesh/shape.hpp"
+
+namespace solidus::mesh {
+
+/// The shape of an element type in upper case, whatever its formulation ("C3D10M" is tet10); nothing where
+/// there is none here.
+std::optional<Shape> shape_of_abaqus_type(std::string_view type);
+
+/// Position in the Abaqus element of each of our nodes: ours[a] = theirs[order[a]]. Empty where the orders
+/// agree.
+std::span<const int> abaqus_node_order(Shape shape);
+
+/// Our number of the face that Abaqus calls S1, S2, … (label 1, 2, …); nothing where there is no such face.
+std::optional<int> face_of_abaqus_label(Shape shape, int label);
+
+}  // namespace solidus::mesh
