@@ -1,6 +1,7 @@
 """Curves against time: one picture per unit of history.csv, the pictures a case asks for, and the steps."""
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 from solidus_plots import style
 from solidus_plots.history import Table
@@ -21,17 +22,32 @@ def _legend(axes, count):
         axes.legend(loc="best")
 
 
+def _by_size(history, headers):
+    """Columns that would be flat lines beside the largest ones get a panel of their own."""
+    peak = {header: np.abs(history[header]).max(initial=0.0) for header in headers}
+    small = [header for header in headers if 0 < peak[header] < 0.03 * max(peak.values())]
+    large = [header for header in headers if header not in small]
+    return [large, small] if small else [large]
+
+
 def unit_groups(history, folder):
     """Every column of history.csv, one picture per unit."""
     files = []
     for unit, headers in history.by_unit().items():
         quantity = style.QUANTITY.get(unit, "Value")
-        figure, axes = _axes(f"History: {quantity.lower()}", style.axis_label(quantity, unit))
-        for index, header in enumerate(headers):
-            label = Table.name(header).replace("_", " ")
-            axes.plot(history["time[s]"], history[header], label=label, **style.line_style(index))
-        axes.margins(x=0)
-        _legend(axes, len(headers))
+        panels = _by_size(history, headers)
+        figure, axes = plt.subplots(len(panels), 1, figsize=(5.6, 1.2 + 2.4 * len(panels)), sharex=True,
+                                    squeeze=False)
+        for panel, members in zip(axes[:, 0], panels):
+            for header in members:
+                panel.plot(history["time[s]"], history[header], label=Table.name(header).replace("_", " "),
+                           **style.line_style(headers.index(header)))
+            panel.set_ylabel(style.axis_label(quantity, unit))
+            panel.margins(x=0)
+            _legend(panel, len(headers))
+        axes[0, 0].set_title(f"History: {quantity.lower()}", loc="left")
+        axes[-1, 0].set_xlabel("Time [s]")
+        figure.align_ylabels()
         name = "".join(c if c.isalnum() else "_" for c in unit if c != "1") or "shares"
         files += style.save(figure, folder, f"history_{name}", vector=True)
     return files
@@ -92,7 +108,7 @@ def steps(table, folder):
                   **style.line_style(index))
     work.set(ylabel="Newton iterations", xlabel="Time [s]")
     work.set_ylim(bottom=0)
-    work.margins(x=0)
+    work.set_xlim(0, table["time[s]"].max(initial=0.0) or None)
     if phases:
         work.legend()
     figure.align_ylabels()

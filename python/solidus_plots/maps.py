@@ -137,9 +137,9 @@ def field_maps(spec, section, folder):
     unit, mirror = spec.get("unit", ""), spec.get("mirror", False)
     low, high = _limits(grids, spec, unit, section)
     margin = 1e-9 * max(abs(low), abs(high))  # the largest value belongs to the top colour
-    levels, lines = np.linspace(low - margin, high + margin, 65), spec.get("contours", 8)
-    if isinstance(lines, int):
-        lines = np.linspace(low, high, lines + 2)[1:-1]
+    levels, lines = np.linspace(low - margin, high + margin, 65), spec.get("contours", 10)
+    if isinstance(lines, int):  # about so many, at round values
+        lines = [line for line in plt.MaxNLocator(max(lines, 1)).tick_values(low, high) if low < line < high]
     nodes = _nodes(grids[0], section.body_mask(grids[0], spec.get("bodies")))
     extent = np.ptp(grids[0].points[nodes, :2], axis=0) * [2 if mirror else 1, 1]
     height = 4.2
