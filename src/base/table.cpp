@@ -9,8 +9,13 @@ namespace solidus {
 namespace {
 
 constexpr std::size_t k_max_buckets = 4096;
-/// Tables of so few pieces choose by comparison for all lanes at once; longer ones look up lane by lane.
+/// Tables of so few pieces choose by comparison for all lanes at once. That pays where a register holds a
+/// whole Lane; below AVX-512 g++ 12 compares lane by lane anyway, and a look-up of each lane is faster.
+#if defined(__AVX512F__)
 constexpr std::size_t k_few_pieces = 6;
+#else
+constexpr std::size_t k_few_pieces = 0;
+#endif
 
 /// ∫_a^b y/x dx of y = y_a + m (x − a):  (y_a − m a) ln(b/a) + m (b − a).
 double entropy_of_part(double a, double b, double y_a, double m) {
@@ -65,34 +70,30 @@ bool Table::flat(double x) const {
   return extrapolation_ != Extrapolation::linear && (x < x_.front() || x > x_.back());
 }
 
-double Table::value(double x) const {
-  if (constant()) return y_[0];
-  if (flat(x)) return x < x_.front() ? y_.front() : y_.back();
-  if (x == x_.back()) return y_.back();  // exact at the points
+Table::Line<double> Table::line(double x) const {
+  if (constant()) return {y_[0], 0.0};
+  if (flat(x)) return {x < x_.front() ? y_.front() : y_.back(), 0.0};
   const std::size_t i = interval(x);
-  return y_[i] + slope_[i] * (x - x_[i]);
-}
-
-double Table::derivative(double x) const {
-  return constant() || flat(x) ? 0.0 : slope_[interval(x)];
+  // exact at the last point too
+  return {x == x_.back() ? y_.back() : y_[i] + slope_[i] * (x - x_[i]), slope_[i]};
 }
 
 Table::Line<Lane> Table::line_of_lanes(Lane x) const {
-  Lane x0(x_[0]), y0(y_[0]), slope(slope_[0]);
-  if (slope_.size() <= k_few_pieces) {
-    for (std::size_t i = 1; i < slope_.size(); ++i) {
-      const LaneMask beyond = x >= Lane(x_[i]);
-      x0 = select(beyond, Lane(x_[i]), x0);
-      y0 = select(beyond, Lane(y_[i]), y0);
-      slope = select(beyond, Lane(slope_[i]), slope);
-    }
-  } else {
+  if (slope_.size() > k_few_pieces) {
+    Line<Lane> result;
     for (int lane = 0; lane < k_lanes; ++lane) {
-      const std::size_t i = interval(x[lane]);
-      x0.set(lane, x_[i]);
-      y0.set(lane, y_[i]);
-      slope.set(lane, slope_[i]);
+      const Line<double> at = line(x[lane]);
+      result.value.set(lane, at.value);
+      result.slope.set(lane, at.slope);
     }
+    return result;
+  }
+  Lane x0(x_[0]), y0(y_[0]), slope(slope_[0]);
+  for (std::size_t i = 1; i < slope_.size(); ++i) {
+    const LaneMask beyond = x >= Lane(x_[i]);
+    x0 = select(beyond, Lane(x_[i]), x0);
+    y0 = select(beyond, Lane(y_[i]), y0);
+    slope = select(beyond, Lane(slope_[i]), slope);
   }
   Lane y = y0 + slope * (x - x0);
   const Lane last(x_.back());

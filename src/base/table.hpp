@@ -24,24 +24,23 @@ class Table {
   /// increase strictly.
   Table(std::vector<double> x, std::vector<double> y, Extrapolation extrapolation = Extrapolation::constant);
 
-  double value(double x) const;
-  /// dy/dx of the piece that holds x, the right-hand one at a point of the table (the left-hand one at its
-  /// end); zero outside when the continuation is constant.
-  double derivative(double x) const;
-  /// ∫_a^b y dx, closed form, any order of a and b.
-  double integral(double a, double b) const;
-  /// ∫_a^b y/x dx for a, b > 0, closed form (entropy from a capacity).
-  double integral_over_x(double a, double b) const;
-
   /// y and dy/dx near an argument: the line that the table follows there.
   template <class T>
   struct Line {
     T value, slope;
   };
-  Line<double> line(double x) const { return {value(x), derivative(x)}; }
+  Line<double> line(double x) const;
   Line<Lane> line(Lane x) const { return constant() ? Line<Lane>{Lane(y_[0]), Lane(0.0)} : line_of_lanes(x); }
-  Lane value(Lane x) const { return constant() ? Lane(y_[0]) : line_of_lanes(x).value; }
-  Lane derivative(Lane x) const { return constant() ? Lane(0.0) : line_of_lanes(x).slope; }
+  double value(double x) const { return line(x).value; }
+  Lane value(Lane x) const { return line(x).value; }
+  /// dy/dx of the piece that holds x, the right-hand one at a point of the table (the left-hand one at its
+  /// end); zero outside when the continuation is constant.
+  double derivative(double x) const { return line(x).slope; }
+  Lane derivative(Lane x) const { return line(x).slope; }
+  /// ∫_a^b y dx, closed form, any order of a and b.
+  double integral(double a, double b) const;
+  /// ∫_a^b y/x dx for a, b > 0, closed form (entropy from a capacity).
+  double integral_over_x(double a, double b) const;
 
   bool constant() const { return y_.size() == 1; }
   /// True where x lies outside the points and the policy is `error`.
