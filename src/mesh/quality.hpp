@@ -46,10 +46,10 @@ struct QualityReport {
 
 inline constexpr double k_poor_quality = 0.2;
 
-/// The quality of an element, from 1 (regular) to 0 (degenerate), negative where it is inverted: the least
-/// over the vertices of d det(J)^(2/d) / |J|², J the Jacobian there relative to that of the regular element
-/// (inverse mean ratio: Knupp 2001, "Algebraic mesh quality metrics", SIAM J. Sci. Comput. 23, 193–218);
-/// it does not depend on the size. Mid nodes of quadratic elements count by the Jacobian at the vertices.
+/// The quality of an element, from 1 (regular) to 0 (flat), negative where it is inverted: the least over the
+/// vertices of d |det T|^(2/d) / |T|² with the sign of det T, T the Jacobian relative to the regular
+/// element's (mean ratio: Knupp 2001, "Algebraic mesh quality metrics", SIAM J. Sci. Comput. 23, 193–218). It
+/// does not depend on the element's size.
 double element_quality(const RawMesh& mesh, Shape shape, const Index* nodes);
 
 QualityReport assess(const RawMesh& mesh, std::size_t n_worst = 5);
