@@ -19,8 +19,10 @@ struct ContactSpec {
   bool penalty_is_factor = true;
   /// Stiffness of every point in all directions, as a part of ε_N, that the tangent gets on top of the law's.
   /// It is not in the forces, so a converged solution does not feel it; it keeps the matrix regular while a
-  /// body has lost support (all points open) or may slide freely. Zero: none.
-  double stabilisation = 1e-6;
+  /// body has lost support (all points open) or may slide freely. As a wrong part of the tangent it costs
+  /// iterations when it is not small against the elastic stiffness: at 1e-8 none were seen, at 1e-6 one to
+  /// six, 1e-4 may not converge. Zero: none.
+  double stabilisation = 1e-10;
   IntegrationRule integration = IntegrationRule::segments;
   int gauss_degree = 4;  ///< rule `gauss`
   /// How far partners are looked for along the normal [m]; absent: a tenth of the slave's extent.

@@ -150,5 +150,26 @@ TEST(RestingBody, HeldOnlyByContactTakesItsWeightInOneStep) {
   }
 }
 
+TEST(FallingBody, ThatNothingHoldsLandsOnItsSupportInOneStep) {
+  // A gap of 10 µm all over: at the start the upper block has no support at all.
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-5);
+  mechanics::Conditions conditions = test::symmetric_supports(2);
+  conditions.gravity[1] = -9.81;
+  contact::ContactPair pair(mesh, AnalysisKind::plane_strain, test::interface(),
+                            std::vector<double>{70e9, 210e9});
+  const std::vector<material::Material> materials{test::elastic(70e9, 0.33), test::elastic(210e9, 0.3)};
+  const std::vector<double> temperature(mesh.x.size(), 300.0);
+  mechanics::MechanicsOptions options = test::strict_mechanics();
+  options.newton.tolerance = 1e-9;
+  mechanics::MechanicalPhase phase(mesh, AnalysisKind::plane_strain, materials, temperature, conditions,
+                                   options, {&pair.mechanics()});
+  const mechanics::MechanicalState start = phase.initial_state();
+  mechanics::MechanicalState end = start;
+  const auto report = phase.solve(start, end, temperature, 1, 1);
+  RecordProperty("iterations", report.newton.iterations);
+  pair.update(end.displacement);
+  EXPECT_NEAR(pair.sums({}).force, 7800 * 9.81 * 0.06, 1e-6 * 7800 * 9.81 * 0.06);
+}
+
 }  // namespace
 }  // namespace solidus
