@@ -33,8 +33,10 @@ class PhaseFraction {
   /// Scheil: f = 1 − ((Θ_m − Θ)/(Θ_m − Θ_L))^(1/(k − 1)), the rest isothermally at the eutectic.
   static PhaseFraction scheil(double melting_point, double liquidus, double eutectic, double partition);
 
-  double value(double temperature) const;       ///< at a jump: the mean of both sides
-  double derivative(double temperature) const;  ///< df/dΘ <= 0 [1/K] of the piece on the right; zero outside
+  double value(double temperature) const;  ///< at a jump: the mean of both sides
+  /// df/dΘ <= 0 [1/K] of the piece on the right; zero outside. An isothermal jump is not in it: what
+  /// integrates over a step takes differences of value().
+  double derivative(double temperature) const;
   double above(double temperature) const;  ///< the limit from the right; differs from below() at a jump only
   double below(double temperature) const;  ///< the limit from the left
   Lane value(Lane temperature) const {
