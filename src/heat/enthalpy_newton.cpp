@@ -16,6 +16,13 @@ constexpr double k_accept_rise = 0.5;   ///< the full step stands if the slope b
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope is this share
 constexpr int k_search_trials = 40;
 
+constexpr int k_plain = 6;                ///< iterations before plateaus are tilted
+constexpr double k_tilt = 1.0;            ///< temperature difference over a tilted plateau [K]
+constexpr double k_tilted_enough = 1e-2;  ///< residual over the heat moved at which the tilt goes
+constexpr int k_tilted_at_most = 8;       ///< iterations with one tilt
+constexpr double k_less_tilt = 0.1, k_least_tilt = 2e-3;  ///< its fall, and where it ends [K]
+constexpr int k_full_steps = 40;                          ///< iterations before the line search sets in
+
 }  // namespace
 
 EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
@@ -25,6 +32,12 @@ EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
   for (auto* v : {&r_, &b_, &step_h_, &inverse_, &balance_}) v->resize(n);
   step_t_.resize(mesh.x.size());
+  per_latent_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double latent = storage.latent_capacity(static_cast<Index>(i));
+    per_latent_[i] = latent > 0 ? 1.0 / latent : 0.0;
+  }
+  has_plateaus_ = algebra::any_process(storage.has_plateaus());
 }
 
 void EnthalpyNewton::evaluate(std::span<const double> temperature) {
@@ -42,6 +55,20 @@ void EnthalpyNewton::evaluate(std::span<const double> temperature) {
   round_off_ = k_round_off * (algebra::global_sum(contents) + conductance_);
 }
 
+double EnthalpyNewton::temperature_of(std::size_t i, double heat) const {
+  const double t = storage_.temperature(static_cast<Index>(i), heat);
+  return tilt_ > 0 ? t + tilt(i) * (heat - old_heat_[i]) : t;
+}
+
+/// Sets or takes away the tilt of the plateaus, and what follows from it.
+void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
+  tilt_ = tilt;
+  for (std::size_t i = 0; i < r_.size(); ++i)
+    if (!system_.fixed()[i]) temperature[i] = temperature_of(i, heat_[i]);
+  ghosts_.update(temperature, 1);
+  evaluate(temperature);
+}
+
 bool EnthalpyNewton::converged() const {
   return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_;
 }
@@ -54,7 +81,7 @@ void EnthalpyNewton::assemble(std::span<const double> temperature) {
     const auto node = static_cast<Index>(i);
     double& diagonal = *system_.matrix().diagonal_block(node);
     conductance += std::abs(diagonal * temperature[i]);
-    inverse_[i] = storage_.slope(node, heat_[i], temperature[i]);
+    inverse_[i] = storage_.slope(node, heat_[i]) + tilt(i);
     const bool held = inverse_[i] == 0.0;
     const double capacity = held ? storage_.capacity(node, temperature[i]) : 1.0 / inverse_[i];
     if (held)
@@ -68,14 +95,13 @@ void EnthalpyNewton::assemble(std::span<const double> temperature) {
 }
 
 /// δH from δΘ; step_t_ has its ghosts.
-void EnthalpyNewton::directions(std::span<const double> temperature) {
+void EnthalpyNewton::enthalpy_step() {
   system_.matrix().multiply(step_t_, step_h_);
   for (std::size_t i = 0; i < r_.size(); ++i) {
     if (system_.fixed()[i])
       step_h_[i] = 0;
     else
       step_h_[i] = inverse_[i] == 0.0 ? -dt_ * (r_[i] + step_h_[i]) : step_t_[i] / inverse_[i];
-    if (!has_balance_) balance_[i] = temperature[i] + step_t_[i];
   }
 }
 
@@ -84,7 +110,7 @@ double EnthalpyNewton::slope(double alpha, std::span<const double> temperature) 
   double sum = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) {
     if (system_.fixed()[i] || step_h_[i] == 0.0) continue;
-    const double t = storage_.temperature(static_cast<Index>(i), heat_[i] + alpha * step_h_[i]);
+    const double t = temperature_of(i, heat_[i] + alpha * step_h_[i]);
     const double balance = (1 - alpha) * balance_[i] + alpha * (temperature[i] + step_t_[i]);
     sum += step_h_[i] * (t - balance);
   }
@@ -124,9 +150,10 @@ algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, do
   heat_ = heat;
   dt_ = dt;
   conductance_ = 0;
-  has_balance_ = false;
+  tilt_ = 0;
   const auto n = r_.size();
   algebra::NewtonReport report;
+  int tilted = 0;  // iterations with the tilt of now
   while (true) {
     evaluate(temperature);
     report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
@@ -134,13 +161,20 @@ algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, do
       report.reason = "the residual is not a number";
       break;
     }
-    if (converged()) {
+    if (tilt_ == 0 && converged()) {
       report.converged = true;
       break;
     }
     if (report.iterations == options_.max_iterations) {
       report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
       break;
+    }
+    if (has_plateaus_ && report.iterations == k_plain) {
+      set_tilt(k_tilt, temperature);
+      tilted = 0;
+    } else if (tilt_ > 0 && (norm_ <= k_tilted_enough * moved_ || ++tilted == k_tilted_at_most)) {
+      set_tilt(tilt_ > k_least_tilt ? k_less_tilt * tilt_ : 0.0, temperature);
+      tilted = 0;
     }
     assemble(temperature);
     const algebra::LinearReport linear = solver_.solve(system_.matrix(), b_, std::span(step_t_).first(n));
@@ -153,15 +187,13 @@ algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, do
     for (std::size_t i = 0; i < n; ++i)
       if (inverse_[i] == 0.0 || system_.fixed()[i]) step_t_[i] = 0.0;
     ghosts_.update(step_t_, 1);
-    const bool first = !has_balance_;
-    directions(temperature);
-    has_balance_ = true;
-    const double alpha = first ? 1.0 : search(temperature);
+    enthalpy_step();
+    const double alpha = report.iterations <= k_full_steps ? 1.0 : search(temperature);
     for (std::size_t i = 0; i < n; ++i) {
       balance_[i] = (1 - alpha) * balance_[i] + alpha * (temperature[i] + step_t_[i]);
       if (system_.fixed()[i]) continue;
       heat[i] += alpha * step_h_[i];
-      temperature[i] = storage_.temperature(static_cast<Index>(i), heat[i]);
+      temperature[i] = temperature_of(i, heat[i]);
     }
     ghosts_.update(temperature, 1);
   }

@@ -98,11 +98,11 @@ double NodalEnthalpy::temperature(Index node, double heat) const {
   return mixed_temperature(list, heat, plateau);
 }
 
-double NodalEnthalpy::slope(Index node, double heat, double temperature) const {
+double NodalEnthalpy::slope(Index node, double heat) const {
   const auto list = shares(node);
   if (list.size() == 1) return curve(list[0]).inverse_slope(heat / list[0].weight) / list[0].weight;
   bool plateau = false;
-  mixed_temperature(list, heat, plateau);
+  const double temperature = mixed_temperature(list, heat, plateau);
   return plateau ? 0.0 : 1.0 / capacity(node, temperature);
 }
 
@@ -147,6 +147,20 @@ double NodalEnthalpy::latent(Index node, double heat, double temperature) const 
     }
   }
   return latent;
+}
+
+bool NodalEnthalpy::has_plateaus() const {
+  return std::any_of(curves_.begin(), curves_.end(), [](const auto& c) { return !c.jumps().empty(); });
+}
+
+double NodalEnthalpy::latent_capacity(Index node) const {
+  double heat = 0;
+  for (const Share& s : shares(node)) {
+    const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
+    for (const material::PhaseChange& change : m.phase_changes)
+      heat += s.weight * m.density * change.latent_heat;
+  }
+  return heat;
 }
 
 double NodalEnthalpy::mixed_heat(Index node, std::span<const double> body_temperature) const {

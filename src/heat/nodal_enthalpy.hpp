@@ -23,7 +23,7 @@ class NodalEnthalpy {
   /// Θ_i(H) [K]; H in joules.
   double temperature(Index node, double heat) const;
   /// dΘ_i/dH [K/J]; zero within a plateau.
-  double slope(Index node, double heat, double temperature) const;
+  double slope(Index node, double heat) const;
   /// H_i at a temperature; at a jump both ends.
   double lower(Index node, double temperature) const;
   double upper(Index node, double temperature) const;
@@ -31,6 +31,10 @@ class NodalEnthalpy {
   double plateau_share(Index node, double heat, double temperature) const;
   /// Mean solid fraction of the materials of a node that can melt, 1 if none can (2.65).
   double solid_fraction(Index node, double heat, double temperature) const;
+  /// True when a material has an isothermal change.
+  bool has_plateaus() const;
+  /// The heat of all phase changes together [J].
+  double latent_capacity(Index node) const;
   /// The part of the heat that is latent [J].
   double latent(Index node, double heat, double temperature) const;
   /// Σ_m w_im h_m(Θ_m) of bodies at different temperatures [J]; molten at the temperature of a change.
