@@ -51,15 +51,14 @@ def draw(results, spec_file=None):
     style.setup()
     summary_file = results / "summary.json"
     summary = json.loads(summary_file.read_text()) if summary_file.exists() else {}
+    spec_file = spec_file or find_spec(results, summary)
+    spec = read_spec(spec_file) if spec_file else {}
     folder = results / "plots"
     folder.mkdir(exist_ok=True)
     history = read_table(results / "history.csv")
     files, problems = curves.unit_groups(history, folder), []
     if (results / "steps.csv").exists():
         files += curves.steps(read_table(results / "steps.csv"), folder)
-
-    spec_file = spec_file or find_spec(results, summary)
-    spec = read_spec(spec_file) if spec_file else {}
 
     def attempt(work, *arguments):
         # One picture that cannot be drawn (a run that stopped early) must not cost the others.
