@@ -57,27 +57,50 @@ BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph
   diagonal_.resize(at(mesh.n_owned_nodes));
   for (Index row = 0; row < mesh.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
 
-  // The order of the coordinates is the order of the values, so that handing over needs no copy.
-  std::vector<PetscInt> i, j;
-  i.reserve(columns_.size() * bs * bs);
-  j.reserve(columns_.size() * bs * bs);
-  for (Index row = 0; row < mesh.n_owned_nodes; ++row)
-    for (std::int64_t s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s) {
-      const GlobalIndex column = mesh.global_node[at(columns_[static_cast<std::size_t>(s)])];
-      for (int a = 0; a < block_size; ++a)
-        for (int b = 0; b < block_size; ++b) {
-          i.push_back(static_cast<PetscInt>((mesh.first_owned + row) * block_size + a));
-          j.push_back(static_cast<PetscInt>(column * block_size + b));
-        }
+  order_ghost_columns();
+  create_petsc_matrix();
+}
+
+/// PETSc keeps the columns of a row in global order, owned ones and ghosts apart; ours are in local order.
+void BlockMatrix::order_ghost_columns() {
+  const auto global = [&](Slot s) { return mesh_.global_node[at(columns_[static_cast<std::size_t>(s)])]; };
+  ghost_start_.assign(1, 0);
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    const auto begin = ghost_slots_.size();
+    for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
+      if (columns_[static_cast<std::size_t>(s)] >= mesh_.n_owned_nodes) ghost_slots_.push_back(s);
+    std::sort(ghost_slots_.begin() + static_cast<std::ptrdiff_t>(begin), ghost_slots_.end(),
+              [&](Slot p, Slot q) { return global(p) < global(q); });
+    ghost_start_.push_back(static_cast<std::int64_t>(ghost_slots_.size()));
+  }
+}
+
+void BlockMatrix::create_petsc_matrix() {
+  // Any order of columns will do for the pattern as long as it is sorted: ghosts below, owned, ghosts above.
+  std::vector<PetscInt> i(1, 0), j, columns;
+  i.reserve(at(mesh_.n_owned_nodes) * static_cast<std::size_t>(block_size_) + 1);
+  j.reserve(values_.size());
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    columns.clear();
+    for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
+      for (int b = 0; b < block_size_; ++b)
+        columns.push_back(static_cast<PetscInt>(
+            mesh_.global_node[at(columns_[static_cast<std::size_t>(s)])] * block_size_ + b));
+    std::sort(columns.begin(), columns.end());
+    for (int a = 0; a < block_size_; ++a) {
+      j.insert(j.end(), columns.begin(), columns.end());
+      i.push_back(static_cast<PetscInt>(j.size()));
     }
-  const auto n = static_cast<PetscInt>(mesh.n_owned_nodes * block_size);
+  }
+  const auto n = static_cast<PetscInt>(mesh_.n_owned_nodes * block_size_);
   MatHandle& a = petsc_->matrix;
   check(MatCreate(PETSC_COMM_WORLD, a.out()), "MatCreate");
   check(MatSetSizes(a, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
-  check(MatSetBlockSize(a, block_size), "MatSetBlockSize");
+  check(MatSetBlockSize(a, block_size_), "MatSetBlockSize");
   check(MatSetType(a, MATAIJ), "MatSetType");
-  check(MatSetPreallocationCOO(a, static_cast<PetscCount>(i.size()), i.data(), j.data()),
-        "MatSetPreallocationCOO");
+  // One of the two applies, the other does nothing.
+  check(MatSeqAIJSetPreallocationCSR(a, i.data(), j.data(), nullptr), "MatSeqAIJSetPreallocationCSR");
+  check(MatMPIAIJSetPreallocationCSR(a, i.data(), j.data(), nullptr), "MatMPIAIJSetPreallocationCSR");
 }
 
 BlockMatrix::~BlockMatrix() = default;
@@ -163,10 +186,40 @@ Mat BlockMatrix::matrix() {
     }
     for (std::size_t entry : fixed_diagonal_) values_[entry] = mean;
   }
-  check(MatSetValuesCOO(petsc_->matrix, block(0), INSERT_VALUES), "MatSetValuesCOO");
+  copy_to_petsc();
   if (any_fixed_)
     for (std::size_t k = 0; k < masked_.size(); ++k) values_[masked_[k]] = saved_[k];
   return petsc_->matrix;
+}
+
+/// Writes the blocks' rows into PETSc's arrays: owned columns into the diagonal part, ghosts into the other.
+void BlockMatrix::copy_to_petsc() {
+  Mat a = petsc_->matrix, diagonal = a, off_diagonal = nullptr;
+  PetscBool parallel = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(a), MATMPIAIJ, &parallel),
+        "PetscObjectTypeCompare");
+  if (parallel) check(MatMPIAIJGetSeqAIJ(a, &diagonal, &off_diagonal, nullptr), "MatMPIAIJGetSeqAIJ");
+  double *owned = nullptr, *ghosts = nullptr;
+  check(MatSeqAIJGetArrayWrite(diagonal, &owned), "MatSeqAIJGetArrayWrite");
+  if (off_diagonal) check(MatSeqAIJGetArrayWrite(off_diagonal, &ghosts), "MatSeqAIJGetArrayWrite");
+
+  double *to = owned, *to_ghosts = ghosts;
+  const int bs = block_size_;
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    const std::int64_t ghosts_begin = ghost_start_[at(row)], ghosts_end = ghost_start_[at(row) + 1];
+    // Owned columns stand before ghosts in local order.
+    const Slot begin = row_start_[at(row)], end = row_start_[at(row) + 1] - (ghosts_end - ghosts_begin);
+    for (int p = 0; p < bs; ++p) {
+      for (Slot s = begin; s < end; ++s) to = std::copy_n(block(s) + p * bs, bs, to);
+      for (std::int64_t g = ghosts_begin; g < ghosts_end; ++g)
+        to_ghosts = std::copy_n(block(ghost_slots_[static_cast<std::size_t>(g)]) + p * bs, bs, to_ghosts);
+    }
+  }
+
+  check(MatSeqAIJRestoreArrayWrite(diagonal, &owned), "MatSeqAIJRestoreArrayWrite");
+  if (off_diagonal) check(MatSeqAIJRestoreArrayWrite(off_diagonal, &ghosts), "MatSeqAIJRestoreArrayWrite");
+  check(MatAssemblyBegin(a, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+  check(MatAssemblyEnd(a, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
 }
 
 void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const {
