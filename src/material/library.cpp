@@ -57,11 +57,11 @@ bool names_a_file(const std::string& reference) {
   return fs::path(reference).extension() == ".toml";
 }
 
-fs::path locate(const std::string& reference, std::span<const fs::path> library, const SourceLocation& where,
-                const fs::path& folder) {
+fs::path locate(const std::string& reference, std::span<const fs::path> library,
+                const SourceLocation& where) {
   std::error_code unreadable;
   if (names_a_file(reference)) {
-    const fs::path file = folder / reference;
+    const fs::path file = fs::path(where.file).parent_path() / reference;
     if (!fs::exists(file, unreadable))
       throw InputError(where, "there is no material file '" + file.string() + "'");
     return file;
@@ -79,7 +79,7 @@ Value load_with_base(const fs::path& file, std::span<const fs::path> library, in
   if (like == nullptr || !like->is_text() || like->text().empty()) return document;
   if (depth == 0)
     throw InputError(like->where, "the material is like one that is like another, and so on without end");
-  const fs::path base = locate(like->text(), library, like->where, file.parent_path());
+  const fs::path base = locate(like->text(), library, like->where);
   inherit(document, load_with_base(base, library, depth - 1));
   return document;
 }
@@ -129,8 +129,8 @@ Material load_material(const fs::path& file, std::span<const fs::path> library) 
 }
 
 Material find_material(const std::string& reference, std::span<const fs::path> library,
-                       const SourceLocation& where, const fs::path& folder) {
-  return load_material(locate(reference, library, where, folder), library);
+                       const SourceLocation& where) {
+  return load_material(locate(reference, library, where), library);
 }
 
 std::vector<std::string> material_names(std::span<const fs::path> library) {

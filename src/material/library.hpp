@@ -56,11 +56,11 @@ Material load_material(const std::filesystem::path& file,
                        std::span<const std::filesystem::path> library = {});
 
 /// The material that the user names: a name in the library, or a file (anything with ".toml" at its end)
-/// relative to `folder`. The first folder of the library that has the name wins.
+/// relative to the file that names it. The first folder of the library that has the name wins.
 /// @param where  the place of the name in the user's input
 /// Throws InputError with the nearest name when there is none.
 Material find_material(const std::string& reference, std::span<const std::filesystem::path> library,
-                       const SourceLocation& where = {}, const std::filesystem::path& folder = {});
+                       const SourceLocation& where = {});
 
 /// All names in the library, sorted.
 std::vector<std::string> material_names(std::span<const std::filesystem::path> library);

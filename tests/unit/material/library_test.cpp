@@ -210,7 +210,7 @@ TEST_F(MaterialOnDisk, TakesFromTheMaterialThatItIsLikeWhatItDoesNotGive) {
         "like = \"aluminium_99_7\"\ntitle = \"Soft melt\"\ntwice_shear_viscosity = \"1e6 Pa s\"\n");
   write("softer.toml", "like = \"soft.toml\"\npoisson_ratio = 0.25\n");
   const Material base = find_material("aluminium_99_7", k_library);
-  const Material m = find_material("softer.toml", k_library, {}, folder_);
+  const Material m = find_material("softer.toml", k_library, {(folder_ / "case.toml").string(), 3, 1});
   EXPECT_EQ(m.name, "softer");
   EXPECT_EQ(m.title, "Soft melt");
   EXPECT_EQ(m.liquid_viscosity.value(1000), 1e6);
