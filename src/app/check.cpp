@@ -3,10 +3,7 @@
 
 #include "app/verbs.hpp"
 #include "base/units.hpp"
-#include "model/case_file.hpp"
-#include "model/case_materials.hpp"
-#include "model/mesh_input.hpp"
-#include "results/summary.hpp"
+#include "model/run.hpp"
 
 namespace solidus::app {
 
@@ -41,9 +38,7 @@ const char* text(model::Physics physics) {
 ExitCode check(const CaseArguments& arguments) {
   const model::Case c = model::load_case(arguments.path, arguments.set);
   const model::CaseSpec& spec = c.spec;
-  model::load_materials(spec);
-  const mesh::Mesh mesh = model::load_mesh(spec);
-  const results::MeshCounts counts = results::count(mesh);
+  const results::MeshCounts counts = model::check_run(c);
 
   std::string out = fmt::format("{}\n  analysis    {}, {}\n  mesh        {} nodes", spec.title,
                                 text(spec.analysis.kind), text(spec.analysis.physics), counts.nodes);

@@ -144,9 +144,8 @@ void check_contacts(const CaseSpec& spec) {
 /// The unit of a field inside the program.
 std::string field_unit(const std::string& field) {
   if (field == "temperature") return "K";
-  if (field == "displacement" || field == "gap") return "m";
+  if (field == "displacement") return "m";
   if (field == "solid_fraction" || field == "viscous_strain") return "1";
-  if (field == "conductance") return "W/m2/K";
   return "Pa";
 }
 

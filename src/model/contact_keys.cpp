@@ -65,7 +65,7 @@ Section<ContactSpec> contact_keys() {
       .positive()
       .doc("Penalty = factor x Young's modulus / height of the elements at the slave's surface.");
   s.key("stabilisation", &C::stabilisation)
-      .initially(1e-6)
+      .initially(1e-10)
       .range(0, 1)
       .doc(
           "Share of the penalty that the matrix, not the forces, always holds: for bodies that lose their "

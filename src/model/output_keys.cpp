@@ -4,9 +4,9 @@ namespace solidus::model {
 
 namespace {
 
-const std::vector<std::string> k_fields = {
-    "temperature", "displacement",   "solid_fraction",   "stress", "von_mises",
-    "pressure",    "viscous_strain", "contact_pressure", "gap",    "conductance"};
+/// Fields of the bodies; contact surfaces always carry all of theirs (gap, contact pressure, conductance).
+const std::vector<std::string> k_fields = {"temperature", "solid_fraction", "displacement",  "stress",
+                                           "von_mises",   "pressure",       "viscous_strain"};
 
 /// The kinds of probe that sample a field.
 const std::vector<std::string> k_sampling = {"point", "mean", "minimum", "maximum", "integral"};

@@ -216,6 +216,17 @@ RunResult run_transient(const CaseSpec& spec, Assembly& a, results::Recorder& re
 
 }  // namespace
 
+results::MeshCounts check_run(const Case& c) {
+  Assembly a;
+  a.materials = load_materials(c.spec);
+  a.mesh = load_mesh(c.spec);
+  build(c.spec, a);
+  const results::StateFields fields(a.mesh, a.phases);
+  const results::Probes found(a.mesh, c.spec.analysis.kind, probes(c.spec), fields.bodies());
+  fields.bodies().select(c.spec.output.fields);
+  return results::count(a.mesh);
+}
+
 RunResult run_case(const Case& c, const RunOptions& options) {
   const double start = MPI_Wtime();
   Assembly a;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "model/case_file.hpp"
+#include "results/summary.hpp"
 
 namespace solidus::model {
 
@@ -24,5 +25,10 @@ struct RunResult {
 /// for what the case or the place for the results has wrong, before anything is computed where that can be
 /// known.
 RunResult run_case(const Case& c, const RunOptions& options);
+
+/// Everything that run_case does before it computes, but for the results folder. Collective. Throws
+/// InputError.
+/// @return sizes of the mesh, to show
+results::MeshCounts check_run(const Case& c);
 
 }  // namespace solidus::model
