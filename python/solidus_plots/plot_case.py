@@ -19,6 +19,7 @@ KEYS = {"curves": {"file", "title", "quantity", "lines", "levels", "moments", "c
         "maps": {"file", "title", "quantity", "field", "component", "unit", "times", "mirror",
                  "magnification", "bodies", "contours", "range"},
         "deformed": {"file", "title", "time", "mirror", "magnification", "bodies"}}
+REQUIRED = {"curves": ("file", "lines"), "maps": ("file", "field"), "deformed": ("file",)}
 
 
 def find_spec(results, summary):
@@ -43,6 +44,9 @@ def read_spec(path):
             if unknown:
                 raise ResultError(f"{path}: unknown key '{unknown.pop()}' in [[{section}]]; there are "
                                   f"{', '.join(sorted(KEYS[section]))}")
+            for key in REQUIRED[section]:
+                if key not in picture:
+                    raise ResultError(f"{path}: a [[{section}]] lacks its '{key}'")
     return spec
 
 
