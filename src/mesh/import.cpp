@@ -5,7 +5,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
+#include <sstream>
 #include <unordered_map>
 
 #include "base/errors.hpp"
@@ -24,6 +26,22 @@ const std::map<int, Shape>& shapes_of_gmsh() {
                                            {17, Shape::hex20}, {15, Shape::point1}};
   return shapes;
 }
+
+/// OpenCASCADE writes banners and complaints to the standard streams, whatever Gmsh's verbosity.
+class Silence {
+ public:
+  Silence() : out_(std::cout.rdbuf(nothing_.rdbuf())), error_(std::cerr.rdbuf(nothing_.rdbuf())) {}
+  ~Silence() {
+    std::cout.rdbuf(out_);
+    std::cerr.rdbuf(error_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  std::ostringstream nothing_;
+  std::streambuf *out_, *error_;
+};
 
 /// Gmsh's state is global: one session at a time, closed whatever happens.
 class Session {
@@ -47,6 +65,9 @@ class Session {
       if (line.starts_with("Error")) text += (text.empty() ? "" : "; ") + line;
     return text;
   }
+
+ private:
+  Silence silence_;
 };
 
 std::string extension(const std::string& path) {
@@ -87,7 +108,8 @@ void generate(const std::string& path, double size, int element_order) {
   try {
     if (size > 0) {
       gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-      gmsh::option::setNumber("Mesh.MeshSizeMin", size / 10);
+      gmsh::option::setNumber("Mesh.MeshSizeMin",
+                              size);  // else Gmsh's default, a tenth of the model, may win
     }
     if (element_order == 2) gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
     gmsh::vectorpair volumes;

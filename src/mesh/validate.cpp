@@ -91,6 +91,10 @@ void check_block(RawMesh& mesh, const std::string& group, RawBlock& block, const
     for (const QuadraturePoint& p : interior)
       least = std::min(least, jacobian(mesh, block.shape, element, p.xi));
     const double size = std::pow(extent(mesh, block.shape, element), dimension(block.shape));
+    // A vertex may be flat (a quad collapsed to a triangle works), but not folded.
+    for (std::size_t a = 0; a < static_cast<std::size_t>(vertex_count(block.shape)); ++a)
+      if (const double j = jacobian(mesh, block.shape, element, nodes[a].xi); j < -1e-10 * size)
+        least = std::min(least, j);
     if (!(least > 1e-10 * size)) {
       const auto number =
           block.input_element.empty() ? static_cast<GlobalIndex>(e + 1) : block.input_element[e];
