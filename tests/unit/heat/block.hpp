@@ -39,6 +39,12 @@ inline mesh::Mesh block_mesh(mesh::Shape shape, std::vector<double> size, std::v
   return mesh::distribute(raw, {"block"}, {});
 }
 
+inline int processes() {
+  int size = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  return size;
+}
+
 inline bool is_3d(mesh::Shape shape) {
   return mesh::dimension(shape) == 3;
 }

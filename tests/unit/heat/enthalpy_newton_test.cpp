@@ -49,7 +49,7 @@ TEST_P(EveryStep, ConvergesAndConservesHeatWhateverTheFreezingRange) {
   const mesh::Mesh strip = block_mesh(mesh::Shape::quad4, {0.1, 0.001}, {100, 1});
   const mesh::Mesh plate = block_mesh(mesh::Shape::tri3, {0.1, 0.1}, {24, 24});
   for (const mesh::Mesh* mesh : {&strip, &plate}) {
-    const Freezing run = freeze(*mesh, metal(range), dt, 30);
+    const Freezing run = freeze(*mesh, metal(range), dt, test::processes() == 1 ? 30 : 4);
     EXPECT_LE(run.defect, 1e-8);
     EXPECT_LE(run.worst, 40);
     for (double t : run.state.temperature) {
@@ -67,9 +67,9 @@ INSTANTIATE_TEST_SUITE_P(RangesAndSteps, EveryStep,
 TEST(EnthalpyIteration, NeedsAboutTwoSolvesWhileTheFrontPassesANodePerStep) {
   // A casting's usual step: 1.5 mm cells, 0.5 s; the front moves about one cell per step.
   const mesh::Mesh plate = block_mesh(mesh::Shape::tri3, {0.06, 0.0015}, {40, 1});
-  EXPECT_LE(freeze(plate, metal(0), 0.5, 60).solves, 3.0);
-  EXPECT_LE(freeze(plate, metal(1), 0.5, 60).solves, 3.0);
-  EXPECT_LE(freeze(plate, metal(40), 0.5, 60).solves, 3.0);
+  const int steps = test::processes() == 1 ? 60 : 10;
+  for (double range : {0.0, 1.0, 40.0})
+    EXPECT_LE(freeze(plate, metal(range), 0.5, steps).solves, 3.0) << range;
 }
 
 TEST(EnthalpyIteration, ConvergesFromRandomTemperaturesOnBothSidesOfTheChange) {
@@ -92,6 +92,7 @@ TEST(EnthalpyIteration, ConvergesFromRandomTemperaturesOnBothSidesOfTheChange) {
 }
 
 TEST(EnthalpyIteration, ReleasesTheLatentHeatToRoundingForEveryStep) {
+  if (test::processes() > 1) return;  // the serial run proves it; thousands of small steps take long on two
   const mesh::Mesh plate = block_mesh(mesh::Shape::tri3, {0.05, 0.05}, {10, 10});
   const double latent = 280 * 2500.0 * 1000.0 * 0.05 * 0.05;  // L rho V
   for (double range : {0.0, 1.0, 40.0})
