@@ -4,7 +4,9 @@
 #include <petscsys.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "app/verbs.hpp"
@@ -33,6 +35,16 @@ fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
   return results_root() / results::default_run_folder(c.file);
 }
 
+/// Tells a script where the results are: the path goes to the file that SOLIDUS_RESULTS_NOTE names, because a
+/// terminal's output cannot be piped without losing the progress bar.
+void note_folder(const fs::path& folder) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const char* note = std::getenv("SOLIDUS_RESULTS_NOTE");
+  if (rank == 0 && note != nullptr)
+    std::ofstream(note) << fs::absolute(folder).lexically_normal().string() << "\n";
+}
+
 }  // namespace
 
 ExitCode run(const CaseArguments& arguments) {
@@ -48,6 +60,7 @@ ExitCode run(const CaseArguments& arguments) {
     if (rank == 0) std::cerr << "solidus: the simulation could not go on: " << result.reason << std::endl;
     return k_cannot_go_on;
   }
+  note_folder(options.folder);
   print("Results in " + options.folder.lexically_normal().string() + "\n");
   return k_done;
 }
