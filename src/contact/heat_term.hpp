@@ -33,6 +33,10 @@ class HeatTerm : public algebra::Contribution {
   void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
   /// From slave to master through the pairings that this process counts [W].
   double counted_heat(std::span<const double> temperature) const;
+  std::size_t bytes() const {
+    return slots_.capacity() * sizeof(algebra::BlockMatrix::Slot) +
+           (conduction_.capacity() + radiation_.capacity()) * sizeof(double);
+  }
 
  private:
   /// Sums −w f B_i B_j over the points into [pairing][i][j], i < j.

@@ -24,6 +24,7 @@ class MechanicsTerm : public algebra::Contribution {
 
   /// g_N of point `p` of a pairing at the displacement [m].
   double penetration(const Pairing& pairing, Index p, std::span<const double> displacement) const;
+  std::size_t bytes() const { return slots_.capacity() * sizeof(algebra::BlockMatrix::Slot); }
 
  private:
   template <int dim>

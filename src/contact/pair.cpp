@@ -163,7 +163,8 @@ std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature)
 }
 
 std::size_t ContactPair::bytes() const {
-  return points_.bytes() + 3 * pressure_.capacity() * sizeof(double);
+  return points_.bytes() + 3 * pressure_.capacity() * sizeof(double) + mechanics_->bytes() +
+         (heat_ ? heat_->bytes() : 0);
 }
 
 }  // namespace solidus::contact

@@ -13,6 +13,12 @@ namespace {
 // Pieces smaller than this part of the slave face hold nothing but rounding.
 constexpr double k_least_piece = 1e-13;
 
+// How far a point of a piece may lie outside its face, in reference coordinates: rounding where edges are
+// straight; the sagitta between a curved edge and the two chords that stand for it elsewhere.
+double edge_tolerance(const Face& face) {
+  return face.straight_edges() ? 1e-6 : 0.05;
+}
+
 // The plane through the centre of the slave face along whose normal both sides are projected.
 struct Plane {
   Point origin, normal, e1, e2;
@@ -98,9 +104,10 @@ class Cutter {
   // Another layer of the master may lie between: the nearest one takes the piece.
   bool nearest_here(Index m, const PlanePoint& p, const std::vector<Index>& candidates) const {
     const Point above = plane_(p);
-    const Projection on_slave = project_along(slave_, above, plane_.normal, 1e-3);
+    const Projection on_slave = project_along(slave_, above, plane_.normal, edge_tolerance(slave_));
     if (!on_slave.found) return false;
-    const Projection own = project_along(master_.face(m), on_slave.y, plane_.normal, 1e-3);
+    const Face& partner = master_.face(m);
+    const Projection own = project_along(partner, on_slave.y, plane_.normal, edge_tolerance(partner));
     if (!own.found || std::abs(own.distance) > reach_) return false;
     const SurfacePoint nearest = master_.along(on_slave.y, plane_.normal, reach_, 1e-9, candidates);
     return nearest.face < 0 || nearest.face == m ||
@@ -115,12 +122,13 @@ class Cutter {
       for (std::size_t i = 0; i < 2; ++i)
         p[i] =
             corner[0][i] + q.xi[0] * (corner[1][i] - corner[0][i]) + q.xi[1] * (corner[2][i] - corner[0][i]);
-      const Projection s = project_along(slave_, plane_(p), plane_.normal, 1e-3);
+      const Projection s = project_along(slave_, plane_(p), plane_.normal, edge_tolerance(slave_));
       if (!s.found) continue;
       // Along the slave's own normal, which on a curved face is not that of the plane; near the end of the
       // master the two may disagree about the face.
-      Projection y = project_along(master_.face(m), s.y, slave_.normal(s.xi), 1e-2);
-      if (!y.found) y = project_along(master_.face(m), s.y, plane_.normal, 1e-2);
+      const Face& partner = master_.face(m);
+      Projection y = project_along(partner, s.y, slave_.normal(s.xi), edge_tolerance(partner));
+      if (!y.found) y = project_along(partner, s.y, plane_.normal, edge_tolerance(partner));
       if (!y.found) continue;
       points_.push_back({m, s.xi, y.xi, q.weight * twice_area * area_ratio(slave_, s.xi, plane_)});
     }
