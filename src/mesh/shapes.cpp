@@ -74,8 +74,8 @@ RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape) {
   if (dimension(shape) != 2)
     throw std::invalid_argument("cylinder_in_mould is axisymmetric: triangles or quads");
   for (const double length : {c.radius, c.height, c.mould_wall, c.mould_bottom, c.mould_height,
-                              c.element_size, c.mould_element_size})
-    if (!(length > 0)) throw std::invalid_argument("lengths must be positive");
+                              c.element_size, c.mould_element_size, c.interface_ratio})
+    if (!(length > 0)) throw std::invalid_argument("lengths and the interface ratio must be positive");
   const double rise = c.mould_height - c.mould_bottom - c.height;  // of the wall above the casting
   if (rise < -1e-9 * c.height)
     throw std::invalid_argument("the mould must be at least as high as its bottom and the casting");
@@ -100,13 +100,18 @@ RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape) {
   Grid mould;
   mould.shape = shape;
   mould.body = "mould";
+  // Where the casting lies, the mould has the casting's lines, or denser or coarser ones of the same grading.
+  const double size = c.element_size / c.interface_ratio, fine_size = fine / c.interface_ratio;
+  const bool matching = c.interface_ratio == 1;
+  const Axis cavity_r = matching ? part_r : graded_axis(0, c.radius, size, fine_size);
+  const Axis cavity_z = matching ? part_z : graded_axis(0, c.height, fine_size, size);
   const Axis wall = graded_axis(c.radius, c.radius + c.mould_wall, fine, c.mould_element_size);
   const Axis bottom = graded_axis(-c.mould_bottom, 0, c.mould_element_size, fine);
-  mould.axes = {joined(part_r, wall), joined(bottom, part_z)};
+  mould.axes = {joined(cavity_r, wall), joined(bottom, cavity_z)};
   if (rises)
     mould.axes[1] =
         joined(mould.axes[1], graded_axis(c.height, c.height + rise, c.element_size, c.mould_element_size));
-  const int cavity_columns = static_cast<int>(part_r.size()) - 1,
+  const int cavity_columns = static_cast<int>(cavity_r.size()) - 1,
             bottom_rows = static_cast<int>(bottom.size()) - 1;
   mould.keep = [=](std::array<int, 3> cell) { return cell[0] >= cavity_columns || cell[1] < bottom_rows; };
   mould.surface = [&c](const Point& x, const Point& n) -> std::string {

@@ -18,6 +18,9 @@ struct CylinderInMould {
   double mould_wall, mould_bottom, mould_height;  ///< height with the bottom; at least bottom and casting
   double element_size;                            ///< in the casting; finer towards the interface
   double mould_element_size;                      ///< far from the casting
+  /// Elements of the mould per element of the part along the interface; other than one, the meshes do not
+  /// match.
+  double interface_ratio = 1;
 };
 /// Throws std::invalid_argument for lengths that do not fit together.
 RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape);

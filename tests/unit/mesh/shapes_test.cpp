@@ -68,6 +68,22 @@ TEST(CylinderInMould, ElementsAreFinerAtTheInterface) {
   EXPECT_LT(group(report, "mould").longest_edge, 1.3 * k_cylinder.mould_element_size);
 }
 
+TEST(CylinderInMould, AnInterfaceRatioMakesMeshesThatDoNotMatch) {
+  CylinderInMould c = k_cylinder;
+  const auto faces = [](const QualityReport& report, const char* side) {
+    return static_cast<double>(group(report, side).shapes.at(0).n_elements);
+  };
+  const QualityReport matching = assess(make_cylinder_in_mould(c, Shape::tri3));
+  EXPECT_EQ(faces(matching, "mould_surface"), faces(matching, "part_surface"));
+  c.interface_ratio = 1.5;
+  RawMesh raw = make_cylinder_in_mould(c, Shape::tri3);
+  validate_and_orient(raw, "cylinder");
+  const QualityReport report = assess(raw);
+  EXPECT_NEAR(faces(report, "mould_surface") / faces(report, "part_surface"), 1.5, 0.05);  // whole elements
+  EXPECT_NEAR(group(report, "mould_surface").measure, 0.085, 1e-14);
+  EXPECT_NEAR(group(report, "mould").measure, 0.035 * 0.09 - 0.015 * 0.07, 1e-15);
+}
+
 TEST(CylinderInMould, LengthsThatDoNotFitTogetherAreRefused) {
   CylinderInMould c = k_cylinder;
   c.mould_height = 0.05;
