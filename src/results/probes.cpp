@@ -197,7 +197,9 @@ Probes::Sample Probes::linear_sample(const LinearProbe& probe) const {
   Sample sample;
   sample.reduce = Reduce::linear;
   double sum = 0;
-  for (const auto& [factor, name] : probe.terms) {
+  for (const auto& term : probe.terms) {
+    const double factor = term.first;
+    const std::string& name = term.second;
     const auto found =
         std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns_.end()) {

@@ -13,6 +13,7 @@
 namespace solidus::results {
 
 bool is_terminal(int descriptor) {
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr) return false;
   const char* kind = std::getenv("TERM");
   return isatty(descriptor) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
 }
