@@ -38,12 +38,14 @@ struct Body {
   std::vector<double> initial_temperature, temperature;
   std::vector<algebra::Contribution*> contributions;
 
-  Body(const Lattice& lattice, AnalysisKind k, material::Material material)
-      : mesh(make_mesh(lattice)),
+  Body(mesh::Mesh m, AnalysisKind k, material::Material material)
+      : mesh(std::move(m)),
         kind(k),
         materials{std::move(material)},
         initial_temperature(mesh.x.size(), 300.0),
         temperature(mesh.x.size(), 300.0) {}
+  Body(const Lattice& lattice, AnalysisKind k, material::Material material)
+      : Body(make_mesh(lattice), k, std::move(material)) {}
 
   void hold(const std::string& group, int component, Table value = 0.0) {
     conditions.displacements.push_back({group, component, std::move(value)});

@@ -152,8 +152,7 @@ inline mesh::RawMesh make_raw(const Lattice& lattice) {
 }
 
 /// Distributed over the processes, and a node set "node N" for every node N of the input.
-inline mesh::Mesh make_mesh(const Lattice& lattice) {
-  mesh::RawMesh raw = make_raw(lattice);
+inline mesh::Mesh distributed(mesh::RawMesh raw) {
   const auto n = static_cast<GlobalIndex>(raw.x.size());
   mesh::validate_and_orient(raw, "lattice");
   mesh::Mesh mesh = mesh::distribute(raw, {"body"}, {});
@@ -161,6 +160,10 @@ inline mesh::Mesh make_mesh(const Lattice& lattice) {
   for (Index i = 0; i < mesh.n_nodes(); ++i)
     mesh.node_sets["node " + std::to_string(mesh.input_node[static_cast<std::size_t>(i)])].push_back(i);
   return mesh;
+}
+
+inline mesh::Mesh make_mesh(const Lattice& lattice) {
+  return distributed(make_raw(lattice));
 }
 
 }  // namespace solidus::test

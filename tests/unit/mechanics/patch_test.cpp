@@ -116,6 +116,36 @@ TEST_P(PatchTest, RigidBodyMotionGivesNoStress) {
       for (double s : stress) EXPECT_NEAR(s, 0.0, 2e11 * 1e-13);  // round-off of the strain
 }
 
+TEST(MixedPatch, TrianglesAndQuadsTogetherReproduceAConstantStress) {
+  mesh::RawMesh raw = test::make_raw({.shape = Shape::quad4, .cells = {4, 4, 1}, .distortion = 0.15});
+  auto& blocks = raw.groups["body"].blocks;
+  const mesh::RawBlock quads = blocks[0];
+  mesh::RawBlock kept{Shape::quad4, {}, {}}, split{Shape::tri3, {}, {}};
+  for (std::size_t e = 0; e < quads.input_element.size(); ++e) {
+    const Index* n = quads.nodes.data() + 4 * e;
+    if (e % 3 == 0) {
+      split.nodes.insert(split.nodes.end(), {n[0], n[1], n[2], n[0], n[2], n[3]});
+      split.input_element.insert(split.input_element.end(), 2, quads.input_element[e]);
+    } else {
+      kept.nodes.insert(kept.nodes.end(), n, n + 4);
+      kept.input_element.push_back(quads.input_element[e]);
+    }
+  }
+  blocks = {kept, split};
+  Body body(test::distributed(raw), AnalysisKind::plane_strain, test::elastic_material(2e11, 0.3));
+  body.hold_boundary([](const mesh::Point& x) {
+    return mesh::Point{1e-3 * x[0] + 4e-4 * x[1], -2e-4 * x[0], 0};
+  });
+  const Solved solved(body);
+  const double lambda = 2e11 * 0.3 / (1.3 * 0.4), shear = 2e11 / 2.6;
+  for (const auto& fields : solved.phase->element_fields())
+    for (const auto& stress : fields.stress) {
+      EXPECT_NEAR(stress[0], (lambda + 2 * shear) * 1e-3, 1e-10 * 2e8);
+      EXPECT_NEAR(stress[1], lambda * 1e-3, 1e-10 * 2e8);
+      EXPECT_NEAR(stress[3], shear * 2e-4, 1e-10 * 2e8);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(EveryShape, PatchTest, ::testing::ValuesIn(patches()),
                          [](const auto& test) { return name(test.param); });
 

@@ -121,6 +121,29 @@ TEST(StructuralHeat, BothFormsDifferAtSecondOrderInTheStep) {
   EXPECT_LT(order, 2.2);
 }
 
+TEST(StructuralHeat, StrainingOfAPhaseChangeIsHeldAndMakesNoSpikeInTheFreezingRange) {
+  material::Material m = Stretched::material(true);
+  m.phase_changes.push_back({.name = "freezing",
+                             .fraction = material::PhaseFraction::linear(932, 933),
+                             .volume_change = -0.06,
+                             .solidification = true});
+  Body body({.shape = Shape::quad4, .cells = {2, 2, 1}}, AnalysisKind::plane_strain, m);
+  body.hold("bottom", 1);
+  body.hold("top", 1, 1e-3);
+  body.hold("left", 0);
+  body.temperature.assign(body.mesh.x.size(), 932.5);
+  body.initial_temperature.assign(body.mesh.x.size(), 940.0);
+  const Solved solved(body);
+  StructuralHeat heat(*solved.phase, StructuralForm::entropy);
+  // With constant moduli and expansion the entropy does not depend on temperature: Θ S grows as Θ.
+  const auto at = [&](double theta) {
+    return total(residual(heat, body, std::vector<double>(body.mesh.x.size(), theta)));
+  };
+  const double dissipation = solved.report.work.dissipation;  // Δt = 1
+  EXPECT_NEAR((at(932.5) + dissipation) / 932.5, (at(931.0) + dissipation) / 931.0,
+              1e-6 * std::abs(at(932.5)) / 932.5);
+}
+
 TEST(StructuralHeat, NoDeformationNoHeat) {
   Body body({.shape = Shape::quad4, .cells = {2, 2, 1}}, AnalysisKind::plane_strain,
             test::elastic_material(2e11, 0.3, 1e-5));
