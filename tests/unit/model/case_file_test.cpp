@@ -179,6 +179,13 @@ TEST(CaseKeys, TheExampleOfTheGuideIsACase) {
   EXPECT_EQ(spec.bodies[0].material, "steel_mould");
 }
 
+// When this fails: solidus explain --manual > docs/reference/case_file.md
+TEST(CaseKeys, TheReferenceManualIsThatOfTheDeclaration) {
+  std::ifstream file(SOLIDUS_SOURCE_DIR "/docs/reference/case_file.md");
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  EXPECT_TRUE(text == reference_manual(case_keys().info(), "Reference: the case file"));
+}
+
 TEST(CaseKeys, EveryKeyIsExplained) {
   const std::function<void(const SectionInfo&, const std::string&)> walk = [&](const SectionInfo& info,
                                                                                const std::string& path) {
