@@ -1,0 +1,103 @@
+#include "algebra/linear_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "grid.hpp"
+
+namespace solidus::algebra {
+namespace {
+
+using test::Grid;
+
+/// Diagonally dominant; `skew` makes it unsymmetric.
+double entry(GlobalIndex i, GlobalIndex j, double skew) {
+  if (i == j) return 10.0 + static_cast<double>(i % 3);
+  return -1.0 / static_cast<double>(1 + i + j) + (i < j ? skew : -skew);
+}
+
+struct System {
+  Grid grid{5, 6};
+  BlockMatrix matrix;
+  Eigen::MatrixXd dense;
+  Eigen::VectorXd solution;
+  std::vector<double> b, x;
+
+  System() : matrix(grid.mesh, 1, graph(grid)), dense(30, 30), b(owned()), x(owned()) {}
+  std::size_t owned() const { return static_cast<std::size_t>(grid.mesh.n_owned_nodes); }
+  static NodeGraph graph(const Grid& grid) {
+    NodeGraph g(grid.mesh);
+    g.add_cliques(grid.quads, 4);
+    return g;
+  }
+  static bool coupled(int i, int j) { return std::abs(i % 5 - j % 5) <= 1 && std::abs(i / 5 - j / 5) <= 1; }
+
+  void fill(double factor, double skew) {
+    dense.setZero();
+    for (int i = 0; i < 30; ++i)
+      for (int j = 0; j < 30; ++j)
+        if (coupled(i, j)) dense(i, j) = factor * entry(i, j, skew);
+    Eigen::VectorXd rhs(30);
+    for (int i = 0; i < 30; ++i) rhs(i) = std::sin(1.0 + i);
+    solution = dense.partialPivLu().solve(rhs);
+    for (Index row = 0; row < grid.mesh.n_owned_nodes; ++row) {
+      const auto i = static_cast<int>(grid.global(row));
+      b[static_cast<std::size_t>(row)] = rhs(i);
+      for (Index column = 0; column < grid.mesh.n_nodes(); ++column) {
+        const auto j = static_cast<int>(grid.global(column));
+        if (coupled(i, j)) *matrix.block(matrix.slot(row, column)) = dense(i, j);
+      }
+    }
+  }
+  double error() const {
+    double worst = 0;
+    for (Index row = 0; row < grid.mesh.n_owned_nodes; ++row)
+      worst = std::max(
+          worst, std::abs(x[static_cast<std::size_t>(row)] - solution(static_cast<int>(grid.global(row)))));
+    return global_max(worst) / solution.cwiseAbs().maxCoeff();
+  }
+};
+
+TEST(LinearSolver, EveryKindSolvesSymmetricAndUnsymmetricSystemsAgainAndAgain) {
+  for (bool symmetric : {true, false})
+    for (SolverKind kind : {SolverKind::direct, SolverKind::multigrid, SolverKind::jacobi}) {
+      System system;
+      LinearSolver solver(
+          system.grid.mesh,
+          {.prefix = "test_", .kind = kind, .symmetric = symmetric, .relative_tolerance = 1e-12});
+      for (double factor : {1.0, 1.1, 250.0}) {  // the last one makes a kept hierarchy useless
+        system.fill(factor, symmetric ? 0.0 : 0.4);
+        const LinearReport report = solver.solve(system.matrix, system.b, system.x);
+        EXPECT_TRUE(report.converged) << report.reason;
+        EXPECT_LT(system.error(), 1e-10);
+      }
+      EXPECT_GT(solver.seconds_setup() + solver.seconds_solve(), 0.0);
+    }
+}
+
+TEST(LinearSolver, TooFewIterationsAreReportedWithPetscsReason) {
+  System system;
+  system.fill(1.0, 0.0);
+  LinearSolver solver(
+      system.grid.mesh,
+      {.prefix = "test_", .kind = SolverKind::jacobi, .relative_tolerance = 1e-14, .max_iterations = 2});
+  const LinearReport report = solver.solve(system.matrix, system.b, system.x);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.reason, "DIVERGED_ITS");
+}
+
+TEST(LinearSolver, OptionsWithItsPrefixChangeTheSolver) {
+  System system;
+  system.fill(1.0, 0.0);
+  PetscOptionsSetValue(nullptr, "-special_ksp_max_it", "1");
+  LinearSolver solver(system.grid.mesh,
+                      {.prefix = "special_", .kind = SolverKind::jacobi, .relative_tolerance = 1e-14});
+  EXPECT_FALSE(solver.solve(system.matrix, system.b, system.x).converged);
+  PetscOptionsClearValue(nullptr, "-special_ksp_max_it");
+}
+
+}  // namespace
+}  // namespace solidus::algebra
