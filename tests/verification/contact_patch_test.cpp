@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "contact_bodies.hpp"
 
@@ -88,6 +89,24 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ContactPatch,
                                            Patch{Shape::tet10, AnalysisKind::solid},
                                            Patch{Shape::hex20, AnalysisKind::solid}),
                          patch_name);
+
+TEST(ContactPatch, PassesOnFacesOfAnyForm) {
+  // Nodes of the interface moved within it: general quads and triangles, no two sides alike.
+  for (Shape shape : {Shape::tet4, Shape::hex8}) {
+    SCOPED_TRACE(mesh::name(shape));
+    mesh::RawMesh raw = test::raw_blocks(test::standard_blocks(shape), shape);
+    for (auto& x : raw.x) {
+      if (std::abs(x[2] - 0.1) > 1e-9) continue;
+      const double bump = std::sin(std::numbers::pi * x[0] / 0.3) * std::sin(std::numbers::pi * x[1] / 0.2);
+      x[0] += 0.02 * bump;
+      x[1] -= 0.015 * bump;
+    }
+    const Deviation d = press(test::distribute_blocks(raw), AnalysisKind::solid, test::interface(), 5e7);
+    RecordProperty(std::string(mesh::name(shape)), fmt::format("{:.1e}", d.stress));
+    EXPECT_LT(d.pressure, 1e-8);
+    EXPECT_LT(d.stress, 1e-8);
+  }
+}
 
 TEST(ContactPatch, FailsWithoutSegmentsByTheErrorOfIntegratingAcrossTheMastersEdges) {
   // What segments are for: with points placed without regard to the master, its forces are not those of a
