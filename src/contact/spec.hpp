@@ -21,8 +21,8 @@ struct ContactSpec {
   /// It is not in the forces, so a converged solution does not feel it; it keeps the matrix regular while a
   /// body has lost support (all points open) or may slide freely. As a wrong part of the tangent it costs
   /// iterations when it is not small against the elastic stiffness, and where it is too small rounding moves
-  /// a body that nothing holds (docs/verification/contact.md): 1e-10 for direct solvers, 1e-8 for multigrid.
-  /// Zero: none.
+  /// a body that nothing holds (docs/verification/contact.md): 1e-10 for direct solvers, 1e-6 for iterative
+  /// ones. Zero: none.
   double stabilisation = 1e-10;
   IntegrationRule integration = IntegrationRule::segments;
   int gauss_degree = 4;  ///< rule `gauss`
