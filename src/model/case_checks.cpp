@@ -46,6 +46,14 @@ void check_analysis(const AnalysisSpec& a, std::size_t dimension) {
     throw InputError(a.where, "gravity points out of the plane of the analysis");
 }
 
+/// A slip in a size must not fill the memory.
+void check_element_count(const MeshSpec& m, double elements) {
+  constexpr double k_most = 1e8;
+  if (elements > k_most)
+    throw InputError(m.where, fmt::format("the shape '{}' would have {:.2g} elements", *m.shape, elements),
+                     fmt::format("at most {:.0e}; larger elements, fewer divisions", k_most));
+}
+
 void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   if (m.shape.has_value() == m.file.has_value())
     throw InputError(m.where,
@@ -70,6 +78,9 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
     if (c.mould_height < (c.mould_bottom + c.height) * (1 - 1e-12))
       throw InputError(m.where, "the mould is lower than its bottom and the casting together",
                        "mould_height >= mould_bottom + height");
+    const double width = c.radius + c.mould_wall;
+    check_element_count(m, c.radius * c.height / (c.element_size * c.element_size) +
+                               width * c.mould_height / (c.mould_element_size * c.mould_element_size));
   }
   if (*m.shape == "block") {
     if (!m.block) throw InputError(m.where, "the section [mesh.block] is missing");
@@ -78,6 +89,9 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
     if (m.block->size.size() != dimension || m.block->divisions.size() != dimension || !origin_fits)
       throw InputError(m.where, "[mesh.block] does not fit the analysis",
                        fmt::format("{} lengths and {} divisions", dimension, dimension));
+    double elements = 1;
+    for (const int n : m.block->divisions) elements *= n;
+    check_element_count(m, elements);
   }
 }
 

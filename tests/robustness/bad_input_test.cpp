@@ -176,6 +176,8 @@ std::vector<BadInput> keys_and_values() {
                {"case.toml:13:8", "'step'"}),
       bad_case("huge_number", good_but("step = \"1 s\"", "step = \"1e999 s\""), {"case.toml:13:8", "'step'"}),
       bad_case("huge_divisions", good_but("[4, 2]", "[99999999999999999999, 2]"), {"case.toml:10:"}),
+      bad_case("too_many_elements", good_but("[4, 2]", "[100000, 100000]"),
+               {"case.toml:5", "1e+10 elements"}),
       bad_case("too_many_steps", good_but("step = \"1 s\"", "step = \"1e-12 s\""),
                {"case.toml:11:", "steps"}),
       bad_case("date", good_but("step = \"1 s\"", "step = 2020-01-01"), {"case.toml:13:8", "date"}),
