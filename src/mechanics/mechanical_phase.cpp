@@ -17,7 +17,8 @@ namespace {
 
 /// Forces that a strain of this size would cause count as round-off: the criterion of a body without load.
 constexpr double k_round_off_strain = 1e-13;
-// A body under thermal stress alone exchanges no forces: then this share of its internal forces is the reference.
+/// A body under thermal stress alone exchanges no forces: then this share of its internal forces is the
+/// reference.
 constexpr double k_internal_share = 1e-6;
 
 /// Adds the time that it lives to a counter.
@@ -102,20 +103,21 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   const Stopwatch watch(seconds_residual_);
   x_.assign(x.begin(), x.end());
   std::fill(forces_.begin(), forces_.end(), 0.0);
-  double internal = 0;
-  for (const auto& block : blocks_) internal += block->add_forces(x, forces_);
+  double sums[2] = {0, 0};  // squares of the forces exchanged and of the internal ones
+  for (const auto& block : blocks_) sums[1] += block->add_forces(x, forces_);
   std::fill(r.begin(), r.end(), 0.0);
   for (algebra::Contribution* contribution : contributions_) contribution->add_residual(x, r);
-  // Loads, supports and contact: what the bodies exchange with the world. Thermal stresses cancel within a body and can be a
-  // million times larger than its weight; measured against them a body that floats above its mould would pass for balanced.
-  double exchanged = squares(external_) + squares(r);
-  const std::vector<char>& fixed = matrix_->fixed();
+  // Loads, supports and contact: what the bodies exchange with the world. Thermal stresses cancel within a
+  // body and can be a million times larger than its weight; measured against them a body that floats above
+  // its mould would pass for balanced.
+  sums[0] = squares(external_) + squares(r);
+  const std::vector<char>& fixed = loads_->fixed();
   for (std::size_t i = 0; i < r.size(); ++i) {
     r[i] += forces_[i] - external_[i];
-    if (fixed[i]) exchanged += r[i] * r[i];
+    if (fixed[i]) sums[0] += r[i] * r[i];
   }
-  return std::max(std::sqrt(algebra::global_sum(exchanged)),
-                  k_internal_share * std::sqrt(algebra::global_sum(internal)));
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return std::max(std::sqrt(sums[0]), k_internal_share * std::sqrt(sums[1]));
 }
 
 algebra::BlockMatrix& MechanicalPhase::tangent() {

@@ -3,8 +3,10 @@
 ///
 ///   r(u) = ∫ B̄ᵀ σ dV − f(t) + contributions = 0
 ///
-/// Backward Euler in time. The strain is small, so geometry, sparsity and the map from element entries to
-/// matrix slots are computed once, in the constructor.
+/// Newton's criterion measures the residual against the forces that the bodies exchange with the world
+/// (loads, supports, contact), or a millionth of the internal forces where there are none. Backward Euler in
+/// time. The strain is small, so geometry, sparsity and the map from element entries to matrix slots are
+/// computed once, in the constructor.
 #pragma once
 
 #include <array>
