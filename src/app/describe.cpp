@@ -10,6 +10,7 @@
 #include "app/verbs.hpp"
 #include "base/errors.hpp"
 #include "base/key_docs.hpp"
+#include "material/library.hpp"
 #include "model/case_keys.hpp"
 
 namespace solidus::app {
@@ -22,14 +23,23 @@ void print(const std::string& text) {
   if (!whole || std::fflush(stdout) != 0) throw InputError({"standard output", 0, 0}, std::strerror(errno));
 }
 
-ExitCode explain(const std::string& key, bool manual) {
-  const SectionInfo& keys = model::case_keys().info();
-  print(manual ? reference_manual(keys, "Reference: the case file") : solidus::explain(keys, key));
+namespace {
+
+const SectionInfo& keys_of(FileKind file) {
+  return file == FileKind::case_file ? model::case_keys().info() : material::material_section().info();
+}
+
+}  // namespace
+
+ExitCode explain(FileKind file, const std::string& key, bool manual) {
+  const std::string title =
+      file == FileKind::case_file ? "Reference: the case file" : "Reference: the material file";
+  print(manual ? reference_manual(keys_of(file), title) : solidus::explain(keys_of(file), key));
   return k_done;
 }
 
-ExitCode schema() {
-  print(json_schema(model::case_keys().info(), "Solidus case"));
+ExitCode schema(FileKind file) {
+  print(json_schema(keys_of(file), file == FileKind::case_file ? "Solidus case" : "Solidus material"));
   return k_done;
 }
 

@@ -80,7 +80,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 
   CaseArguments arguments;
   std::string key, name, unit = "m";
-  bool manual = false;
+  bool manual = false, of_material = false;
   CLI::App* run_verb = program.add_subcommand("run", "Run a case");
   add_case_arguments(*run_verb, arguments);
   run_verb->add_option("-o,--output", arguments.output,
@@ -93,6 +93,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   explain_verb->add_flag("--manual", manual, "The reference manual of all keys, in Markdown");
   CLI::App* schema_verb =
       program.add_subcommand("schema", "Print the JSON Schema of the case file, for editors");
+  for (CLI::App* verb : {explain_verb, schema_verb})
+    verb->add_flag("--material", of_material, "Keys of a material file instead of a case file");
   CLI::App* mesh_verb = program.add_subcommand("mesh-info", "Report groups, sizes and quality of a mesh");
   mesh_verb->add_option("CASE", arguments.path, "A mesh file, or a case")->required();
   mesh_verb->add_option("--set", arguments.set, "Change a key of the case, PATH=VALUE")
@@ -121,10 +123,11 @@ ExitCode parse_and_run(int argc, char** argv) {
     throw InputError({}, error.what(), "`solidus --help` shows verbs and options");
   }
   set_log_level(level);
+  const FileKind file = of_material ? FileKind::material_file : FileKind::case_file;
   if (*run_verb) return run(arguments);
   if (*check_verb) return check(arguments);
-  if (*explain_verb) return explain(key, manual);
-  if (*schema_verb) return schema();
+  if (*explain_verb) return explain(file, key, manual);
+  if (*schema_verb) return schema(file);
   if (*mesh_verb) return mesh_info(arguments, unit);
   if (*materials_verb) return materials(name);
   if (*version_verb) return version();

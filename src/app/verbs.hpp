@@ -22,9 +22,11 @@ void print(const std::string& text);
 
 ExitCode run(const CaseArguments& arguments);
 ExitCode check(const CaseArguments& arguments);
+/// The files whose keys are declared.
+enum class FileKind { case_file, material_file };
 /// @param key a path such as "time.step"; empty: all keys
-ExitCode explain(const std::string& key, bool manual);
-ExitCode schema();
+ExitCode explain(FileKind file, const std::string& key, bool manual);
+ExitCode schema(FileKind file);
 /// @param path a case, or a mesh file with the unit of its lengths
 ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit);
 /// @param name a material of the library or a file; empty: the list

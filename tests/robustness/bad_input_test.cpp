@@ -419,6 +419,18 @@ TEST(BadInputTest, TheCasesTheBrokenOnesAreMadeFromAreRight) {
   fs::remove_all(folder);
 }
 
+TEST(BadInputTest, PhysicsThatCannotGoOnEndsWithExitCodeTwo) {
+  const fs::path folder = fs::temp_directory_path() / "solidus_falling";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  std::ofstream(folder / "case.toml")
+      << good_but("physics = \"heat\"", "gravity = \"9.81 m/s2\"");  // nothing holds the block
+  const Outcome outcome = run(folder, "run case.toml -o out");
+  EXPECT_EQ(outcome.code, 2) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("solidus: the simulation could not go on: mechanics:"));
+  fs::remove_all(folder);
+}
+
 TEST(BadInputTest, AFullDiskStopsTheRunWithAClearMessage) {
   const fs::path folder = fs::temp_directory_path() / "solidus_full_disk";
   fs::remove_all(folder);

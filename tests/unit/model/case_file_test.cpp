@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/key_docs.hpp"
+#include "material/library.hpp"
 #include "model/case_keys.hpp"
 
 namespace solidus::model {
@@ -169,9 +170,13 @@ TEST_F(CaseFile, KeysThatContradictEachOtherAreRefused) {
   EXPECT_THAT(error(file, {"analysis.gravity_direction=[0, 0]"}), HasSubstr("no length"));
 }
 
+std::string whole_file(const std::string& path) {
+  std::ifstream file(SOLIDUS_SOURCE_DIR "/" + path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 TEST(CaseKeys, TheExampleOfTheGuideIsACase) {
-  std::ifstream guide(SOLIDUS_SOURCE_DIR "/docs/guide/case_file.md");
-  const std::string text((std::istreambuf_iterator<char>(guide)), std::istreambuf_iterator<char>());
+  const std::string text = whole_file("docs/guide/case_file.md");
   const std::size_t begin = text.find("```toml\n") + 8;
   const CaseSpec spec =
       case_keys().read(parse_document(text.substr(begin, text.find("```", begin) - begin), "guide"));
@@ -179,11 +184,12 @@ TEST(CaseKeys, TheExampleOfTheGuideIsACase) {
   EXPECT_EQ(spec.bodies[0].material, "steel_mould");
 }
 
-// When this fails: solidus explain --manual > docs/reference/case_file.md
-TEST(CaseKeys, TheReferenceManualIsThatOfTheDeclaration) {
-  std::ifstream file(SOLIDUS_SOURCE_DIR "/docs/reference/case_file.md");
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  EXPECT_TRUE(text == reference_manual(case_keys().info(), "Reference: the case file"));
+// When this fails: solidus explain [--material] --manual > docs/reference/case_file.md (material_file.md)
+TEST(CaseKeys, TheReferenceManualsAreThoseOfTheDeclarations) {
+  EXPECT_TRUE(whole_file("docs/reference/case_file.md") ==
+              reference_manual(case_keys().info(), "Reference: the case file"));
+  EXPECT_TRUE(whole_file("docs/reference/material_file.md") ==
+              reference_manual(material::material_section().info(), "Reference: the material file"));
 }
 
 TEST(CaseKeys, EveryKeyIsExplained) {
