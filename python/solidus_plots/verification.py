@@ -1,0 +1,82 @@
+"""Pictures of the verification tests: one for every table that they leave.
+
+    python3 -m solidus_plots.verification build/release/verification docs/verification/images
+
+The first column of a table is the abscissa. Columns called exact… are drawn as black lines, the others as points of one colour each.
+Tables called …order… or …convergence… are drawn on logarithmic axes, with a line of the slope that the last two points have.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from solidus_plots import style
+from solidus_plots.style import plt
+
+
+def read(path):
+    with path.open() as file:
+        headers = file.readline().strip().split(",")
+        rows = [[float(cell) for cell in line.split(",")] for line in file if line.strip()]
+    return headers, np.array(rows)
+
+
+def label(header):
+    name, _, unit = header.partition("[")
+    return style.axis_label(name.replace("_", " "), unit.rstrip("]"))
+
+
+def draw_convergence(axes, headers, values):
+    x = values[:, 0]
+    for i, header in enumerate(headers[1:], 1):
+        y = np.abs(values[:, i])
+        if not np.all(y > 0):
+            continue
+        order = np.log(y[-1] / y[-2]) / np.log(x[-1] / x[-2])
+        axes.loglog(x, y, "o-", markersize=4, label=f"{label(header)}, slope {order:.2f}")
+
+
+def draw_curves(axes, headers, values):
+    x, points = values[:, 0], max(1, len(values) // 40)
+    colour = 0
+    for i, header in enumerate(headers[1:], 1):
+        if header.startswith("exact") or "_exact" in header:
+            axes.plot(x, values[:, i], color="black", linewidth=1.0, label=label(header), zorder=3)
+        else:
+            axes.plot(x, values[:, i], "o-", markersize=3, markevery=points, linewidth=0.8,
+                      color=style.COLOURS[colour % len(style.COLOURS)], label=label(header))
+            colour += 1
+
+
+def draw(path, folder):
+    headers, values = read(path)
+    if len(values) < 2:
+        return
+    figure, axes = plt.subplots(figsize=(5.2, 3.4))
+    if "order" in path.stem or "convergence" in path.stem:
+        draw_convergence(axes, headers, values)
+    else:
+        draw_curves(axes, headers, values)
+    axes.set_xlabel(label(headers[0]))
+    axes.set_title(path.stem.replace("_", " ").capitalize(), loc="left")
+    axes.legend()
+    figure.savefig(folder / f"{path.stem}.png", dpi=110)
+    plt.close(figure)
+
+
+def main():
+    if len(sys.argv) != 3:
+        raise SystemExit(__doc__)
+    tables, folder = Path(sys.argv[1]), Path(sys.argv[2])
+    if not tables.is_dir():
+        raise SystemExit(f"{tables}: there is no such folder; run the verification tests first")
+    folder.mkdir(parents=True, exist_ok=True)
+    style.setup()
+    for path in sorted(tables.glob("*.csv")):
+        draw(path, folder)
+        print(folder / f"{path.stem}.png")
+
+
+if __name__ == "__main__":
+    main()
