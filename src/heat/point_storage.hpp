@@ -16,7 +16,7 @@
 
 namespace solidus::heat {
 
-inline constexpr double k_spread = 0.05;  ///< [K], width that an isothermal change is given by the open rule
+inline constexpr double k_spread = 1.0;  ///< [K], width that an isothermal change is given by the open rule
 
 /// The material with its isothermal changes spread.
 material::Material spread_isothermal(material::Material material, double width = k_spread);
