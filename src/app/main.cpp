@@ -46,6 +46,9 @@ ExitCode guarded(const std::function<ExitCode()>& verb) {
   } catch (const std::bad_alloc&) {
     return fail(k_cannot_go_on, "the memory is exhausted; use a coarser mesh or more processes");
   } catch (const std::exception& error) {
+    // PETSc reads options late, where a solver is made; what it does not know there is the user's.
+    if (std::string_view(error.what()).find("SetFromOptions") != std::string_view::npos)
+      return fail(k_bad_input, fmt::format("an option behind -- is wrong: {}", error.what()));
     return fail(
         k_our_bug,
         fmt::format("internal error: {}\n  This is a mistake in Solidus; please report it.", error.what()));
@@ -145,7 +148,10 @@ int main(int argc, char** argv) {
   int petsc_argc = static_cast<int>(for_petsc.size());
   for_petsc.push_back(nullptr);
   char** petsc_argv = for_petsc.data();
-  if (PetscInitialize(&petsc_argc, &petsc_argv, nullptr, nullptr) != 0) return k_our_bug;
+  if (PetscInitialize(&petsc_argc, &petsc_argv, nullptr, nullptr) != 0) {
+    std::fputs("solidus: PETSc cannot start; its message stands above, its options behind --\n", stderr);
+    return separator == end ? k_our_bug : k_bad_input;
+  }
 
   const int own_argc = static_cast<int>(separator - argv);
   const ExitCode code = guarded([&] { return parse_and_run(own_argc, argv); });
