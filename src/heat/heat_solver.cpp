@@ -42,6 +42,11 @@ algebra::LinearReport HeatSolver::solve(algebra::BlockMatrix& a, std::span<const
   return report;
 }
 
+void HeatSolver::forget() {
+  for (auto* solver : {quick_.get(), strong_.get()})
+    if (solver) solver->forget();
+}
+
 double HeatSolver::seconds() const {
   double total = 0;
   for (const auto* solver : {quick_.get(), strong_.get()})

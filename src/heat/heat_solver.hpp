@@ -19,6 +19,8 @@ class HeatSolver {
   algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x);
   /// The solver that runs now, for algebra::newton().
   algebra::LinearSolver& strong();
+  /// As algebra::LinearSolver::forget().
+  void forget();
   double seconds() const;
 
  private:

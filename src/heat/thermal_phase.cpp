@@ -60,6 +60,10 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 
 ThermalPhase::~ThermalPhase() = default;
 
+void ThermalPhase::forget() {
+  solver_->forget();
+}
+
 ThermalState ThermalPhase::initial_state(std::span<const double> body_temperature) const {
   assert(body_temperature.size() == mesh_.bodies.size());
   ThermalState state;

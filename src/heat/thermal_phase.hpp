@@ -84,6 +84,8 @@ class ThermalPhase {
   /// Mean temperature of a body over its volume [K].
   double mean_temperature(const ThermalState& state, int body) const;
 
+  /// Drops what the linear solver carried over from earlier steps.
+  void forget();
   const mesh::Mesh& mesh() const { return mesh_; }
   std::size_t bytes() const;
   double seconds_solver() const;
