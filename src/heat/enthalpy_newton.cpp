@@ -28,7 +28,7 @@ constexpr int k_full_steps = 40;                          ///< iterations before
 EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
                                HeatSolver& solver, const algebra::GhostExchange& ghosts,
                                EnthalpyNewtonOptions options)
-    : mesh_(mesh), system_(system), storage_(storage), solver_(solver), ghosts_(ghosts), options_(options) {
+    : system_(system), storage_(storage), solver_(solver), ghosts_(ghosts), options_(options) {
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
   for (auto* v : {&r_, &b_, &step_h_, &inverse_, &balance_}) v->resize(n);
   step_t_.resize(mesh.x.size());

@@ -67,7 +67,6 @@ class EnthalpyNewton {
   void set_tilt(double tilt, std::span<double> temperature);
   double search(std::span<const double> temperature) const;
 
-  const mesh::Mesh& mesh_;
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
   HeatSolver& solver_;

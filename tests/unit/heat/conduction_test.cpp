@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "algebra/parallel.hpp"
+#include "base/errors.hpp"
 #include "block.hpp"
 #include "heat/heat_system.hpp"
 
@@ -149,11 +150,40 @@ TEST(ClosedRule, MakesTheMatrixOfNonNegativeTypeOnRectanglesAndBoxes) {
   }
 }
 
+TEST(ClosedRule, CarriesAnAxialFluxExactlyAlsoOnTheAxis) {
+  for (const Shape shape : {Shape::tri3, Shape::quad4, Shape::tri6, Shape::quad8}) {
+    const mesh::Mesh mesh = block_mesh(shape, {0.3, 1.0}, {3, 4});
+    heat::Conditions conditions;
+    conditions.temperatures.push_back({"cold", "y_min", Table(300.0)});
+    conditions.fluxes.push_back({"hot", "y_max", Table(1e4)});
+    heat::ThermalPhase phase(mesh, AnalysisKind::axisymmetric, {conductor(Table(100.0))}, conditions);
+    heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
+    phase.solve_steady(state, state, 0.0);
+    for (std::size_t i = 0; i < mesh.x.size(); ++i)
+      EXPECT_NEAR(state.temperature[i], 300 + 100 * mesh.x[i][1], 1e-8) << mesh::name(shape);
+  }
+}
+
+TEST(SteadyState, IsRejectedWhereNothingHoldsTheTemperature) {
+  const mesh::Mesh mesh = block_mesh(Shape::quad4, {1, 1}, {4, 4});
+  heat::Conditions conditions;
+  conditions.fluxes.push_back({"hot", "y_max", Table(1e4)});
+  heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {conductor(Table(100.0))}, conditions);
+  heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
+  EXPECT_THROW(phase.solve_steady(state, state, 0.0), StepRejected);
+}
+
 TEST(Conditions, NamesTheGroupThatTheMeshLacks) {
   const mesh::Mesh mesh = block_mesh(Shape::quad4, {1, 1}, {2, 2});
   heat::Conditions conditions;
   conditions.films.push_back({"film", "x_mid", {Table(1.0), false}, Table(300.0)});
-  EXPECT_ANY_THROW(heat::ThermalPhase(mesh, AnalysisKind::plane_strain, {test::metal(1)}, conditions));
+  try {
+    heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {test::metal(1)}, conditions);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no surface 'x_mid' in the mesh"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("x_max, x_min"), std::string::npos);
+  }
 }
 
 TEST(Conditions, HoldTheLaterOfTwoPrescribedTemperatures) {
