@@ -20,7 +20,7 @@ constexpr int k_plain = 6;                ///< iterations before plateaus are ti
 constexpr double k_tilt = 1.0;            ///< temperature difference over a tilted plateau [K]
 constexpr double k_tilted_enough = 1e-2;  ///< residual over the heat moved at which the tilt goes
 constexpr int k_tilted_at_most = 8;       ///< iterations with one tilt
-constexpr double k_less_tilt = 0.1, k_least_tilt = 2e-3;  ///< its fall, and where it ends [K]
+constexpr double k_less_tilt = 0.3, k_least_tilt = 2e-3;  ///< its fall, and where it ends [K]
 constexpr int k_full_steps = 40;                          ///< iterations before the line search sets in
 
 }  // namespace
