@@ -63,7 +63,8 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions)
     : conditions_(std::move(conditions)),
       components_(displacement_components(kind)),
       constant_(static_cast<std::size_t>(mesh.n_owned_nodes * components_), 0.0),
-      fixed_(static_cast<std::size_t>(mesh.n_nodes() * components_), 0) {
+      fixed_(static_cast<std::size_t>(mesh.n_nodes() * components_), 0),
+      supported_(fixed_.size(), 0) {
   for (const Pressure& pressure : conditions_.pressures) add_surface(mesh, kind, pressure);
   for (const Traction& traction : conditions_.tractions) add_surface(mesh, kind, traction);
   if (kind == AnalysisKind::axisymmetric) {
@@ -82,6 +83,7 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions)
     Support support{condition.value, {}};
     for (Index node : find(mesh.node_sets, condition.node_set, "group"))
       support.entries.push_back(node * components_ + condition.component);
+    for (const Index entry : support.entries) supported_[static_cast<std::size_t>(entry)] = 1;
     supports_.push_back(std::move(support));
   }
   for (const Support& support : supports_)

@@ -22,6 +22,8 @@ class Loads {
 
   /// Which degrees of freedom are prescribed, [local node][component].
   const std::vector<char>& fixed() const { return fixed_; }
+  /// The same without the radial direction on an axis of revolution, which no support holds.
+  const std::vector<char>& supported() const { return supported_; }
   /// Writes the prescribed values of a time into a displacement, [local node][component].
   void prescribe(double time, std::span<double> displacement) const;
   const Conditions& conditions() const { return conditions_; }
@@ -44,7 +46,7 @@ class Loads {
   std::vector<Unit> units_;
   std::vector<Support> supports_;
   std::vector<double> constant_;  ///< [owned node][component]
-  std::vector<char> fixed_;
+  std::vector<char> fixed_, supported_;
 };
 
 }  // namespace solidus::mechanics

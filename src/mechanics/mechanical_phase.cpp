@@ -17,9 +17,6 @@ namespace {
 
 /// Forces that a strain of this size would cause count as round-off: the criterion of a body without load.
 constexpr double k_round_off_strain = 1e-13;
-/// A body under thermal stress alone exchanges no forces: then this share of its internal forces is the
-/// reference.
-constexpr double k_internal_share = 1e-6;
 
 /// Adds the time that it lives to a counter.
 class Stopwatch {
@@ -34,12 +31,6 @@ class Stopwatch {
   double start_;
 };
 
-double squares(std::span<const double> a) {
-  double s = 0;
-  for (double value : a) s += value * value;
-  return s;
-}
-
 }  // namespace
 
 MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
@@ -47,12 +38,12 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                                  std::span<const double> initial_temperature, Conditions conditions,
                                  MechanicsOptions options, std::vector<algebra::Contribution*> contributions)
     : mesh_(mesh),
-
       components_(displacement_components(kind)),
       options_(std::move(options)),
       contributions_(std::move(contributions)),
       loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions))),
       ghosts_(mesh),
+      balance_(mesh, components_),
       initial_temperature_(initial_temperature.begin(), initial_temperature.end()) {
   assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
   const auto& gravity = loads_->conditions().gravity;
@@ -103,21 +94,16 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   const Stopwatch watch(seconds_residual_);
   x_.assign(x.begin(), x.end());
   std::fill(forces_.begin(), forces_.end(), 0.0);
-  double sums[2] = {0, 0};  // squares of the forces exchanged and of the internal ones
-  for (const auto& block : blocks_) sums[1] += block->add_forces(x, forces_);
+  balance_.begin();
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    balance_.add_internal(mesh_.blocks[b].body, blocks_[b]->add_forces(x, forces_));
   std::fill(r.begin(), r.end(), 0.0);
   for (algebra::Contribution* contribution : contributions_) contribution->add_residual(x, r);
-  // Loads, supports and contact: what the bodies exchange with the world. Thermal stresses cancel within a
-  // body and can be a million times larger than its weight; measured against them a body that floats above
-  // its mould would pass for balanced.
-  sums[0] = squares(external_) + squares(r);
-  const std::vector<char>& fixed = loads_->fixed();
-  for (std::size_t i = 0; i < r.size(); ++i) {
-    r[i] += forces_[i] - external_[i];
-    if (fixed[i]) sums[0] += r[i] * r[i];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  return std::max(std::sqrt(sums[0]), k_internal_share * std::sqrt(sums[1]));
+  balance_.add_exchanged(r);
+  balance_.add_exchanged(external_);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] += forces_[i] - external_[i];
+  balance_.add_residual(r, loads_->fixed(), loads_->supported());
+  return balance_.reference();
 }
 
 algebra::BlockMatrix& MechanicalPhase::tangent() {

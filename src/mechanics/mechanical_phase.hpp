@@ -19,6 +19,7 @@
 #include "algebra/newton.hpp"
 #include "base/types.hpp"
 #include "material/material.hpp"
+#include "mechanics/balance.hpp"
 #include "mechanics/conditions.hpp"
 #include "mechanics/mechanical_state.hpp"
 #include "mesh/mesh.hpp"
@@ -93,6 +94,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   /// The block kernels, for StructuralHeat.
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
+  /// Drops what the linear solver carried over from earlier steps.
+  void forget() { solver_->forget(); }
   const mesh::Mesh& mesh() const { return mesh_; }
   std::size_t bytes() const;
   double seconds_assembly() const { return seconds_assembly_; }  ///< tangents
@@ -115,6 +118,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::unique_ptr<algebra::LinearSolver> solver_;
   algebra::GhostExchange ghosts_;
+  BodyBalance balance_;
   std::vector<double> initial_temperature_;
   std::vector<double> x_;         ///< of the last residual
   std::vector<double> forces_;    ///< internal forces, [local node][component]; ghost rows are scrap

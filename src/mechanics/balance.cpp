@@ -1,0 +1,89 @@
+#include "mechanics/balance.hpp"
+
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace solidus::mechanics {
+
+namespace {
+
+// A body under thermal stress alone exchanges no forces: then this share of its internal forces is the
+// reference.
+constexpr double k_internal_share = 1e-6;
+
+// Bodies that share a node, directly or by way of others, get the same number.
+std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh) {
+  const std::size_t n = mesh.bodies.size();
+  std::vector<int> touching(n * n, 0), first_body(mesh.x.size(), -1);
+  for (const mesh::Block& block : mesh.blocks)
+    for (const Index node : block.nodes) {
+      int& first = first_body[static_cast<std::size_t>(node)];
+      if (first < 0) first = block.body;
+      touching[static_cast<std::size_t>(first) * n + static_cast<std::size_t>(block.body)] = 1;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, touching.data(), static_cast<int>(touching.size()), MPI_INT, MPI_MAX,
+                PETSC_COMM_WORLD);
+  std::vector<std::size_t> group(n);
+  for (std::size_t b = 0; b < n; ++b) group[b] = b;
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b < n; ++b) {
+      if (touching[a * n + b] == 0 || group[a] == group[b]) continue;
+      const std::size_t from = std::max(group[a], group[b]), to = std::min(group[a], group[b]);
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  return group;
+}
+
+}  // namespace
+
+BodyBalance::BodyBalance(const mesh::Mesh& mesh, int components)
+    : components_(components),
+      body_group_(groups_of_bodies(mesh)),
+      node_group_(static_cast<std::size_t>(mesh.n_owned_nodes), 0),
+      n_groups_(mesh.bodies.size()),
+      sums_(3 * mesh.bodies.size(), 0.0) {
+  for (const mesh::Block& block : mesh.blocks)
+    for (const Index node : block.nodes)
+      if (node < mesh.n_owned_nodes)
+        node_group_[static_cast<std::size_t>(node)] = body_group_[static_cast<std::size_t>(block.body)];
+}
+
+void BodyBalance::begin() {
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+}
+
+void BodyBalance::add_internal(int body, double squares) {
+  sums_[3 * body_group_[static_cast<std::size_t>(body)] + 1] += squares;
+}
+
+void BodyBalance::add_exchanged(std::span<const double> force) {
+  for (std::size_t i = 0; i < force.size(); ++i) sums_[3 * group_of_entry(i)] += force[i] * force[i];
+}
+
+void BodyBalance::add_residual(std::span<const double> r, std::span<const char> fixed,
+                               std::span<const char> supported) {
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    if (fixed[i] != 0 && supported[i] == 0) continue;
+    sums_[3 * group_of_entry(i) + (fixed[i] != 0 ? 0 : 2)] += r[i] * r[i];
+  }
+}
+
+double BodyBalance::reference() {
+  MPI_Allreduce(MPI_IN_PLACE, sums_.data(), static_cast<int>(sums_.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  double squares = 0, worst = 0, largest = 0;
+  for (std::size_t g = 0; g < n_groups_; ++g) {
+    const double reference = std::max(sums_[3 * g], k_internal_share * k_internal_share * sums_[3 * g + 1]);
+    const double residual = sums_[3 * g + 2];
+    squares += residual;
+    largest = std::max(largest, reference);
+    if (residual > 0)
+      worst = std::max(worst, reference > 0 ? residual / reference : std::numeric_limits<double>::infinity());
+  }
+  return worst > 0 ? std::sqrt(squares / worst) : std::sqrt(largest);
+}
+
+}  // namespace solidus::mechanics

@@ -1,0 +1,44 @@
+/// How far each body is from equilibrium, measured against the forces that this body exchanges.
+///
+/// Thermal stresses cancel within a body and can be a million times larger than its weight; a mould clamped
+/// at its bottom has support forces a thousand times larger than the weight of the casting in it. Measured
+/// against either, a casting that floats above its mould would pass for balanced. So every body (bodies that
+/// share nodes count as one) has its own reference: its loads, its supports, its contact forces.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace solidus::mechanics {
+
+class BodyBalance {
+ public:
+  /// Finds which bodies share nodes. Collective.
+  BodyBalance(const mesh::Mesh& mesh, int components);
+
+  void begin();
+  /// Squares of the internal forces of a block before they cancel.
+  void add_internal(int body, double squares);
+  /// Loads and contact forces, [owned node][component].
+  void add_exchanged(std::span<const double> force);
+  /// The residual; where prescribed it is a support force, on the axis of an axisymmetric mesh it is neither.
+  void add_residual(std::span<const double> r, std::span<const char> fixed, std::span<const char> supported);
+  /// The number R with ‖r‖/R = max over the bodies of ‖r_body‖/reference_body; over all processes.
+  /// Collective.
+  double reference();
+
+ private:
+  std::size_t group_of_entry(std::size_t entry) const {
+    return node_group_[entry / static_cast<std::size_t>(components_)];
+  }
+
+  int components_;
+  std::vector<std::size_t> body_group_;  ///< of each body
+  std::vector<std::size_t> node_group_;  ///< of each owned node
+  std::size_t n_groups_ = 0;
+  std::vector<double> sums_;  ///< squares: exchanged, internal, residual of each group
+};
+
+}  // namespace solidus::mechanics
