@@ -216,6 +216,10 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
   return report;
 }
 
+void LinearSolver::forget() {
+  implementation_->stale = true;
+}
+
 double LinearSolver::seconds_setup() const {
   return implementation_->seconds_setup;
 }

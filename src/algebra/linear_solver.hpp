@@ -42,6 +42,8 @@ class LinearSolver {
   /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until
   /// iterations have grown by half) between calls. Collective.
   LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x);
+  /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).
+  void forget();
   double seconds_setup() const;
   double seconds_solve() const;
 

@@ -89,6 +89,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   run_verb->add_option("-o,--output", arguments.output,
                        "Folder of the results; default results/CASE/VARIANT");
   run_verb->add_flag("!--no-progress", arguments.progress_bar, "Print plain lines, also on a terminal");
+  run_verb->add_flag("--restart", arguments.restart,
+                     "Continue a run that was stopped, from its checkpoint in the folder of the results");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
   CLI::App* explain_verb = program.add_subcommand("explain", "Explain a key of the case file, or list all");

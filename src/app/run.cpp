@@ -4,6 +4,7 @@
 #include <petscsys.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -45,6 +46,21 @@ void note_folder(const fs::path& folder) {
     std::ofstream(note) << fs::absolute(folder).lexically_normal().string() << "\n";
 }
 
+volatile std::sig_atomic_t stop_asked = 0;
+
+extern "C" void ask_to_stop(int) {
+  stop_asked = 1;
+}
+
+/// Ctrl-C, `kill` and what a batch system sends before the time is up end the run at the end of its step; the
+/// second time they end it at once.
+void listen_to_signals() {
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
+}
+
 }  // namespace
 
 ExitCode run(const CaseArguments& arguments) {
@@ -55,9 +71,12 @@ ExitCode run(const CaseArguments& arguments) {
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   options.progress = rank == 0 ? &std::cout : nullptr;
   options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
+  options.restart = arguments.restart;
+  options.stop_asked = [] { return stop_asked != 0; };
+  listen_to_signals();
   const model::RunResult result = model::run_case(c, options);
   if (!result.finished) {
-    if (rank == 0) std::cerr << "solidus: the simulation could not go on: " << result.reason << std::endl;
+    if (rank == 0) std::cerr << "solidus: " << result.reason << std::endl;
     return k_cannot_go_on;
   }
   note_folder(options.folder);

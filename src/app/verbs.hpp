@@ -15,6 +15,7 @@ struct CaseArguments {
   std::vector<std::string> set;  ///< "path=value"
   std::string output;            ///< results folder; empty: by the case
   bool progress_bar = true;      ///< on a terminal
+  bool restart = false;          ///< go on from the checkpoint
 };
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).

@@ -18,6 +18,11 @@ void IsothermalSplit::synchronise(const State& state) {
   for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
 }
 
+void IsothermalSplit::forget() {
+  if (phases_.mechanics != nullptr) phases_.mechanics->forget();
+  if (phases_.heat != nullptr) phases_.heat->forget();
+}
+
 StepEffort IsothermalSplit::advance(const State& old, State& trial, double time, double dt) {
   StepEffort effort;
   if (phases_.mechanics != nullptr) mechanical_phase(old, trial, time, dt, effort);

@@ -15,6 +15,7 @@ class IsothermalSplit : public CouplingScheme {
   /// The phases must outlive the scheme.
   explicit IsothermalSplit(Phases phases) : phases_(std::move(phases)) {}
   void synchronise(const State& state) override;
+  void forget() override;
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
 
  private:

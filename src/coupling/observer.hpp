@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "coupling/continuation.hpp"
+
 namespace solidus::coupling {
 
 struct State;
@@ -56,12 +58,14 @@ struct StepRecord : StepEffort {
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// The initial state, before the first step.
+  /// The state before the first step, of this run or of its continuation.
   virtual void begin(const State& state) = 0;
   /// A step was committed. Called on every process.
   virtual void step(const StepRecord& record, const State& state) = 0;
-  /// The run cannot go on; `state` is the last committed one.
-  virtual void stopped(const std::string& reason, const State& state) = 0;
+  /// A checkpoint is due at the committed state; with `continuation` the run can go on from it.
+  virtual void checkpoint(const Continuation& /*continuation*/, const State& /*state*/) {}
+  /// The run cannot or shall not go on; `state` is the last committed one, its checkpoint is written.
+  virtual void stopped(const Stop& stop, const State& state) = 0;
   virtual void end(const State& state) = 0;
 };
 

@@ -13,6 +13,9 @@ class CouplingScheme {
   /// Brings whatever follows from a state (contact gaps, conductances) in line with it: before the first
   /// step, after a rejected one and after a restart.
   virtual void synchronise(const State& state) = 0;
+  /// Drops what solvers carried over from earlier steps (lagged preconditioners), so that the next step
+  /// depends on the state alone. Called at every checkpoint: a run continued there goes the same way.
+  virtual void forget() = 0;
   /// Advances from `old` (t_n) to `trial` (old.time + dt). Collective. Throws StepRejected on every process
   /// alike when the physics does not go through; `trial` is then meaningless and `old` untouched.
   virtual StepEffort advance(const State& old, State& trial, double time, double dt) = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace solidus::coupling {
@@ -14,6 +15,8 @@ struct StepOptions {
   double growth = 1.5;      ///< factor after an easy step
   double cut = 0.5;         ///< factor after a rejection
   int easy_iterations = 6;  ///< a step whose phases all took at most this many Newton iterations is easy
+
+  bool operator==(const StepOptions&) const = default;
 };
 
 /// A planned step: from the present time to `time`.
@@ -41,7 +44,11 @@ class StepControl {
 
   /// What a checkpoint keeps.
   double present_size() const { return size_; }
-  void resume(double size) { size_ = size; }
+  const std::string& present_reason() const { return reason_; }
+  void resume(double size, std::string reason) {
+    size_ = size;
+    reason_ = std::move(reason);
+  }
 
  private:
   StepOptions options_;

@@ -31,6 +31,7 @@ struct CylinderInMouldSpec {
   double mould_wall = 0, mould_bottom = 0, mould_height = 0;
   double element_size = 0;        ///< in the casting
   double mould_element_size = 0;  ///< far from the casting
+  double interface_ratio = 0;     ///< mould elements per casting element along the interface
 };
 
 /// The built-in shape `block`: a rectangle or a box of one body. All in metres.
@@ -38,6 +39,13 @@ struct BlockSpec {
   std::vector<double> size;    ///< two or three lengths
   std::vector<double> origin;  ///< of the corner with the smallest coordinates
   std::vector<int> divisions;  ///< elements along each axis
+};
+
+/// The built-in shape `two_blocks`: two rectangles or boxes, one above the other. All in metres.
+struct TwoBlocksSpec {
+  std::vector<double> lower, upper;                   ///< sizes
+  std::vector<int> lower_divisions, upper_divisions;  ///< elements along each axis
+  double gap = 0;                                     ///< between them
 };
 
 struct MeshSpec {
@@ -48,6 +56,7 @@ struct MeshSpec {
   std::string element;                     ///< of the built-in shapes: "tri3", ...
   std::optional<CylinderInMouldSpec> cylinder_in_mould;
   std::optional<BlockSpec> block;
+  std::optional<TwoBlocksSpec> two_blocks;
   SourceLocation where;
 };
 
@@ -139,6 +148,7 @@ struct OutputSpec {
   std::optional<double> every;  ///< [s]
   std::vector<double> times;    ///< [s]
   std::vector<std::string> fields;
+  std::optional<int> checkpoint_every;  ///< steps
   std::optional<std::string> folder;
 };
 

@@ -23,9 +23,13 @@ mesh::Shape shape_named(const std::string& wanted) {
 mesh::RawMesh built_in_shape(const MeshSpec& m) {
   const mesh::Shape shape = shape_named(m.element);
   if (m.block) return mesh::make_block({m.block->size, m.block->origin, m.block->divisions}, shape);
+  if (m.two_blocks) {
+    const TwoBlocksSpec& t = *m.two_blocks;
+    return mesh::make_two_blocks({t.lower, t.upper, t.lower_divisions, t.upper_divisions, t.gap}, shape);
+  }
   const CylinderInMouldSpec& c = *m.cylinder_in_mould;
   return mesh::make_cylinder_in_mould({c.radius, c.height, c.mould_wall, c.mould_bottom, c.mould_height,
-                                       c.element_size, c.mould_element_size},
+                                       c.element_size, c.mould_element_size, c.interface_ratio},
                                       shape);
 }
 

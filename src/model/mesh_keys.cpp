@@ -25,6 +25,12 @@ Section<CylinderInMouldSpec> cylinder_in_mould_keys() {
   s.quantity("mould_element_size", &CylinderInMouldSpec::mould_element_size, "m")
       .positive()
       .doc("Element size in the mould.");
+  s.key("interface_ratio", &CylinderInMouldSpec::interface_ratio)
+      .initially(1.0)
+      .range(0.1, 10)
+      .doc(
+          "Elements of the mould per element of the casting along the interface; other than one, the meshes "
+          "do not match.");
   return s;
 }
 
@@ -40,13 +46,34 @@ Section<BlockSpec> block_keys() {
   return s;
 }
 
+Section<TwoBlocksSpec> two_blocks_keys() {
+  using T = TwoBlocksSpec;
+  Section<T> s(
+      "two_blocks",
+      "Two rectangles or boxes, the body 'upper' above the body 'lower', with meshes that need not match. "
+      "Surfaces: "
+      "'lower_top' and 'upper_bottom' face each other; the others are 'lower_x_min', 'upper_x_max', ...");
+  s.quantity("lower", &T::lower, "m")
+      .positive()
+      .doc("Lengths of the lower one along the axes, two or three.");
+  s.quantity("upper", &T::upper, "m").positive().doc("Lengths of the upper one.");
+  s.key("lower_divisions", &T::lower_divisions)
+      .range(1, 100000)
+      .doc("Number of elements along the axes, lower one.");
+  s.key("upper_divisions", &T::upper_divisions)
+      .range(1, 100000)
+      .doc("Number of elements along the axes, upper one.");
+  s.quantity("gap", &T::gap, "m").initially("0 m").at_least(0).doc("Distance between them.");
+  return s;
+}
+
 }  // namespace
 
 Section<MeshSpec> mesh_keys() {
   Section<MeshSpec> s("mesh",
                       "The mesh: a file, or a built-in shape with its parameters in a section of its own.");
   s.key("shape", &MeshSpec::shape)
-      .choices({"cylinder_in_mould", "block"})
+      .choices({"cylinder_in_mould", "block", "two_blocks"})
       .doc("A built-in shape; give this or `file`.");
   s.key("file", &MeshSpec::file)
       .doc("A file that Gmsh reads: .msh, .geo, STEP, Abaqus .inp, .unv, ...; relative to the case file.");
@@ -65,6 +92,7 @@ Section<MeshSpec> mesh_keys() {
   s.section("cylinder_in_mould", &MeshSpec::cylinder_in_mould, cylinder_in_mould_keys())
       .when("shape", {"cylinder_in_mould"});
   s.section("block", &MeshSpec::block, block_keys()).when("shape", {"block"});
+  s.section("two_blocks", &MeshSpec::two_blocks, two_blocks_keys()).when("shape", {"two_blocks"});
   s.place(&MeshSpec::where);
   return s;
 }

@@ -55,6 +55,11 @@ Section<OutputSpec> output_keys() {
       .initially(Value::list())
       .choices(k_fields)
       .doc("The fields to write; empty: all there are.");
+  s.key("checkpoint_every", &OutputSpec::checkpoint_every)
+      .at_least(1)
+      .doc(
+          "A checkpoint is written after each so many steps, besides those at every time at which fields are "
+          "written and where a run stops.");
   s.key("folder", &OutputSpec::folder)
       .doc("Results folder; `-o` goes before it, without both results/CASE/VARIANT.");
   return s;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
@@ -12,8 +13,10 @@
 #include "coupling/isothermal.hpp"
 #include "coupling/simulation.hpp"
 #include "material/library.hpp"
+#include "model/advice.hpp"
 #include "model/case_materials.hpp"
 #include "model/contact_input.hpp"
+#include "model/fingerprint.hpp"
 #include "model/heat_input.hpp"
 #include "model/mechanics_input.hpp"
 #include "model/mesh_input.hpp"
@@ -105,7 +108,7 @@ class RangeWatch : public coupling::Observer {
   RangeWatch(const CaseSpec& spec, const Assembly& a) : spec_(spec), a_(a), warned_(spec.bodies.size()) {}
   void begin(const coupling::State& state) override { look(state); }
   void step(const coupling::StepRecord&, const coupling::State& state) override { look(state); }
-  void stopped(const std::string&, const coupling::State&) override {}
+  void stopped(const coupling::Stop&, const coupling::State&) override {}
   void end(const coupling::State&) override {}
 
  private:
@@ -149,9 +152,13 @@ class StopReason : public coupling::Observer {
  public:
   void begin(const coupling::State&) override {}
   void step(const coupling::StepRecord&, const coupling::State&) override {}
-  void stopped(const std::string& why, const coupling::State&) override { reason = why; }
+  void stopped(const coupling::Stop& why, const coupling::State& state) override {
+    stop = why;
+    time = state.time;
+  }
   void end(const coupling::State&) override {}
-  std::string reason;
+  coupling::Stop stop;
+  double time = 0;
 };
 
 bool melts(const std::vector<material::Material>& materials) {
@@ -180,7 +187,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   return r;
 }
 
-RunResult run_steady(Assembly& a, results::Recorder& recorder) {
+RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recorder) {
   recorder.begin(a.initial);
   coupling::StepRecord record;
   coupling::State steady = a.initial;
@@ -192,8 +199,9 @@ RunResult run_steady(Assembly& a, results::Recorder& recorder) {
                    MPI_Wtime() - start};
     coupling::summarise(a.phases, steady, record);
   } catch (const StepRejected& rejected) {
-    recorder.stopped(rejected.what(), a.initial);
-    return {false, rejected.what()};
+    const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};
+    recorder.stopped(stop, a.initial);
+    return {false, stop_text(stop, spec, 0, {})};
   }
   record.number = 1;
   record.reason = "steady";
@@ -203,15 +211,42 @@ RunResult run_steady(Assembly& a, results::Recorder& recorder) {
   return {};
 }
 
-RunResult run_transient(const CaseSpec& spec, Assembly& a, results::Recorder& recorder) {
+RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
+                        const std::optional<results::Checkpoint>& from, results::Recorder& recorder) {
   coupling::Simulation simulation(std::make_unique<coupling::IsothermalSplit>(a.phases), time_options(spec));
   RangeWatch watch(spec, a);
-  StopReason stop;
+  StopReason why;
   simulation.add(watch);
   simulation.add(recorder);
-  simulation.add(stop);
-  const coupling::Outcome outcome = simulation.run(a.initial);
-  return {outcome == coupling::Outcome::finished, stop.reason};
+  simulation.add(why);
+  simulation.stop_when(options.stop_asked);
+  const coupling::Outcome outcome =
+      from ? simulation.run(from->state, from->continuation) : simulation.run(a.initial);
+  if (outcome == coupling::Outcome::finished) return {};
+  return {false, stop_text(why.stop, spec, why.time,
+                           results::CheckpointFolder(options.folder).latest().lexically_normal().string())};
+}
+
+// The checkpoint that a run is to go on from; nothing without --restart.
+std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOptions& options, Assembly& a,
+                                              const results::Fingerprint& fingerprint) {
+  if (!options.restart) return {};
+  const results::CheckpointFolder folder(options.folder);
+  results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
+  if (found.state.time >= *spec.time.end)
+    throw InputError(spec.time.where,
+                     fmt::format("the run has reached t = {:g} s already; the end is at {:g} s",
+                                 found.state.time, *spec.time.end),
+                     "a later end: time.end");
+  return found;
+}
+
+// Tells early, before the mesh is read, what a look at case and folder shows.
+void check_restart(const CaseSpec& spec, const RunOptions& options) {
+  if (!options.restart) return;
+  if (spec.time.steady)
+    throw InputError(spec.time.where, "a steady analysis has nothing to continue", "run without --restart");
+  results::CheckpointFolder(options.folder).require();
 }
 
 }  // namespace
@@ -229,18 +264,24 @@ results::MeshCounts check_run(const Case& c) {
 
 RunResult run_case(const Case& c, const RunOptions& options) {
   const double start = MPI_Wtime();
+  check_restart(c.spec, options);
   Assembly a;
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
   const double loaded = MPI_Wtime();
   build(c.spec, a);
 
-  const results::RunFolder folder(options.folder, c.toml());
   results::RecorderOptions r = recorder_options(c, options, a);
+  r.fingerprint = fingerprint(c.spec, a.mesh, a.materials);
+  const std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);
+  if (from) r.progress_options.start = from->state.time;
+  r.continue_from = from;
+  const results::RunFolder folder(options.folder, c.toml(), options.restart);
   r.summary.seconds.emplace_back("mesh", loaded - start);
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
   results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));
-  return c.spec.time.steady ? run_steady(a, recorder) : run_transient(c.spec, a, recorder);
+  return c.spec.time.steady ? run_steady(c.spec, a, recorder)
+                            : run_transient(c.spec, options, a, from, recorder);
 }
 
 }  // namespace solidus::model

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <ostream>
 #include <string>
 
@@ -14,11 +15,13 @@ struct RunOptions {
   std::filesystem::path folder;      ///< of the results
   std::ostream* progress = nullptr;  ///< where steps are shown; null: nowhere (process 0 only)
   bool terminal = false;             ///< draw a progress bar
+  bool restart = false;              ///< go on from the checkpoint in `folder`
+  std::function<bool()> stop_asked;  ///< asked before each step; true on any process ends the run there
 };
 
 struct RunResult {
   bool finished = true;
-  std::string reason;  ///< why it stopped, with place and advice
+  std::string reason;  ///< why it stopped, with place, checkpoint and advice; several lines
 };
 
 /// Loads materials and mesh, builds the phases, runs and writes the results. Collective. Throws InputError

@@ -60,6 +60,7 @@ coupling::TimeOptions time_options(const CaseSpec& spec) {
   options.step.cut = t.cut;
   options.step.easy_iterations = t.easy_iterations;
   options.output_times = spec.output.times;
+  options.checkpoint_every = spec.output.checkpoint_every.value_or(0);
   if (spec.output.every) {
     const double every = *spec.output.every;
     const auto n = static_cast<long>(std::floor(options.end / every * (1 + 1e-12)));

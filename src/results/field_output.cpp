@@ -26,6 +26,19 @@ std::string file_name(std::string text) {
 FieldOutput::FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh)
     : mesh_(mesh), fields_(folder.fields()), collection_(folder.collection()) {}
 
+FieldOutput::FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh, double time)
+    : FieldOutput(folder, mesh) {
+  on_first_process([&] {
+    collection_ = PvdCollection(folder.collection(), time);
+    for (const PvdCollection::Entry& entry : collection_.entries()) {
+      if (entry.part == 0) ++written_;
+      last_time_ = entry.time;
+    }
+  });
+  MPI_Bcast(&written_, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  MPI_Bcast(&last_time_, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+}
+
 // Returns the file to open, relative to the folder of the collection.
 std::string FieldOutput::write_one(const std::string& name, const mesh::Surface* surface,
                                    const FieldSet& fields, double time) {

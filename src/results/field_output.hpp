@@ -15,6 +15,9 @@ namespace solidus::results {
 class FieldOutput {
  public:
   FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh);
+  /// Goes on with the fields of an earlier run, without what came after `time`. Collective. Throws
+  /// OutputError.
+  FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh, double time);
 
   /// Writes one moment; the time written last is not written again (a run that stops there). Collective; what
   /// fails on one process is thrown on all (OutputError, NotFiniteError), and the collection then stays as it

@@ -26,21 +26,30 @@ int process() {
 Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupling::Phases& phases,
                    RecorderOptions options)
     : folder_(folder),
+      mesh_(mesh),
       phases_(phases),
       options_(std::move(options)),
       rank_(process()),
       fields_(mesh, phases),
       probes_(mesh, options_.kind, options_.probes, fields_.bodies()),
       globals_(global_columns(phases, options_, probes_)),
-      output_(folder, mesh),
+      output_(options_.continue_from ? FieldOutput(folder, mesh, options_.continue_from->state.time)
+                                     : FieldOutput(folder, mesh)),
+      checkpoints_(folder.root()),
       began_(MPI_Wtime()) {
   fields_.bodies().select(options_.fields);  // complains about a field there is not
   on_first_process([&] {
     std::vector<Column> columns{{"time", "s"}};
     columns.insert(columns.end(), probes_.columns().begin(), probes_.columns().end());
     for (const Column& c : globals_.columns()) columns.push_back(c);
-    history_.emplace(folder.history(), columns);
-    steps_.emplace(folder.steps(), step_columns());
+    if (options_.continue_from) {
+      const double time = options_.continue_from->state.time;
+      history_.emplace(folder.history(), columns, time);
+      steps_.emplace(folder.steps(), step_columns(), time);
+    } else {
+      history_.emplace(folder.history(), columns);
+      steps_.emplace(folder.steps(), step_columns());
+    }
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
 }
@@ -48,11 +57,19 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
 void Recorder::begin(const coupling::State& state) {
   coupling::StepEffort initial;
   coupling::summarise(phases_, state, initial);
-  globals_.start(initial);
+  if (progress_) progress_->begin();
   fields_.update(state);
+  if (options_.continue_from) {
+    // Rows and fields of this state were written before; stresses follow with the first step.
+    globals_.start(initial, options_.continue_from->energy);
+    options_.summary.steps = options_.continue_from->continuation.steps;
+    options_.summary.rejected = options_.continue_from->rejected;
+    last_row_ = history_row(state.time);
+    return;
+  }
+  globals_.start(initial);
   add_history_row(state.time);
   write_fields(state);
-  if (progress_) progress_->begin();
 }
 
 void Recorder::step(const coupling::StepRecord& record, const coupling::State& state) {
@@ -70,8 +87,18 @@ void Recorder::step(const coupling::StepRecord& record, const coupling::State& s
   options_.summary.rejected += record.rejected;
 }
 
-void Recorder::stopped(const std::string& reason, const coupling::State& state) {
-  write_fields(state);
+void Recorder::checkpoint(const coupling::Continuation& continuation, const coupling::State& state) {
+  const double start = MPI_Wtime();
+  checkpoints_.write(mesh_, options_.fingerprint,
+                     {state, continuation, globals_.energy(), options_.summary.rejected});
+  seconds_output_ += MPI_Wtime() - start;
+}
+
+void Recorder::stopped(const coupling::Stop& stop, const coupling::State& state) {
+  const std::string reason = stop.asked ? "as asked" : stop.reason;
+  // Without a step of this run there are no stresses to show.
+  const bool moved = !options_.continue_from || state.time > options_.continue_from->state.time;
+  if (moved) write_fields(state);
   if (progress_) progress_->end("stopped: " + reason);
   write_summary_file("stopped: " + reason, state);
 }
@@ -81,10 +108,15 @@ void Recorder::end(const coupling::State& state) {
   write_summary_file("finished", state);
 }
 
+std::vector<double> Recorder::history_row(double time) {
+  std::vector<double> row = {time};
+  for (const double v : probes_.values(fields_.bodies())) row.push_back(v);
+  for (const double v : globals_.values()) row.push_back(v);
+  return row;
+}
+
 void Recorder::add_history_row(double time) {
-  last_row_ = {time};
-  for (const double v : probes_.values(fields_.bodies())) last_row_.push_back(v);
-  for (const double v : globals_.values()) last_row_.push_back(v);
+  last_row_ = history_row(time);
   on_first_process([&] { history_->add(last_row_); });
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coupling/phases.hpp"
+#include "results/checkpoint.hpp"
 #include "results/field_output.hpp"
 #include "results/probes.hpp"
 #include "results/progress.hpp"
@@ -24,8 +25,10 @@ struct RecorderOptions {
   std::vector<std::string> fields;   ///< to write; empty: all
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
-  bool melting = true;  ///< a material can melt
-  Summary summary;      ///< what is known before the run: names, mesh, seconds of setting up
+  bool melting = true;                      ///< a material can melt
+  Fingerprint fingerprint;                  ///< of the case, for checkpoints
+  std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
+  Summary summary;  ///< what is known before the run: names, mesh, seconds of setting up
 };
 
 class Recorder : public coupling::Observer {
@@ -36,15 +39,18 @@ class Recorder : public coupling::Observer {
 
   void begin(const coupling::State& state) override;
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
-  void stopped(const std::string& reason, const coupling::State& state) override;
+  void checkpoint(const coupling::Continuation& continuation, const coupling::State& state) override;
+  void stopped(const coupling::Stop& stop, const coupling::State& state) override;
   void end(const coupling::State& state) override;
 
  private:
+  std::vector<double> history_row(double time);
   void add_history_row(double time);
   void write_fields(const coupling::State& state);
   void write_summary_file(const std::string& outcome, const coupling::State& state);
 
   const RunFolder& folder_;
+  const mesh::Mesh& mesh_;
   const coupling::Phases& phases_;
   RecorderOptions options_;
   int rank_ = 0;
@@ -52,6 +58,7 @@ class Recorder : public coupling::Observer {
   Probes probes_;
   GlobalHistory globals_;
   FieldOutput output_;
+  CheckpointFolder checkpoints_;
   std::optional<CsvTable> history_, steps_;  // on process 0
   std::optional<Progress> progress_;         // on process 0
   std::vector<double> last_row_;

@@ -46,6 +46,8 @@ void remove_old(const fs::path& root) {
     if (!fs::is_symlink(root / name)) fs::remove(root / name);
     fs::remove(root / (std::string(name) + ".part"));
   }
+  for (const char* name : {"state.h5", "previous.h5", "state.h5.part"})
+    fs::remove(root / "checkpoint" / name);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(root / "fields"))
     if (std::regex_match(entry.path().filename().string(), k_field_file)) old.push_back(entry.path());
@@ -60,12 +62,12 @@ fs::path default_run_folder(const fs::path& case_file) {
   return fs::path("results") / full.parent_path().filename() / (variant == "case" ? "default" : variant);
 }
 
-RunFolder::RunFolder(fs::path root, std::string_view resolved_case) : root_(std::move(root)) {
+RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool go_on) : root_(std::move(root)) {
   on_first_process([&] {
     try {
       check_owner(root_);
       fs::create_directories(fields());
-      remove_old(root_);
+      if (!go_on) remove_old(root_);
     } catch (const fs::filesystem_error& error) {
       throw OutputError(root_.string(), "cannot make the results folder: " + error.code().message(),
                         "choose another folder with -o");

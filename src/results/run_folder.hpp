@@ -13,7 +13,7 @@ std::filesystem::path default_run_folder(const std::filesystem::path& case_file)
 /// ```
 /// case.toml     the case, fully resolved; its first line says that Solidus wrote it
 /// history.csv   probes and globals     steps.csv  every step     summary.json  how it went
-/// fields.pvd    the fields over time   fields/    the field files
+/// fields.pvd    the fields over time   fields/    the field files   checkpoint/  to go on from
 /// ```
 class RunFolder {
  public:
@@ -21,7 +21,8 @@ class RunFolder {
   /// not ours stay; links are kept and written through. Collective. Throws OutputError on every process when
   /// the folder cannot be made or written, or holds a case.toml, history.csv ... that Solidus did not write.
   /// @param resolved_case  text of case.toml
-  RunFolder(std::filesystem::path root, std::string_view resolved_case);
+  /// @param go_on  a run goes on: what it left stays
+  RunFolder(std::filesystem::path root, std::string_view resolved_case, bool go_on = false);
 
   const std::filesystem::path& root() const { return root_; }
   std::filesystem::path history() const { return root_ / "history.csv"; }

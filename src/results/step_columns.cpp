@@ -121,9 +121,9 @@ std::vector<Column> GlobalHistory::columns() const {
   return columns;
 }
 
-void GlobalHistory::start(const coupling::StepEffort& initial) {
+void GlobalHistory::start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy) {
   last_ = initial;
-  sum_ = {};
+  sum_ = energy;
 }
 
 void GlobalHistory::add(const coupling::StepEffort& step) {

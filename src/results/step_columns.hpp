@@ -26,10 +26,12 @@ class GlobalHistory {
 
   std::vector<Column> columns() const;
   /// The state before the first step; energies begin at zero.
-  void start(const coupling::StepEffort& initial);
+  /// @param energy  sums of the steps before, where a run goes on
+  void start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy = {});
   void add(const coupling::StepEffort& step);
   /// In the order of columns().
   std::vector<double> values() const;
+  const coupling::EnergyAudit& energy() const { return sum_; }
   /// |sum of defects| / sum of heat exchanged; zero when no heat moved.
   double relative_defect() const;
 

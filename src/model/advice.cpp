@@ -1,0 +1,80 @@
+#include "model/advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace solidus::model {
+
+namespace {
+
+bool says(const coupling::Stop& stop, const char* words) {
+  return stop.reason.find(words) != std::string::npos;
+}
+
+bool something_is_held(const CaseSpec& spec) {
+  return std::any_of(spec.mechanical_conditions.begin(), spec.mechanical_conditions.end(),
+                     [](const auto& c) { return c.kind == MechanicalConditionSpec::Kind::displacement; });
+}
+
+std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  std::vector<std::string> advice;
+  if (!something_is_held(spec))
+    advice.emplace_back(
+        "no displacement is prescribed at all: hold the bodies with [[mechanical_condition]]");
+  else if (says(stop, "linear solver") || says(stop, "not a number"))
+    advice.emplace_back(
+        "is every body held against moving and turning, by supports or by contact that is closed?");
+  advice.push_back(
+      fmt::format("more iterations: mechanics.max_iterations (now {}), or mechanics.tolerance "
+                  "(now {:g})",
+                  spec.mechanics.max_iterations, spec.mechanics.tolerance));
+  if (!spec.contacts.empty())
+    advice.emplace_back(
+        "a softer contact: penalty_factor in [[contact]]; look at its gap in the last fields");
+  advice.emplace_back(
+      "jumps in the material's tables at the temperatures of that place (`solidus materials NAME`)");
+  return advice;
+}
+
+std::vector<std::string> heat_advice(const CaseSpec& spec) {
+  return {fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance (now {:g})",
+                      spec.heat.max_iterations, spec.heat.tolerance),
+          "films, radiation, sources or conductivities that change steeply with temperature at that place",
+          spec.heat.integration == heat::Integration::open
+              ? "the closed rule, heat.integration = \"closed\", converges for any step"
+              : "heat.exact_conductivity = true where the conductivity depends strongly on temperature"};
+}
+
+}  // namespace
+
+std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
+                      const std::string& checkpoint) {
+  const std::string go_on = fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
+  if (stop.asked)
+    return fmt::format("stopped as asked at t = {:.6g} s\n", time) + go_on +
+           "  to continue: the same command with --restart";
+  std::string text =
+      fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time, stop.reason);
+  if (!stop.where.empty()) text += fmt::format("  where: {}\n", stop.where);
+  const bool steps = stop.tries > 0;  // a steady state has none
+  if (steps)
+    text += fmt::format("  tried: {} {}, the smallest {:.4g} s\n", stop.tries,
+                        stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +
+            go_on;
+  text += "  what may help:";
+  const bool mechanics = stop.reason.rfind("mechanics", 0) == 0;
+  for (const std::string& advice : mechanics ? mechanics_advice(stop, spec) : heat_advice(spec))
+    text += fmt::format("\n    - {}", advice);
+  if (steps)
+    text += fmt::format(
+        "\n    - smaller steps: time.step (now {:g} s), time.min_step\n"
+        "  The results so far are whole; after a change that leaves mesh and materials alone, the same "
+        "command "
+        "with --restart\n  continues from there.",
+        spec.time.step.value_or(0));
+  return text;
+}
+
+}  // namespace solidus::model

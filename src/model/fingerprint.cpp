@@ -1,0 +1,98 @@
+#include "model/fingerprint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "algebra/parallel.hpp"
+#include "results/summary.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+std::string analysis_text(const CaseSpec& spec) {
+  constexpr std::array<const char*, 3> k_physics = {"heat", "mechanics", "thermomechanical"};
+  constexpr std::array<const char*, 3> k_kinds = {"plane strain", "axisymmetric", "3D"};
+  return fmt::format("{}, {}, {} rule", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
+                     k_physics.at(static_cast<std::size_t>(spec.analysis.physics)),
+                     spec.heat.integration == heat::Integration::closed ? "closed" : "open");
+}
+
+std::string mesh_text(const mesh::Mesh& mesh) {
+  const results::MeshCounts counts = results::count(mesh);
+  std::string text = fmt::format("{} nodes", counts.nodes);
+  for (const auto& [shape, n] : counts.elements_of_shape) text += fmt::format(", {} {}", n, shape);
+  text += ", from (";
+  std::array<double, 3> low{}, high{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    low[i] = std::numeric_limits<double>::max();
+    high[i] = std::numeric_limits<double>::lowest();
+    for (const mesh::Point& x : mesh.x) {
+      low[i] = std::min(low[i], x[i]);
+      high[i] = std::max(high[i], x[i]);
+    }
+    low[i] = algebra::global_min(low[i]);
+    high[i] = algebra::global_max(high[i]);
+  }
+  return text + fmt::format("{:.9g}, {:.9g}, {:.9g}) to ({:.9g}, {:.9g}, {:.9g}) m", low[0], low[1], low[2],
+                            high[0], high[1], high[2]);
+}
+
+// FNV-1a over the texts of numbers.
+class Hash {
+ public:
+  void add(std::string_view text) {
+    for (const char c : text) value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  }
+  void add(double number) { add(fmt::format("{} ", number)); }
+  void add(const Table& table) {
+    for (const double x : table.x()) add(x);
+    for (const double y : table.y()) add(y);
+    add(static_cast<double>(table.extrapolation()));
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+std::string material_text(const material::Material& m) {
+  Hash hash;
+  hash.add(m.density);
+  hash.add(m.expansion_reference);
+  for (const Table* table : {&m.conductivity, &m.specific_heat, &m.young_modulus, &m.poisson_ratio,
+                             &m.expansion, &m.liquid_viscosity})
+    hash.add(*table);
+  for (const material::PhaseChange& change : m.phase_changes) {
+    hash.add(change.latent_heat);
+    hash.add(change.volume_change);
+    hash.add(change.solidification ? 1.0 : 0.0);
+    for (const auto& [temperature, fraction] : change.fraction.points()) {
+      hash.add(temperature);
+      hash.add(fraction);
+    }
+  }
+  return fmt::format("{} ({:016x})", m.name, hash.value());
+}
+
+}  // namespace
+
+results::Fingerprint fingerprint(const CaseSpec& spec, const mesh::Mesh& mesh,
+                                 const std::vector<material::Material>& materials) {
+  results::Fingerprint result = {{"analysis", analysis_text(spec)}, {"mesh", mesh_text(mesh)}};
+  std::string bodies, data;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    bodies += (b > 0 ? ", " : "") + spec.bodies[b].name;
+    data += (b > 0 ? ", " : "") + material_text(materials[b]);
+  }
+  result.emplace_back("list of bodies", bodies);
+  result.emplace_back("material data", data);
+  return result;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,59 @@
+/// Tables of a checkpoint, collected from all processes by process 0 and handed out to all.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/hdf5_file.hpp"
+
+namespace solidus::results {
+
+/// All calls are collective. A failure of process 0 is kept, so that no process waits for another, and thrown
+/// by finish().
+class TableWriter {
+ public:
+  explicit TableWriter(std::filesystem::path path);
+  ~TableWriter();
+  void text(const std::string& name, const std::string& text);          ///< of process 0
+  void numbers(const std::string& name, const std::vector<double>& n);  ///< of process 0
+  /// The rows of all processes, in their order. `width` may differ where a process has no row.
+  template <class T>
+  void rows(const std::string& name, int width, std::span<const T> own);
+  /// Closes the file and runs `last` on process 0. Throws OutputError on every process; no part of the file
+  /// stays then.
+  void finish(const std::function<void()>& last);
+
+ private:
+  void attempt(const std::function<void()>& work);
+
+  std::filesystem::path path_;
+  int rank_ = 0, size_ = 1;
+  std::optional<Hdf5File> file_;  ///< on process 0
+  std::exception_ptr error_;
+};
+
+/// All calls are collective and throw on every process alike.
+class TableReader {
+ public:
+  explicit TableReader(std::filesystem::path path);
+  std::string text(const std::string& name);
+  std::vector<double> numbers(const std::string& name, std::size_t n);
+  /// Calls `take` with every row of the table `values` and its number in the table `keys`, on all processes.
+  void each(const std::string& keys, const std::string& values,
+            const std::function<void(std::int64_t, std::span<const double>)>& take);
+  /// Throws OutputError unless `complete` on all processes.
+  void require(bool complete, const std::string& name) const;
+
+ private:
+  std::filesystem::path path_;
+  int rank_ = 0;
+  std::optional<Hdf5File> file_;  ///< on process 0
+};
+
+}  // namespace solidus::results

@@ -1,0 +1,157 @@
+#include "results/hdf5_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <type_traits>
+#include <utility>
+
+#include "results/output_error.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+template <class T>
+hid_t number_type() {
+  if constexpr (std::is_same_v<T, double>)
+    return H5T_NATIVE_DOUBLE;
+  else
+    return H5T_NATIVE_INT64;
+}
+
+hid_t open_file(const std::filesystem::path& path, Hdf5File::Mode mode) {
+  // Failures are ours to report; HDF5 would print its own account.
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  return mode == Hdf5File::Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
+                                        : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+}
+
+Hdf5Handle make_groups() {
+  Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(properties, 1);
+  return properties;
+}
+
+std::array<hsize_t, 2> extent(hid_t dataset) {
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  std::array<hsize_t, 2> size{0, 0};
+  if (H5Sget_simple_extent_ndims(space) == 2) H5Sget_simple_extent_dims(space, size.data(), nullptr);
+  return size;
+}
+
+// The part of a table that the rows from `first` on are; negative where it does not fit.
+hid_t select_rows(hid_t dataset, std::int64_t first, std::size_t n_values, std::array<hsize_t, 2>& count) {
+  const auto [rows, width] = extent(dataset);
+  count = {width > 0 ? n_values / width : 0, width};
+  const std::array<hsize_t, 2> start{static_cast<hsize_t>(first), 0};
+  if (start[0] + count[0] > rows || count[0] * width != n_values) return -1;
+  const hid_t space = H5Dget_space(dataset);
+  if (count[0] > 0 &&
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0) {
+    H5Sclose(space);
+    return -1;
+  }
+  return space;
+}
+
+}  // namespace
+
+bool Hdf5Handle::close() {
+  return close_(std::exchange(id_, -1)) >= 0;
+}
+
+Hdf5File::Hdf5File(std::filesystem::path path, Mode mode)
+    : path_(std::move(path)), mode_(mode), file_(open_file(path_, mode), H5Fclose) {
+  if (file_ < 0) fail(mode == Mode::create ? "cannot be written" : "is not a whole HDF5 file");
+}
+
+void Hdf5File::fail(const std::string& what) const {
+  throw OutputError(path_.string(), what, mode_ == Mode::create ? "is there room on the disk?" : "");
+}
+
+Hdf5Handle Hdf5File::dataset(const std::string& name) const {
+  Hdf5Handle found(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (found < 0) fail("holds no '" + name + "'");
+  return found;
+}
+
+void Hdf5File::write_text(const std::string& name, const std::string& text) {
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose),
+      groups = make_groups();
+  H5Tset_size(type, text.size() + 1);
+  const Hdf5Handle set(H5Dcreate2(file_, name.c_str(), type, space, groups, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose);
+  if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0)
+    fail("cannot write '" + name + "'");
+}
+
+std::string Hdf5File::read_text(const std::string& name) const {
+  const Hdf5Handle set = dataset(name), type(H5Dget_type(set), H5Tclose);
+  if (H5Tget_class(type) != H5T_STRING) fail("holds no text '" + name + "'");
+  std::string text(H5Tget_size(type), '\0');
+  if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) fail("cannot read '" + name + "'");
+  text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
+  return text;
+}
+
+template <class T>
+void Hdf5File::create_table(const std::string& name, std::int64_t rows, std::int64_t width) {
+  const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows), static_cast<hsize_t>(width)};
+  const Hdf5Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose), groups = make_groups();
+  const Hdf5Handle set(
+      H5Dcreate2(file_, name.c_str(), number_type<T>(), space, groups, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  if (set < 0) fail("cannot write '" + name + "'");
+}
+
+template <class T>
+void Hdf5File::write_rows(const std::string& name, std::int64_t first, std::span<const T> values) {
+  if (values.empty()) return;
+  const Hdf5Handle set = dataset(name);
+  std::array<hsize_t, 2> count{};
+  const Hdf5Handle where(select_rows(set, first, values.size(), count), H5Sclose),
+      memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+  if (where < 0 || H5Dwrite(set, number_type<T>(), memory, where, H5P_DEFAULT, values.data()) < 0)
+    fail("cannot write '" + name + "'");
+}
+
+template <class T>
+void Hdf5File::read_rows(const std::string& name, std::int64_t first, std::span<T> values) const {
+  if (values.empty()) return;
+  const Hdf5Handle set = dataset(name);
+  std::array<hsize_t, 2> count{};
+  const Hdf5Handle where(select_rows(set, first, values.size(), count), H5Sclose),
+      memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+  if (where < 0 || H5Dread(set, number_type<T>(), memory, where, H5P_DEFAULT, values.data()) < 0)
+    fail("cannot read '" + name + "'");
+}
+
+std::int64_t Hdf5File::rows(const std::string& name) const {
+  return static_cast<std::int64_t>(extent(dataset(name))[0]);
+}
+
+std::int64_t Hdf5File::width(const std::string& name) const {
+  return static_cast<std::int64_t>(extent(dataset(name))[1]);
+}
+
+void Hdf5File::close() {
+  if (mode_ == Mode::create && H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("cannot be written");
+  if (!file_.close()) fail("cannot be closed");
+  if (mode_ != Mode::create) return;
+  const int descriptor = ::open(path_.c_str(), O_RDONLY);
+  if (descriptor < 0) fail("cannot be read again");
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+template void Hdf5File::create_table<double>(const std::string&, std::int64_t, std::int64_t);
+template void Hdf5File::create_table<std::int64_t>(const std::string&, std::int64_t, std::int64_t);
+template void Hdf5File::write_rows<double>(const std::string&, std::int64_t, std::span<const double>);
+template void Hdf5File::write_rows<std::int64_t>(const std::string&, std::int64_t,
+                                                 std::span<const std::int64_t>);
+template void Hdf5File::read_rows<double>(const std::string&, std::int64_t, std::span<double>) const;
+template void Hdf5File::read_rows<std::int64_t>(const std::string&, std::int64_t,
+                                                std::span<std::int64_t>) const;
+
+}  // namespace solidus::results
