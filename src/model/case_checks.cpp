@@ -54,6 +54,12 @@ void check_element_count(const MeshSpec& m, double elements) {
                      fmt::format("at most {:.0e}; larger elements, fewer divisions", k_most));
 }
 
+double product(const std::vector<int>& divisions) {
+  double n = 1;
+  for (const int d : divisions) n *= d;
+  return n;
+}
+
 void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   if (m.shape.has_value() == m.file.has_value())
     throw InputError(m.where,
@@ -89,9 +95,18 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
     if (m.block->size.size() != dimension || m.block->divisions.size() != dimension || !origin_fits)
       throw InputError(m.where, "[mesh.block] does not fit the analysis",
                        fmt::format("{} lengths and {} divisions", dimension, dimension));
-    double elements = 1;
-    for (const int n : m.block->divisions) elements *= n;
-    check_element_count(m, elements);
+    check_element_count(m, product(m.block->divisions));
+  }
+  if (*m.shape == "two_blocks") {
+    if (!m.two_blocks) throw InputError(m.where, "the section [mesh.two_blocks] is missing");
+    const TwoBlocksSpec& t = *m.two_blocks;
+    const std::size_t dimension = solid ? 3 : 2;
+    for (const std::size_t n :
+         {t.lower.size(), t.upper.size(), t.lower_divisions.size(), t.upper_divisions.size()})
+      if (n != dimension)
+        throw InputError(m.where, "[mesh.two_blocks] does not fit the analysis",
+                         fmt::format("{} lengths and {} divisions for each block", dimension, dimension));
+    check_element_count(m, product(t.lower_divisions) + product(t.upper_divisions));
   }
 }
 
@@ -158,7 +173,8 @@ void check_contacts(const CaseSpec& spec) {
 /// The unit of a field inside the program.
 std::string field_unit(const std::string& field) {
   if (field == "temperature") return "K";
-  if (field == "displacement") return "m";
+  if (field == "displacement" || field == "gap") return "m";
+  if (field == "conductance") return "W/m2/K";
   if (field == "solid_fraction" || field == "viscous_strain") return "1";
   return "Pa";
 }
@@ -206,6 +222,12 @@ void check_probes(const CaseSpec& spec) {
     if (p.body && std::find(bodies.begin(), bodies.end(), *p.body) == bodies.end())
       throw InputError(p.where, fmt::format("the probe '{}' is on an unknown body '{}'", p.name, *p.body),
                        one_of(bodies, *p.body));
+    const bool of_contact = p.field == "gap" || p.field == "conductance" || p.field == "contact_pressure";
+    if (of_contact && spec.contacts.empty())
+      throw InputError(
+          p.where,
+          fmt::format("the probe '{}' reads the field '{}', but nothing is in contact", p.name, p.field),
+          "a [[contact]], or another field");
     if (!has_integral(spec, p) && !units::compatible(p.unit, probe_unit(spec, p)))
       throw InputError(p.where, fmt::format("the probe '{}' cannot be given in '{}'", p.name, p.unit),
                        "a unit of " + units::dimension_name(probe_unit(spec, p)));

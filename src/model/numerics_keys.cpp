@@ -53,7 +53,7 @@ Section<MechanicsSpec> mechanics_keys() {
       .positive()
       .doc("Newton stops when the residual falls below this share of the forces.");
   s.key("max_iterations", &MechanicsSpec::max_iterations)
-      .initially(25)
+      .initially(50)
       .range(1, 1000)
       .doc("Newton iterations before a step is cut.");
   s.key("line_search", &MechanicsSpec::line_search)

@@ -8,6 +8,11 @@ namespace {
 const std::vector<std::string> k_fields = {"temperature", "solid_fraction", "displacement",  "stress",
                                            "von_mises",   "pressure",       "viscous_strain"};
 
+/// What probes sample: those of contact surfaces too, zero away from them.
+const std::vector<std::string> k_probed = {
+    "temperature", "solid_fraction", "displacement",     "stress", "von_mises",
+    "pressure",    "viscous_strain", "contact_pressure", "gap",    "conductance"};
+
 /// The kinds of probe that sample a field.
 const std::vector<std::string> k_sampling = {"point", "mean", "minimum", "maximum", "integral"};
 
@@ -26,7 +31,7 @@ Section<ProbeSpec> probe_keys() {
             {"difference", P::Kind::difference, "the difference of two other probes"}})
       .initially("point")
       .doc("What is taken.");
-  s.key("field", &P::field).choices(k_fields).when("kind", k_sampling).doc("The field.");
+  s.key("field", &P::field).choices(k_probed).when("kind", k_sampling).doc("The field.");
   s.key("component", &P::component)
       .initially("")
       .when("kind", k_sampling)
