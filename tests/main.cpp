@@ -7,7 +7,8 @@ int main(int argc, char** argv) {
   if (PetscInitialize(nullptr, nullptr, nullptr, nullptr) != 0) return 3;
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank != 0) {  // one process reports; a failure elsewhere still fails the run through the combined result
+  if (rank !=
+      0) {  // one process reports; a failure elsewhere still fails the run through the combined result
     auto& listeners = ::testing::UnitTest::GetInstance()->listeners();
     delete listeners.Release(listeners.default_result_printer());
   }

@@ -1,7 +1,7 @@
 /// The lane type: eight doubles that kernels and constitutive laws process together, one element per lane.
 ///
-/// GCC's and clang's vector extension lowers to whatever the target offers (one AVX-512 register, two AVX2, four SSE2), so
-/// one source serves both compilers and every `-march` (docs/decisions/0001-lane-type.md).
+/// GCC's and clang's vector extension lowers to whatever the target offers (one AVX-512 register, two AVX2,
+/// four SSE2), so one source serves both compilers and every `-march` (docs/decisions/0001-lane-type.md).
 #pragma once
 
 #include <cmath>
@@ -39,10 +39,22 @@ struct Lane {
   double operator[](int i) const { return v[i]; }
   void set(int i, double s) { v[i] = s; }
 
-  Lane& operator+=(Lane b) { v += b.v; return *this; }
-  Lane& operator-=(Lane b) { v -= b.v; return *this; }
-  Lane& operator*=(Lane b) { v *= b.v; return *this; }
-  Lane& operator/=(Lane b) { v /= b.v; return *this; }
+  Lane& operator+=(Lane b) {
+    v += b.v;
+    return *this;
+  }
+  Lane& operator-=(Lane b) {
+    v -= b.v;
+    return *this;
+  }
+  Lane& operator*=(Lane b) {
+    v *= b.v;
+    return *this;
+  }
+  Lane& operator/=(Lane b) {
+    v /= b.v;
+    return *this;
+  }
   friend Lane operator+(Lane a, Lane b) { return Lane(a.v + b.v); }
   friend Lane operator-(Lane a, Lane b) { return Lane(a.v - b.v); }
   friend Lane operator*(Lane a, Lane b) { return Lane(a.v * b.v); }
@@ -56,17 +68,27 @@ struct Lane {
 };
 
 /// `mask ? a : b`, lane by lane; for plain numbers the ternary operator. Laws use it instead of a branch.
-inline Lane select(LaneMask mask, Lane a, Lane b) { return Lane(mask.v ? a.v : b.v); }
-inline double select(bool mask, double a, double b) { return mask ? a : b; }
+inline Lane select(LaneMask mask, Lane a, Lane b) {
+  return Lane(mask.v ? a.v : b.v);
+}
+inline double select(bool mask, double a, double b) {
+  return mask ? a : b;
+}
 
 inline bool any(LaneMask m) {
   for (int i = 0; i < k_lanes; ++i)
     if (m[i]) return true;
   return false;
 }
-inline bool any(bool m) { return m; }
-inline bool all(LaneMask m) { return !any(!m); }
-inline bool all(bool m) { return m; }
+inline bool any(bool m) {
+  return m;
+}
+inline bool all(LaneMask m) {
+  return !any(!m);
+}
+inline bool all(bool m) {
+  return m;
+}
 
 /// Applies a scalar function to every lane (look-ups, transcendental functions).
 template <class Function>
@@ -87,9 +109,15 @@ inline Lane log(Lane a) {
 inline Lane pow(Lane a, double n) {
   return for_each_lane(a, [n](double x) { return std::pow(x, n); });
 }
-inline Lane abs(Lane a) { return select(a < Lane(0.0), -a, a); }
-inline Lane min(Lane a, Lane b) { return select(a < b, a, b); }
-inline Lane max(Lane a, Lane b) { return select(a > b, a, b); }
+inline Lane abs(Lane a) {
+  return select(a < Lane(0.0), -a, a);
+}
+inline Lane min(Lane a, Lane b) {
+  return select(a < b, a, b);
+}
+inline Lane max(Lane a, Lane b) {
+  return select(a > b, a, b);
+}
 
 /// The sum over the lanes.
 inline double sum(Lane a) {
@@ -97,7 +125,9 @@ inline double sum(Lane a) {
   for (int i = 0; i < k_lanes; ++i) s += a[i];
   return s;
 }
-inline double sum(double a) { return a; }
+inline double sum(double a) {
+  return a;
+}
 
 /// Storage of lane packs; C++17's aligned new keeps each pack on its boundary.
 template <class T>

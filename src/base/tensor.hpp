@@ -1,8 +1,9 @@
-/// Symmetric second-order tensors and their fourth-order tangents, on any number type (double, Lane, automatic
-/// differentiation).
+/// Symmetric second-order tensors and their fourth-order tangents, on any number type (double, Lane,
+/// automatic differentiation).
 ///
-/// Components are ordered xx, yy, zz, xy, yz, xz and are tensor components (a shear strain is half the engineering one).
-/// In plane strain x, y are in the plane; in axisymmetry x = r, y = z (axial), z = the hoop direction.
+/// Components are ordered xx, yy, zz, xy, yz, xz and are tensor components (a shear strain is half the
+/// engineering one). In plane strain x, y are in the plane; in axisymmetry x = r, y = z (axial), z = the hoop
+/// direction.
 #pragma once
 
 #include <array>

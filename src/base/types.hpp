@@ -16,9 +16,11 @@ enum class AnalysisKind {
 };
 
 /// Number of displacement components per node.
-constexpr int displacement_components(AnalysisKind kind) { return kind == AnalysisKind::solid ? 3 : 2; }
+constexpr int displacement_components(AnalysisKind kind) {
+  return kind == AnalysisKind::solid ? 3 : 2;
+}
 
-inline constexpr double k_zero_celsius = 273.15;               ///< [K]
+inline constexpr double k_zero_celsius = 273.15;              ///< [K]
 inline constexpr double k_stefan_boltzmann = 5.670374419e-8;  ///< [W/(m² K⁴)], CODATA 2018
 
 }  // namespace solidus

@@ -63,7 +63,8 @@ Section<ContactSpec> contact_keys() {
   s.key("penalty_factor", &C::penalty_factor)
       .initially(10.0)
       .positive()
-      .doc("Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces.");
+      .doc(
+          "Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces.");
   s.key("stabilisation", &C::stabilisation)
       .initially(1e-10)
       .range(0, 1)
