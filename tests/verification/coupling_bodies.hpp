@@ -1,0 +1,103 @@
+/// Thermo-mechanical bodies driven by the isothermal split, and what every step reports of the first law.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "coupling/isothermal.hpp"
+#include "mechanics_bodies.hpp"
+
+namespace solidus::verification {
+
+/// What a run is made of. `form` absent: deformation exchanges nothing with heat.
+struct Coupled {
+  mesh::Mesh mesh;
+  AnalysisKind kind = AnalysisKind::plane_strain;
+  std::vector<material::Material> materials;  ///< one per body
+  std::vector<double> start;                  ///< [K], one per body
+  mechanics::Conditions mechanical;
+  heat::Conditions thermal;
+  std::optional<contact::ContactSpec> contact;
+  std::optional<mechanics::StructuralForm> form;
+  heat::Integration integration = heat::Integration::closed;
+
+  /// Every node of a group at rest in a direction, or as the table says.
+  void hold(const std::string& group, int component, Table value = 0.0) {
+    mechanical.displacements.push_back({group, component, std::move(value)});
+  }
+};
+
+struct CoupledRun {
+  std::vector<coupling::EnergyAudit> steps;
+  coupling::State end;
+
+  double exchanged() const {
+    double sum = 0;
+    for (const auto& step : steps) sum += step.heat_exchanged;
+    return sum;
+  }
+  /// The defects of all steps added up, with their signs [J].
+  double defect() const {
+    double sum = 0;
+    for (const auto& step : steps) sum += step.defect();
+    return sum;
+  }
+  /// The largest of a single step [J].
+  double worst_defect() const {
+    double worst = 0;
+    for (const auto& step : steps) worst = std::max(worst, std::abs(step.defect()));
+    return worst;
+  }
+};
+
+/// Equal steps from zero to `end`. The criteria of both phases are at round-off, so that what remains of the
+/// first law is the scheme's.
+inline CoupledRun march(const Coupled& c, double end, int n_steps) {
+  std::optional<contact::ContactPair> pair;
+  std::vector<algebra::Contribution*> mechanical, thermal;
+  if (c.contact) {
+    std::vector<double> moduli;
+    for (const auto& m : c.materials) moduli.push_back(m.young_modulus.max_value());
+    pair.emplace(c.mesh, c.kind, *c.contact, moduli);
+    mechanical.push_back(&pair->mechanics());
+    if (pair->heat() != nullptr) thermal.push_back(pair->heat());
+  }
+  std::vector<double> initial(c.mesh.x.size());
+  for (const mesh::Block& block : c.mesh.blocks)
+    for (const Index node : block.nodes)
+      initial[static_cast<std::size_t>(node)] = c.start[static_cast<std::size_t>(block.body)];
+
+  mechanics::MechanicsOptions mechanics_options = test::strict();
+  mechanics_options.newton.max_iterations = 60;
+  mechanics::MechanicalPhase mechanics(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options,
+                                       mechanical);
+  std::optional<mechanics::StructuralHeat> structural;
+  if (c.form) thermal.push_back(&structural.emplace(mechanics, *c.form));
+
+  heat::HeatOptions heat_options;
+  heat_options.integration = c.integration;
+  heat_options.tolerance = 1e-12;
+  heat_options.solver = algebra::SolverKind::direct;
+  heat::ThermalPhase heat(c.mesh, c.kind, c.materials, c.thermal, heat_options, thermal);
+
+  coupling::Phases phases;
+  phases.heat = &heat;
+  phases.mechanics = &mechanics;
+  phases.structural = structural ? &*structural : nullptr;
+  if (pair) phases.contacts = {&*pair};
+  coupling::IsothermalSplit split(phases);
+
+  CoupledRun run;
+  run.end.heat = heat.initial_state(c.start);
+  run.end.mechanics = mechanics.initial_state();
+  split.synchronise(run.end);
+  for (int n = 1; n <= n_steps; ++n) {
+    coupling::State trial = run.end;
+    trial.time = end * n / n_steps;
+    run.steps.push_back(split.advance(run.end, trial, trial.time, end / n_steps).energy);
+    run.end = std::move(trial);
+  }
+  return run;
+}
+
+}  // namespace solidus::verification

@@ -1,0 +1,182 @@
+/// The first law in the isothermal split: in every step the change of the internal energy (enthalpy,
+/// structural energy, penalty springs) against heat in and work of loads and supports.
+#include <gtest/gtest.h>
+
+#include "../unit/contact/bodies.hpp"
+#include "coupling_bodies.hpp"
+
+namespace solidus {
+namespace {
+
+using mechanics::StructuralForm;
+using mesh::Shape;
+using verification::Coupled;
+using verification::CoupledRun;
+
+/// A clamped bar in plane strain, of elastic constants that vary with temperature; one side is chilled while
+/// an end is pulled out and pushed back.
+Coupled bar() {
+  Coupled c;
+  c.mesh =
+      test::make_mesh({.shape = Shape::quad4, .cells = {8, 4, 1}, .size = {0.1, 0.05, 1}, .distortion = 0.1});
+  material::Material m = test::elastic_material(2e11, 0.3);
+  m.young_modulus = Table({300, 900}, {2e11, 1.2e11});
+  m.expansion = Table({300, 900}, {1.1e-5, 1.5e-5});
+  c.materials = {m};
+  c.start = {800};
+  c.hold("left", 0);
+  c.hold("left", 1);
+  c.hold("right", 0, Table({0, 8, 16}, {0, 1e-4, -5e-5}));
+  c.thermal.films.push_back({"chill", "top", {4000.0}, Table({0, 16}, {800, 300})});
+  return c;
+}
+
+/// A molten block stands on a cold one, freezes and shrinks: latent heat, straining, viscous dissipation in
+/// the mushy zone, weight, and an interface that conducts by its gap. Its meshes do not match.
+///
+///   ┌──────────────┐ p   casting: 60 × 20 mm, symmetric on the left, 940 K
+///   │              │
+///   ├──────────────┤     heat through contact and gap
+///   │    mould     │     60 × 30 mm, 500 K, stands on its bottom
+///   └──────────────┘
+Coupled casting(double pressure) {
+  Coupled c;
+  c.mesh = test::distribute_blocks(
+      test::raw_blocks({{0.06, 0.03}, {0.06, 0.02}, {8, 4}, {9, 3}, 0.0}, Shape::quad4));
+  material::Material steel = test::elastic_material(1.96e11, 0.3, 1.2e-5);
+  steel.conductivity = 45.0;
+  material::Material melt;
+  melt.name = "aluminium";
+  melt.density = 2650;
+  melt.conductivity = Table({373, 932}, {234.0, 209.0});
+  melt.specific_heat = Table({623, 932}, {1400.0, 1500.0});
+  melt.young_modulus = Table({273, 932}, {69e9, 26e9});
+  melt.poisson_ratio = 0.37;
+  melt.expansion = 1.47e-5;
+  melt.liquid_viscosity = 1e10;
+  melt.phase_changes.push_back({.name = "freezing",
+                                .fraction = material::PhaseFraction::linear(900, 932),
+                                .latent_heat = 3.95e5,
+                                .volume_change = -0.01,
+                                .solidification = true});
+  c.materials = {steel, melt};
+  c.start = {500, 940};
+  c.contact.emplace();
+  c.contact->name = "interface";
+  c.contact->slave = "upper_bottom";
+  c.contact->master = "lower_top";
+  c.contact->heat.emplace();
+  c.contact->heat->conductance = 3000;
+  c.contact->heat->gap_law = contact::HeatTransferSpec::GapLaw::gas;
+  c.contact->heat->open_conductance = 3000;
+  c.contact->heat->gas_conductivity = 0.06;
+  c.mechanical.gravity = {0, -9.81, 0};
+  for (const char* side : {"lower_x_min", "upper_x_min"}) c.hold(side, 0);
+  c.hold("lower_y_min", 1);
+  if (pressure > 0) c.mechanical.pressures.push_back({"upper_y_max", Table({0, 8}, {0, pressure})});
+  return c;
+}
+constexpr double k_end = 16;  // [s]
+
+CoupledRun run(Coupled c, std::optional<StructuralForm> form, int n_steps) {
+  c.form = form;
+  return verification::march(c, k_end, n_steps);
+}
+
+/// Defects over the heat exchanged in the run: of all steps together and of the worst single one.
+struct Defects {
+  std::vector<double> sum, worst;
+};
+Defects defects_of_entropy_form(const Coupled& c, const std::vector<int>& n_steps) {
+  Defects d;
+  for (int n : n_steps) {
+    const CoupledRun r = run(c, StructuralForm::entropy, n);
+    d.sum.push_back(std::abs(r.defect()) / r.exchanged());
+    d.worst.push_back(r.worst_defect() / r.exchanged());
+  }
+  return d;
+}
+
+TEST(EntropyForm, HasADefectOfSecondOrderPerStepAndOfFirstOrderInSum) {
+  const std::vector<int> n_steps{8, 16, 32, 64, 128};
+  const Defects of_bar = defects_of_entropy_form(bar(), n_steps),
+                of_casting = defects_of_entropy_form(casting(0), n_steps);
+  auto out = verification::table("coupling_first_law_order",
+                                 "step[s],bar: sum,bar: worst step,casting: sum,casting: worst step");
+  for (std::size_t i = 0; i < n_steps.size(); ++i) {
+    out << k_end / n_steps[i] << "," << of_bar.sum[i] << "," << of_bar.worst[i] << "," << of_casting.sum[i]
+        << "," << of_casting.worst[i] << "\n";
+    if (i == 0) continue;
+    EXPECT_NEAR(verification::order(of_bar.sum[i - 1], of_bar.sum[i]), 1, 0.12) << i;
+    EXPECT_NEAR(verification::order(of_bar.worst[i - 1], of_bar.worst[i]), 2, 0.15) << i;
+    EXPECT_NEAR(verification::order(of_casting.sum[i - 1], of_casting.sum[i]), 1, 0.25) << i;
+    // The worst step is the first, in which hot metal meets the cold mould: not smooth, the order still
+    // rises.
+    EXPECT_GT(verification::order(of_casting.worst[i - 1], of_casting.worst[i]), i < 3 ? 1.2 : 1.5) << i;
+    EXPECT_LT(verification::order(of_casting.worst[i - 1], of_casting.worst[i]), 2.2) << i;
+  }
+}
+
+TEST(EntropyForm, LosesLittleAndMoreInLongSteps) {
+  auto out = verification::table("coupling_first_law",
+                                 "time[s],exact,entropy_2_s,entropy_1_s,entropy_0.5_s,energy_2_s");
+  std::vector<CoupledRun> runs;
+  for (int n : {8, 16, 32}) runs.push_back(run(casting(0), StructuralForm::entropy, n));
+  runs.push_back(run(casting(0), StructuralForm::energy, 8));
+  std::vector<double> sums(runs.size(), 0.0);
+  out << "0,0,0,0,0,0\n";
+  for (std::size_t row = 0; row < 8; ++row) {
+    out << 2 * (row + 1) << ",0";
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const std::size_t steps = runs[r].steps.size() / 8;
+      for (std::size_t i = 0; i < steps; ++i) sums[r] += runs[r].steps[row * steps + i].defect();
+      out << "," << sums[r] / runs[r].exchanged();
+    }
+    out << "\n";
+  }
+  EXPECT_LT(std::abs(sums[0]), 5e-4 * runs[0].exchanged());
+  EXPECT_LT(std::abs(sums[1]), std::abs(sums[0]));
+  EXPECT_LT(std::abs(sums[2]), std::abs(sums[1]));
+}
+
+// What the criteria of the phases let through: 1e-12 of the heat, 1e-11 of the forces. The springs of a
+// pressed interface add ½ ε_N Δg² a step, which vanishes with the penetration.
+constexpr double k_closed = 1e-8;
+
+TEST(EnergyForm, ClosesTheFirstLawForAnyStep) {
+  for (int n : {1, 2, 8, 64}) {
+    for (const Coupled& c : {bar(), casting(0), casting(5e6)}) {
+      const CoupledRun r = run(c, StructuralForm::energy, n);
+      EXPECT_LT(std::abs(r.defect()), k_closed * r.exchanged()) << n;
+      EXPECT_LT(r.worst_defect(), k_closed * r.exchanged()) << n;
+    }
+  }
+}
+
+TEST(WithoutStructuralHeat, TheBalanceClosesForAnyStepAcrossTheInterfaceToo) {
+  for (int n : {1, 2, 8, 64})
+    for (auto rule : {heat::Integration::closed, heat::Integration::open})
+      for (Coupled c : {bar(), casting(0), casting(5e6)}) {
+        c.integration = rule;
+        if (c.contact) c.contact->nodal_heat = rule == heat::Integration::closed;
+        const CoupledRun r = run(c, {}, n);
+        EXPECT_LT(std::abs(r.defect()), k_closed * r.exchanged()) << n;
+      }
+}
+
+TEST(BothForms, TendToTheSameTemperaturesAtFirstOrder) {
+  std::vector<double> difference;
+  for (int n : {8, 16, 32, 64}) {
+    const CoupledRun a = run(bar(), StructuralForm::entropy, n), b = run(bar(), StructuralForm::energy, n);
+    double worst = 0;
+    for (std::size_t i = 0; i < a.end.heat.temperature.size(); ++i)
+      worst = std::max(worst, std::abs(a.end.heat.temperature[i] - b.end.heat.temperature[i]));
+    difference.push_back(algebra::global_max(worst));
+  }
+  EXPECT_LT(difference.back(), 0.1);  // [K], of 500
+  for (std::size_t i = 1; i < difference.size(); ++i)
+    EXPECT_NEAR(verification::order(difference[i - 1], difference[i]), 1, 0.15) << i;
+}
+
+}  // namespace
+}  // namespace solidus
