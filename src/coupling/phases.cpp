@@ -7,15 +7,23 @@
 
 namespace solidus::coupling {
 
+namespace {
+
+void range_of_owned(const std::vector<double>& temperature, Index n_owned, StepEffort& effort) {
+  const auto [low, high] = std::minmax_element(temperature.begin(), temperature.begin() + n_owned);
+  constexpr double k_far = std::numeric_limits<double>::max();  // of a process that owns nothing
+  effort.min_temperature = algebra::global_min(n_owned > 0 ? *low : k_far);
+  effort.max_temperature = algebra::global_max(n_owned > 0 ? *high : -k_far);
+}
+
+}  // namespace
+
 void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   if (phases.heat != nullptr) {
-    const auto owned = static_cast<std::ptrdiff_t>(phases.heat->mesh().n_owned_nodes);
-    const auto begin = state.heat.temperature.begin();
-    const auto [low, high] = std::minmax_element(begin, begin + owned);
-    constexpr double k_far = std::numeric_limits<double>::max();
-    effort.min_temperature = algebra::global_min(owned > 0 ? *low : k_far);
-    effort.max_temperature = algebra::global_max(owned > 0 ? *high : -k_far);
+    range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, effort);
     effort.solid_fraction = phases.heat->mean_solid_fraction(state.heat);
+  } else {
+    range_of_owned(phases.temperature, phases.mechanics->mesh().n_owned_nodes, effort);
   }
   effort.contacts.clear();
   for (const contact::ContactPair* pair : phases.contacts) {
