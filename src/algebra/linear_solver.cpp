@@ -217,7 +217,13 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
 }
 
 void LinearSolver::forget() {
-  implementation_->stale = true;
+  Implementation& my = *implementation_;
+  // The analysis of LDLᵀ looks at the pattern alone, and so stays. A hierarchy that is only set up again
+  // keeps its interpolation and goes on with its random numbers; LU permutes by values: these are made anew.
+  if (!my.ksp || (my.kind == SolverKind::direct && my.options.symmetric)) return;
+  my.ksp.reset();
+  my.matrix = nullptr;
+  my.stale = true;
 }
 
 double LinearSolver::seconds_setup() const {
