@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""Runs the benchmarks that are asked for and writes one table: build/bench/report.md. Called by bench/run.sh.
+
+Every part leaves its rows in build/bench/PART.json; the report shows all that are there, so parts may be run one by one.
+"""
+import json
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+PROGRAMS = Path(os.environ.get("SOLIDUS_BUILD", "build/release"))
+WORK = Path("build/bench")
+REPEAT = int(os.environ.get("REPEAT", "3"))
+DIVISIONS = {"100k": 29, "1m": 62}  # unknowns: four at each of (divisions + 1)^3 nodes
+
+
+def load():
+    return os.getloadavg()[0]
+
+
+def run(command, log, folder=".", **environment):
+    """Seconds and the peak memory [MiB] of the largest process."""
+    start = time.monotonic()
+    with open(log, "w") as out:
+        process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT,
+                                   env={**os.environ, **environment})
+        _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))} failed ({process.returncode}); see {log}")
+    return time.monotonic() - start, usage.ru_maxrss / 1024
+
+
+def median(rows):
+    """The row of the median total, with the spread of the totals and the load when they were taken."""
+    rows = sorted(rows, key=lambda r: r["total"])
+    middle = dict(rows[(len(rows) - 1) // 2])
+    middle["spread"] = [rows[0]["total"], rows[-1]["total"]]
+    middle["runs"], middle["load"] = len(rows), max(r["load"] for r in rows)
+    return middle
+
+
+def solidus(name, case, settings, processes=1):
+    folder = WORK / re.sub(r"\W+", "_", f"{name}_{processes}")
+    before = load()
+    command = [PROGRAMS / "solidus", "run", case, "-o", folder, "--no-progress"]
+    for key, value in settings.items():
+        command += ["--set", f"{key}={value}"]
+    if processes > 1:
+        command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]
+    wall, _ = run(command, WORK / "log.txt")
+    summary = json.loads((folder / "summary.json").read_text())
+    s = summary["seconds"]
+    return {"name": name, "program": "Solidus", "processes": processes, "total": wall, "load": before,
+            "prepare": s["mesh"] + s["set_up"], "heat": s.get("heat", 0.0), "mechanics": s.get("mechanics", 0.0),
+            "output": s["output"], "memory": summary["peak_memory[bytes]"]["all_processes"] / 2**20,
+            "final": summary["final"], "seconds": s}
+
+
+def calculix(name, divisions, element, solver, threads=1, step=1.0):
+    """Total seconds of both runs of CalculiX; each reads its input and writes its results."""
+    folder = WORK / re.sub(r"\W+", "_", f"calculix_{name}_{solver}_{threads}")
+    subprocess.run([sys.executable, "bench/cooling_block/calculix_input.py", str(divisions), element, solver, folder, str(step)],
+                   check=True)
+    before, n = load(), str(threads)
+    ccx = shutil.which("ccx") or sys.exit("calculix-ccx is not installed")
+    times = {}
+    memory = 0
+    for phase in ("heat", "mechanics"):
+        times[phase], peak = run([ccx, phase], folder / f"{phase}.log", folder, OMP_NUM_THREADS=n,
+                                 CCX_NPROC_EQUATION_SOLVER=n, CCX_NPROC_STIFFNESS=n, CCX_NPROC_RESULTS=n)
+        memory = max(memory, peak)
+    last = lambda phase: (folder / f"{phase}.dat").read_text().split("\n")
+    corner = lambda phase: float([line for line in last(phase) if line.strip()][-2].split()[1])
+    row = {"name": name, "program": f"CalculiX, {solver}", "processes": threads, "total": sum(times.values()), "load": before,
+           **times, "memory": memory, "final": {"T_corner[degC]": corner("heat"), "u_corner[um]": 1e6 * corner("mechanics")}}
+    for file in ("heat.frd", "mechanics.frd", "heat.inp", "mechanics.inp"):
+        (folder / file).unlink(missing_ok=True)
+    return row
+
+
+def block(divisions, element, **more):
+    n = divisions
+    return {"mesh.element": element, "mesh.block.divisions": f"[{n},{n},{n}]", "output.every": "1000 s", **more}
+
+
+def micro():
+    rows = []
+    for program in ("mechanics_bench", "heat_bench"):
+        before = load()
+        out = WORK / f"{program}.json"
+        run([(PROGRAMS / "bench" / program).resolve(), f"--benchmark_repetitions={REPEAT}", "--benchmark_min_time=0.3",
+             f"--benchmark_out={out}", "--benchmark_out_format=json"], WORK / "log.txt")
+        for b in json.loads(out.read_text())["benchmarks"]:
+            if b.get("aggregate_name", "median" if REPEAT == 1 else "") == "median":
+                what = "per_node" if "per_node" in b else "per_element"
+                rows.append({"program": program.removesuffix("_bench"), "name": b["run_name"],
+                             "ns": 1e9 * b[what], "of": what.removeprefix("per_"), "load": before})
+    return rows
+
+
+def case():
+    return [median([solidus(f"aluminium_cylinder, {label}", "cases/aluminium_cylinder", settings, p) for _ in range(REPEAT)])
+            for label, settings, p in (("tri3", {}, 1), ("tri3", {}, 2), ("quad4", {"mesh.element": "quad4"}, 1))]
+
+
+def check():
+    """Both programs on a block with 13^3 nodes, ten steps of 10 s. Solidus' mechanical phase sees the temperature before a
+    step, so its displacement after one step more belongs to CalculiX's."""
+    rows = []
+    n, step = 12, 10.0
+    for element in ("hex8", "tet4"):
+        rows.append(calculix(f"check {element}", n, element, "direct", step=step))
+        for rule in ("closed", "open"):
+            settings = block(n, element, **{"time.step": f"{step} s", "heat.integration": rule})
+            at = solidus(f"check {element}, {rule}", "bench/cooling_block", {**settings, "time.end": f"{10 * step} s"})
+            later = solidus(f"check {element}, {rule}", "bench/cooling_block", {**settings, "time.end": f"{11 * step} s"})
+            at["final"]["u_corner[um]"] = later["final"]["u_corner[um]"]
+            rows.append(at)
+    return rows
+
+
+def blocks(size):
+    repeat = REPEAT if size == "100k" else 1
+    return [median([solidus(f"block {size}, {element}", "bench/cooling_block", block(DIVISIONS[size], element), p)
+                    for _ in range(repeat)])
+            for element in ("hex8", "tet4") for p in (1, 2)]
+
+
+def calculix_blocks(size):
+    repeat = REPEAT if size == "100k" else 1
+    runs = [(e, t) for e in ("hex8", "tet4") for t in (1, 2)] if size == "100k" else [("hex8", 2)]
+    return [median([calculix(f"block {size}, {element}", DIVISIONS[size], element, "iterative", threads) for _ in range(repeat)])
+            for element, threads in runs]
+
+
+PARTS = {"micro": micro, "case": case, "check": check, "block100k": lambda: blocks("100k"), "block1m": lambda: blocks("1m"),
+         "calculix100k": lambda: calculix_blocks("100k"), "calculix1m": lambda: calculix_blocks("1m")}
+
+
+def table(header, rows):
+    return "\n".join(["| " + " | ".join(header) + " |", "|" + "---|" * len(header)] +
+                     ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+
+
+def report(parts):
+    text = ["# Benchmarks\n"]
+    cpu = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "?")
+    text.append(f"{cpu}, {os.cpu_count()} cores; {time.strftime('%Y-%m-%d')}. Load is the machine's load average when a run started.\n")
+    if "micro" in parts:
+        text.append(table(["phase", "benchmark", "ns", "per", "load"],
+                          [[r["program"], r["name"], f"{r['ns']:.1f}", r["of"], f"{r['load']:.1f}"] for r in parts["micro"]]))
+    if "check" in parts:
+        text.append(table(["", "program", "corner [degC]", "displacement [um]"],
+                          [[r["name"], r["program"], f"{r['final']['T_corner[degC]']:.4f}", f"{r['final']['u_corner[um]']:.3f}"]
+                           for r in parts["check"]]))
+    runs = [r for name in PARTS if name in parts and name not in ("micro", "check") for r in parts[name]]
+    if runs:
+        seconds = lambda r, key: f"{r[key]:.2f}" if key in r else ""
+        text.append(table(["", "program", "processes", "total [s]", "prepare", "heat", "mechanics", "output", "memory [MiB]",
+                           "runs: fastest–slowest [s]", "load"],
+                          [[r["name"], r["program"], str(r["processes"]), seconds(r, "total"), seconds(r, "prepare"),
+                            seconds(r, "heat"), seconds(r, "mechanics"), seconds(r, "output"), f"{r['memory']:.0f}",
+                            f"{r['runs']}: {r['spread'][0]:.1f}–{r['spread'][1]:.1f}", f"{r['load']:.1f}"] for r in runs]))
+    return "\n".join(text)
+
+
+def main():
+    asked = sys.argv[1:] or [part for part in PARTS if part != "calculix1m"]
+    if unknown := [part for part in asked if part not in PARTS]:
+        sys.exit(f"unknown part {', '.join(unknown)}; there are: {', '.join(PARTS)}")
+    WORK.mkdir(parents=True, exist_ok=True)
+    for part in asked:
+        print(f"==> {part}", file=sys.stderr, flush=True)
+        rows = PARTS[part]()
+        (WORK / f"part_{part}.json").write_text(json.dumps(rows, indent=1))
+    done = {part: json.loads(f.read_text()) for part in PARTS if (f := WORK / f"part_{part}.json").exists()}
+    text = report(done)
+    (WORK / "report.md").write_text(text)
+    print(text)
+    print(f"written to {WORK / 'report.md'}", file=sys.stderr)
+
+
+main()
