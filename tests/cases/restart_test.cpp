@@ -1,0 +1,153 @@
+/// Stopping and going on: the program as a user runs it, on one process and on two.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int code = -1;
+  std::string output;
+};
+
+Outcome shell(const std::string& command) {
+  Outcome outcome;
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return outcome;
+  std::array<char, 512> buffer{};
+  while (std::fgets(buffer.data(), buffer.size(), pipe)) outcome.output += buffer.data();
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+std::string text(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream all;
+  all << in.rdbuf();
+  return all.str();
+}
+
+/// Heat, mechanics and contact on a coarse mesh: 10 steps, fields and checkpoints every 5 s.
+class Restart : public ::testing::Test {
+ protected:
+  void SetUp() override { fs::remove_all(root()); }
+  static fs::path root() { return fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "restart"; }
+  static std::string command(const std::string& folder, const std::string& more) {
+    return "'" SOLIDUS_BINARY_DIR "/solidus' run '" SOLIDUS_SOURCE_DIR
+           "/cases/aluminium_cylinder' --set mesh.cylinder_in_mould.element_size='\"4 mm\"'"
+           " --set mesh.cylinder_in_mould.mould_element_size='\"8 mm\"' --set time.end='\"10 s\"' -o '" +
+           (root() / folder).string() + "' " + more;
+  }
+  static Outcome run(const std::string& folder, const std::string& more = {}, int processes = 1) {
+    const std::string launcher =
+        processes == 1 ? "" : "mpirun -n " + std::to_string(processes) + " --bind-to none --oversubscribe ";
+    return shell(launcher + command(folder, more));
+  }
+  /// A run in two halves leaves the tables and fields of one that was never stopped.
+  static void expect_the_same(const std::string& options, int processes) {
+    ASSERT_EQ(run("whole", options, processes).code, 0);
+    ASSERT_EQ(run("halves", options + " --set time.end='\"5 s\"'", processes).code, 0);
+    const Outcome rest = run("halves", options + " --restart", processes);
+    ASSERT_EQ(rest.code, 0) << rest.output;
+    EXPECT_EQ(text(root() / "whole/history.csv"), text(root() / "halves/history.csv"));
+    EXPECT_EQ(text(root() / "whole/fields.pvd"), text(root() / "halves/fields.pvd"));
+    for (const auto& file : fs::directory_iterator(root() / "whole/fields"))
+      EXPECT_EQ(text(file.path()), text(root() / "halves/fields" / file.path().filename())) << file.path();
+  }
+};
+
+TEST_F(Restart, GoesOnWithTheSameBits) {
+  expect_the_same("", 1);
+}
+
+TEST_F(Restart, GoesOnWithTheSameBitsWhereStepsGrow) {
+  expect_the_same("--set time.adaptive=true --set output.checkpoint_every=2", 1);
+}
+
+TEST_F(Restart, GoesOnWithTheSameBitsWithMultigrid) {
+  expect_the_same("--set mechanics.solver='\"multigrid\"'", 1);
+}
+
+// MUMPS on several processes adds in the order in which messages come: two runs never have the same bits.
+TEST_F(Restart, GoesOnWithTheSameBitsOnTwoProcesses) {
+  expect_the_same("--set mechanics.solver='\"multigrid\"'", 2);
+}
+
+TEST_F(Restart, OnAnotherNumberOfProcessesAgreesToTheSolversTolerance) {
+  ASSERT_EQ(run("whole").code, 0);
+  ASSERT_EQ(run("moved", "--set time.end='\"5 s\"'").code, 0);
+  const Outcome rest = run("moved", "--restart", 2);
+  ASSERT_EQ(rest.code, 0) << rest.output;
+  std::istringstream whole(text(root() / "whole/history.csv")), moved(text(root() / "moved/history.csv"));
+  std::string a, b;
+  for (std::string line; std::getline(whole, line);) a = line;
+  for (std::string line; std::getline(moved, line);) b = line;
+  std::istringstream cells_a(a), cells_b(b);
+  for (int i = 0; i < 4; ++i) {  // the time and three temperatures, in degC
+    std::getline(cells_a, a, ',');
+    std::getline(cells_b, b, ',');
+    EXPECT_NEAR(std::stod(a), std::stod(b), 1e-6);  // heat is solved to 1e-9 of what moves
+  }
+}
+
+TEST_F(Restart, WithoutCheckpointIsTheUsersMistake) {
+  const Outcome outcome = run("none", "--restart");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("there is no checkpoint to continue from"));
+  EXPECT_FALSE(fs::exists(root() / "none"));
+}
+
+TEST_F(Restart, RefusesTheCheckpointOfAnotherCaseAndLeavesItsResults) {
+  ASSERT_EQ(run("other").code, 0);
+  const std::string before = text(root() / "other/history.csv");
+  const Outcome outcome = run("other", "--restart --set mesh.cylinder_in_mould.element_size='\"5 mm\"'");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("of another case: its mesh is"));
+  EXPECT_EQ(text(root() / "other/history.csv"), before);
+}
+
+TEST_F(Restart, FallsBackToThePreviousCheckpointWhenTheLatestIsDamaged) {
+  ASSERT_EQ(run("damaged").code, 0);
+  fs::resize_file(root() / "damaged/checkpoint/state.h5", 1000);
+  const Outcome outcome = run("damaged", "--restart");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("continuing from"));
+}
+
+TEST_F(Restart, APhysicsThatCannotGoOnLeavesACheckpointAndAdvice) {
+  const Outcome outcome = run("stuck", "--set mechanics.max_iterations=1");
+  EXPECT_EQ(outcome.code, 2);
+  for (const char* phrase :
+       {"could not go on", "reason: mechanics: no convergence in 1 iterations", "where: node ",
+        "tried: 11 steps", "state.h5", "mechanics.max_iterations (now 1)"})
+    EXPECT_THAT(outcome.output, HasSubstr(phrase));
+  const Outcome rest = run("stuck", "--restart");  // the change that was advised
+  EXPECT_EQ(rest.code, 0) << rest.output;
+}
+
+TEST_F(Restart, ASignalEndsTheRunAfterItsStepAndTheRestGivesTheSameBits) {
+  const std::string steps = "--set time.step='\"0.02 s\"'";
+  ASSERT_EQ(run("whole", steps).code, 0);
+  const std::string table = "'" + (root() / "halves/history.csv").string() + "'";
+  const Outcome stopped = shell("(" + command("halves", steps) + " & p=$!; while kill -0 $p && ! [ $(cat " +
+                                table + " | wc -l) -gt 5 ]; do sleep 0.01; done; kill -TERM $p; wait $p)");
+  ASSERT_EQ(stopped.code, 2) << stopped.output;
+  EXPECT_THAT(stopped.output, HasSubstr("stopped as asked"));
+  EXPECT_THAT(stopped.output, HasSubstr("--restart"));
+  const Outcome rest = run("halves", steps + " --restart");
+  ASSERT_EQ(rest.code, 0) << rest.output;
+  EXPECT_EQ(text(root() / "whole/history.csv"), text(root() / "halves/history.csv"));
+}
+
+}  // namespace
