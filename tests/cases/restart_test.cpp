@@ -50,8 +50,12 @@ class Restart : public ::testing::Test {
            (root() / folder).string() + "' " + more;
   }
   static Outcome run(const std::string& folder, const std::string& more = {}, int processes = 1) {
+    // This program is an MPI program too, whose environment would confuse mpirun.
     const std::string launcher =
-        processes == 1 ? "" : "mpirun -n " + std::to_string(processes) + " --bind-to none --oversubscribe ";
+        processes == 1 ? ""
+                       : "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
+                         "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n " +
+                             std::to_string(processes) + " --bind-to none --oversubscribe ";
     return shell(launcher + command(folder, more));
   }
   /// A run in two halves leaves the tables and fields of one that was never stopped.
