@@ -1,8 +1,9 @@
 #include "results/run_folder.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <fstream>
-#include <regex>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -40,8 +41,34 @@ void check_owner(const fs::path& root) {
                         "choose another folder with -o, or move that file away");
 }
 
+/// Takes `end` off the end of a name, if it is there.
+bool strip(std::string_view& name, std::string_view end) {
+  if (!name.ends_with(end)) return false;
+  name.remove_suffix(end.size());
+  return true;
+}
+
+/// Takes a number of at least `least` digits off the end of a name.
+bool strip_number(std::string_view& name, std::size_t least) {
+  const auto last =
+      std::find_if_not(name.rbegin(), name.rend(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  const auto digits = static_cast<std::size_t>(last - name.rbegin());
+  if (digits < least) return false;
+  name.remove_suffix(digits);
+  return true;
+}
+
+/// fields_00012.vtu, surface_NAME_00012_p3.vtu, their .pvtu lists, and what an interrupted run left of them.
+bool is_field_file(std::string_view name) {
+  strip(name, ".part");
+  if (!strip(name, ".pvtu") && !strip(name, ".vtu")) return false;
+  std::string_view without_process = name;
+  if (strip_number(without_process, 1) && strip(without_process, "_p")) name = without_process;
+  return strip_number(name, 5) && strip(name, "_") &&
+         (name == "fields" || (name.starts_with("surface_") && name.size() > 8));
+}
+
 void remove_old(const fs::path& root) {
-  static const std::regex k_field_file(R"((fields|surface_.+)_\d{5,}(_p\d+)?\.p?vtu(\.part)?)");
   for (const char* name : k_files) {
     if (!fs::is_symlink(root / name)) fs::remove(root / name);
     fs::remove(root / (std::string(name) + ".part"));
@@ -50,7 +77,7 @@ void remove_old(const fs::path& root) {
     fs::remove(root / "checkpoint" / name);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(root / "fields"))
-    if (std::regex_match(entry.path().filename().string(), k_field_file)) old.push_back(entry.path());
+    if (is_field_file(entry.path().filename().string())) old.push_back(entry.path());
   for (const fs::path& path : old) fs::remove(path);
 }
 
