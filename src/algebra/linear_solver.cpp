@@ -20,9 +20,17 @@ constexpr int k_workspace_attempts = 3;  ///< MUMPS runs with more workspace eac
 
 SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components) {
   if (options.kind != SolverKind::automatic) return options.kind;
-  if (options.transient_heat) return SolverKind::jacobi;
+  if (options.transient_heat) return SolverKind::incomplete;
   const bool small = mesh.dimension == 2 || mesh.n_global_nodes * components < k_direct_limit_3d;
   return small ? SolverKind::direct : SolverKind::multigrid;
+}
+
+/// The solver within a block of Jacobi's preconditioner does not exist before its set-up, but its options do.
+void set_default_option(const std::string& name, const char* value) {
+  const std::string key = "-" + name;
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, key.c_str(), &given), "PetscOptionsHasName");
+  if (!given) check(PetscOptionsSetValue(nullptr, key.c_str(), value), "PetscOptionsSetValue");
 }
 
 }  // namespace
@@ -76,6 +84,11 @@ void LinearSolver::Implementation::create(Mat a, int components) {
     case SolverKind::jacobi:
       check(KSPSetType(ksp, krylov), "KSPSetType");
       check(PCSetType(pc, PCJACOBI), "PCSetType");
+      break;
+    case SolverKind::incomplete:
+      check(KSPSetType(ksp, krylov), "KSPSetType");
+      check(PCSetType(pc, PCBJACOBI), "PCSetType");
+      set_default_option(options.prefix + "sub_pc_type", options.symmetric ? PCICC : PCILU);
       break;
   }
   if (!options.symmetric && kind != SolverKind::direct) check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");

@@ -15,14 +15,16 @@ enum class SolverKind {
   automatic,  ///< the default of the phase and size (design.md section 4)
   direct,     ///< MUMPS, LDLᵀ for symmetric matrices
   multigrid,  ///< CG + GAMG (GMRES when unsymmetric)
-  jacobi      ///< CG + Jacobi
+  jacobi,     ///< CG + Jacobi
+  incomplete  ///< CG + incomplete Cholesky, on each process for itself (GMRES + incomplete LU when
+              ///< unsymmetric)
 };
 
 struct LinearSolverOptions {
   std::string prefix;  ///< "heat_", "mechanics_"
   SolverKind kind = SolverKind::automatic;
   bool symmetric = true;
-  bool transient_heat = false;        ///< diagonally strong: CG + Jacobi serves
+  bool transient_heat = false;        ///< diagonally strong: a cheap preconditioner serves
   double relative_tolerance = 1e-10;  ///< iterative solvers only
   int max_iterations = 2000;
 };

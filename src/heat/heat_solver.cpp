@@ -5,8 +5,8 @@
 namespace solidus::heat {
 
 namespace {
-constexpr int k_slow = 200;         ///< iterations of CG + Jacobi above which the strong solver takes over
-constexpr int k_quick_limit = 400;  ///< iterations after which CG + Jacobi gives up
+constexpr int k_slow = 200;  ///< iterations of the quick solver above which the strong solver takes over
+constexpr int k_quick_limit = 400;  ///< iterations after which the quick solver gives up
 }  // namespace
 
 HeatSolver::HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool symmetric,

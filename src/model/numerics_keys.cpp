@@ -12,6 +12,7 @@ Key& solver_choice(Section<S>& s) {
               {{"automatic", SolverKind::automatic, "by analysis kind and size"},
                {"direct", SolverKind::direct, "MUMPS"},
                {"multigrid", SolverKind::multigrid, "conjugate gradients with algebraic multigrid"},
+               {"incomplete", SolverKind::incomplete, "conjugate gradients with incomplete Cholesky"},
                {"jacobi", SolverKind::jacobi, "conjugate gradients with Jacobi's preconditioner"}})
       .initially("automatic");
 }
