@@ -34,7 +34,7 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   for (const Flux& flux : conditions.fluxes) add_surface(flux);
   for (const Film& film : conditions.films) add_surface(film);
   for (const Radiation& radiation : conditions.radiations) add_surface(radiation);
-  add_sources(kind, conditions.sources);
+  add_sources(kind, conditions.sources, closed);
   add_prescribed(conditions.temperatures);
 
   algebra::NodeGraph graph(mesh);
@@ -75,7 +75,8 @@ void HeatSystem::add_conduction(AnalysisKind kind, const std::vector<material::M
   }
 }
 
-void HeatSystem::add_sources(AnalysisKind kind, const std::vector<Source>& sources) {
+// Spread over the nodes as their heat is stored, so that a uniform source warms them alike.
+void HeatSystem::add_sources(AnalysisKind kind, const std::vector<Source>& sources, bool closed) {
   for (const Source& source : sources) {
     std::map<std::string, int> bodies;
     for (std::size_t i = 0; i < mesh_.bodies.size(); ++i) bodies[mesh_.bodies[i].name] = static_cast<int>(i);
@@ -83,16 +84,15 @@ void HeatSystem::add_sources(AnalysisKind kind, const std::vector<Source>& sourc
     std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
     for (const mesh::Block& block : mesh_.blocks) {
       if (block.body != body) continue;
-      // N times det J times the radius.
-      const mesh::BlockGeometry g(mesh_, block, kind,
-                                  mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1));
-      for (Index e = 0; e < g.n_elements; ++e)
-        for (int a = 0; a < g.n_nodes; ++a) {
+      const PackVector<Lane> weights =
+          closed ? mesh::nodal_weights(mesh_, block, kind) : mesh::basis_integrals(mesh_, block, kind);
+      const int n = mesh::node_count(block.shape);
+      for (Index e = 0; e < block.size(); ++e)
+        for (int a = 0; a < n; ++a) {
           const Index node = block.element(e)[a];
-          if (node >= mesh_.n_owned_nodes) continue;
-          for (int q = 0; q < g.n_points; ++q)
-            weight[static_cast<std::size_t>(node)] += g.weight_at(e / k_lanes, q)[e % k_lanes] *
-                                                      g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+          if (node < mesh_.n_owned_nodes)
+            weight[static_cast<std::size_t>(node)] +=
+                weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
         }
     }
     sources_.push_back({source.name, source.power, std::move(weight)});

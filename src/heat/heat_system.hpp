@@ -71,7 +71,7 @@ class HeatSystem {
     std::vector<double> value, slope;  ///< [local node]
   };
   void add_prescribed(const std::vector<PrescribedTemperature>& conditions);
-  void add_sources(AnalysisKind kind, const std::vector<Source>& sources);
+  void add_sources(AnalysisKind kind, const std::vector<Source>& sources, bool closed);
   void add_conduction(AnalysisKind kind, const std::vector<material::Material>& materials, bool closed);
   void update_conductivity(std::span<const double> temperature, bool slopes);
 

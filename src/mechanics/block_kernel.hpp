@@ -48,6 +48,8 @@ class BlockKernel {
   /// out_i += weight × ∫ N_i dV, [local node].
   virtual void add_nodal_volume(double weight, std::span<double> out) const = 0;
 
+  /// StructuralPoints::spread_as_stored.
+  virtual void spread_heat_as_stored(const PackVector<Lane>& weights) = 0;
   /// StructuralHeat: out += its residual, or (tangent) its lumped diagonal; [local node].
   virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                    std::span<double> out) const = 0;

@@ -199,6 +199,7 @@ class LawBlock final : public BlockKernel {
     }
   }
 
+  void spread_heat_as_stored(const PackVector<Lane>& weights) override { points_.spread_as_stored(weights); }
   void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                            std::span<double> out) const override {
     points_.add_heat(form, temperature, tangent, out);

@@ -38,6 +38,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                                  std::span<const double> initial_temperature, Conditions conditions,
                                  MechanicsOptions options, std::vector<algebra::Contribution*> contributions)
     : mesh_(mesh),
+      kind_(kind),
       components_(displacement_components(kind)),
       options_(std::move(options)),
       contributions_(std::move(contributions)),

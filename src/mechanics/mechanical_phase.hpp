@@ -77,6 +77,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   ~MechanicalPhase() override;
 
   int components() const { return components_; }
+  AnalysisKind kind() const { return kind_; }
   /// Zero displacement, no inelastic strain.
   MechanicalState initial_state() const;
 
@@ -110,6 +111,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
 
   const mesh::Mesh& mesh_;
+  AnalysisKind kind_;
   int components_;
   MechanicsOptions options_;
   std::vector<algebra::Contribution*> contributions_;

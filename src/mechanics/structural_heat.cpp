@@ -3,8 +3,18 @@
 #include <algorithm>
 
 #include "mechanics/block_kernel.hpp"
+#include "mesh/block_geometry.hpp"
 
 namespace solidus::mechanics {
+
+StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed)
+    : phase_(phase), form_(form) {
+  const std::vector<mesh::Block>& blocks = phase.mesh().blocks;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    phase.blocks()[b]->spread_heat_as_stored(
+        closed ? mesh::nodal_weights(phase.mesh(), blocks[b], phase.kind())
+               : mesh::basis_integrals(phase.mesh(), blocks[b], phase.kind()));
+}
 
 void StructuralHeat::add_residual(std::span<const double> temperature, std::span<double> r) {
   work_.assign(temperature.size(), 0.0);

@@ -29,8 +29,9 @@ enum class StructuralForm { entropy, energy };
 /// that the thermal matrix stays symmetric and of non-negative type.
 class StructuralHeat : public algebra::Contribution {
  public:
-  /// @param phase its last solve() is the configuration; must outlive this object
-  StructuralHeat(const MechanicalPhase& phase, StructuralForm form) : phase_(phase), form_(form) {}
+  /// @param phase   its last solve() is the configuration; must outlive this object
+  /// @param closed  the thermal phase stores heat by the closed rule
+  StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed = true);
 
   void add_to_graph(algebra::NodeGraph&) const override {}
   void bind(const algebra::BlockMatrix&) override {}

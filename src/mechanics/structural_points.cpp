@@ -1,5 +1,8 @@
 #include "mechanics/structural_points.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace solidus::mechanics {
 
 Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
@@ -48,12 +51,35 @@ void StructuralPoints::set_old(Index batch, int point, Lane strain_trace, Lane e
   p.old_energy = old.internal_energy;
 }
 
+void StructuralPoints::spread_as_stored(const PackVector<Lane>& weights) {
+  const auto n_nodes = static_cast<std::size_t>(geometry_.n_nodes);
+  correction_ = weights;
+  double largest = 0;
+  for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+    Lane volume(0.0);
+    for (int q = 0; q < geometry_.n_points; ++q) volume += geometry_.weight_at(batch, q);
+    const Lane inverse =
+        select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));  // padding lanes have none
+    for (std::size_t a = 0; a < n_nodes; ++a) {
+      Lane& c = correction_[static_cast<std::size_t>(batch) * n_nodes + a];
+      for (int q = 0; q < geometry_.n_points; ++q)
+        c -=
+            geometry_.weight_at(batch, q) * Lane(geometry_.values[static_cast<std::size_t>(q) * n_nodes + a]);
+      c *= inverse;
+      for (int lane = 0; lane < k_lanes; ++lane) largest = std::max(largest, std::abs(c[lane]));
+    }
+  }
+  constexpr double k_rounding = 1e-12;
+  if (largest < k_rounding) correction_.clear();
+}
+
 void StructuralPoints::add_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                 std::span<double> out) const {
   const Lane rate(1.0 / dt_);
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
     const Index* nodes =
         geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes * k_lanes;
+    Lane total(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
       const Lane theta = temperature_at(geometry_, batch, q, temperature);
@@ -72,11 +98,17 @@ void StructuralPoints::add_heat(StructuralForm form, std::span<const double> tem
         density = rate * (now.internal_energy - at.old_energy - at.work);
       }
       density *= geometry_.weight_at(batch, q);
+      total += density;
       const double* values = geometry_.values.data() + q * geometry_.n_nodes;
       for (int a = 0; a < geometry_.n_nodes; ++a)
         for (int lane = 0; lane < k_lanes; ++lane)
           out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values[a] * density[lane];
     }
+    if (correction_.empty()) continue;
+    const Lane* correction = correction_.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes;
+    for (int a = 0; a < geometry_.n_nodes; ++a)
+      for (int lane = 0; lane < k_lanes; ++lane)
+        out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += correction[a][lane] * total[lane];
   }
 }
 

@@ -29,6 +29,10 @@ class StructuralPoints {
 
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }
   void set_dt(double dt) { dt_ = dt; }
+  /// Heat of the points is spread over the nodes by the basis functions; its mean over an element by these
+  /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every
+  /// node of an element alike whatever the shape and rule.
+  void spread_as_stored(const PackVector<Lane>& weights);
   /// Fills temperature and strain_offset from the temperature and the thermal strain e^θ of the mechanical
   /// phase.
   void set_temperature(Index batch, int point, Lane temperature, Lane thermal_strain);
@@ -53,6 +57,7 @@ class StructuralPoints {
   const mesh::BlockGeometry& geometry_;
   material::Material thermoelastic_;  ///< without phase changes: their fraction and straining are held
   PackVector<Point> points_;
+  PackVector<Lane> correction_;  ///< share of a node less what the points give it, [batch][node]; empty: none
   double dt_ = 0;
 };
 

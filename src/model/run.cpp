@@ -94,7 +94,8 @@ void build(const CaseSpec& spec, Assembly& a) {
       const auto form = spec.coupling.structural_heating == Heating::energy
                             ? mechanics::StructuralForm::energy
                             : mechanics::StructuralForm::entropy;
-      a.structural = std::make_unique<mechanics::StructuralHeat>(*a.mechanics, form);
+      a.structural = std::make_unique<mechanics::StructuralHeat>(
+          *a.mechanics, form, spec.heat.integration == heat::Integration::closed);
       a.phases.structural = a.structural.get();
     }
   }

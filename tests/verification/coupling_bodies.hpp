@@ -72,7 +72,8 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps) {
   mechanics::MechanicalPhase mechanics(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options,
                                        mechanical);
   std::optional<mechanics::StructuralHeat> structural;
-  if (c.form) thermal.push_back(&structural.emplace(mechanics, *c.form));
+  if (c.form)
+    thermal.push_back(&structural.emplace(mechanics, *c.form, c.integration == heat::Integration::closed));
 
   heat::HeatOptions heat_options;
   heat_options.integration = c.integration;

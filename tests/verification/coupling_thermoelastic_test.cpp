@@ -21,8 +21,7 @@ constexpr double k_young = 7e10, k_poisson = 0.33, k_alpha = 4e-5, k_start = 400
 constexpr double k_bulk = k_young / (3 * (1 - 2 * k_poisson));
 constexpr double k_capacity = 7800 * 500.0;  // [J/(m³ K)]
 
-/// Shapes with the rules that distribute a uniform heat uniformly over their nodes
-/// (docs/verification/coupling.md).
+/// Every way in which heat at mechanical points reaches nodes that store it by another rule.
 struct Kind {
   Shape shape;
   AnalysisKind kind;
@@ -32,10 +31,17 @@ constexpr auto k_closed = heat::Integration::closed, k_open = heat::Integration:
 const std::vector<Kind> k_bodies{{Shape::quad4, AnalysisKind::plane_strain, k_closed},
                                  {Shape::tri3, AnalysisKind::plane_strain, k_closed},
                                  {Shape::tri6, AnalysisKind::plane_strain, k_open},
+                                 {Shape::tri3, AnalysisKind::axisymmetric, k_closed},
+                                 {Shape::tri3, AnalysisKind::axisymmetric, k_open},
+                                 {Shape::tri6, AnalysisKind::axisymmetric, k_closed},
+                                 {Shape::tri6, AnalysisKind::axisymmetric, k_open},
                                  {Shape::quad4, AnalysisKind::axisymmetric, k_closed},
+                                 {Shape::quad8, AnalysisKind::plane_strain, k_closed},
+                                 {Shape::tet10, AnalysisKind::solid, k_closed},
                                  {Shape::quad8, AnalysisKind::axisymmetric, k_open},
                                  {Shape::tet4, AnalysisKind::solid, k_closed},
                                  {Shape::hex8, AnalysisKind::solid, k_closed},
+                                 {Shape::hex20, AnalysisKind::solid, k_closed},
                                  {Shape::hex20, AnalysisKind::solid, k_open}};
 
 Coupled cube(const Kind& body, StructuralForm form) {
