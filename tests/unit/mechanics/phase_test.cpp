@@ -130,8 +130,8 @@ TEST(Phase, ALinearStepTakesOneSolveAndTheNextOneNone) {
 
 TEST(Phase, SolversAgree) {
   std::vector<double> reference;
-  for (auto kind :
-       {algebra::SolverKind::direct, algebra::SolverKind::multigrid, algebra::SolverKind::jacobi}) {
+  for (auto kind : {algebra::SolverKind::direct, algebra::SolverKind::multigrid, algebra::SolverKind::jacobi,
+                    algebra::SolverKind::incomplete}) {
     Body body = cube(Shape::tet4);
     stand(body);
     body.conditions.gravity = {0, -9.81, 0};
