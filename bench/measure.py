@@ -75,8 +75,15 @@ def calculix(name, divisions, element, solver, threads=1, step=1.0):
         times[phase], peak = run([ccx, phase], folder / f"{phase}.log", folder, OMP_NUM_THREADS=n,
                                  CCX_NPROC_EQUATION_SOLVER=n, CCX_NPROC_STIFFNESS=n, CCX_NPROC_RESULTS=n)
         memory = max(memory, peak)
-    last = lambda phase: (folder / f"{phase}.dat").read_text().split("\n")
-    corner = lambda phase: float([line for line in last(phase) if line.strip()][-2].split()[1])
+    probe = str((divisions + 1) ** 3)  # the corner is the last node
+
+    def corner(phase):
+        lines = [line.split() for line in (folder / f"{phase}.dat").read_text().split("\n")]
+        values = [float(words[1]) for words in lines if words and words[0] == probe]
+        if len(set(values)) != 10:
+            sys.exit(f"CalculiX' {phase} did not take ten different steps; see {folder}")
+        return values[-1]
+
     row = {"name": name, "program": f"CalculiX, {solver}", "processes": threads, "total": sum(times.values()), "load": before,
            **times, "memory": memory, "final": {"T_corner[degC]": corner("heat"), "u_corner[um]": 1e6 * corner("mechanics")}}
     for file in ("heat.frd", "mechanics.frd", "heat.inp", "mechanics.inp"):

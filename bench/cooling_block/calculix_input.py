@@ -3,9 +3,9 @@
 
 usage: calculix_input.py DIVISIONS {hex8,tet4} {direct,iterative} FOLDER [STEP]
 
-Two inputs, run one after the other: FOLDER/heat.inp (ten steps of STEP seconds, default 1, in *HEAT TRANSFER) and
+Two inputs, run one after the other: FOLDER/heat.inp (ten *HEAT TRANSFER steps of STEP seconds, default 1) and
 FOLDER/mechanics.inp (*STATIC after each of them, with its temperatures). *UNCOUPLED TEMPERATURE-DISPLACEMENT would do both
-in one, but adds inertia, and CalculiX 2.20 crashes in it with its iterative solver.
+in one, but runs as a dynamic analysis with slightly other results, and CalculiX 2.20 crashes in it with its iterative solver.
 """
 import sys
 from pathlib import Path
@@ -81,9 +81,12 @@ def main():
     common, films = model(n, shape)
     with open(folder / "heat.inp", "w") as f:
         f.write(common)
-        f.write(f"*STEP, INC=1000\n*HEAT TRANSFER, DIRECT{solver}\n{step},{step * STEPS}\n*FILM\n")
-        f.writelines(f"{e},F{number},20.,1000.\n" for e, number in films)
-        f.write("*NODE PRINT, NSET=PROBES\nNT\n*NODE FILE\nNT\n*END STEP\n")
+        for i in range(1, STEPS + 1):  # one increment a step: mechanics.inp finds temperatures by the number of the step
+            f.write(f"*STEP\n*HEAT TRANSFER, DIRECT{solver}\n{step},{step}\n")
+            if i == 1:
+                f.write("*FILM\n")
+                f.writelines(f"{e},F{number},20.,1000.\n" for e, number in films)
+            f.write("*NODE PRINT, NSET=PROBES\nNT\n*NODE FILE\nNT\n*END STEP\n")
     with open(folder / "mechanics.inp", "w") as f:
         f.write(common + "*BOUNDARY\nX0,1,1\nY0,2,2\nZ0,3,3\n")
         for i in range(1, STEPS + 1):
