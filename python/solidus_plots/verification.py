@@ -50,9 +50,12 @@ def draw_curves(axes, headers, values):
 
 
 def draw(path, folder):
-    headers, values = read(path)
+    try:
+        headers, values = read(path)
+    except ValueError:  # a table with words in it is for reading
+        return False
     if len(values) < 2:
-        return
+        return False
     figure, axes = plt.subplots(figsize=(5.2, 3.4))
     if "order" in path.stem or "convergence" in path.stem:
         draw_convergence(axes, headers, values)
@@ -63,6 +66,7 @@ def draw(path, folder):
     axes.legend()
     figure.savefig(folder / f"{path.stem}.png", dpi=110)
     plt.close(figure)
+    return True
 
 
 def main():
@@ -74,8 +78,8 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     style.setup()
     for path in sorted(tables.glob("*.csv")):
-        draw(path, folder)
-        print(folder / f"{path.stem}.png")
+        if draw(path, folder):
+            print(folder / f"{path.stem}.png")
 
 
 if __name__ == "__main__":
