@@ -69,6 +69,28 @@ def draw(path, folder):
     return True
 
 
+def draw_pair(tables, stem, folder):
+    """The closed and the open rule side by side, magnified where the profile meets its two plateaus."""
+    figure, panels = plt.subplots(2, 1, figsize=(5.2, 4.4), sharex=True)
+    for colour, rule in enumerate(("closed", "open")):
+        headers, values = read(tables / f"{stem}_{rule}.csv")
+        for axes in panels:
+            axes.plot(values[:, 0], values[:, 1], "o-", markersize=3, linewidth=0.8, label=f"{rule} rule",
+                      color=style.COLOURS[colour])
+    low, high = np.min(values[-1, 1]), np.max(values[0, 1])
+    margin = 0.03 * abs(high - low)
+    panels[0].set_ylim(high - margin, high + margin)
+    panels[1].set_ylim(low - margin, low + margin)
+    panels[1].set_xlabel(label(headers[0]))
+    for axes in panels:
+        axes.set_ylabel(label(headers[1]))
+    panels[0].set_title(stem.replace("_", " ").capitalize() + ", near both plateaus", loc="left")
+    panels[0].legend()
+    figure.savefig(folder / f"{stem}.png", dpi=110)
+    plt.close(figure)
+    print(folder / f"{stem}.png")
+
+
 def main():
     if len(sys.argv) != 3:
         raise SystemExit(__doc__)
@@ -77,7 +99,12 @@ def main():
         raise SystemExit(f"{tables}: there is no such folder; run the verification tests first")
     folder.mkdir(parents=True, exist_ok=True)
     style.setup()
+    pairs = {path.stem.removesuffix("_open") for path in tables.glob("*_open.csv") if len(read(path)[1]) > 2}
+    for stem in sorted(pairs):
+        draw_pair(tables, stem, folder)
     for path in sorted(tables.glob("*.csv")):
+        if path.stem.removesuffix("_open").removesuffix("_closed") in pairs:
+            continue
         if draw(path, folder):
             print(folder / f"{path.stem}.png")
 
