@@ -99,7 +99,9 @@ def main():
         raise SystemExit(f"{tables}: there is no such folder; run the verification tests first")
     folder.mkdir(parents=True, exist_ok=True)
     style.setup()
-    pairs = {path.stem.removesuffix("_open") for path in tables.glob("*_open.csv") if len(read(path)[1]) > 2}
+    stems = [path.stem.removesuffix("_open") for path in tables.glob("*_open.csv")]
+    pairs = {stem for stem in stems
+             if (tables / f"{stem}_closed.csv").exists() and len(read(tables / f"{stem}_open.csv")[1]) > 2}
     for stem in sorted(pairs):
         draw_pair(tables, stem, folder)
     for path in sorted(tables.glob("*.csv")):
