@@ -77,7 +77,7 @@ def draw_pair(tables, stem, folder):
         for axes in panels:
             axes.plot(values[:, 0], values[:, 1], "o-", markersize=3, linewidth=0.8, label=f"{rule} rule",
                       color=style.COLOURS[colour])
-    low, high = np.min(values[-1, 1]), np.max(values[0, 1])
+    low, high = np.sort(values[[0, -1], 1])  # the two ends are undisturbed
     margin = 0.03 * abs(high - low)
     panels[0].set_ylim(high - margin, high + margin)
     panels[1].set_ylim(low - margin, low + margin)
