@@ -64,6 +64,7 @@ void number_used_nodes(const RawMesh& raw, int n_processes, Whole& whole) {
     for (Index& i : renumbered.back().nodes) i = compact[static_cast<std::size_t>(i)];
   }
   std::vector<const RawBlock*> pointers;
+  pointers.reserve(renumbered.size());
   for (const RawBlock& block : renumbered) pointers.push_back(&block);
   const NodeNeighbours graph = neighbours(n_used, pointers);
   const std::vector<int> owner = assign_owners(graph, n_processes);

@@ -41,7 +41,9 @@ TEST(Viscoelastic, TangentIsTheDerivativeOfTheStressFromMeltToSolid) {
         const auto r_ad = Viscoelastic::update(p_ad, old_ad, strain_ad, dt);
         const auto tangent = Sym4<double>::isotropic(r.bulk, r.twice_shear);
         for (int a = 0; a < 6; ++a) {
-          ASSERT_NEAR(r.stress[a], r_ad.stress[a].value(), 1e-9 * p.bulk * 1e-2);
+          // the same operations: rounding of the stress itself (1e17 Pa for the stiffest melt), fused or not
+          ASSERT_NEAR(r.stress[a], r_ad.stress[a].value(),
+                      1e-9 * p.bulk * 1e-2 + 1e-14 * std::abs(r.stress[a]));
           for (int b = 0; b < 6; ++b) {
             // AD differentiates by tensor components; a shear component is half the engineering strain
             const double exact = r_ad.stress[a].derivatives()[b] * (b < 3 ? 1.0 : 0.5);
