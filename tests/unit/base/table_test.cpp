@@ -118,8 +118,7 @@ TEST(Table, LanesAnswerAsNumbersDoForShortAndLongTablesInsideOutsideAndAtThePoin
         }
         const auto line = table.line(at);
         for (int i = 0; i < k_lanes; ++i) {
-          // A compiler may fuse multiply and add in one of the two: both to four units in the last place of
-          // the largest term (4 ulp is ASSERT_DOUBLE_EQ's measure, which a cancelling sum may exceed).
+          // rounding: a compiler may fuse multiply and add in one of the two
           ASSERT_NEAR(table.value(at)[i], table.value(at[i]), 1e-14 * (1 + std::abs(at[i]))) << at[i];
           ASSERT_EQ(table.derivative(at)[i], table.derivative(at[i])) << at[i];
           ASSERT_NEAR(line.value[i], table.line(at[i]).value, 1e-14 * (1 + std::abs(at[i])));
