@@ -67,11 +67,12 @@ struct Lane {
   friend LaneMask operator==(Lane a, Lane b) { return {a.v == b.v}; }
 };
 
-/// `mask ? a : b`, lane by lane; for plain numbers the ternary operator. Laws use it instead of a branch.
+/// `mask ? a : b`, lane by lane; for other numbers the ternary operator. Laws use it instead of a branch.
 inline Lane select(LaneMask mask, Lane a, Lane b) {
   return Lane(mask.v ? a.v : b.v);
 }
-inline double select(bool mask, double a, double b) {
+template <class T>
+T select(bool mask, const T& a, const T& b) {
   return mask ? a : b;
 }
 

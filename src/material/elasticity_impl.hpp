@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "base/jet.hpp"
 #include "material/elasticity.hpp"
 
 namespace solidus::material {
@@ -12,14 +13,14 @@ namespace detail {
 template <class T>
 inline constexpr bool is_plain = std::is_same_v<T, double> || std::is_same_v<T, Lane>;
 
-/// A piecewise-linear curve (Table, PhaseFraction) at any number type. An automatic-differentiation type x
-/// has x.value(), and near it the curve is its line.
+/// A piecewise-linear curve (Table, PhaseFraction) at any number type: one that carries derivatives sees the
+/// line near its value.
 template <class T, class Curve>
 T value(const Curve& curve, const T& x) {
   if constexpr (is_plain<T>) {
     return curve.value(x);
   } else {
-    const double at = x.value();
+    const auto at = core(x);
     return T(curve.derivative(at)) * (x - T(at)) + T(curve.value(at));
   }
 }
@@ -29,15 +30,12 @@ Table::Line<T> line(const Table& table, const T& x) {
   if constexpr (is_plain<T>) {
     return table.line(x);
   } else {
-    return {value(table, x), T(table.derivative(x.value()))};
+    return {value(table, x), T(table.derivative(core(x)))};
   }
 }
 template <class T>
 T slope(const PhaseFraction& fraction, const T& x) {
-  if constexpr (is_plain<T>)
-    return fraction.derivative(x);
-  else
-    return T(fraction.derivative(x.value()));
+  return T(fraction.derivative(core(x)));
 }
 
 }  // namespace detail

@@ -8,6 +8,7 @@
 #include "base/table.hpp"
 #include "base/types.hpp"
 #include "material/enthalpy.hpp"
+#include "material/flow.hpp"
 #include "material/phase_change.hpp"
 
 namespace solidus::material {
@@ -31,9 +32,13 @@ struct Material {
   double expansion_reference = 293.15;  ///< Θ_ref of 2.51 [K]
   Table liquid_viscosity;  ///< η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used
                            ///< where f_S < 1
+  LiquidModel liquid_model = LiquidModel::maxwell;
+  std::optional<Flow> flow;  ///< absent: the solid is elastic
 
   std::vector<PropertyNote> notes;
 
+  /// The tables that are given, in the order of the material file; flow curves are none.
+  std::vector<Property> properties() const;
   EnthalpyCurve enthalpy() const { return {density, specific_heat, phase_changes}; }
   /// True when elastic properties are given; a material without them serves heat conduction only.
   bool mechanical() const { return young_modulus.min_value() > 0; }

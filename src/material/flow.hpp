@@ -1,0 +1,56 @@
+/// How a material yields, hardens and creeps: the data of the flow rule (monograph 2.49d, 2.106–2.112), every
+/// parameter a table over absolute temperature. The laws are in hardening.hpp and viscoplastic.hpp.
+#pragma once
+
+#include <vector>
+
+#include "base/table.hpp"
+#include "material/flow_curves.hpp"
+
+namespace solidus::material {
+
+/// A table by its path in a material file, "plasticity.flow_stress", with its SI unit.
+struct Property {
+  const char* name;
+  const char* unit;
+  const Table* table;  ///< of the material that was asked
+};
+
+enum class IsotropicHardening { none, linear, saturation, power, table };
+enum class KinematicHardening { none, linear, armstrong_frederick };
+
+/// How the liquid is modelled (2.3.1).
+enum class LiquidModel {
+  maxwell,         ///< 2.50: spring G/f_S in series with a dashpot η/(1 − f_S)
+  modified_shear,  ///< 2.77, 2.78: shear modulus f_S G(Θ_S), zero in the liquid
+  degenerated      ///< 2.79–2.83: yield radius times f_S; the liquid is purely viscoplastic
+};
+
+struct Flow {
+  Table flow_stress;  ///< σ_0(Θ) [Pa], at ξ = 0; falls with temperature (2.121)
+
+  IsotropicHardening isotropic = IsotropicHardening::none;
+  Table saturation_stress;      ///< σ_∞(Θ) [Pa], of kind saturation
+  Table saturation_rate;        ///< δ(Θ), of kind saturation
+  Table hardening_modulus;      ///< H(Θ) [Pa], of kinds linear and saturation
+  Table reference_strain{1.0};  ///< ε_0(Θ) of σ_0 (1 + ξ/ε_0)^m, of kind power
+  Table hardening_exponent;     ///< m(Θ), of kind power
+  FlowCurves curves;            ///< σ(ξ, Θ), of kind table; flow_stress is its value at ξ = 0
+
+  KinematicHardening kinematic = KinematicHardening::none;
+  Table kinematic_modulus;  ///< K(Θ) [Pa]: q̇ = 2/3 K ε̇^vp, so K is the slope of a uniaxial test
+  Table recall;             ///< of Armstrong–Frederick: the uniaxial back stress saturates at K/recall
+
+  /// η(Θ) of the overstress [Pa s], zero everywhere: rate independent. With exponent n and drag stress D the
+  /// flow rate is γ̇ = f_S/η Φ (Φ/D)^(n − 1): for n = 1 the monograph's 2.109b, else η_2.109b = η D^(n − 1).
+  Table viscosity;
+  Table exponent{1.0};     ///< n(Θ) >= 1
+  Table drag_stress{1.0};  ///< D(Θ) [Pa], of n > 1
+
+  /// The tables that the kinds read, in the order of the material file.
+  std::vector<Property> properties() const;
+  bool rate_independent() const { return viscosity.max_value() == 0; }
+  bool linear_rate() const { return exponent.min_value() == 1 && exponent.max_value() == 1; }
+};
+
+}  // namespace solidus::material

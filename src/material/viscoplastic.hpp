@@ -1,0 +1,114 @@
+/// Thermo-viscoelastic-viscoplastic law from melt to solid: Maxwell element, J2 flow with isotropic and
+/// kinematic hardening and thermal softening, Perzyna/Norton rate dependence (monograph 2.49–2.118),
+/// integrated by a closest point projection at a given temperature (4.125–4.148).
+///
+///   σ = p 1 + s,  p = k (tr ε − e^θ),  s = 2Ĝ (dev ε − ε^v* − ε^vp)                    (2.57, 4.131)
+///   Φ = ‖s − w q‖ − w √⅔ (σ_0 + K_ξ),  n = (s − w q)/‖s − w q‖                          (2.106, 2.107)
+///   ε̇^vp = γ̇ n,  ξ̇ = w √⅔ γ̇,  ζ̇ = −γ̇ (w n + b ζ),  q = −⅔ K ζ                          (2.108)
+///   γ̇ = m/η Φ (Φ/D)^(n−1),  η = 0: Φ <= 0                                              (2.109b, 2.112)
+///   ε̇^v = λ/η_l s,  λ = 1 − f_S                                                        (2.104)
+///
+/// The liquid models (2.3.1) differ in 2Ĝ, in the share m of the flow and in the strength factor w:
+///   maxwell         1/(2Ĝ) = f_S/(2G) + Δt λ/η_l,  m = f_S,  w = 1                      (2.50, errata)
+///   modified_shear  2Ĝ = 2 f_S G(Θ_S),             m = 1,    w = 1                      (2.77, 2.78)
+///   degenerated     2Ĝ = 2G,                       m = 1,    w = f_S                    (2.79–2.83)
+///
+/// Symbols: k, G moduli, q back stress, K kinematic modulus, σ_0 flow stress, D drag stress [Pa], η, η_l
+/// [Pa s], b = w √⅔ recall (Armstrong–Frederick; b = 0: Prager), f_S solid fraction, ξ equivalent plastic
+/// strain, ζ back strain, γ flow multiplier. Validity: infinitesimal strain, f_S > 0 for plastic flow.
+/// The time integration enters through the start state * and the effective step: the values at t_n and Δt for
+/// backward Euler, those of time_integration.hpp for the two-step method.
+/// Source: Chiumenti, Agelet de Saracibar, Cervera, CIMNE monograph 48 (1999); errata.
+#pragma once
+
+#include "base/tensor.hpp"
+#include "material/hardening.hpp"
+#include "material/return_mapping.hpp"
+#include "material/viscoelastic.hpp"
+
+namespace solidus::material {
+
+class Viscoplastic {
+ public:
+  template <class T>
+  struct Properties {
+    PointProperties<T> elastic;
+    FlowProperties<T> flow;
+  };
+
+  template <class T>
+  struct State {
+    Sym<T> viscous_strain;  ///< ε^v, deviatoric
+    Sym<T> plastic_strain;  ///< ε^vp, deviatoric
+    Sym<T> back_strain;     ///< ζ, deviatoric; q = −⅔ K ζ
+    T hardening{};          ///< ξ, the equivalent plastic strain
+  };
+
+  template <class T>
+  struct Response {
+    Sym<T> stress;  ///< σ [Pa]
+    State<T> state;
+    T bulk, twice_shear;    ///< the tangent: κ 1⊗1 + 2μ I_dev + left ⊗ right [Pa];
+    Sym<T> left, right;     ///< left = c right (symmetric) but for Armstrong–Frederick
+    Sym<T> direction;       ///< n, where flow_increment > 0
+    T flow_increment;       ///< γ over the effective step
+    T viscous_dissipation;  ///< 2.114 [W/m³]
+    T plastic_dissipation;  ///< 2.117; what hardening stores is not in it [W/m³]
+    T plastic_power;        ///< s : ε̇^vp [W/m³]
+    T dissipation;          ///< D_mech, the sum of both (2.113) [W/m³]
+    Status status = Status::converged;
+  };
+
+  /// Keeps a reference to the material. Without Material::flow the solid is elastic.
+  explicit Viscoplastic(const Material& material)
+      : material_(&material), flow_(material.flow ? &*material.flow : nullptr) {}
+
+  /// @param initial_temperature Θ_0 of 2.51 [K]
+  template <class T>
+  Properties<T> properties_at(const T& temperature, const T& initial_temperature) const;
+
+  /// @param start  history at the start of the effective step
+  /// @param strain total strain at t_{n+1}
+  /// @param dt     effective step [s], positive
+  template <class T>
+  Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain, double dt) const;
+
+  /// What the liquid model makes of stiffness and strength.
+  template <class T>
+  struct Shear {
+    T twice_shear;    ///< 2Ĝ [Pa]
+    T viscous_share;  ///< Δε^v = viscous_share (dev ε − ε^v* − ε^vp)
+    T flow_share;     ///< m
+    T strength;       ///< w
+  };
+  template <class T>
+  Shear<T> shear(const PointProperties<T>& p, double dt) const;
+
+  /// False where the tangent is not symmetric (Armstrong–Frederick).
+  bool symmetric() const { return !recalls(); }
+  const Material& material() const { return *material_; }
+
+ private:
+  bool recalls() const {
+    return flow_ != nullptr && flow_->kinematic == KinematicHardening::armstrong_frederick;
+  }
+  template <class T>
+  void correct(const Properties<T>& p, const State<T>& start, const Shear<T>& shear, const Sym<T>& trial,
+               double dt, Response<T>& r, Sym<T>& deviator) const;
+
+  const Material* material_;
+  const Flow* flow_;
+};
+
+/// The tangent as a 6×6 matrix.
+template <class T>
+Sym4<T> full_tangent(const Viscoplastic::Response<T>& r) {
+  Sym4<T> c = Sym4<T>::isotropic(r.bulk, r.twice_shear);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) c[i][static_cast<std::size_t>(j)] += r.left[i] * r.right[j];
+  return c;
+}
+
+}  // namespace solidus::material
+
+#include "material/viscoplastic_impl.hpp"
