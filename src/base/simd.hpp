@@ -1,7 +1,7 @@
 /// The lane type: eight doubles that kernels and constitutive laws process together, one element per lane.
 ///
-/// GCC's and clang's vector extension lowers to whatever the target offers (one AVX-512 register, two AVX2,
-/// four SSE2), so one source serves both compilers and every `-march` (docs/decisions/0001-lane-type.md).
+/// It is one AVX-512 register, two of AVX2 or four of SSE2 (register.hpp), so one source serves GCC and clang
+/// and every `-march` (docs/decisions/0001-lane-type.md).
 #pragma once
 
 #include <cmath>
@@ -9,119 +9,156 @@
 #include <new>
 #include <vector>
 
+#include "base/lane_math.hpp"
+
 namespace solidus {
 
 inline constexpr int k_lanes = 8;
+inline constexpr int k_registers = k_lanes / k_register_width;  ///< of a lane
 
 struct LaneMask {
-  using Storage = std::int64_t __attribute__((vector_size(8 * k_lanes)));
-  Storage v;  ///< -1 where true, 0 where false
-  friend LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
-  friend LaneMask operator|(LaneMask a, LaneMask b) { return {a.v | b.v}; }
-  friend LaneMask operator!(LaneMask a) { return {~a.v}; }
-  bool operator[](int i) const { return v[i] != 0; }
+  RegisterMask v[k_registers];  ///< -1 where true, 0 where false
+  friend LaneMask operator&(LaneMask a, const LaneMask& b) {
+    for (int r = 0; r < k_registers; ++r) a.v[r] &= b.v[r];
+    return a;
+  }
+  friend LaneMask operator|(LaneMask a, const LaneMask& b) {
+    for (int r = 0; r < k_registers; ++r) a.v[r] |= b.v[r];
+    return a;
+  }
+  friend LaneMask operator!(LaneMask a) {
+    for (RegisterMask& r : a.v) r = ~r;
+    return a;
+  }
+  bool operator[](int i) const { return v[i / k_register_width][i % k_register_width] != 0; }
 };
 
 struct Lane {
-  using Storage = double __attribute__((vector_size(8 * k_lanes)));
-  Storage v{};
+  Register v[k_registers]{};
 
   Lane() = default;
-  Lane(double s) : v(Storage{} + s) {}  // NOLINT: a number is a pack of equal numbers
-  explicit Lane(Storage s) : v(s) {}
+  Lane(double s) {  // NOLINT: a number is a pack of equal numbers
+    for (Register& r : v) r = Register{} + s;
+  }
 
   static Lane load(const double* p) {
-    Lane r;
-    __builtin_memcpy(&r.v, p, sizeof r.v);
-    return r;
+    Lane a;
+    __builtin_memcpy(&a.v, p, sizeof a.v);
+    return a;
   }
   void store(double* p) const { __builtin_memcpy(p, &v, sizeof v); }
-  double operator[](int i) const { return v[i]; }
-  void set(int i, double s) { v[i] = s; }
+  double operator[](int i) const { return v[i / k_register_width][i % k_register_width]; }
+  void set(int i, double s) { v[i / k_register_width][i % k_register_width] = s; }
 
-  Lane& operator+=(Lane b) {
-    v += b.v;
+  Lane& operator+=(const Lane& b) {
+    for (int r = 0; r < k_registers; ++r) v[r] += b.v[r];
     return *this;
   }
-  Lane& operator-=(Lane b) {
-    v -= b.v;
+  Lane& operator-=(const Lane& b) {
+    for (int r = 0; r < k_registers; ++r) v[r] -= b.v[r];
     return *this;
   }
-  Lane& operator*=(Lane b) {
-    v *= b.v;
+  Lane& operator*=(const Lane& b) {
+    for (int r = 0; r < k_registers; ++r) v[r] *= b.v[r];
     return *this;
   }
-  Lane& operator/=(Lane b) {
-    v /= b.v;
+  Lane& operator/=(const Lane& b) {
+    for (int r = 0; r < k_registers; ++r) v[r] /= b.v[r];
     return *this;
   }
-  friend Lane operator+(Lane a, Lane b) { return Lane(a.v + b.v); }
-  friend Lane operator-(Lane a, Lane b) { return Lane(a.v - b.v); }
-  friend Lane operator*(Lane a, Lane b) { return Lane(a.v * b.v); }
-  friend Lane operator/(Lane a, Lane b) { return Lane(a.v / b.v); }
-  friend Lane operator-(Lane a) { return Lane(-a.v); }
-  friend LaneMask operator<(Lane a, Lane b) { return {a.v < b.v}; }
-  friend LaneMask operator<=(Lane a, Lane b) { return {a.v <= b.v}; }
-  friend LaneMask operator>(Lane a, Lane b) { return {a.v > b.v}; }
-  friend LaneMask operator>=(Lane a, Lane b) { return {a.v >= b.v}; }
-  friend LaneMask operator==(Lane a, Lane b) { return {a.v == b.v}; }
+  friend Lane operator+(Lane a, const Lane& b) { return a += b; }
+  friend Lane operator-(Lane a, const Lane& b) { return a -= b; }
+  friend Lane operator*(Lane a, const Lane& b) { return a *= b; }
+  friend Lane operator/(Lane a, const Lane& b) { return a /= b; }
+  friend Lane operator-(Lane a) {
+    for (Register& r : a.v) r = -r;
+    return a;
+  }
+  friend LaneMask operator<(const Lane& a, const Lane& b) {
+    LaneMask m;
+    for (int r = 0; r < k_registers; ++r) m.v[r] = a.v[r] < b.v[r];
+    return m;
+  }
+  friend LaneMask operator<=(const Lane& a, const Lane& b) {
+    LaneMask m;
+    for (int r = 0; r < k_registers; ++r) m.v[r] = a.v[r] <= b.v[r];
+    return m;
+  }
+  friend LaneMask operator==(const Lane& a, const Lane& b) {
+    LaneMask m;
+    for (int r = 0; r < k_registers; ++r) m.v[r] = a.v[r] == b.v[r];
+    return m;
+  }
+  friend LaneMask operator>(const Lane& a, const Lane& b) { return b < a; }
+  friend LaneMask operator>=(const Lane& a, const Lane& b) { return b <= a; }
 };
 
-/// `mask ? a : b`, lane by lane; for other numbers the ternary operator. Laws use it instead of a branch.
-inline Lane select(LaneMask mask, Lane a, Lane b) {
-  return Lane(mask.v ? a.v : b.v);
+/// `mask ? a : b`, lane by lane; for plain numbers the ternary operator. Laws use it instead of a branch.
+inline Lane select(const LaneMask& mask, Lane a, const Lane& b) {
+  for (int r = 0; r < k_registers; ++r) a.v[r] = mask.v[r] ? a.v[r] : b.v[r];
+  return a;
 }
-template <class T>
-T select(bool mask, const T& a, const T& b) {
+inline double select(bool mask, double a, double b) {
   return mask ? a : b;
 }
 
 inline bool any(LaneMask m) {
-  for (int i = 0; i < k_lanes; ++i)
-    if (m[i]) return true;
-  return false;
+  for (int r = 1; r < k_registers; ++r) m.v[0] |= m.v[r];
+  std::int64_t any_lane = 0;
+  for (int i = 0; i < k_register_width; ++i) any_lane |= m.v[0][i];
+  return any_lane != 0;
 }
 inline bool any(bool m) {
   return m;
 }
-inline bool all(LaneMask m) {
+inline bool all(const LaneMask& m) {
   return !any(!m);
 }
 inline bool all(bool m) {
   return m;
 }
 
-/// Applies a scalar function to every lane (look-ups, transcendental functions).
+/// Applies a scalar function to every lane (look-ups).
 template <class Function>
-Lane for_each_lane(Lane a, Function f) {
-  Lane r;
-  for (int i = 0; i < k_lanes; ++i) r.v[i] = f(a.v[i]);
-  return r;
+Lane for_each_lane(const Lane& a, Function f) {
+  Lane result;
+  for (int i = 0; i < k_lanes; ++i) result.set(i, f(a[i]));
+  return result;
 }
+
+/// Errors and special values of these four: lane_math.hpp.
 inline Lane sqrt(Lane a) {
-  return for_each_lane(a, [](double x) { return std::sqrt(x); });
+  for (Register& r : a.v) r = square_root(r);
+  return a;
 }
 inline Lane exp(Lane a) {
-  return for_each_lane(a, [](double x) { return std::exp(x); });
+  for (Register& r : a.v) r = lane_math::exp(r);
+  return a;
 }
 inline Lane log(Lane a) {
-  return for_each_lane(a, [](double x) { return std::log(x); });
+  for (Register& r : a.v) r = lane_math::log(r);
+  return a;
 }
-inline Lane pow(Lane a, double n) {
-  return for_each_lane(a, [n](double x) { return std::pow(x, n); });
+/// a >= 0; NaN below zero.
+inline Lane pow(Lane a, const Lane& n) {
+  for (int r = 0; r < k_registers; ++r) a.v[r] = lane_math::pow(a.v[r], n.v[r]);
+  return a;
 }
-inline Lane abs(Lane a) {
+inline Lane pow(const Lane& a, double n) {
+  return pow(a, Lane(n));
+}
+inline Lane abs(const Lane& a) {
   return select(a < Lane(0.0), -a, a);
 }
-inline Lane min(Lane a, Lane b) {
+inline Lane min(const Lane& a, const Lane& b) {
   return select(a < b, a, b);
 }
-inline Lane max(Lane a, Lane b) {
+inline Lane max(const Lane& a, const Lane& b) {
   return select(a > b, a, b);
 }
 
 /// The sum over the lanes.
-inline double sum(Lane a) {
+inline double sum(const Lane& a) {
   double s = 0;
   for (int i = 0; i < k_lanes; ++i) s += a[i];
   return s;

@@ -26,8 +26,8 @@ TEST(Lane, ComputesEachLaneAsANumber) {
     EXPECT_EQ(min(a, b)[i], std::min(a[i], b[i]));
     EXPECT_EQ(max(a, b)[i], std::max(a[i], b[i]));
     EXPECT_EQ(sqrt(abs(a))[i], std::sqrt(std::abs(a[i])));
-    EXPECT_EQ(exp(a)[i], std::exp(a[i]));
-    EXPECT_EQ(pow(abs(a), 0.3)[i], std::pow(std::abs(a[i]), 0.3));
+    EXPECT_DOUBLE_EQ(exp(a)[i], std::exp(a[i]));
+    EXPECT_DOUBLE_EQ(pow(abs(a), 0.3)[i], std::pow(std::abs(a[i]), 0.3));
     EXPECT_EQ((a < b)[i], a[i] < b[i]);
     EXPECT_EQ(select(a < b, a, b)[i], a[i] < b[i] ? a[i] : b[i]);
   }
