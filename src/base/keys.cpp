@@ -190,12 +190,13 @@ Function read_function_table(const Value& table, const Key& key) {
 }  // namespace
 
 std::string_view name(Argument argument) {
-  constexpr std::array<std::string_view, 5> names = {"constant", "time", "temperature", "gap", "pressure"};
+  constexpr std::array<std::string_view, 6> names = {"constant", "time",     "temperature",
+                                                   "gap",      "pressure", "strain"};
   return names[static_cast<std::size_t>(argument)];
 }
 
 std::string_view si_unit(Argument argument) {
-  constexpr std::array<std::string_view, 5> names = {"1", "s", "K", "m", "Pa"};
+  constexpr std::array<std::string_view, 6> names = {"1", "s", "K", "m", "Pa", "1"};
   return names[static_cast<std::size_t>(argument)];
 }
 

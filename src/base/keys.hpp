@@ -34,7 +34,7 @@
 namespace solidus {
 
 /// What a table-valued quantity is a function of.
-enum class Argument { constant, time, temperature, gap, pressure };
+enum class Argument { constant, time, temperature, gap, pressure, strain };
 std::string_view name(Argument argument);     ///< "time"
 std::string_view si_unit(Argument argument);  ///< "s"
 

@@ -47,10 +47,27 @@ void add_phase_change(Material& material, const PhaseChangeData& data) {
   material.notes.push_back({data.name, data.source, 0, 0});
 }
 
-/// The keys of `base` that `own` lacks, added to it.
-void inherit(Value& own, const Value& base) {
-  for (const auto& entry : base.entries())
-    if (own.find(entry.key) == nullptr) own.set(entry.key, entry.value);
+/// False for a key of a kind that the table does not have.
+bool belongs(const Key& key, const Value& table) {
+  if (key.when_key.empty()) return true;
+  const Value* kind = table.find(key.when_key);
+  if (kind == nullptr || !kind->is_text()) return true;
+  return std::find(key.when_values.begin(), key.when_values.end(), kind->text()) != key.when_values.end();
+}
+
+/// The keys of `base` that `own` lacks, added to it; in sections too, unless they are written { inline }.
+void inherit(Value& own, const Value& base, const SectionInfo& keys) {
+  const Value given = own;  // the kinds that the file itself has chosen
+  for (const auto& entry : base.entries()) {
+    const Key* key = keys.find(entry.key);
+    Value* mine = own.find(entry.key);
+    if (mine == nullptr) {
+      if (key == nullptr || belongs(*key, given)) own.set(entry.key, entry.value);
+    } else if (key != nullptr && key->kind == Key::Kind::section && mine->is_table() &&
+               !mine->written_inline && entry.value.is_table()) {
+      inherit(*mine, entry.value, *key->section);
+    }
+  }
 }
 
 bool names_a_file(const std::string& reference) {
@@ -80,19 +97,37 @@ Value load_with_base(const fs::path& file, std::span<const fs::path> library, in
   if (depth == 0)
     throw InputError(like->where, "the material is like one that is like another, and so on without end");
   const fs::path base = locate(like->text(), library, like->where);
-  inherit(document, load_with_base(base, library, depth - 1));
+  inherit(document, load_with_base(base, library, depth - 1), material_section().info());
   return document;
 }
 
+void check_liquid_model(const Material& m, const MaterialData& data) {
+  if (m.liquid_model == LiquidModel::maxwell) return;
+  const std::string model = m.liquid_model == LiquidModel::degenerated ? "degenerated" : "modified_shear";
+  if (m.solidification() == nullptr)
+    throw InputError(data.where, "liquid_model = \"" + model + "\", but '" + m.name + "' does not solidify",
+                     "a [[phase_change]] with solidification = true");
+  if (m.liquid_model == LiquidModel::degenerated && (!m.flow || m.flow->rate_independent()))
+    throw InputError(data.where,
+                     "liquid_model = \"degenerated\", but the flow of '" + m.name +
+                         "' does not depend on the rate: the liquid would have no viscosity",
+                     "[plasticity] with rate_dependence = \"perzyna\"");
+}
+
 }  // namespace
+
+PropertyNote note_of(std::string property, const Function& f) {
+  return {std::move(property), f.source, f.valid ? (*f.valid)[0] : 0, f.valid ? (*f.valid)[1] : 0};
+}
 
 Material make_material(std::string name, const MaterialData& data) {
   Material m;
   m.name = std::move(name);
   m.title = data.title.empty() ? m.name : data.title;
   m.expansion_reference = data.expansion_reference;
+  m.liquid_model = data.liquid_model;
   const auto note = [&m](const char* property, const Function& f) {
-    m.notes.push_back({property, f.source, f.valid ? (*f.valid)[0] : 0, f.valid ? (*f.valid)[1] : 0});
+    m.notes.push_back(note_of(property, f));
     return f.table;
   };
   m.density = note("density", data.density).value(0);
@@ -111,7 +146,8 @@ Material make_material(std::string name, const MaterialData& data) {
     m.young_modulus = note("young_modulus", *data.young_modulus);
     m.poisson_ratio = note("poisson_ratio", *data.poisson_ratio);
     m.expansion = note("expansion", *data.expansion);
-    if (m.solidification() != nullptr && !data.twice_shear_viscosity)
+    if (m.solidification() != nullptr && data.liquid_model == LiquidModel::maxwell &&
+        !data.twice_shear_viscosity)
       throw InputError(data.where,
                        "the key 'twice_shear_viscosity' is missing: '" + m.name +
                            "' solidifies and has elastic properties",
@@ -119,6 +155,8 @@ Material make_material(std::string name, const MaterialData& data) {
   }
   if (data.twice_shear_viscosity)
     m.liquid_viscosity = note("twice_shear_viscosity", *data.twice_shear_viscosity);
+  if (data.plasticity) add_flow(m, *data.plasticity);
+  check_liquid_model(m, data);
   return m;
 }
 
@@ -147,17 +185,14 @@ std::vector<std::string> material_names(std::span<const fs::path> library) {
 
 std::vector<LeftRange> left_ranges(const Material& material, double coldest, double hottest) {
   std::vector<LeftRange> left;
-  const std::pair<const char*, const Table*> tables[] = {
-      {"conductivity", &material.conductivity},   {"specific_heat", &material.specific_heat},
-      {"young_modulus", &material.young_modulus}, {"poisson_ratio", &material.poisson_ratio},
-      {"expansion", &material.expansion},         {"twice_shear_viscosity", &material.liquid_viscosity}};
-  const auto refused = [&](const std::string& property) {
-    return std::any_of(std::begin(tables), std::end(tables), [&](const auto& entry) {
-      return property == entry.first && (entry.second->outside(coldest) || entry.second->outside(hottest));
+  const std::vector<Property> properties = material.properties();
+  const auto refused = [&](const std::string& name) {
+    return std::any_of(properties.begin(), properties.end(), [&](const Property& p) {
+      return name == p.name && (p.table->outside(coldest) || p.table->outside(hottest));
     });
   };
-  for (const auto& [property, table] : tables)
-    if (refused(property)) left.push_back({property, table->x().front(), table->x().back(), true});
+  for (const Property& p : properties)
+    if (refused(p.name)) left.push_back({p.name, p.table->x().front(), p.table->x().back(), true});
   for (const PropertyNote& note : material.notes) {
     const bool stated = note.valid_to > note.valid_from;
     if (stated && (coldest < note.valid_from || hottest > note.valid_to) && !refused(note.property))

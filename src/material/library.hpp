@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/keys.hpp"
+#include "material/flow_keys.hpp"
 #include "material/material.hpp"
 
 namespace solidus::material {
@@ -39,6 +40,8 @@ struct MaterialData {
   std::vector<PhaseChangeData> phase_changes;
   std::optional<Function> young_modulus, poisson_ratio, expansion, twice_shear_viscosity;
   double expansion_reference = 0;  ///< [K]
+  LiquidModel liquid_model = LiquidModel::maxwell;
+  std::optional<FlowData> plasticity;
   SourceLocation where;
 };
 
@@ -48,8 +51,12 @@ const Section<MaterialData>& material_section();
 /// Checks what a single key cannot tell and builds the material. Throws InputError with the place.
 Material make_material(std::string name, const MaterialData& data);
 
+/// What a run's report says about a property.
+PropertyNote note_of(std::string property, const Function& function);
+
 /// Reads a material file; its name is the file's name without ".toml". A file with `like = "other"` takes
-/// from the other material every key that it does not give itself.
+/// from the other material every key that it does not give itself; within a section ([plasticity]) too,
+/// unless the key belongs to a kind (hardening = "power") that the file has changed.
 /// @param library  folders where `like` finds materials by name
 /// Throws InputError with file, line and column.
 Material load_material(const std::filesystem::path& file,

@@ -10,6 +10,20 @@ const PhaseChange* Material::solidification() const {
   return found == phase_changes.end() ? nullptr : &*found;
 }
 
+std::vector<Property> Material::properties() const {
+  std::vector<Property> all = {{"conductivity", "W/m/K", &conductivity},
+                               {"specific_heat", "J/kg/K", &specific_heat}};
+  if (mechanical()) {
+    all.push_back({"young_modulus", "Pa", &young_modulus});
+    all.push_back({"poisson_ratio", "1", &poisson_ratio});
+    all.push_back({"expansion", "1/K", &expansion});
+  }
+  if (liquid_viscosity.max_value() > 0) all.push_back({"twice_shear_viscosity", "Pa s", &liquid_viscosity});
+  if (flow)
+    for (const Property& property : flow->properties()) all.push_back(property);
+  return all;
+}
+
 double Material::solid_fraction(double temperature) const {
   const PhaseChange* change = solidification();
   return change == nullptr ? 1.0 : change->fraction.value(temperature);

@@ -69,7 +69,7 @@ Section<MaterialData> material_keys() {
       .initially("")
       .doc(
           "Another material (a name in the library, or a file): every key that is not given here is taken "
-          "from it.");
+          "from it, in [plasticity] too.");
   const std::vector<Argument> temperature{Argument::temperature};
   s.function("density", &MaterialData::density, "kg/m3").positive().doc("Of the reference configuration.");
   s.function("conductivity", &MaterialData::conductivity, "W/m/K")
@@ -103,7 +103,20 @@ Section<MaterialData> material_keys() {
           "Of the liquid: eta in s = eta * strain rate (s the stress deviator, tensor strain rate), which is "
           "TWICE the Newtonian "
           "shear viscosity.");
+  s.choice(
+       "liquid_model", &MaterialData::liquid_model,
+       {{"maxwell", LiquidModel::maxwell,
+         "spring G/f_S in series with a dashpot eta/(1 - f_S), eta = twice_shear_viscosity (2.50, 2.104)"},
+        {"modified_shear", LiquidModel::modified_shear,
+         "elastic with the shear modulus f_S G(T_S), zero in the liquid: what was deformed when liquid "
+         "springs back when solid (2.77, 2.78)"},
+        {"degenerated", LiquidModel::degenerated,
+         "viscoplastic with the yield stress times f_S; in the liquid s = eta d(eps_vp)/dt with eta = "
+         "plasticity.viscosity (2.79 - 2.83)"}})
+      .initially("maxwell")
+      .doc("How what is not yet solid answers shear; f_S is the solid fraction.");
   s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
+  s.section("plasticity", &MaterialData::plasticity, flow_section());
   s.place(&MaterialData::where);
   return s;
 }

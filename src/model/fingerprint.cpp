@@ -65,9 +65,18 @@ std::string material_text(const material::Material& m) {
   Hash hash;
   hash.add(m.density);
   hash.add(m.expansion_reference);
-  for (const Table* table : {&m.conductivity, &m.specific_heat, &m.young_modulus, &m.poisson_ratio,
-                             &m.expansion, &m.liquid_viscosity})
-    hash.add(*table);
+  hash.add(static_cast<double>(m.liquid_model));
+  for (const material::Property& property : m.properties()) {
+    hash.add(property.name);
+    hash.add(*property.table);
+  }
+  if (m.flow) {
+    hash.add(static_cast<double>(m.flow->isotropic));
+    hash.add(static_cast<double>(m.flow->kinematic));
+    for (const auto numbers :
+         {m.flow->curves.strains(), m.flow->curves.temperatures(), m.flow->curves.stresses()})
+      for (const double number : numbers) hash.add(number);
+  }
   for (const material::PhaseChange& change : m.phase_changes) {
     hash.add(change.latent_heat);
     hash.add(change.volume_change);

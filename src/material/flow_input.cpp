@@ -1,0 +1,205 @@
+/// From the keys of [plasticity] to the flow data of a material: what a single key cannot tell.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "base/units.hpp"
+#include "material/flow_keys.hpp"
+#include "material/library.hpp"
+
+namespace solidus::material {
+namespace {
+
+constexpr double k_largest_yield_strain = 0.1;  ///< a yield stress above this part of E is a slip of units
+
+std::string celsius(double kelvin) {
+  return fmt::format("{:.6g} degC", units::to_display(kelvin, "K", "degC"));
+}
+
+std::string megapascal(double pascal) {
+  return fmt::format("{:.6g} MPa", 1e-6 * pascal);
+}
+
+/// The points of both tables: between them both are lines.
+std::vector<double> joint_points(const Table& a, const Table& b) {
+  std::vector<double> x(a.x().begin(), a.x().end());
+  x.insert(x.end(), b.x().begin(), b.x().end());
+  std::sort(x.begin(), x.end());
+  return x;
+}
+
+/// A line continued far enough turns negative or exceeds what was measured; the flow rule cannot use that.
+void refuse_linear_continuation(const Function& f, const char* property) {
+  if (f.table.extrapolation() == Extrapolation::linear)
+    throw InputError(f.where, fmt::format("'{}' cannot be continued linearly", property),
+                     "extrapolation = \"constant\" or \"error\"");
+}
+
+/// 2.121. @param where the place of a point of the table
+template <class Place>
+void check_thermal_softening(const Table& flow_stress, const FlowData& data, Place where) {
+  if (data.allow_thermal_hardening) return;
+  for (std::size_t i = 1; i < flow_stress.x().size(); ++i)
+    if (flow_stress.y()[i] > flow_stress.y()[i - 1])
+      throw InputError(
+          where(i),
+          fmt::format("the flow stress at zero plastic strain rises with temperature, from {} at {} to {} at "
+                      "{}: plastic flow there would take entropy away (2.120, 2.121)",
+                      megapascal(flow_stress.y()[i - 1]), celsius(flow_stress.x()[i - 1]),
+                      megapascal(flow_stress.y()[i]), celsius(flow_stress.x()[i])),
+          "a flow stress that falls or stays level, or allow_thermal_hardening = true");
+}
+
+void check_yield_strain(const Table& flow_stress, const Material& material, const SourceLocation& where) {
+  for (const double theta : joint_points(flow_stress, material.young_modulus)) {
+    const double sigma = flow_stress.value(theta), modulus = material.young_modulus.value(theta);
+    if (sigma > k_largest_yield_strain * modulus)
+      throw InputError(where,
+                       fmt::format("the flow stress at {} is {}, more than a tenth of Young's modulus ({})",
+                                   celsius(theta), megapascal(sigma), megapascal(modulus)),
+                       "no metal is so strong: is a unit wrong?");
+  }
+}
+
+void check_saturation(const FlowData& data) {
+  for (const double theta : joint_points(data.flow_stress.table, data.saturation_stress.table)) {
+    const double from = data.flow_stress.table.value(theta), to = data.saturation_stress.table.value(theta);
+    if (to < from)
+      throw InputError(data.saturation_stress.where,
+                       fmt::format("the saturation stress at {} is {}, below the flow stress {}",
+                                   celsius(theta), megapascal(to), megapascal(from)),
+                       "at least the flow stress at every temperature: softening is not supported");
+  }
+}
+
+void check_curve(const FlowCurveData& data) {
+  const Function& stress = data.stress;
+  const std::string which = fmt::format("the flow curve at {}", celsius(data.temperature));
+  if (stress.table.extrapolation() != Extrapolation::constant)
+    throw InputError(stress.where, which + " has an extrapolation", "none: it stays level beyond its points");
+  if (stress.valid)
+    throw InputError(stress.where, which + " has a range of strains in 'valid'",
+                     "none: a flow curve holds for its points");
+  const auto strain = stress.table.x(), sigma = stress.table.y();
+  if (strain.front() != 0)
+    throw InputError(stress.where, fmt::format("{} starts at the plastic strain {}", which, strain.front()),
+                     "a first point [0, flow stress]");
+  for (std::size_t i = 1; i < sigma.size(); ++i)
+    if (sigma[i] < sigma[i - 1])
+      throw InputError(stress.where,
+                       fmt::format("{} falls from {} at the plastic strain {} to {} at {}", which,
+                                   megapascal(sigma[i - 1]), strain[i - 1], megapascal(sigma[i]), strain[i]),
+                       "a curve that rises or stays level: softening is not supported (the strain would "
+                       "gather in one row of elements)");
+}
+
+/// The curves in order of temperature, each checked.
+std::vector<FlowCurveData> checked_curves(const FlowData& data) {
+  if (data.curves.empty())
+    throw InputError(data.where, "isotropic_hardening = \"table\" has no flow curves",
+                     "at least one [[plasticity.flow_curve]]");
+  std::vector<FlowCurveData> curves = data.curves;
+  std::stable_sort(curves.begin(), curves.end(), [](const FlowCurveData& a, const FlowCurveData& b) {
+    return a.temperature < b.temperature;
+  });
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    check_curve(curves[i]);
+    if (i > 0 && curves[i].temperature == curves[i - 1].temperature)
+      throw InputError(curves[i].where, "there are two flow curves at " + celsius(curves[i].temperature));
+  }
+  return curves;
+}
+
+void add_curves(Material& material, Flow& flow, const FlowData& data) {
+  const std::vector<FlowCurveData> given = checked_curves(data);
+  std::vector<FlowCurve> curves;
+  std::vector<double> temperatures, at_zero;
+  PropertyNote note{"plasticity.flow_curve", "", given.front().temperature, given.back().temperature};
+  for (const FlowCurveData& curve : given) {
+    const auto strain = curve.stress.table.x(), sigma = curve.stress.table.y();
+    curves.push_back({curve.temperature, {strain.begin(), strain.end()}, {sigma.begin(), sigma.end()}});
+    temperatures.push_back(curve.temperature);
+    at_zero.push_back(sigma.front());
+    if (const std::string& source = curve.stress.source; note.source.find(source) == std::string::npos)
+      note.source += (note.source.empty() ? "" : "; ") + source;
+  }
+  flow.curves = FlowCurves::merged(std::move(curves));
+  flow.flow_stress = Table(std::move(temperatures), std::move(at_zero));
+  material.notes.push_back(std::move(note));
+  check_thermal_softening(flow.flow_stress, data, [&](std::size_t i) { return given[i].stress.where; });
+  check_yield_strain(flow.flow_stress, material, data.where);
+}
+
+Table read_property(Material& material, const char* property, const Function& f) {
+  refuse_linear_continuation(f, property);
+  material.notes.push_back(note_of(property, f));
+  return f.table;
+}
+
+void add_isotropic(Material& m, Flow& flow, const FlowData& data) {
+  flow.isotropic = data.isotropic;
+  if (data.isotropic == IsotropicHardening::table) return add_curves(m, flow, data);
+
+  flow.flow_stress = read_property(m, "plasticity.flow_stress", data.flow_stress);
+  check_thermal_softening(flow.flow_stress, data, [&](std::size_t) { return data.flow_stress.where; });
+  check_yield_strain(flow.flow_stress, m, data.flow_stress.where);
+  if (data.isotropic == IsotropicHardening::saturation) {
+    flow.saturation_stress = read_property(m, "plasticity.saturation_stress", data.saturation_stress);
+    flow.saturation_rate = read_property(m, "plasticity.saturation_rate", data.saturation_rate);
+    check_saturation(data);
+  }
+  if (data.isotropic == IsotropicHardening::power) {
+    flow.reference_strain = read_property(m, "plasticity.reference_strain", data.reference_strain);
+    flow.hardening_exponent = read_property(m, "plasticity.hardening_exponent", data.hardening_exponent);
+  }
+  if (data.hardening_modulus)
+    flow.hardening_modulus = read_property(m, "plasticity.hardening_modulus", *data.hardening_modulus);
+  else if (data.isotropic == IsotropicHardening::linear)
+    throw InputError(data.where, "the key 'hardening_modulus' is missing in [plasticity]",
+                     "isotropic_hardening = \"linear\" needs it");
+}
+
+void add_kinematic(Material& m, Flow& flow, const FlowData& data) {
+  flow.kinematic = data.kinematic;
+  if (data.kinematic == KinematicHardening::none) return;
+  flow.kinematic_modulus = read_property(m, "plasticity.kinematic_modulus", data.kinematic_modulus);
+  if (data.kinematic == KinematicHardening::armstrong_frederick)
+    flow.recall = read_property(m, "plasticity.recall", data.recall);
+}
+
+void add_rate(Material& m, Flow& flow, const FlowData& data) {
+  if (!data.perzyna) return;
+  if (data.viscosity) {
+    flow.viscosity = read_property(m, "plasticity.viscosity", *data.viscosity);
+  } else if (m.liquid_viscosity.max_value() > 0) {
+    flow.viscosity = m.liquid_viscosity;
+    m.notes.push_back({"plasticity.viscosity", "not given: twice_shear_viscosity (2.98)", 0, 0});
+  } else {
+    throw InputError(data.where, "the key 'viscosity' is missing in [plasticity]",
+                     "rate_dependence = \"perzyna\" needs it, or the liquid's twice_shear_viscosity");
+  }
+  if (data.rate_exponent) flow.exponent = read_property(m, "plasticity.rate_exponent", *data.rate_exponent);
+  if (data.drag_stress)
+    flow.drag_stress = read_property(m, "plasticity.drag_stress", *data.drag_stress);
+  else if (!flow.linear_rate())
+    throw InputError(data.rate_exponent->where, "'rate_exponent' is not 1 and there is no 'drag_stress'",
+                     "D of gamma' = f_S/eta Phi (Phi/D)^(n - 1)");
+}
+
+}  // namespace
+
+void add_flow(Material& material, const FlowData& data) {
+  if (!material.mechanical())
+    throw InputError(data.where, "'" + material.name + "' has plasticity but no elastic properties",
+                     "young_modulus, poisson_ratio and expansion");
+  Flow flow;
+  add_isotropic(material, flow, data);
+  add_kinematic(material, flow, data);
+  add_rate(material, flow, data);
+  material.flow = std::move(flow);
+}
+
+}  // namespace solidus::material

@@ -1,0 +1,39 @@
+/// The section [plasticity] of a material file: its keys as read, and the flow data made of them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/keys.hpp"
+#include "material/material.hpp"
+
+namespace solidus::material {
+
+/// The keys of [[plasticity.flow_curve]].
+struct FlowCurveData {
+  double temperature = 0;  ///< [K]
+  Function stress;         ///< over plastic strain
+  SourceLocation where;
+};
+
+/// The keys of [plasticity], in SI; those that do not belong to its kinds are constant zero.
+struct FlowData {
+  IsotropicHardening isotropic = IsotropicHardening::none;
+  Function flow_stress, saturation_stress, saturation_rate, reference_strain, hardening_exponent;
+  std::optional<Function> hardening_modulus;
+  std::vector<FlowCurveData> curves;
+  KinematicHardening kinematic = KinematicHardening::none;
+  Function kinematic_modulus, recall;
+  bool perzyna = false;  ///< rate dependent
+  std::optional<Function> viscosity, rate_exponent, drag_stress;
+  bool allow_thermal_hardening = false;
+  SourceLocation where;
+};
+
+const Section<FlowData>& flow_section();
+
+/// Checks the flow data against each other and the rest of the material, whose elastic properties, phase
+/// changes and viscosity stand already, and adds them with their sources. Throws InputError with the place.
+void add_flow(Material& material, const FlowData& data);
+
+}  // namespace solidus::material
