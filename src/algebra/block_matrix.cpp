@@ -92,15 +92,20 @@ void BlockMatrix::create_petsc_matrix() {
       i.push_back(static_cast<PetscInt>(j.size()));
     }
   }
+  create_matrix_of_size();
+  MatHandle& a = petsc_->matrix;
+  // One of the two applies, the other does nothing.
+  check(MatSeqAIJSetPreallocationCSR(a, i.data(), j.data(), nullptr), "MatSeqAIJSetPreallocationCSR");
+  check(MatMPIAIJSetPreallocationCSR(a, i.data(), j.data(), nullptr), "MatMPIAIJSetPreallocationCSR");
+}
+
+void BlockMatrix::create_matrix_of_size() {
   const auto n = static_cast<PetscInt>(mesh_.n_owned_nodes * block_size_);
   MatHandle& a = petsc_->matrix;
   check(MatCreate(PETSC_COMM_WORLD, a.out()), "MatCreate");
   check(MatSetSizes(a, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
   check(MatSetBlockSize(a, block_size_), "MatSetBlockSize");
   check(MatSetType(a, MATAIJ), "MatSetType");
-  // One of the two applies, the other does nothing.
-  check(MatSeqAIJSetPreallocationCSR(a, i.data(), j.data(), nullptr), "MatSeqAIJSetPreallocationCSR");
-  check(MatMPIAIJSetPreallocationCSR(a, i.data(), j.data(), nullptr), "MatMPIAIJSetPreallocationCSR");
 }
 
 BlockMatrix::~BlockMatrix() = default;
@@ -168,28 +173,64 @@ void BlockMatrix::set_fixed(std::vector<char> fixed) {
 }
 
 Mat BlockMatrix::matrix() {
+  const double mean = any_fixed_ || !ties_.empty() ? mean_diagonal() : 1.0;
   if (any_fixed_) {
     // PETSc copies the values: show it the masked ones, then put ours back.
-    const auto bs = static_cast<std::size_t>(block_size_);
-    double sums[2] = {0, 0};
-    for (std::size_t row = 0; row < diagonal_.size(); ++row)
-      for (std::size_t a = 0; a < bs; ++a) {
-        if (fixed_[row * bs + a]) continue;
-        sums[0] += block(diagonal_[row])[a * bs + a];
-        sums[1] += 1;
-      }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-    const double mean = sums[1] > 0 && sums[0] > 0 ? sums[0] / sums[1] : 1.0;
     for (std::size_t k = 0; k < masked_.size(); ++k) {
       saved_[k] = values_[masked_[k]];
       values_[masked_[k]] = 0;
     }
     for (std::size_t entry : fixed_diagonal_) values_[entry] = mean;
   }
-  copy_to_petsc();
+  if (ties_.empty()) {
+    copy_to_petsc();
+  } else {
+    std::fill(values_.end() - static_cast<std::ptrdiff_t>(ties_.followers().size()), values_.end(), mean);
+    check(MatSetValuesCOO(petsc_->matrix, block(0), INSERT_VALUES), "MatSetValuesCOO");
+  }
   if (any_fixed_)
     for (std::size_t k = 0; k < masked_.size(); ++k) values_[masked_[k]] = saved_[k];
   return petsc_->matrix;
+}
+
+double BlockMatrix::mean_diagonal() const {
+  const auto bs = static_cast<std::size_t>(block_size_);
+  double sums[2] = {0, 0};
+  for (std::size_t row = 0; row < diagonal_.size(); ++row)
+    for (std::size_t a = 0; a < bs; ++a) {
+      if (fixed_[row * bs + a]) continue;
+      sums[0] += block(diagonal_[row])[a * bs + a];
+      sums[1] += 1;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return sums[1] > 0 && sums[0] > 0 ? sums[0] / sums[1] : 1.0;
+}
+
+/// PETSc adds up entries of the same place, also those for rows of other processes: the list of our entries
+/// with the numbers of their unknowns is all it needs.
+void BlockMatrix::tie(std::vector<std::vector<Index>> groups) {
+  ties_ = Ties(mesh_, block_size_, std::move(groups));
+  if (ties_.empty()) return;
+  values_.resize(values_.size() + ties_.followers().size(), 0.0);
+  std::vector<PetscInt> rows, columns;
+  rows.reserve(values_.size());
+  columns.reserve(values_.size());
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
+    for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
+      for (int a = 0; a < block_size_; ++a)
+        for (int b = 0; b < block_size_; ++b) {
+          const Index column = columns_[static_cast<std::size_t>(s)] * block_size_ + b;
+          rows.push_back(static_cast<PetscInt>(ties_.unknown(row * block_size_ + a)));
+          columns.push_back(static_cast<PetscInt>(ties_.unknown(column)));
+        }
+  for (const Index follower : ties_.followers()) {
+    rows.push_back(static_cast<PetscInt>(mesh_.first_owned * block_size_ + follower));
+    columns.push_back(rows.back());
+  }
+  create_matrix_of_size();
+  check(MatSetPreallocationCOO(petsc_->matrix, static_cast<PetscCount>(rows.size()), rows.data(),
+                               columns.data()),
+        "MatSetPreallocationCOO");
 }
 
 /// Writes the blocks' rows into PETSc's arrays: owned columns into the diagonal part, ghosts into the other.

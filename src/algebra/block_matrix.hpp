@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "algebra/ties.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::algebra {
@@ -63,17 +64,24 @@ class BlockMatrix {
   /// [local node][component], ghosts included and already exchanged. Set again only when the set changes.
   void set_fixed(std::vector<char> fixed);
   const std::vector<char>& fixed() const { return fixed_; }
+  /// The degrees of freedom of each group get one common value: matrix() is then Tᵀ A T of ties.hpp, with the
+  /// mean diagonal where an entry is no unknown. Once, before the first matrix(); no member may be fixed.
+  /// Collective.
+  void tie(std::vector<std::vector<Index>> groups);
+  const Ties& ties() const { return ties_; }
 
   /// Passes the values on and returns the PETSc matrix; owned by this object.
   Mat matrix();
-  /// y = A x for local x (ghosts up to date), y on owned nodes; ignores set_fixed.
+  /// y = A x for local x (ghosts up to date), y on owned nodes; ignores set_fixed and tie.
   void multiply(std::span<const double> x, std::span<double> y) const;
   std::size_t bytes() const;
 
  private:
   void order_ghost_columns();
   void create_petsc_matrix();
+  void create_matrix_of_size();
   void copy_to_petsc();
+  double mean_diagonal() const;
 
   const mesh::Mesh& mesh_;
   int block_size_;
@@ -88,6 +96,7 @@ class BlockMatrix {
   std::vector<std::size_t> masked_;          ///< entries of values_ in fixed rows or columns
   std::vector<std::size_t> fixed_diagonal_;  ///< diagonal entries of fixed owned degrees of freedom
   std::vector<double> saved_;                ///< the masked values while PETSc sees zeros
+  Ties ties_;  ///< values_ then ends with one more diagonal entry for each follower
   struct Petsc;
   std::unique_ptr<Petsc> petsc_;
 };

@@ -36,7 +36,7 @@ class Iteration {
 
  private:
   void evaluate();
-  void zero_fixed();
+  void constrain();
   bool converged() const {
     return norm_ <= options_.tolerance * reference_ || norm_ <= options_.absolute_tolerance;
   }
@@ -54,17 +54,20 @@ class Iteration {
   const NewtonOptions& options_;
   std::vector<double> r_, step_, start_;
   const std::vector<char>* fixed_ = nullptr;
+  const Ties* ties_ = nullptr;
   double norm_ = 0, reference_ = 0;
 };
 
 void Iteration::evaluate() {
   reference_ = system_.residual(x_, r_);
-  if (fixed_) zero_fixed();
+  if (fixed_) constrain();
 }
 
-void Iteration::zero_fixed() {
+/// Leaves what the unknowns can change: nothing where prescribed, the sum of what is tied together.
+void Iteration::constrain() {
   for (std::size_t i = 0; i < n_ && i < fixed_->size(); ++i)
     if ((*fixed_)[i]) r_[i] = 0;
+  ties_->sum(r_);
   norm_ = std::sqrt(dot(r_, r_, n_));
 }
 
@@ -120,7 +123,8 @@ NewtonReport Iteration::run() {
   evaluate();
   BlockMatrix* tangent = &system_.tangent();  // knows what is fixed, and serves the first solve
   fixed_ = &tangent->fixed();
-  zero_fixed();
+  ties_ = &tangent->ties();
+  constrain();
   while (true) {
     report.residuals.push_back(measured());
     if (!std::isfinite(norm_)) {
@@ -148,6 +152,7 @@ NewtonReport Iteration::run() {
     }
     for (std::size_t i = 0; i < n_ && i < fixed_->size(); ++i)
       if ((*fixed_)[i]) step_[i] = 0;
+    ties_->share(std::span(step_).first(n_));
     ghosts_.update(step_, components_);
 
     std::copy(x_.begin(), x_.end(), start_.begin());

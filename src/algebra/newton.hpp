@@ -31,7 +31,8 @@ struct NewtonReport {
 class NonlinearSystem {
  public:
   virtual ~NonlinearSystem() = default;
-  /// r at x on owned nodes; entries of fixed degrees of freedom are zeroed by newton(). Returns the reference
+  /// r at x on owned nodes; newton() zeroes entries of fixed degrees of
+  /// freedom and sums those that are tied. Returns the reference
   /// that ‖r‖ is measured against: the norm of the forces (or heat) before they cancel, reactions included,
   /// over all processes.
   virtual double residual(std::span<const double> x, std::span<double> r) = 0;
@@ -43,7 +44,8 @@ class NonlinearSystem {
   virtual void accept(std::span<const double> /*x*/, std::span<const double> /*d*/, double /*alpha*/) {}
 };
 
-/// Solves r(x) = 0 from the start value x, whose fixed degrees of freedom already hold their values.
+/// Solves r(x) = 0 from the start value x, whose fixed degrees of freedom already hold their
+/// values and whose ties are kept.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens
 /// the step. x: [local node][component], ghosts updated on return.
 NewtonReport newton(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts,

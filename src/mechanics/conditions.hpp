@@ -30,11 +30,20 @@ struct Traction {
   std::array<Table, 3> value;  ///< [Pa] over time [s]
 };
 
+/// A face normal to a coordinate that stays plane and parallel to itself: its nodes have one normal
+/// displacement, which equilibrium finds. Its net force is that of the loads on the same face, zero without
+/// any: the cut through a long part that is free to shrink (generalised plane strain), or through a plate
+/// that cannot bend. In an axisymmetric mesh it may be a cylinder.
+struct PlaneFace {
+  std::string node_set;  ///< a key of Mesh::node_sets
+};
+
 /// On the axis of an axisymmetric mesh (r = 0) the radial displacement is zero by itself.
 struct Conditions {
   std::vector<PrescribedDisplacement> displacements;
   std::vector<Pressure> pressures;
   std::vector<Traction> tractions;
+  std::vector<PlaneFace> plane_faces;
   std::array<double, 3> gravity{};  ///< acceleration [m/s²], times each body's density
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "algebra/parallel.hpp"
 #include "base/errors.hpp"
 #include "mesh/block_geometry.hpp"
 
@@ -43,6 +44,28 @@ void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& s
         visit(node, area, normal);
       }
   }
+}
+
+/// The coordinate that a set of nodes has in common, −1 when it is not exactly one of the mesh's. Collective.
+int common_coordinate(const mesh::Mesh& mesh, std::span<const Index> nodes) {
+  constexpr double k_flat = 1e-6;  // of the largest extent: what meshing programs leave
+  std::array<double, 3> extent{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Index node : nodes) {
+      low = std::min(low, mesh.x[static_cast<std::size_t>(node)][i]);
+      high = std::max(high, mesh.x[static_cast<std::size_t>(node)][i]);
+    }
+    extent[i] = algebra::global_max(high) - algebra::global_min(low);
+  }
+  const double largest = *std::max_element(extent.begin(), extent.end());
+  int common = -1, n = 0;
+  for (int i = 0; i < mesh.dimension; ++i)
+    if (extent[static_cast<std::size_t>(i)] <= k_flat * largest) {
+      common = i;
+      ++n;
+    }
+  return n == 1 ? common : -1;
 }
 
 /// Sums entries of the same degree of freedom.
@@ -88,6 +111,37 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions)
   }
   for (const Support& support : supports_)
     for (Index entry : support.entries) fixed_[static_cast<std::size_t>(entry)] = 1;
+  std::vector<char> tied(conditions_.plane_faces.empty() ? 0 : fixed_.size(), 0);
+  for (const PlaneFace& face : conditions_.plane_faces) add_plane_face(mesh, face, tied);
+}
+
+void Loads::add_plane_face(const mesh::Mesh& mesh, const PlaneFace& face, std::vector<char>& tied) {
+  const std::vector<Index>& nodes = find(mesh.node_sets, face.node_set, "group");
+  const int normal = common_coordinate(mesh, nodes);
+  if (normal < 0)
+    throw InputError(
+        {}, "the face '" + face.node_set + "' shall stay plane, but it is not normal to a coordinate",
+        "a group whose nodes have one coordinate in common");
+  std::vector<Index> group;
+  bool is_fixed = false, is_tied = false;
+  for (const Index node : nodes) {
+    const Index entry = node * components_ + normal;
+    const auto at = static_cast<std::size_t>(entry);
+    is_fixed = is_fixed || fixed_[at] != 0;
+    is_tied = is_tied || tied[at] != 0;
+    tied[at] = 1;
+    group.push_back(entry);
+  }
+  if (algebra::any_process(is_fixed))
+    throw InputError({},
+                     "the face '" + face.node_set +
+                         "' shall stay plane, but its normal displacement is prescribed at some nodes",
+                     "one of the two conditions");
+  if (algebra::any_process(is_tied))
+    throw InputError({},
+                     "the plane face '" + face.node_set + "' shares nodes with another in the same direction",
+                     "one group for both");
+  ties_.push_back(std::move(group));
 }
 
 void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Pressure& pressure) {

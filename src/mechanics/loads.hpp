@@ -12,7 +12,8 @@ namespace solidus::mechanics {
 
 class Loads {
  public:
-  /// Throws InputError for a condition that names no group of the mesh.
+  /// Throws InputError for a condition that names no group of the mesh, and for a plane face that is not
+  /// normal to a coordinate, prescribed in that direction or tied to another. Collective.
   Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions);
 
   /// Adds a load that does not change in time, [local node][component] [N].
@@ -26,6 +27,8 @@ class Loads {
   const std::vector<char>& supported() const { return supported_; }
   /// Writes the prescribed values of a time into a displacement, [local node][component].
   void prescribe(double time, std::span<double> displacement) const;
+  /// The degrees of freedom of each plane face, ghosts included, for BlockMatrix::tie.
+  const std::vector<std::vector<Index>>& ties() const { return ties_; }
   const Conditions& conditions() const { return conditions_; }
 
  private:
@@ -38,6 +41,7 @@ class Loads {
     Table value;
     std::vector<Index> entries;  ///< local degrees of freedom
   };
+  void add_plane_face(const mesh::Mesh& mesh, const PlaneFace& face, std::vector<char>& tied);
   void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Pressure& pressure);
   void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Traction& traction);
 
@@ -45,6 +49,7 @@ class Loads {
   int components_;
   std::vector<Unit> units_;
   std::vector<Support> supports_;
+  std::vector<std::vector<Index>> ties_;
   std::vector<double> constant_;  ///< [owned node][component]
   std::vector<char> fixed_, supported_;
 };

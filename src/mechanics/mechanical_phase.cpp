@@ -80,6 +80,7 @@ void MechanicalPhase::create_matrix() {
   for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, std::move(graph));
   matrix_->set_fixed(loads_->fixed());
+  matrix_->tie(loads_->ties());
   for (const auto& block : blocks_) block->bind(*matrix_);
   for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
 }
@@ -103,8 +104,26 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   balance_.add_exchanged(r);
   balance_.add_exchanged(external_);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += forces_[i] - external_[i];
-  balance_.add_residual(r, loads_->fixed(), loads_->supported());
+  add_residual_to_balance(r);
   return balance_.reference();
+}
+
+/// What keeps a face plane are forces that the body exchanges, like those of a support; their sum is
+/// residual.
+void MechanicalPhase::add_residual_to_balance(std::span<const double> r) {
+  if (matrix_->ties().empty()) {
+    balance_.add_residual(r, loads_->fixed(), loads_->supported());
+    return;
+  }
+  std::vector<double> holding(r.size(), 0.0), rest(r.begin(), r.end());
+  for (const auto& group : loads_->ties())
+    for (const Index entry : group) {
+      const auto at = static_cast<std::size_t>(entry);
+      if (at < r.size()) holding[at] = r[at];
+    }
+  matrix_->ties().sum(rest);
+  balance_.add_exchanged(holding);
+  balance_.add_residual(rest, loads_->fixed(), loads_->supported());
 }
 
 algebra::BlockMatrix& MechanicalPhase::tangent() {
@@ -171,6 +190,7 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
 std::string MechanicalPhase::worst_place(std::span<const double> x) {
   std::vector<double> r(external_.size());
   residual(x, r);
+  matrix_->ties().sum(r);
   struct {
     double value;
     int rank;

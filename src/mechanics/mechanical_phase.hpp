@@ -70,7 +70,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// @param materials            one per body of the mesh; kept by reference
   /// @param initial_temperature  Θ_0 of 2.51 [K], [local node]
   /// @param contributions        further terms in the displacement (contact); must outlive the phase
-  /// Throws InputError for a condition that names no group of the mesh.
+  /// Throws InputError for a condition that names no group of the mesh or contradicts another.
   MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
                   std::span<const double> initial_temperature, Conditions conditions,
                   MechanicsOptions options, std::vector<algebra::Contribution*> contributions = {});
@@ -107,6 +107,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   double residual(std::span<const double> x, std::span<double> r) override;
   algebra::BlockMatrix& tangent() override;
   void create_matrix();
+  void add_residual_to_balance(std::span<const double> r);
   std::string worst_place(std::span<const double> x);
   MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
 

@@ -93,7 +93,7 @@ struct ThermalConditionSpec {
 };
 
 struct MechanicalConditionSpec {
-  enum class Kind { displacement, pressure, traction };
+  enum class Kind { displacement, pressure, traction, plane };
   std::string name, group;
   Kind kind = Kind::displacement;
   std::optional<Function> ux, uy, uz, ur;  ///< [m] of time

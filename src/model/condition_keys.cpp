@@ -56,7 +56,9 @@ Section<MechanicalConditionSpec> mechanical_condition_keys() {
   s.choice("kind", &C::kind,
            {{"displacement", C::Kind::displacement, "prescribed displacement components"},
             {"pressure", C::Kind::pressure, "normal to the surface"},
-            {"traction", C::Kind::traction, "in fixed directions"}})
+            {"traction", C::Kind::traction, "in fixed directions"},
+            {"plane", C::Kind::plane,
+             "the face stays plane and parallel to itself; without loads on it its net force is zero"}})
       .doc("What acts there.");
   s.function("ux", &C::ux, "m")
       .of({Argument::time})

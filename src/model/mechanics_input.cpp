@@ -42,6 +42,9 @@ mechanics::Conditions mechanical_conditions(const CaseSpec& spec) {
         conditions.tractions.push_back(std::move(traction));
         break;
       }
+      case Kind::plane:
+        conditions.plane_faces.push_back({c.group});
+        break;
     }
   }
   return conditions;
