@@ -129,7 +129,7 @@ FlowCurves::Value FlowCurves::at(double strain, double temperature) const {
   const std::vector<double>& thetas = temperature_.points;
   if (thetas.size() == 1 || temperature < thetas.front() || temperature > thetas.back()) {
     const Piece one = on_curve(temperature > thetas.front() ? thetas.size() - 1 : 0, i, beyond);
-    return {one.stress, one.slope, one.energy, 0, 0};
+    return {one.stress, one.slope, one.energy, 0, 0, 0};
   }
   const std::size_t row = std::min(temperature_.interval(temperature), thetas.size() - 2);
   const Piece cold = on_curve(row, i, beyond), hot = on_curve(row + 1, i, beyond);
@@ -137,7 +137,8 @@ FlowCurves::Value FlowCurves::at(double strain, double temperature) const {
   const double t = (temperature - thetas[row]) / width;
   const auto between = [t](double a, double b) { return (1 - t) * a + t * b; };
   return {between(cold.stress, hot.stress), between(cold.slope, hot.slope), between(cold.energy, hot.energy),
-          (hot.stress - cold.stress) / width, (hot.energy - cold.energy) / width};
+          (hot.stress - cold.stress) / width, (hot.slope - cold.slope) / width,
+          (hot.energy - cold.energy) / width};
 }
 
 }  // namespace solidus::material

@@ -39,6 +39,7 @@ class FlowCurves {
     double slope = 0;         ///< K_ξξ [Pa]
     double energy = 0;        ///< K = ∫_0^ξ K_ξ dξ [J/m³]
     double stress_theta = 0;  ///< K_ξΘ [Pa/K]
+    double slope_theta = 0;   ///< K_ξξΘ [Pa/K]
     double energy_theta = 0;  ///< K_Θ [J/(m³ K)]
   };
   Value at(double strain, double temperature) const;

@@ -9,15 +9,17 @@ namespace solidus::material {
 /// Members as in Flow.
 template <class T>
 struct FlowProperties {
-  T flow_stress{};                             ///< σ_0 [Pa]
-  T saturation_stress{}, saturation_rate{};    ///< σ_∞ [Pa], δ
-  T hardening_modulus{};                       ///< H [Pa]
+  T flow_stress{};                           ///< σ_0 of the yield radius (2.107) [Pa]
+  T hardening_origin{};                      ///< σ_0 of the hardening potential (2.49d), equal unless frozen
+  T saturation_stress{}, saturation_rate{};  ///< σ_∞ [Pa], δ
+  T hardening_modulus{};                     ///< H [Pa]
   T reference_strain{}, hardening_exponent{};  ///< ε_0, m
   T kinematic_modulus{};                       ///< K [Pa]
   T recall{};                                  ///< of Armstrong–Frederick
   T viscosity{};                               ///< η of the overstress [Pa s]
   T exponent{}, drag_stress{};                 ///< n, D [Pa]
   T temperature{};                             ///< Θ [K], for measured flow curves
+  T beyond{};                                  ///< [K] from there along the line of the measured curves
 };
 
 /// @param T double, Lane, Jet or automatic differentiation; near its value a table is its line
@@ -25,6 +27,7 @@ template <class T>
 FlowProperties<T> flow_properties_at(const Flow& flow, const T& temperature) {
   FlowProperties<T> p;
   p.flow_stress = detail::value(flow.flow_stress, temperature);
+  p.hardening_origin = p.flow_stress;
   p.saturation_stress = detail::value(flow.saturation_stress, temperature);
   p.saturation_rate = detail::value(flow.saturation_rate, temperature);
   p.hardening_modulus = detail::value(flow.hardening_modulus, temperature);

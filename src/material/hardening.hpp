@@ -24,12 +24,12 @@ namespace detail {
 
 template <class T>
 struct CurvePoint {
-  T stress, slope, energy, stress_theta, energy_theta;  ///< FlowCurves::Value
+  T stress, slope, energy, stress_theta, slope_theta, energy_theta;  ///< FlowCurves::Value
 };
 
 inline CurvePoint<double> curve_point(const FlowCurves& curves, double xi, double theta) {
   const FlowCurves::Value v = curves.at(xi, theta);
-  return {v.stress, v.slope, v.energy, v.stress_theta, v.energy_theta};
+  return {v.stress, v.slope, v.energy, v.stress_theta, v.slope_theta, v.energy_theta};
 }
 inline CurvePoint<Lane> curve_point(const FlowCurves& curves, Lane xi, Lane theta) {
   CurvePoint<Lane> r;
@@ -39,6 +39,7 @@ inline CurvePoint<Lane> curve_point(const FlowCurves& curves, Lane xi, Lane thet
     r.slope.set(i, v.slope);
     r.energy.set(i, v.energy);
     r.stress_theta.set(i, v.stress_theta);
+    r.slope_theta.set(i, v.slope_theta);
     r.energy_theta.set(i, v.energy_theta);
   }
   return r;
@@ -55,7 +56,7 @@ HardeningStress<T> hardening_stress(IsotropicHardening kind, const FlowCurves& c
     case IsotropicHardening::linear:
       return {p.hardening_modulus * xi, p.hardening_modulus};
     case IsotropicHardening::saturation: {
-      const T rise = p.saturation_stress - p.flow_stress;
+      const T rise = p.saturation_stress - p.hardening_origin;
       const T decay = exp(T(-p.saturation_rate * xi));
       return {rise * (T(1.0) - decay) + p.hardening_modulus * xi,
               rise * p.saturation_rate * decay + p.hardening_modulus};
@@ -63,13 +64,14 @@ HardeningStress<T> hardening_stress(IsotropicHardening kind, const FlowCurves& c
     case IsotropicHardening::power: {
       const T base = T(1.0) + xi / p.reference_strain;
       const T raised = power<T>(base, p.hardening_exponent);
-      return {p.flow_stress * (raised - T(1.0)),
-              p.flow_stress * p.hardening_exponent * raised / (base * p.reference_strain)};
+      return {p.hardening_origin * (raised - T(1.0)),
+              p.hardening_origin * p.hardening_exponent * raised / (base * p.reference_strain)};
     }
     case IsotropicHardening::table: {
       const auto at = detail::curve_point(curves, core(xi), core(p.temperature));
-      const T dx = xi - T(core(xi)), dt = p.temperature - T(core(p.temperature));
-      return {T(at.stress) + T(at.slope) * dx + T(at.stress_theta) * dt, T(at.slope)};
+      const T dx = xi - T(core(xi)), dt = p.temperature - T(core(p.temperature)) + p.beyond;
+      const T slope = T(at.slope) + T(at.slope_theta) * dt;
+      return {T(at.stress) + slope * dx + T(at.stress_theta) * dt, slope};
     }
     case IsotropicHardening::none:
       break;
@@ -87,19 +89,20 @@ T hardening_energy(IsotropicHardening kind, const FlowCurves& curves, const Flow
     case IsotropicHardening::linear:
       return T(0.5) * p.hardening_modulus * xi * xi;
     case IsotropicHardening::saturation: {
-      const T rise = p.saturation_stress - p.flow_stress;
+      const T rise = p.saturation_stress - p.hardening_origin;
       const T decay = exp(T(-p.saturation_rate * xi));
       return rise * (xi - (T(1.0) - decay) / p.saturation_rate) + T(0.5) * p.hardening_modulus * xi * xi;
     }
     case IsotropicHardening::power: {
       const T base = T(1.0) + xi / p.reference_strain;
       const T above = p.hardening_exponent + T(1.0);
-      return p.flow_stress * (p.reference_strain * (power<T>(base, above) - T(1.0)) / above - xi);
+      return p.hardening_origin * (p.reference_strain * (power<T>(base, above) - T(1.0)) / above - xi);
     }
     case IsotropicHardening::table: {
       const auto at = detail::curve_point(curves, core(xi), core(p.temperature));
-      const T dx = xi - T(core(xi)), dt = p.temperature - T(core(p.temperature));
-      return T(at.energy) + (T(at.stress) + T(0.5) * T(at.slope) * dx + T(at.stress_theta) * dt) * dx +
+      const T dx = xi - T(core(xi)), dt = p.temperature - T(core(p.temperature)) + p.beyond;
+      const T slope = T(at.slope) + T(at.slope_theta) * dt;
+      return T(at.energy) + (T(at.stress) + T(0.5) * slope * dx + T(at.stress_theta) * dt) * dx +
              T(at.energy_theta) * dt;
     }
     case IsotropicHardening::none:
