@@ -1,0 +1,42 @@
+/// How history advances in time: backward Euler, and the two-step method of Gear (BDF2) with variable steps
+/// (monograph 4.64–4.73, errata to 4.66, 4.70).
+///
+///   ż(t_{n+1}) ≈ (z_{n+1} − z*)/Δt_eff
+///   backward Euler  z* = z_n,                                          Δt_eff = Δt
+///   two-step        z* = ((1 + ω)² z_n − ω² z_{n−1})/(1 + 2ω),         Δt_eff = Δt (1 + ω)/(1 + 2ω)
+///
+/// Symbols: z history, Δt = t_{n+1} − t_n, ω = Δt/(t_n − t_{n−1}). A law sees z* and Δt_eff only. Order 1 and
+/// 2; the two-step method is stable for steps that grow by less than 1 + √2 (Grigorieff 1983).
+#pragma once
+
+#include "base/tensor.hpp"
+
+namespace solidus::material {
+
+/// z* = now z_n + before z_{n−1}, and the effective step.
+struct TimeStep {
+  double dt;  ///< Δt_eff [s]
+  double now = 1, before = 0;
+
+  static TimeStep backward_euler(double dt) { return {dt}; }
+  /// @param dt, dt_before  Δt and t_n − t_{n−1} [s], both positive
+  static TimeStep two_step(double dt, double dt_before) {
+    const double ratio = dt / dt_before, divisor = 1 + 2 * ratio;
+    return {dt * (1 + ratio) / divisor, (1 + ratio) * (1 + ratio) / divisor, -ratio * ratio / divisor};
+  }
+};
+
+/// z*, of the history of a viscoplastic point (any struct with these members) at t_n and t_{n−1}.
+template <class State>
+State start_state(const TimeStep& step, const State& now, const State& before) {
+  using T = decltype(now.hardening);
+  const T a(step.now), b(step.before);
+  State start = now;
+  start.viscous_strain = a * now.viscous_strain + b * before.viscous_strain;
+  start.plastic_strain = a * now.plastic_strain + b * before.plastic_strain;
+  start.back_strain = a * now.back_strain + b * before.back_strain;
+  start.hardening = a * now.hardening + b * before.hardening;
+  return start;
+}
+
+}  // namespace solidus::material

@@ -1,0 +1,88 @@
+#include "point/loading.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace solidus::point {
+
+namespace {
+
+constexpr const char* k_duration_rule =
+    "give its duration, or to one ramp both a target and a rate that lead there";
+
+/// The time that a ramp with target and rate takes; the sign of the rate follows from the target.
+std::optional<double> time_needed(const Ramp& ramp, double from) {
+  if (!ramp.target || !ramp.rate) return std::nullopt;
+  return std::abs(*ramp.target - from) / std::abs(*ramp.rate);
+}
+
+double duration_of(const Segment& segment, const Target& begin) {
+  std::optional<double> duration = segment.duration;
+  const auto take = [&](const Ramp& ramp, double from) {
+    const std::optional<double> needed = time_needed(ramp, from);
+    if (!needed) return;
+    if (duration) throw InputError(segment.where, "the segment's duration is given twice", k_duration_rule);
+    duration = needed;
+  };
+  for (int i = 0; i < 6; ++i) take(segment.components[static_cast<std::size_t>(i)], begin.value[i]);
+  take(segment.temperature, begin.temperature);
+  if (!duration) throw InputError(segment.where, "the segment has no duration", k_duration_rule);
+  if (!(*duration > 0) || !std::isfinite(*duration))
+    throw InputError(segment.where, "the segment takes " + std::to_string(*duration) + " s",
+                     "a target that differs from what is there, and a rate that is not zero");
+  return *duration;
+}
+
+double value_at_end(const Ramp& ramp, double from, double duration) {
+  if (ramp.target) return *ramp.target;
+  return ramp.rate ? from + *ramp.rate * duration : from;
+}
+
+/// The factor by which n steps grow that begin with `first` and add up to `sum`: the root of
+/// 1 + r + ... + r^(n−1) = sum/first, which rises with r.
+double growth(double first, double sum, int n) {
+  double low = 1, high = 1e3;
+  if (first * n >= sum) return 1;
+  for (int i = 0; i < 200; ++i) {
+    const double r = 0.5 * (low + high);
+    (first * std::expm1(n * std::log(r)) / (r - 1) < sum ? low : high) = r;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+Path::Path(const Segment& segment, const Sym<double>& strain, const Sym<double>& stress, double temperature)
+    : segment_(&segment) {
+  begin_.temperature = temperature;
+  for (int i = 0; i < 6; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    begin_.of[k] = segment.components[k].of;
+    begin_.value[i] = begin_.of[k] == Control::strain ? strain[i] : stress[i];
+  }
+  duration_ = duration_of(segment, begin_);
+  end_ = begin_;
+  for (int i = 0; i < 6; ++i)
+    end_.value[i] = value_at_end(segment.components[static_cast<std::size_t>(i)], begin_.value[i], duration_);
+  end_.temperature = value_at_end(segment.temperature, temperature, duration_);
+}
+
+Target Path::at(double time) const {
+  const double part = time / duration_;
+  Target target = begin_;
+  target.value = (1 - part) * begin_.value + part * end_.value;
+  target.temperature = (1 - part) * begin_.temperature + part * end_.temperature;
+  return target;
+}
+
+std::vector<double> Path::steps() const {
+  const int n = segment_->steps;
+  const double even = duration_ / n, first = segment_->first_step.value_or(even);
+  const double factor = first < even ? growth(first, duration_, n) : 1;
+  std::vector<double> sizes;
+  double size = factor == 1 ? even : first;
+  for (int i = 0; i < n; ++i, size *= factor) sizes.push_back(size);
+  return sizes;
+}
+
+}  // namespace solidus::point

@@ -1,0 +1,121 @@
+#include "point/material_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "point/linear_system.hpp"
+
+namespace solidus::point {
+
+namespace {
+
+using Law = material::Viscoplastic;
+
+constexpr int k_max_iterations = 60;
+constexpr int k_max_halvings = 8;
+/// Of the stress; Newton's last correction lies far below.
+constexpr double k_tolerance = 1e-10;
+/// Of the bulk modulus: the rounding of the pressure, k times a difference of strains.
+constexpr double k_rounding = 1e-14;
+/// Of the bulk modulus, added to the shear stiffness: a liquid without any leaves the free strains open.
+constexpr double k_least_stiffness = 1e-12;
+
+std::vector<int> free_components(const Target& target) {
+  std::vector<int> rows;
+  for (int i = 0; i < 6; ++i)
+    if (target.of[static_cast<std::size_t>(i)] == Control::stress) rows.push_back(i);
+  return rows;
+}
+
+double largest_missing(const std::vector<int>& free, const Target& target, const Sym<double>& stress) {
+  double worst = 0;
+  for (const int i : free) worst = std::max(worst, std::abs(target.value[i] - stress[i]));
+  return worst;
+}
+
+/// Newton's correction of the strain; zero in the imposed components.
+bool correction(const std::vector<int>& free, const Target& target, const Law::Response<double>& r,
+                Sym<double>& change) {
+  const Sym4<double> tangent = material::full_tangent(r);
+  const Sym4<double> least = Sym4<double>::isotropic(0, k_least_stiffness * r.bulk);
+  Matrix6 a{};
+  Vector6 b{}, x{};
+  for (std::size_t row = 0; row < free.size(); ++row) {
+    const int i = free[row];
+    b[row] = target.value[i] - r.stress[i];
+    for (std::size_t column = 0; column < free.size(); ++column) {
+      const auto j = static_cast<std::size_t>(free[column]);
+      a[row][column] = tangent[i][j] + least[i][j];
+    }
+  }
+  if (!solve(a, b, free.size(), x)) return false;
+  for (std::size_t row = 0; row < free.size(); ++row)
+    change[free[row]] = free[row] < 3 ? x[row] : 0.5 * x[row];  // the tangent acts on engineering strains
+  return true;
+}
+
+}  // namespace
+
+MaterialPoint::MaterialPoint(const material::Material& material, double temperature, double strain_reference,
+                             Integration integration)
+    : law_(material), strain_reference_(strain_reference), integration_(integration) {
+  now_.temperature = temperature;
+  const double thermal = law_.properties_at(temperature, strain_reference).elastic.thermal_strain;
+  for (int i = 0; i < 3; ++i) now_.strain[i] = thermal / 3;
+}
+
+StepResult MaterialPoint::attempt(const Target& end, double dt) const {
+  const bool two_step = integration_ == Integration::two_step && step_before_ > 0;
+  const auto step =
+      two_step ? material::TimeStep::two_step(dt, step_before_) : material::TimeStep::backward_euler(dt);
+  const auto start = material::start_state(step, now_.history, history_before_);
+  const auto p = law_.properties_at(end.temperature, strain_reference_);
+  const auto before = law_.properties_at(now_.temperature, strain_reference_);
+
+  StepResult result;
+  result.thermal_strain = p.elastic.thermal_strain;
+  const std::vector<int> free = free_components(end);
+  Sym<double> strain = now_.strain;
+  const double growth = (p.elastic.thermal_strain - before.elastic.thermal_strain) / 3;
+  for (int i = 0; i < 6; ++i) {
+    if (end.of[static_cast<std::size_t>(i)] == Control::strain)
+      strain[i] = end.value[i];
+    else if (i < 3)
+      strain[i] += growth;
+  }
+
+  auto response = law_.update(p, start, strain, step.dt);
+  double missing = largest_missing(free, end, response.stress);
+  const auto tolerance = [&] {
+    return k_tolerance * (norm(response.stress) + norm(now_.stress)) + k_rounding * p.elastic.bulk;
+  };
+  const auto good = [&] { return response.status == material::Status::converged && std::isfinite(missing); };
+  for (int i = 0; good() && missing > tolerance() && i < k_max_iterations; ++i) {
+    result.residuals.push_back(missing);
+    Sym<double> change;
+    if (!correction(free, end, response, change)) break;
+    double part = 1;
+    for (int halving = 0;; ++halving, part *= 0.5) {
+      const Sym<double> next = strain + part * change;
+      const auto trial = law_.update(p, start, next, step.dt);
+      const double left = largest_missing(free, end, trial.stress);
+      if (left < missing || halving == k_max_halvings) {
+        strain = next, response = trial, missing = left;
+        break;
+      }
+    }
+  }
+  result.residuals.push_back(missing);
+  result.converged = good() && missing <= tolerance();
+  result.response = response;
+  result.state = {now_.time + dt, end.temperature, strain, response.stress, response.state};
+  return result;
+}
+
+void MaterialPoint::accept(const StepResult& result) {
+  history_before_ = now_.history;
+  step_before_ = result.state.time - now_.time;
+  now_ = result.state;
+}
+
+}  // namespace solidus::point

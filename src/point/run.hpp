@@ -1,0 +1,30 @@
+/// From a material and a loading to its history.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "point/loading.hpp"
+#include "point/material_point.hpp"
+#include "point/record.hpp"
+
+namespace solidus::point {
+
+struct Program {
+  double temperature = 293.15;       ///< at the start [K]
+  double strain_reference = 293.15;  ///< Θ_0 of 2.51, where the strain is zero [K]
+  Integration integration = Integration::backward_euler;
+  std::vector<Segment> segments;
+};
+
+struct History {
+  std::vector<Record> records;  ///< the start and every step
+  bool finished = true;
+  std::string reason;  ///< why it stopped, with the state there and advice
+};
+
+/// Marches through all segments. A step that does not converge is halved, ten times at most. Throws
+/// InputError for a segment without a duration.
+History run(const material::Material& material, const Program& program);
+
+}  // namespace solidus::point
