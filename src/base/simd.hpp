@@ -104,9 +104,7 @@ inline double select(bool mask, double a, double b) {
 
 inline bool any(LaneMask m) {
   for (int r = 1; r < k_registers; ++r) m.v[0] |= m.v[r];
-  std::int64_t any_lane = 0;
-  for (int i = 0; i < k_register_width; ++i) any_lane |= m.v[0][i];
-  return any_lane != 0;
+  return any(m.v[0]);
 }
 inline bool any(bool m) {
   return m;
