@@ -80,7 +80,8 @@ TEST(ModelInput, InAxisymmetryTheAxialDisplacementIsTheSecondComponent) {
       "MPa\"\n"
       "[[mechanical_condition]]\nname = \"d\"\ngroup = \"mould_top\"\nkind = \"traction\"\ntraction = [\"1 "
       "Pa\", { of = \"time\", "
-      "argument_unit = \"s\", unit = \"Pa\", points = [[0, 0], [2, 4]] }]\n");
+      "argument_unit = \"s\", unit = \"Pa\", points = [[0, 0], [2, 4]] }]\n"
+      "[[mechanical_condition]]\nname = \"e\"\ngroup = \"part_top\"\nkind = \"plane\"\n");
   const mechanics::Conditions c = mechanical_conditions(spec);
   ASSERT_EQ(c.displacements.size(), 2u);
   EXPECT_EQ(c.displacements[0].component, 1);
@@ -90,6 +91,8 @@ TEST(ModelInput, InAxisymmetryTheAxialDisplacementIsTheSecondComponent) {
   EXPECT_DOUBLE_EQ(c.tractions[0].value[0].value(1), 1);
   EXPECT_DOUBLE_EQ(c.tractions[0].value[1].value(1), 2);
   EXPECT_DOUBLE_EQ(c.tractions[0].value[2].value(1), 0);
+  ASSERT_EQ(c.plane_faces.size(), 1u);
+  EXPECT_EQ(c.plane_faces[0].node_set, "part_top");
 }
 
 TEST(ModelInput, AFilmTableOfTemperatureIsToldFromOneOfTime) {
