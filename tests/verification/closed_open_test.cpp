@@ -48,7 +48,7 @@ double overshoot(const mesh::Mesh& mesh, heat::Integration rule, double dt, cons
   heat::HeatOptions options;
   options.integration = rule;
   heat::ThermalPhase phase(mesh, AnalysisKind::axisymmetric,
-                           {material::load_material(folder + "cast_iron.toml"),
+                           {material::load_material(folder + "grey_iron.toml"),
                             material::load_material(folder + "green_sand.toml")},
                            {}, options);
   // The nodes of the interface start as part of the casting.

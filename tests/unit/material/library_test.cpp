@@ -21,7 +21,7 @@ const std::array<fs::path, 1> k_library{fs::path(SOLIDUS_SOURCE_DIR) / "material
 
 TEST(MaterialLibrary, EveryPropertyOfEveryFileHasASourceAndEveryTableAValidityRange) {
   const auto names = material_names(k_library);
-  EXPECT_GE(names.size(), 8u);
+  EXPECT_GE(names.size(), 10u);
   for (const std::string& name : names) {
     const Material m = find_material(name, k_library);
     EXPECT_EQ(m.name, name);
@@ -31,7 +31,8 @@ TEST(MaterialLibrary, EveryPropertyOfEveryFileHasASourceAndEveryTableAValidityRa
       EXPECT_FALSE(note.source.empty()) << name << " " << note.property;
       const bool always = note.property == "density" || note.property == "poisson_ratio" ||
                           note.property == "twice_shear_viscosity" || note.property == "solidification" ||
-                          note.property == "graphite";
+                          note.property == "graphite" || note.property == "plasticity.rate_exponent" ||
+                          note.property == "plasticity.drag_stress";
       EXPECT_TRUE(always || note.valid_to > note.valid_from) << name << " " << note.property;
     }
     const EnthalpyCurve h = m.enthalpy();
@@ -63,8 +64,27 @@ TEST(MaterialLibrary, GreyIronGrowsAndAluminiumShrinksOnFreezing) {
       sum += change.volume_change;
     return sum;
   };
-  EXPECT_GT(growth("cast_iron"), 0);
+  EXPECT_GT(growth("grey_iron"), 0);
+  EXPECT_GT(growth("nodular_iron"), 0);
   EXPECT_LT(growth("aluminium_alsi7mg"), 0);
+}
+
+TEST(MaterialLibrary, TheMonographsMaterialsStayElastic) {
+  EXPECT_FALSE(find_material("aluminium_99_7", k_library).flow);
+  EXPECT_FALSE(find_material("steel_mould", k_library).flow);
+}
+
+TEST(MaterialLibrary, WhatSolidifiesAndYieldsKeepsASmallStrengthUpToTheLiquidus) {
+  for (const char* name :
+       {"aluminium_99_7_plastic", "aluminium_alsi7mg", "grey_iron", "nodular_iron", "low_carbon_steel"}) {
+    const Material m = find_material(name, k_library);
+    ASSERT_TRUE(m.flow) << name;
+    const double liquidus = m.solidification()->fraction.liquidus();
+    const double at_liquidus = m.flow->flow_stress.value(liquidus);
+    EXPECT_GE(at_liquidus, 0.5e6) << name;
+    EXPECT_LE(at_liquidus, 3e6) << name;
+    EXPECT_GT(m.flow->flow_stress.value(293.15), 20 * at_liquidus) << name;
+  }
 }
 
 TEST(MaterialLibrary, AnUnknownNameIsAnsweredWithTheNearestAndThePlace) {
@@ -217,6 +237,45 @@ TEST_F(MaterialOnDisk, TakesFromTheMaterialThatItIsLikeWhatItDoesNotGive) {
   EXPECT_EQ(m.poisson_ratio.value(300), 0.25);
   EXPECT_EQ(m.density, base.density);
   EXPECT_EQ(m.phase_changes.size(), 1u);
+}
+
+const std::string k_plastic_child = "like = \"aluminium_99_7_plastic\"\n[plasticity]\n";
+
+TEST_F(MaterialOnDisk, TakesPlasticityKeyByKey) {
+  write("slow.toml", k_plastic_child + "viscosity = \"1e5 Pa s\"\n");
+  const Flow base = *find_material("aluminium_99_7_plastic", k_library).flow;
+  const Flow slow = *load_material(folder_ / "slow.toml", k_library).flow;
+  EXPECT_EQ(slow.viscosity.value(800), 1e5);
+  EXPECT_EQ(slow.isotropic, base.isotropic);
+  EXPECT_EQ(slow.flow_stress.value(500), base.flow_stress.value(500));
+  EXPECT_EQ(slow.exponent.value(500), base.exponent.value(500));
+}
+
+TEST_F(MaterialOnDisk, AnotherKindDropsTheKeysOfTheOldOneButNotOfItsChildren) {
+  write("fast.toml", k_plastic_child +
+                         "rate_dependence = \"none\"\nisotropic_hardening = \"linear\"\n"
+                         "hardening_modulus = \"100 MPa\"\n");
+  const Flow fast = *load_material(folder_ / "fast.toml", k_library).flow;
+  EXPECT_TRUE(fast.rate_independent());
+  EXPECT_EQ(fast.isotropic, IsotropicHardening::linear);
+  EXPECT_EQ(fast.saturation_stress.value(300), 0);
+  EXPECT_GT(fast.flow_stress.value(300), 0);
+  write("wrong.toml", "like = \"fast.toml\"\n[plasticity]\nsaturation_rate = 3\n");
+  try {
+    load_material(folder_ / "wrong.toml", k_library);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("wrong.toml:3"), HasSubstr("'saturation_rate' does not belong")));
+  }
+}
+
+TEST_F(MaterialOnDisk, APlasticityWrittenInlineReplacesTheInheritedOne) {
+  write("ideal.toml", "like = \"aluminium_99_7_plastic\"\nplasticity = { flow_stress = \"20 MPa\" }\n");
+  const Flow ideal = *load_material(folder_ / "ideal.toml", k_library).flow;
+  EXPECT_EQ(ideal.isotropic, IsotropicHardening::none);
+  EXPECT_TRUE(ideal.rate_independent());
+  EXPECT_EQ(ideal.flow_stress.value(900), 20e6);
 }
 
 TEST_F(MaterialOnDisk, RefusesACircleOfLikesAndAnUnknownOneWithThePlace) {
