@@ -20,7 +20,11 @@ namespace solidus::material {
 
 enum class Status { converged, cut_the_step, outside_range };
 
-struct Viscoelastic {
+class Viscoelastic {
+ public:
+  template <class T>
+  using Properties = PointProperties<T>;
+
   template <class T>
   struct State {
     Sym<T> viscous_strain;  ///< ε^v, deviatoric
@@ -34,6 +38,15 @@ struct Viscoelastic {
     T dissipation;        ///< D_mech = s : ε̇^v [W/m³] (2.116)
     Status status = Status::converged;
   };
+
+  /// Keeps a reference to the material.
+  explicit Viscoelastic(const Material& material) : material_(&material) {}
+
+  /// @param initial_temperature Θ_0 of 2.51 [K]
+  template <class T>
+  Properties<T> properties_at(const T& temperature, const T& initial_temperature) const {
+    return material::properties_at(*material_, temperature, initial_temperature);
+  }
 
   /// @param old    history at t_n
   /// @param strain total strain at t_{n+1}
@@ -55,6 +68,12 @@ struct Viscoelastic {
     r.dissipation = lambda / p.viscosity * dot(s, s);  // 2.116
     return r;
   }
+
+  bool symmetric() const { return true; }
+  const Material& material() const { return *material_; }
+
+ private:
+  const Material* material_;
 };
 
 }  // namespace solidus::material

@@ -4,18 +4,32 @@
 
 namespace solidus::mechanics {
 
-std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+namespace {
+
+template <class Law>
+std::unique_ptr<BlockKernel> make_block_of_law(const mesh::Mesh& mesh, const mesh::Block& block,
                                                AnalysisKind kind, const material::Material& material,
                                                bool b_bar) {
   switch (kind) {
     case AnalysisKind::plane_strain:
-      return make_plane_strain_block(mesh, block, material, b_bar);
+      return make_block<Law, AnalysisKind::plane_strain>(mesh, block, material, b_bar);
     case AnalysisKind::axisymmetric:
-      return make_axisymmetric_block(mesh, block, material, b_bar);
+      return make_block<Law, AnalysisKind::axisymmetric>(mesh, block, material, b_bar);
     case AnalysisKind::solid:
       break;
   }
-  return make_solid_block(mesh, block, material, b_bar);
+  return make_block<Law, AnalysisKind::solid>(mesh, block, material, b_bar);
+}
+
+}  // namespace
+
+std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+                                               AnalysisKind kind, const material::Material& material,
+                                               bool b_bar) {
+  // The Maxwell element alone has a shorter history and an isotropic tangent.
+  if (!material.flow && material.liquid_model == material::LiquidModel::maxwell)
+    return make_block_of_law<material::Viscoelastic>(mesh, block, kind, material, b_bar);
+  return make_block_of_law<material::Viscoplastic>(mesh, block, kind, material, b_bar);
 }
 
 }  // namespace solidus::mechanics

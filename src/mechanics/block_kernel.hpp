@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
@@ -23,13 +24,14 @@ struct StepStart {
 /// Sums over the counted elements of a block.
 struct BlockWork {
   double internal_work = 0, dissipation = 0;  ///< [J]
-  bool law_failed = false;                    ///< in any element, counted or not
 };
 
 class BlockKernel {
  public:
   virtual ~BlockKernel() = default;
 
+  /// Whether the tangent is, at every state.
+  virtual bool symmetric() const = 0;
   /// Looks up matrix slots.
   virtual void bind(const algebra::BlockMatrix& matrix) = 0;
   virtual BlockHistory initial_history() const = 0;
@@ -37,12 +39,15 @@ class BlockKernel {
   /// forces that a strain of 1 would cause, counted elements only: the scale of round-off.
   virtual double prepare(const StepStart& start) = 0;
   /// forces += ∫ B̄ᵀ σ dV at u ([local node][component]); returns the sum of squares of the element's nodal
-  /// forces before they cancel, counted elements only.
+  /// forces before they cancel, counted elements only. Where the law finds no state the forces are not
+  /// numbers.
   virtual double add_forces(std::span<const double> u, std::span<double> forces) = 0;
   /// matrix += ∫ B̄ᵀ C B̄ dV at u.
   virtual void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) = 0;
   /// Writes the new history, keeps stresses and what the thermal phase needs.
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
+  /// The first element whose law finds no state at u, with its inputs; empty if there is none.
+  virtual std::string failure(std::span<const double> u) const = 0;
   /// Averages over the elements, of the last finish().
   virtual ElementFields fields() const = 0;
   /// out_i += weight × ∫ N_i dV, [local node].

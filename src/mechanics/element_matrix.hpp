@@ -1,5 +1,5 @@
-/// The upper half of a symmetric element matrix, and its additions: isotropic or general tangent
-/// (monograph 6.33).
+/// The upper half of a symmetric or skew element matrix, and its additions: isotropic, rank-one or general
+/// tangent (monograph 6.33).
 #pragma once
 
 #include "mechanics/kinematics.hpp"
@@ -9,6 +9,7 @@ namespace solidus::mechanics {
 /// Blocks K_ab for a <= b, dim × dim each, in rows of a.
 template <int n_nodes, int dim>
 struct ElementMatrix {
+  using Vectors = NodalVectors<Lane, n_nodes, dim>;
   static constexpr std::size_t n_pairs = n_nodes * (n_nodes + 1) / 2;
   std::array<std::array<Lane, dim * dim>, n_pairs> pairs{};
 };
@@ -42,6 +43,40 @@ void add_isotropic(const Kinematics<n_nodes, kind, b_bar>& b, Lane bulk, Lane tw
         block[0] += twice_shear * b.hoop_value[p] * b.hoop_value[q];
     }
   }
+}
+
+/// K_ab += factor v_a v_bᵀ: a rank-one tangent c t ⊗ t with v = B̄ᵀ t.
+template <int n_nodes, int dim>
+void add_product(const typename ElementMatrix<n_nodes, dim>::Vectors& v, Lane factor,
+                 ElementMatrix<n_nodes, dim>& k) {
+  constexpr auto size = static_cast<std::size_t>(dim);
+  std::size_t pair = 0;
+  for (std::size_t p = 0; p < n_nodes; ++p) {
+    std::array<Lane, size> scaled;
+    for (std::size_t i = 0; i < size; ++i) scaled[i] = factor * v[p][i];
+    for (std::size_t q = p; q < n_nodes; ++q, ++pair)
+      for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t j = 0; j < size; ++j) k.pairs[pair][i * size + j] += scaled[i] * v[q][j];
+  }
+}
+
+/// K_ab += factor v_a z_bᵀ split into its symmetric and its skew part: a tangent l ⊗ r with v = B̄ᵀ l,
+/// z = B̄ᵀ r.
+template <int n_nodes, int dim>
+void add_product(const typename ElementMatrix<n_nodes, dim>::Vectors& v,
+                 const typename ElementMatrix<n_nodes, dim>::Vectors& z, Lane factor,
+                 ElementMatrix<n_nodes, dim>& symmetric, ElementMatrix<n_nodes, dim>& skew) {
+  constexpr auto size = static_cast<std::size_t>(dim);
+  const Lane half = Lane(0.5) * factor;
+  std::size_t pair = 0;
+  for (std::size_t p = 0; p < n_nodes; ++p)
+    for (std::size_t q = p; q < n_nodes; ++q, ++pair)
+      for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t j = 0; j < size; ++j) {
+          const Lane here = half * v[p][i] * z[q][j], mirrored = half * z[p][i] * v[q][j];
+          symmetric.pairs[pair][i * size + j] += here + mirrored;
+          skew.pairs[pair][i * size + j] += here - mirrored;
+        }
 }
 
 /// K_ab += B̄_aᵀ C B̄_b for a symmetric C, already times the weight of the point.

@@ -3,46 +3,55 @@
 #pragma once
 
 #include <cstring>
+#include <limits>
 
-#include "material/viscoelastic.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/element_matrix.hpp"
+#include "mechanics/element_transfer.hpp"
+#include "mechanics/law_parts.hpp"
 #include "mechanics/structural_points.hpp"
 #include "mesh/block_geometry.hpp"
 
 namespace solidus::mechanics {
 
-/// What to subtract from the strain for the elastic one; a law with more inelastic parts adds an overload.
-template <class T>
-Sym<T> inelastic_strain(const material::Viscoelastic::State<T>& state) {
-  return state.viscous_strain;
-}
-
-/// A law whose tangent is κ 1⊗1 + 2Ĝ I_dev; others offer a full `tangent` (Sym4).
+/// A law whose tangent is κ 1⊗1 + 2Ĝ I_dev; others offer a full symmetric `tangent` (Sym4).
 template <class Response>
 concept IsotropicTangent = requires(const Response& r) {
   r.bulk;
   r.twice_shear;
 };
+/// A law whose tangent is the isotropic one + left ⊗ right, where flow_increment > 0.
+template <class Response>
+concept RankOneTangent = IsotropicTangent<Response> && requires(const Response& r) {
+  r.left;
+  r.right;
+  r.flow_increment;
+};
 
+/// Law: built from a material; `properties_at`, `update`, `symmetric`, and the overloads of law_parts.hpp.
 template <class Law, int n_nodes, AnalysisKind kind, bool b_bar>
 class LawBlock final : public BlockKernel {
  public:
   using Operator = Kinematics<n_nodes, kind, b_bar>;
   using Vectors = typename Operator::Vectors;
   using State = typename Law::template State<Lane>;
+  using Properties = typename Law::template Properties<Lane>;
+  using Matrix = ElementMatrix<n_nodes, Operator::dim>;
   static constexpr std::size_t dim = Operator::dim;
   static_assert(sizeof(State) % sizeof(Lane) == 0, "a state is made of lanes");
   static constexpr int n_state = static_cast<int>(sizeof(State) / sizeof(Lane));
 
   LawBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
       : geometry_(mesh, block, kind, mesh::stiffness_rule(block.shape)),
-        material_(material),
+        block_(block),
+        law_(material),
         points_(geometry_, material) {
     properties_.resize(static_cast<std::size_t>(geometry_.n_batches * geometry_.n_points));
     averages_.resize(static_cast<std::size_t>(geometry_.n_batches));
     if constexpr (b_bar) compute_means();
   }
+
+  bool symmetric() const override { return law_.symmetric(); }
 
   void bind(const algebra::BlockMatrix& matrix) override {
     slots_ = matrix.lane_slots(geometry_.nodes, n_nodes, geometry_.n_elements);
@@ -63,9 +72,9 @@ class LawBlock final : public BlockKernel {
       Vectors f{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Lane theta = temperature_at(geometry_, batch, q, start.temperature);
-        auto& p = properties_[index(batch, q)];
-        p = material::properties_at(material_, theta,
-                                    temperature_at(geometry_, batch, q, start.initial_temperature));
+        properties_[index(batch, q)] =
+            law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
+        const auto& p = elastic_part(properties_[index(batch, q)]);
         points_.set_temperature(batch, q, theta, p.thermal_strain);
         const Operator b = at_point(batch, q);
         for (std::size_t a = 0; a < n_nodes; ++a)
@@ -85,11 +94,12 @@ class LawBlock final : public BlockKernel {
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const auto response =
-            Law::update(properties_[index(batch, q)], old_state(batch, q), b.strain(displacement), dt_);
+            law_.update(properties_[index(batch, q)], old_state(batch, q), b.strain(displacement), dt_);
         b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
+        if (response.status != material::Status::converged) spoil(f);
       }
       total += geometry_.counted[static_cast<std::size_t>(batch)] * squares(f);
-      scatter(f, batch, forces);
+      scatter<n_nodes, Operator::dim>(f, nodes_of(batch), forces);
     }
     return sum(total);
   }
@@ -97,22 +107,39 @@ class LawBlock final : public BlockKernel {
   void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
-      ElementMatrix<n_nodes, static_cast<int>(dim)> k;
+      Matrix symmetric, skew;
+      bool any_skew = false;
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Lane w = geometry_.weight_at(batch, q);
         const auto response =
-            Law::update(properties_[index(batch, q)], old_state(batch, q), b.strain(displacement), dt_);
-        if constexpr (IsotropicTangent<decltype(response)>) {
-          add_isotropic(b, w * response.bulk, w * response.twice_shear, k);
+            law_.update(properties_[index(batch, q)], old_state(batch, q), b.strain(displacement), dt_);
+        using Response = std::remove_const_t<decltype(response)>;
+        if constexpr (IsotropicTangent<Response>) {
+          add_isotropic(b, w * response.bulk, w * response.twice_shear, symmetric);
         } else {
           Sym4<Lane> c = response.tangent;
           for (auto& row : c.c)
             for (auto& entry : row) entry *= w;
-          add_general(b, c, k);
+          add_general(b, c, symmetric);
+        }
+        if constexpr (RankOneTangent<Response>) {
+          if (!any(response.flow_increment > Lane(0.0))) continue;
+          Vectors right{};
+          b.add_force(response.right, right);
+          if (law_.symmetric()) {  // left = (left : right) right, right being of unit length
+            add_product(right, w * dot(response.left, response.right), symmetric);
+          } else {
+            Vectors left{};
+            b.add_force(response.left, left);
+            add_product(left, right, w, symmetric, skew);
+            any_skew = true;
+          }
         }
       }
-      scatter(k, batch, matrix);
+      const auto* slots = slots_.data() + static_cast<std::size_t>(batch) * n_nodes * n_nodes * k_lanes;
+      scatter<1>(symmetric, slots, matrix);
+      if (any_skew) scatter<-1>(skew, slots, matrix);
     }
   }
 
@@ -126,10 +153,10 @@ class LawBlock final : public BlockKernel {
         const Operator b = at_point(batch, q);
         const Lane w = geometry_.weight_at(batch, q);
         const auto& p = properties_[index(batch, q)];
+        const LaneMask solid = elastic_part(p).solid_fraction >= Lane(1.0);
         const State old = old_state(batch, q);
         const Sym<Lane> old_strain = b.strain(old_displacement), strain = b.strain(displacement);
-        const auto response = Law::update(p, old, strain, dt_);
-        work.law_failed = work.law_failed || response.status != material::Status::converged;
+        const auto response = law_.update(p, old, strain, dt_);
         std::memcpy(static_cast<void*>(trial.values.data() + index(batch, q) * n_state), &response.state,
                     sizeof(State));
 
@@ -142,7 +169,6 @@ class LawBlock final : public BlockKernel {
         average.strain += w * strain;
         average.inelastic += w * inelastic;
 
-        const LaneMask solid = p.solid_fraction >= Lane(1.0);
         const auto elastic_squared = [&](const Sym<Lane>& e, const Sym<Lane>& minus) {
           const Sym<Lane> elastic = dev(e - minus);
           return select(solid, dot(elastic, elastic), Lane(0.0));
@@ -165,6 +191,30 @@ class LawBlock final : public BlockKernel {
       averages_[static_cast<std::size_t>(batch)] = average;
     }
     return work;
+  }
+
+  std::string failure(std::span<const double> u) const override {
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Vectors displacement = gather(u, batch);
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Sym<Lane> strain = at_point(batch, q).strain(displacement);
+        for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane) {
+          using StateOfOne = typename Law::template State<double>;
+          const auto p =
+              element_of<typename Law::template Properties<double>>(properties_[index(batch, q)], lane);
+          const auto old = element_of<StateOfOne>(old_state(batch, q), lane);
+          const auto strain_of_one = element_of<Sym<double>>(strain, lane);
+          if (law_.update(p, old, strain_of_one, dt_).status == material::Status::converged) continue;
+          return fmt::format(
+              "element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, at the start of the step "
+              "{}",
+              block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)],
+              points_.at(batch, q).temperature[lane], elastic_part(p).solid_fraction, text(strain_of_one),
+              text(old));
+        }
+      }
+    }
+    return {};
   }
 
   ElementFields fields() const override {
@@ -263,57 +313,13 @@ class LawBlock final : public BlockKernel {
   }
 
   Vectors gather(std::span<const double> u, Index batch) const {
-    const Index* nodes = nodes_of(batch);
-    Vectors result;
-    for (std::size_t a = 0; a < n_nodes; ++a) {
-      alignas(sizeof(Lane)) double values[dim][k_lanes];
-      for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-        const double* from =
-            u.data() + static_cast<std::ptrdiff_t>(nodes[a * k_lanes + lane]) * static_cast<int>(dim);
-        for (std::size_t i = 0; i < dim; ++i) values[i][lane] = from[i];
-      }
-      for (std::size_t i = 0; i < dim; ++i) result[a][i] = Lane::load(values[i]);
-    }
-    return result;
+    return mechanics::gather<n_nodes, static_cast<int>(dim)>(u, nodes_of(batch));
   }
 
-  void scatter(const Vectors& f, Index batch, std::span<double> forces) const {
-    const Index* nodes = nodes_of(batch);
-    for (std::size_t a = 0; a < n_nodes; ++a) {
-      alignas(sizeof(Lane)) double values[dim][k_lanes];
-      for (std::size_t i = 0; i < dim; ++i) f[a][i].store(values[i]);
-      for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-        double* to =
-            forces.data() + static_cast<std::ptrdiff_t>(nodes[a * k_lanes + lane]) * static_cast<int>(dim);
-        for (std::size_t i = 0; i < dim; ++i) to[i] += values[i][lane];
-      }
-    }
-  }
-
-  void scatter(const ElementMatrix<n_nodes, static_cast<int>(dim)>& k, Index batch,
-               algebra::BlockMatrix& matrix) const {
-    using Slot = algebra::BlockMatrix::Slot;
-    const Slot* slots = slots_.data() + static_cast<std::size_t>(batch) * n_nodes * n_nodes * k_lanes;
-    double* const base = matrix.block(0);
-    constexpr auto size = static_cast<Slot>(dim * dim);
-    std::size_t pair = 0;
-    for (std::size_t a = 0; a < n_nodes; ++a)
-      for (std::size_t b = a; b < n_nodes; ++b, ++pair) {
-        alignas(sizeof(Lane)) double values[dim * dim][k_lanes];
-        for (std::size_t i = 0; i < dim * dim; ++i) k.pairs[pair][i].store(values[i]);
-        const Slot* upper = slots + (a * n_nodes + b) * k_lanes;
-        const Slot* lower = slots + (b * n_nodes + a) * k_lanes;
-        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-          double* to = base + upper[lane] * size;
-          for (std::size_t i = 0; i < dim * dim; ++i) to[i] += values[i][lane];
-        }
-        if (a == b) continue;
-        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-          double* to = base + lower[lane] * size;
-          for (std::size_t i = 0; i < dim; ++i)
-            for (std::size_t j = 0; j < dim; ++j) to[i * dim + j] += values[j * dim + i][lane];
-        }
-      }
+  /// Newton's iteration takes what is not a number for a step too far.
+  static void spoil(Vectors& f) {
+    for (auto& node : f)
+      for (Lane& value : node) value = Lane(std::numeric_limits<double>::quiet_NaN());
   }
 
   static Lane squares(const Vectors& f) {
@@ -324,12 +330,13 @@ class LawBlock final : public BlockKernel {
   }
 
   mesh::BlockGeometry geometry_;
-  const material::Material& material_;
+  const mesh::Block& block_;
+  Law law_;
   StructuralPoints points_;
-  PackVector<material::PointProperties<Lane>> properties_;  ///< at Θ_n: [batch][point]
-  PackVector<Lane> means_;                                  ///< b̄_a, B-bar only: [batch][node][dim]
-  std::vector<algebra::BlockMatrix::Slot> slots_;           ///< [batch][a][b][lane]
-  PackVector<Averages> averages_;                           ///< [batch]
+  PackVector<Properties> properties_;              ///< at Θ_n: [batch][point]
+  PackVector<Lane> means_;                         ///< b̄_a, B-bar only: [batch][node][dim]
+  std::vector<algebra::BlockMatrix::Slot> slots_;  ///< [batch][a][b][lane]
+  PackVector<Averages> averages_;                  ///< [batch]
   const BlockHistory* old_history_ = nullptr;
   double dt_ = 0;
 };

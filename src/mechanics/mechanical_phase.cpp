@@ -60,6 +60,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       weight[node * static_cast<std::size_t>(components_) + i] = mass[node] * gravity[i];
   loads_->add_constant(weight);
 
+  for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
   create_matrix();
   solver_ = std::make_unique<algebra::LinearSolver>(
       mesh, algebra::LinearSolverOptions{.prefix = "mechanics_",
@@ -149,7 +150,11 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   loads_->prescribe(time, x);
   PhaseReport report;
   report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
-  if (!report.newton.converged) throw StepRejected("mechanics: " + report.newton.reason, worst_place(x));
+  if (!report.newton.converged) {
+    if (const std::string failure = law_failure(x); !failure.empty())
+      throw StepRejected("mechanics: a constitutive law asks for a smaller step", failure);
+    throw StepRejected("mechanics: " + report.newton.reason, worst_place(x));
+  }
 
   MechanicalState next;
   next.history.reserve(blocks_.size());
@@ -160,10 +165,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
     const BlockWork work = blocks_[b]->finish(old.displacement, x, next.history.back());
     total.internal_work += work.internal_work;
     total.dissipation += work.dissipation;
-    total.law_failed = total.law_failed || work.law_failed;
   }
-  if (algebra::any_process(total.law_failed))
-    throw StepRejected("mechanics: a constitutive law asks for a smaller step", worst_place(x));
   report.work = measure(old, x, total);
   next.displacement = std::move(x);
   trial = std::move(next);
@@ -214,6 +216,29 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
     *end.out = '\0';
   }
   MPI_Bcast(text, sizeof text, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
+  return text;
+}
+
+/// The first element whose law finds no state at x, of the lowest process that has one; empty without any.
+std::string MechanicalPhase::law_failure(std::span<const double> x) const {
+  std::string text;
+  for (std::size_t b = 0; b < blocks_.size() && text.empty(); ++b) {
+    text = blocks_[b]->failure(x);
+    if (!text.empty())
+      text = fmt::format("body '{}', {}", mesh_.bodies[static_cast<std::size_t>(mesh_.blocks[b].body)].name,
+                         text);
+  }
+  int rank = 0, n_processes = 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const int mine = text.empty() ? n_processes : rank;
+  int first = n_processes;
+  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);
+  if (first == n_processes) return {};
+  auto size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, first, PETSC_COMM_WORLD);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, first, PETSC_COMM_WORLD);
   return text;
 }
 

@@ -37,7 +37,9 @@ struct MechanicsOptions {
   bool b_bar = true;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
   double linear_tolerance = 1e-8;  ///< iterative solvers, relative
-  bool symmetric = true;           ///< false when a contribution's tangent is not (friction)
+  /// False when a contribution's tangent is not symmetric (friction); a law's is found by itself
+  /// (Armstrong–Frederick).
+  bool symmetric = true;
 };
 
 /// Work and heat of a solved step over all processes [J] (axisymmetric: of the whole revolution; plane
@@ -83,8 +85,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   /// Solves for t_{n+1} = time from the state at time − dt. `trial` is written only on success.
   /// @param temperature [K], [local node], ghosts up to date: Θ_n, held during the phase
-  /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the node of the
-  /// largest residual.
+  /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the element whose law
+  /// found no state, with its inputs, or the node of the largest residual.
   PhaseReport solve(const MechanicalState& old, MechanicalState& trial, std::span<const double> temperature,
                     double time, double dt);
 
@@ -108,6 +110,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   algebra::BlockMatrix& tangent() override;
   void create_matrix();
   void add_residual_to_balance(std::span<const double> r);
+  std::string law_failure(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
 

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "mechanics/block_makers.hpp"
 #include "mechanics/law_block.hpp"
 
 namespace solidus::mechanics {

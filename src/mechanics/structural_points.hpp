@@ -28,6 +28,7 @@ class StructuralPoints {
   StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material);
 
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }
+  const Point& at(Index batch, int point) const { return points_[index(batch, point)]; }
   void set_dt(double dt) { dt_ = dt; }
   /// Heat of the points is spread over the nodes by the basis functions; its mean over an element by these
   /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every

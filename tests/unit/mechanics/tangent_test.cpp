@@ -12,11 +12,8 @@ using mechanics::BlockKernel;
 using mesh::Shape;
 
 /// A nonlinear law with a full tangent: σ = C ε + a (ε:ε) ε, whose derivative is C + a (ε:ε) I + 2 a ε ⊗ ε.
-struct Stiffening {
-  template <class T>
-  struct State {
-    Sym<T> viscous_strain;
-  };
+struct Stiffening : material::Viscoelastic {
+  using Viscoelastic::Viscoelastic;
   template <class T>
   struct Response {
     Sym<T> stress;
@@ -41,15 +38,9 @@ struct Stiffening {
   }
 };
 
-template <class T>
-Sym<T> inelastic_strain(const Stiffening::State<T>& state) {
-  return state.viscous_strain;
-}
-
 /// The viscoelastic law through the general path.
-struct FullViscoelastic {
-  template <class T>
-  using State = material::Viscoelastic::State<T>;
+struct FullViscoelastic : material::Viscoelastic {
+  using Viscoelastic::Viscoelastic;
   template <class T>
   struct Response {
     Sym<T> stress;

@@ -1,3 +1,6 @@
+/// The shapes of three-dimensional analyses.
+#pragma once
+
 #include <stdexcept>
 
 #include "mechanics/block_makers.hpp"
@@ -5,9 +8,9 @@
 
 namespace solidus::mechanics {
 
+template <class Law>
 std::unique_ptr<BlockKernel> make_solid_block(const mesh::Mesh& mesh, const mesh::Block& block,
                                               const material::Material& material, bool b_bar) {
-  using Law = material::Viscoelastic;
   constexpr AnalysisKind kind = AnalysisKind::solid;
   switch (block.shape) {
     case mesh::Shape::tet4:
