@@ -59,6 +59,11 @@ Jet<T> log(const Jet<T>& a) {
   const T i = T(1.0) / a.v;
   return Jet<T>::chain(a, {log(a.v), i, -i * i});
 }
+/// `mask ? a : b` for numbers that are not packed.
+template <class T>
+T select(bool mask, const T& a, const T& b) {
+  return mask ? a : b;
+}
 inline Jet<Lane> select(LaneMask mask, const Jet<Lane>& a, const Jet<Lane>& b) {
   return {select(mask, a.v, b.v), select(mask, a.d, b.d), select(mask, a.dd, b.dd)};
 }
