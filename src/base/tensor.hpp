@@ -11,6 +11,8 @@
 
 namespace solidus {
 
+// Always inlined, and written as one initialisation: in a long constitutive update compilers otherwise call
+// them, clear the result first and copy it, which costs more than the arithmetic.
 template <class T>
 struct Sym {
   std::array<T, 6> c{};
@@ -35,28 +37,33 @@ struct Sym {
     for (int i = 0; i < 6; ++i) (*this)[i] *= s;
     return *this;
   }
-  friend Sym operator+(Sym a, const Sym& b) { return a += b; }
-  friend Sym operator-(Sym a, const Sym& b) { return a -= b; }
-  friend Sym operator*(Sym a, const T& s) { return a *= s; }
-  friend Sym operator*(const T& s, Sym a) { return a *= s; }
+  [[gnu::always_inline]] friend Sym operator+(const Sym& a, const Sym& b) {
+    return {{a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]}};
+  }
+  [[gnu::always_inline]] friend Sym operator-(const Sym& a, const Sym& b) {
+    return {{a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3], a[4] - b[4], a[5] - b[5]}};
+  }
+  [[gnu::always_inline]] friend Sym operator*(const Sym& a, const T& s) {
+    return {{a[0] * s, a[1] * s, a[2] * s, a[3] * s, a[4] * s, a[5] * s}};
+  }
+  [[gnu::always_inline]] friend Sym operator*(const T& s, const Sym& a) { return a * s; }
 };
 
 template <class T>
-T trace(const Sym<T>& a) {
+[[gnu::always_inline]] inline T trace(const Sym<T>& a) {
   return a[0] + a[1] + a[2];
 }
 
 /// The deviator a − tr(a)/3 1.
 template <class T>
-Sym<T> dev(Sym<T> a) {
+[[gnu::always_inline]] inline Sym<T> dev(const Sym<T>& a) {
   const T mean = trace(a) * T(1.0 / 3.0);
-  for (int i = 0; i < 3; ++i) a[i] -= mean;
-  return a;
+  return {{a[0] - mean, a[1] - mean, a[2] - mean, a[3], a[4], a[5]}};
 }
 
 /// The double contraction a : b.
 template <class T>
-T dot(const Sym<T>& a, const Sym<T>& b) {
+[[gnu::always_inline]] inline T dot(const Sym<T>& a, const Sym<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + T(2.0) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
