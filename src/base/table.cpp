@@ -8,15 +8,6 @@
 namespace solidus {
 namespace {
 
-constexpr std::size_t k_max_buckets = 4096;
-/// Tables of so few pieces choose by comparison for all lanes at once. That pays where a register holds a
-/// whole Lane; below AVX-512 g++ 12 compares lane by lane anyway, and a look-up of each lane is faster.
-#if defined(__AVX512F__)
-constexpr std::size_t k_few_pieces = 6;
-#else
-constexpr std::size_t k_few_pieces = 0;
-#endif
-
 /// ∫_a^b y/x dx of y = y_a + m (x − a):  (y_a − m a) ln(b/a) + m (b − a).
 double entropy_of_part(double a, double b, double y_a, double m) {
   return (y_a - m * a) * std::log1p((b - a) / a) + m * (b - a);
@@ -40,30 +31,11 @@ Table::Table(std::vector<double> x, std::vector<double> y, Extrapolation extrapo
       throw std::invalid_argument(place + " is not beyond the point before it");
   }
   if (constant()) return;
-  for (std::size_t i = 0; i + 1 < x_.size(); ++i) slope_.push_back((y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i]));
-
-  // As many buckets as the shortest piece asks for, so that a look-up steps at most one piece further; a
-  // table with very unequal pieces gets the largest number and may step a few pieces.
-  const double range = x_.back() - x_.front();
-  double shortest = range;
-  for (std::size_t i = 0; i + 1 < x_.size(); ++i) shortest = std::min(shortest, x_[i + 1] - x_[i]);
-  const auto count = static_cast<std::size_t>(std::min(std::ceil(range / shortest), double{k_max_buckets}));
-  bucket_scale_ = static_cast<double>(count) / range;
-  for (std::size_t b = 0, piece = 0; b < count; ++b) {
-    const double start = x_.front() + static_cast<double>(b) / bucket_scale_;
-    while (piece + 2 < x_.size() && x_[piece + 1] <= start) ++piece;
-    bucket_.push_back(piece);
-  }
-}
-
-std::size_t Table::interval(double x) const {
-  const double place = (x - x_.front()) * bucket_scale_;
-  if (!(place > 0)) return 0;  // a NaN too
-  std::size_t i =
-      bucket_[std::min(static_cast<std::size_t>(std::min(place, double{k_max_buckets})), bucket_.size() - 1)];
-  while (i + 2 < x_.size() && x_[i + 1] <= x) ++i;
-  while (i > 0 && x < x_[i]) --i;  // the bucket's start is rounded
-  return i;
+  std::vector<Pieces::Piece> pieces;
+  for (std::size_t i = 0; i + 1 < x_.size(); ++i)
+    pieces.push_back({x_[i], y_[i], (y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i])});
+  pieces.push_back({x_.back(), y_.back(), pieces.back().slope});  // exact at the last point too
+  pieces_ = Pieces(std::move(pieces));
 }
 
 bool Table::flat(double x) const {
@@ -73,37 +45,16 @@ bool Table::flat(double x) const {
 Table::Line<double> Table::line(double x) const {
   if (constant()) return {y_[0], 0.0};
   if (flat(x)) return {x < x_.front() ? y_.front() : y_.back(), 0.0};
-  const std::size_t i = interval(x);
-  // exact at the last point too
-  return {x == x_.back() ? y_.back() : y_[i] + slope_[i] * (x - x_[i]), slope_[i]};
+  return pieces_.line(x);
 }
 
-Table::Line<Lane> Table::line_of_lanes(Lane x) const {
-  if (slope_.size() > k_few_pieces) {
-    Line<Lane> result;
-    for (int lane = 0; lane < k_lanes; ++lane) {
-      const Line<double> at = line(x[lane]);
-      result.value.set(lane, at.value);
-      result.slope.set(lane, at.slope);
-    }
-    return result;
-  }
-  Lane x0(x_[0]), y0(y_[0]), slope(slope_[0]);
-  for (std::size_t i = 1; i < slope_.size(); ++i) {
-    const LaneMask beyond = x >= Lane(x_[i]);
-    x0 = select(beyond, Lane(x_[i]), x0);
-    y0 = select(beyond, Lane(y_[i]), y0);
-    slope = select(beyond, Lane(slope_[i]), slope);
-  }
-  Lane y = y0 + slope * (x - x0);
-  const Lane last(x_.back());
-  y = select(x == last, Lane(y_.back()), y);  // as value(double): exact at the points
-  if (extrapolation_ != Extrapolation::linear) {
-    const LaneMask below = x<Lane(x_.front()), above = x> last;
-    y = select(below, Lane(y_.front()), select(above, Lane(y_.back()), y));
-    slope = select(below | above, Lane(0.0), slope);
-  }
-  return {y, slope};
+Table::Line<Lane> Table::line_of_lanes(const Lane& x) const {
+  if (extrapolation_ == Extrapolation::linear) return pieces_.line(x);
+  const Lane first(x_.front()), last(x_.back());
+  const LaneMask below = x<first, above = x> last;
+  Line<Lane> line = pieces_.line(select(below, first, select(above, last, x)));
+  line.slope = select(below | above, Lane(0.0), line.slope);
+  return line;
 }
 
 template <class Part>
@@ -119,10 +70,11 @@ double Table::add_parts(double a, double b, Part part) const {
     from = to;
   }
   if (from < b && (linear || from < x_.back())) {
-    for (std::size_t i = interval(from); from < b && i < slope_.size(); ++i) {
-      const bool last = i + 1 == slope_.size();
+    const std::size_t n = x_.size() - 1;
+    for (std::size_t i = std::min(pieces_.index(from), n - 1); from < b && i < n; ++i) {
+      const bool last = i + 1 == n;
       const double to = last && linear ? b : std::min(b, x_[i + 1]);
-      total += part(from, to, y_[i] + slope_[i] * (from - x_[i]), slope_[i]);
+      total += part(from, to, y_[i] + pieces_[i].slope * (from - x_[i]), pieces_[i].slope);
       from = to;
     }
   }
@@ -152,10 +104,9 @@ double Table::max_value() const {
 }
 
 Table Table::scaled(double factor) const {
-  Table result = *this;
-  for (double& y : result.y_) y *= factor;
-  for (double& m : result.slope_) m *= factor;
-  return result;
+  std::vector<double> y = y_;
+  for (double& value : y) value *= factor;
+  return Table(x_, std::move(y), extrapolation_);
 }
 
 }  // namespace solidus

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/simd.hpp"
+#include "base/pieces.hpp"
 
 namespace solidus {
 
@@ -26,17 +26,17 @@ class Table {
 
   /// y and dy/dx near an argument: the line that the table follows there.
   template <class T>
-  struct Line {
-    T value, slope;
-  };
+  using Line = Pieces::Line<T>;
   Line<double> line(double x) const;
-  Line<Lane> line(Lane x) const { return constant() ? Line<Lane>{Lane(y_[0]), Lane(0.0)} : line_of_lanes(x); }
+  Line<Lane> line(const Lane& x) const {
+    return constant() ? Line<Lane>{Lane(y_[0]), Lane(0.0)} : line_of_lanes(x);
+  }
   double value(double x) const { return line(x).value; }
-  Lane value(Lane x) const { return line(x).value; }
+  Lane value(const Lane& x) const { return line(x).value; }
   /// dy/dx of the piece that holds x, the right-hand one at a point of the table (the left-hand one at its
   /// end); zero outside when the continuation is constant.
   double derivative(double x) const { return line(x).slope; }
-  Lane derivative(Lane x) const { return line(x).slope; }
+  Lane derivative(const Lane& x) const { return line(x).slope; }
   /// ∫_a^b y dx, closed form, any order of a and b.
   double integral(double a, double b) const;
   /// ∫_a^b y/x dx for a, b > 0, closed form (entropy from a capacity).
@@ -54,17 +54,14 @@ class Table {
   Table scaled(double factor) const;
 
  private:
-  std::size_t interval(double x) const;  ///< i with x_[i] <= x < x_[i+1], clamped to the pieces
-  Line<Lane> line_of_lanes(Lane x) const;
+  Line<Lane> line_of_lanes(const Lane& x) const;
   bool flat(double x) const;  ///< x lies outside and the continuation is constant
   /// Adds up `part(from, to, y_from, slope)` over the linear parts of [a, b].
   template <class Part>
   double add_parts(double a, double b, Part part) const;
 
   std::vector<double> x_{0.0}, y_{0.0};
-  std::vector<double> slope_;        ///< of each piece
-  std::vector<std::size_t> bucket_;  ///< the piece at the start of each of the equal buckets over the range
-  double bucket_scale_ = 0;          ///< buckets per unit of x
+  Pieces pieces_;  ///< one from each point on; that of the last point continues the one before
   Extrapolation extrapolation_ = Extrapolation::constant;
 };
 

@@ -67,6 +67,17 @@ PhaseFraction::PhaseFraction(std::vector<Point> points) : points_(std::move(poin
   }
   if (points_.front().second != 1.0 || points_.back().second != 0.0)
     throw std::invalid_argument("the phase fraction must be 1 at its coldest point and 0 at its hottest");
+
+  std::vector<Pieces::Piece> pieces{{solidus() - 1, 1.0, 0.0}};
+  for (std::size_t i = 0; i < points_.size();) {
+    const auto [t, from] = points_[i];
+    while (i + 1 < points_.size() && points_[i + 1].first == t) ++i;
+    const double to = points_[i++].second;
+    if (to < from) jumps_.emplace_back(t, 0.5 * (from + to));
+    const bool last = i == points_.size();
+    pieces.push_back({t, to, last ? 0.0 : (points_[i].second - to) / (points_[i].first - t)});
+  }
+  pieces_ = Pieces(std::move(pieces));
 }
 
 PhaseFraction PhaseFraction::linear(double solidus, double liquidus) {
@@ -115,20 +126,6 @@ double PhaseFraction::above(double temperature) const {
   const auto cold = hot - 1;
   return cold->second +
          (hot->second - cold->second) * ((temperature - cold->first) / (hot->first - cold->first));
-}
-
-double PhaseFraction::value(double temperature) const {
-  if (temperature < solidus()) return 1.0;
-  if (temperature > liquidus()) return 0.0;
-  return 0.5 * (below(temperature) + above(temperature));
-}
-
-double PhaseFraction::derivative(double temperature) const {
-  if (!(temperature >= solidus() && temperature < liquidus())) return 0.0;
-  const auto hot = std::upper_bound(points_.begin(), points_.end(), temperature,
-                                    [](double t, const Point& p) { return t < p.first; });
-  const auto cold = hot - 1;
-  return (hot->second - cold->second) / (hot->first - cold->first);
 }
 
 }  // namespace solidus::material

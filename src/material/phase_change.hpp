@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/simd.hpp"
+#include "base/pieces.hpp"
 
 namespace solidus::material {
 
@@ -33,26 +33,38 @@ class PhaseFraction {
   /// Scheil: f = 1 − ((Θ_m − Θ)/(Θ_m − Θ_L))^(1/(k − 1)), the rest isothermally at the eutectic.
   static PhaseFraction scheil(double melting_point, double liquidus, double eutectic, double partition);
 
-  double value(double temperature) const;  ///< at a jump: the mean of both sides
-  /// df/dΘ <= 0 [1/K] of the piece on the right; zero outside. An isothermal jump is not in it: what
-  /// integrates over a step takes differences of value().
-  double derivative(double temperature) const;
+  /// f, at a jump the mean of both sides, and df/dΘ <= 0 [1/K] of the piece on the right, zero outside. An
+  /// isothermal jump is not in the slope: what integrates over a step takes differences of value(). Both
+  /// together cost half of one after the other.
+  Pieces::Line<double> line(double temperature) const { return line_of(temperature); }
+  Pieces::Line<Lane> line(const Lane& temperature) const { return line_of(temperature); }
+  double value(double temperature) const { return line(temperature).value; }
+  Lane value(const Lane& temperature) const { return line(temperature).value; }
+  double derivative(double temperature) const { return line(temperature).slope; }
+  Lane derivative(const Lane& temperature) const { return line(temperature).slope; }
   double above(double temperature) const;  ///< the limit from the right; differs from below() at a jump only
   double below(double temperature) const;  ///< the limit from the left
-  Lane value(Lane temperature) const {
-    return for_each_lane(temperature, [this](double t) { return value(t); });
-  }
-  Lane derivative(Lane temperature) const {
-    return for_each_lane(temperature, [this](double t) { return derivative(t); });
-  }
   double solidus() const { return points_.front().first; }
   double liquidus() const { return points_.back().first; }
   const std::vector<std::pair<double, double>>& points() const { return points_; }  ///< temperature rising
 
  private:
   explicit PhaseFraction(std::vector<std::pair<double, double>> points);
+  template <class T>
+  Pieces::Line<T> line_of(const T& temperature) const;
+
   std::vector<std::pair<double, double>> points_;
+  Pieces pieces_;  ///< the limits from the right, with one piece below the solidus
+  std::vector<std::pair<double, double>> jumps_;  ///< temperature, mean of both sides
 };
+
+template <class T>
+Pieces::Line<T> PhaseFraction::line_of(const T& temperature) const {
+  Pieces::Line<T> line = pieces_.line(temperature);
+  line.value = select(line.value < T(0.0), T(0.0), line.value);  // rounding just below the liquidus
+  for (const auto& [at, mean] : jumps_) line.value = select(temperature == T(at), T(mean), line.value);
+  return line;
+}
 
 struct PhaseChange {
   std::string name;

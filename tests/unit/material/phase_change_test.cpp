@@ -90,6 +90,27 @@ TEST(PhaseFraction, NeverRisesAndIsTheSumOfItsSlopes) {
   }
 }
 
+TEST(PhaseFraction, LanesAnswerAsNumbersDoAlsoAtJumpsAndOutside) {
+  const auto jump = PhaseFraction::table({{850, 1}, {850, 0.5}, {870, 0.4}, {870, 0.2}, {900, 0}});
+  for (const PhaseFraction& f : {jump, PhaseFraction::linear(900, 940), PhaseFraction::linear(933, 933),
+                                 PhaseFraction::scheil(933, 886, 821, 0.14)}) {
+    std::vector<double> temperatures{100, 5000};
+    for (const auto& [t, fraction] : f.points())
+      for (const double at : {t, std::nextafter(t, 0.0), std::nextafter(t, 1e9), t + 0.3})
+        temperatures.push_back(at);
+    for (const double t : temperatures) {
+      Lane pack(910.0);
+      pack.set(3, t);
+      const auto line = f.line(pack);
+      ASSERT_NEAR(line.value[3], f.value(t), 1e-15) << t;  // a product and a sum, contracted or not
+      ASSERT_EQ(line.slope[3], f.derivative(t)) << t;
+      ASSERT_NEAR(line.value[4], f.value(910), 1e-15);
+      ASSERT_NEAR(f.value(t), 0.5 * (f.below(t) + f.above(t)), 1e-15) << t;
+      ASSERT_GE(line.value[3], 0);
+    }
+  }
+}
+
 TEST(PhaseFraction, RefusesWhatIsNoFraction) {
   EXPECT_THROW(PhaseFraction::linear(941, 940), std::invalid_argument);
   EXPECT_THROW(PhaseFraction::linear(std::nan(""), 940), std::invalid_argument);
