@@ -4,10 +4,13 @@
 ///   β̂(γ) = 2Ĝ ê + ⅔wK B ζ*,   B = 1/(1 + b γ)  (Prager: b = 0, β̂ fixed)
 ///   Φ(γ) = x,  γ = m Δt/η x (x/D)^(n−1)                                                (4.142, errata)
 ///
-/// Φ falls with γ and is convex for every hardening that levels off, so Newton's method converges; a bracket
-/// guards it where a table makes it neither. Nothing divides by η, f_S or the overstress x: both limits
-/// (η = 0: Φ = 0, m = 0: γ = 0) are exact.
+/// Newton's method inside a bracket. Φ falls with γ and is convex for every hardening that levels off: there
+/// Newton's method converges by itself, and the bracket rules where a table makes Φ concave or where a back
+/// stress beyond its saturation makes it rise at first. Nothing divides by η, f_S or the overstress x: both
+/// limits (η = 0: Φ = 0; m = 0: γ = 0) are exact.
 #pragma once
+
+#include <limits>
 
 #include "base/tensor.hpp"
 #include "material/hardening.hpp"
@@ -16,13 +19,16 @@ namespace solidus::material::return_mapping {
 
 inline constexpr double k_two_thirds = 2.0 / 3.0;
 inline constexpr double k_root_two_thirds = 0.81649658092772603;
-/// Newton's correction below which one more iteration reaches rounding (quadratic convergence).
+/// A correction of γ below which one more reaches rounding, in γ and in the slope that the tangent uses.
 inline constexpr double k_last_correction = 1e-7;
+/// What rounding leaves of Φ, in parts of ‖β̂‖.
+inline constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
+/// Bisection alone would get there: the bracket is never wider than 1e12 solutions or so.
 inline constexpr int k_max_iterations = 80;
 
-/// ‖a‖ with a derivative at a = 0, for automatic differentiation.
+/// ‖a‖ with a derivative at a = 0, for automatic differentiation; and a finite a/‖a‖ there.
 template <class T>
-T smooth_norm(const Sym<T>& a) {
+[[gnu::always_inline]] inline T smooth_norm(const Sym<T>& a) {
   using std::sqrt;
   return sqrt(T(dot(a, a) + T(1e-300)));
 }
@@ -32,44 +38,121 @@ struct Problem {
   IsotropicHardening isotropic;
   const FlowCurves* curves;
   const FlowProperties<T>* flow;
-  bool recalls;             ///< b > 0
-  T twice_shear, strength;  ///< 2Ĝ, w
-  T rate;                   ///< m Δt [s]
-  T recall;                 ///< b
-  Sym<T> trial;             ///< 2Ĝ ê, the trial deviator
-  Sym<T> back_strain;       ///< ζ*
-  T hardening;              ///< ξ*
+  bool recalls;               ///< b > 0
+  T twice_shear, strength;    ///< 2Ĝ, w
+  T rate;                     ///< m Δt [s]
+  T recall;                   ///< b
+  const Sym<T>& trial;        ///< 2Ĝ ê, the trial deviator
+  const Sym<T>& back_strain;  ///< ζ*
+  T hardening;                ///< ξ*
+
+  T kinematic() const { return T(k_two_thirds) * strength * flow->kinematic_modulus; }  ///< ⅔wK
+  T stiffness() const { return twice_shear + strength * kinematic(); }                  ///< 2Ĝ + ⅔w²K
 };
 
 /// Φ and what belongs to it at one γ.
 template <class T>
 struct Yield {
-  T value, slope;    ///< Φ, Φ' < 0
+  T value, slope;    ///< Φ, Φ'
   Sym<T> direction;  ///< n
   T norm;            ///< ‖β̂‖
   T fading;          ///< B
   Sym<T> drift;      ///< ∂β̂/∂γ (Armstrong–Frederick)
 };
 
+/// Φ and Φ' from ‖β̂‖ and the factor of γ; hardening added.
 template <class T>
-Yield<T> yield(const Problem<T>& p, const T& gamma) {
-  const T w = p.strength, modulus = T(k_two_thirds) * w * p.flow->kinematic_modulus;  // ⅔wK
-  Yield<T> y;
-  y.fading = p.recalls ? T(T(1.0) / (T(1.0) + p.recall * gamma)) : T(1.0);
-  const Sym<T> relative = p.trial + T(modulus * y.fading) * p.back_strain;
-  y.norm = smooth_norm(relative);
-  y.direction = T(T(1.0) / y.norm) * relative;
-  const T step = T(k_root_two_thirds) * w;
+[[gnu::always_inline]] inline void add_radius(const Problem<T>& p, const T& gamma, T& value, T& slope) {
+  const T step = T(k_root_two_thirds) * p.strength;
   const auto k = hardening_stress<T>(p.isotropic, *p.curves, *p.flow, T(p.hardening + step * gamma));
-  y.value =
-      y.norm - (p.twice_shear + w * modulus * y.fading) * gamma - step * (p.flow->flow_stress + k.stress);
-  y.slope = -(p.twice_shear + w * modulus * y.fading * y.fading) - step * step * k.slope;
-  if (p.recalls) {
-    y.drift = T(-modulus * p.recall * y.fading * y.fading) * p.back_strain;
-    y.slope += dot(y.direction, y.drift);
-  }
-  return y;
+  value -= step * (p.flow->flow_stress + k.stress);
+  slope -= step * step * k.slope;
 }
+
+template <class T>
+[[gnu::always_inline]] inline Yield<T> yield(const Problem<T>& p, const T& gamma) {
+  const T modulus = p.kinematic(), zero(0.0), one(1.0), w = p.strength;
+  const T fading = p.recalls ? T(one / (one + p.recall * gamma)) : one;
+  const T pull = modulus * fading;
+  const Sym<T> relative = p.trial + pull * p.back_strain;
+  const T norm = smooth_norm(relative);
+  const Sym<T> n = T(one / norm) * relative;
+  const Sym<T> drift = (p.recalls ? T(-pull * p.recall * fading) : zero) * p.back_strain;
+  T value = norm - (p.twice_shear + w * pull) * gamma;
+  T slope = dot(n, drift) - (p.twice_shear + w * pull * fading);
+  add_radius(p, gamma, value, slope);
+  return {value, slope, n, norm, fading, drift};
+}
+
+/// Φ and Φ' alone: what the iteration needs.
+template <class T>
+struct Point {
+  T value, slope;
+};
+template <class T>
+[[gnu::always_inline]] inline Point<T> point(const Problem<T>& p, const Yield<T>& trial, const T& gamma) {
+  if (p.recalls) {
+    const Yield<T> y = yield(p, gamma);
+    return {y.value, y.slope};
+  }
+  const T stiffness = p.stiffness();  // β̂ stays
+  Point<T> at{trial.norm - stiffness * gamma, -stiffness};
+  add_radius(p, gamma, at.value, at.slope);
+  return at;
+}
+
+/// What rounding leaves of Φ [Pa].
+template <class T>
+T rounding(const Problem<T>& p, const Yield<T>& trial) {
+  const T size =
+      p.recalls ? T(smooth_norm(p.trial) + p.kinematic() * smooth_norm(p.back_strain)) : trial.norm;
+  return T(k_rounding) * size;
+}
+
+/// A γ with Φ(γ) <= 0. Prager: Φ falls at least as fast as (2Ĝ + ⅔w²K) γ. Armstrong–Frederick:
+/// Φ <= (2Ĝ‖ê‖ − 2Ĝ γ) + ⅔wK B (‖ζ*‖ − w γ) − R, and both terms are negative beyond ‖ê‖ and ‖ζ*‖/w.
+template <class T>
+T upper_bound(const Problem<T>& p, const Yield<T>& trial) {
+  const auto ratio = [](const T& a, const T& b) {
+    const auto fine = b > T(0.0);
+    return select(fine, T(a / select(fine, b, T(1.0))), T(0.0));
+  };
+  const T beyond_rounding(1.0 + 1e-3);
+  if (!p.recalls) return beyond_rounding * ratio(trial.value, p.stiffness());
+  const T elastic = ratio(smooth_norm(p.trial), p.twice_shear);
+  const T kinematic = ratio(smooth_norm(p.back_strain), p.strength);
+  return beyond_rounding * select(elastic > kinematic, elastic, kinematic);
+}
+
+/// The largest Φ(γ) for γ >= 0. Prager: that of γ = 0. Armstrong–Frederick: ‖β̂‖ is convex in B, so it stays
+/// below its values at B = 1 and 0.
+template <class T>
+T largest_overstress(const Problem<T>& p, const Yield<T>& trial) {
+  if (!p.recalls) return trial.value;
+  const T freed = smooth_norm(p.trial) - trial.norm;
+  return trial.value + select(freed > T(0.0), freed, T(0.0));
+}
+
+/// Guards Newton's method on a function that falls through zero between 0 and `high`: every iterate becomes
+/// an end of the bracket, and a step that leaves it, or is not a number, goes to its middle.
+template <class T>
+class Bracket {
+ public:
+  explicit Bracket(const T& high) : low_(0.0), high_(high) {}
+
+  T inside(const T& v) const { return select((v >= low_) & (v <= high_), v, T(T(0.5) * (low_ + high_))); }
+  /// The next iterate.
+  /// @param v, f    the last one and the function there
+  /// @param newton  where Newton's method goes from there
+  T next(const T& v, const T& f, const T& newton) {
+    low_ = select(f > T(0.0), v, low_);
+    high_ = select(f < T(0.0), v, high_);
+    return inside(newton);
+  }
+
+ private:
+  T low_, high_;
+};
 
 template <class T>
 struct Solution {
@@ -79,49 +162,59 @@ struct Solution {
   bool converged;
 };
 
+/// Where there is plastic flow: outside the yield surface, and neither liquid nor without any stiffness.
+template <class T>
+[[gnu::always_inline]] inline auto flows(const Problem<T>& p, const Yield<T>& trial) {
+  const T zero(0.0);
+  return (trial.value > zero) & (p.rate > zero) & (p.stiffness() > zero);
+}
+
+/// The correction after which one more ends the iteration, as a part of γ. Between the points of a table
+/// Newton's method is exact, but a kink may lie within any distance: there only Φ tells.
+template <class T>
+T last_correction(const Problem<T>& p) {
+  return T(p.isotropic == IsotropicHardening::table ? std::numeric_limits<double>::epsilon()
+                                                    : k_last_correction);
+}
+
+/// |a| <= b.
+template <class T>
+auto within(const T& a, const T& b) {
+  return (a <= b) & (T(0.0) - a <= b);
+}
+
 /// n = 1: m Δt Φ(γ) = η γ.
 template <class T>
-Solution<T> solve_linear_rate(const Problem<T>& p, const Yield<T>& trial) {
-  using Mask = decltype(trial.value > trial.value);
-  const T eta = p.flow->viscosity, c = p.rate;
-  const Mask plastic = (trial.value > T(0.0)) & (c > T(0.0)), at_rest = !plastic;
+[[gnu::always_inline]] inline Solution<T> solve_linear_rate(const Problem<T>& p, const Yield<T>& trial) {
+  const T zero(0.0), one(1.0), eta = p.flow->viscosity, c = p.rate;
+  const auto plastic = flows(p, trial);
+  // The first step of Newton's method solves a linear equation.
+  const T first = c / select(plastic, T(eta - c * trial.slope), one);
+  Solution<T> s{select(plastic, T(first * trial.value), zero), zero, select(plastic, first, zero), true};
   const bool linear =
       !p.recalls && (p.isotropic == IsotropicHardening::none || p.isotropic == IsotropicHardening::linear);
-  // From γ = 0 Newton's first step is the solution of a linear equation, and lies below it otherwise.
-  const T one(1.0), tiny(1e-200);
-  T stiffness = select(plastic, T(eta - c * trial.slope), one);
-  T gamma = select(plastic, T(c * trial.value / stiffness), T(0.0));
-  bool converged = true;
   if (!linear) {
-    const T elastic =
-        p.twice_shear +
-        (p.recalls ? T(0.0) : T(T(k_two_thirds) * p.strength * p.strength * p.flow->kinematic_modulus));
-    T low(0.0), high = T(1.001) * trial.value / select(elastic > tiny, elastic, tiny);
-    converged = false;
+    const T noise = c * rounding(p, trial), last = last_correction(p);
+    Bracket<T> bracket(upper_bound(p, trial));
+    T gamma = select(plastic, bracket.inside(s.gamma), zero);
+    auto done = !plastic;
+    s.converged = false;
     for (int i = 0; i < k_max_iterations; ++i) {
-      const Yield<T> y = yield(p, gamma);
-      const T f = c * y.value - eta * gamma;
-      stiffness = select(plastic, T(eta - c * y.slope), one);
-      low = select(f > T(0.0), gamma, low);
-      high = select(f < T(0.0), gamma, high);
-      T next = gamma + f / stiffness;
-      const Mask outside = (next < low) | (next > high);
-      if (converged) {  // the last correction, free of the bracket, so that derivatives pass through it
-        gamma = select(plastic, next, gamma);
+      const Point<T> at = point(p, trial, gamma);
+      const T f = c * at.value - eta * gamma, stiffness = select(plastic, T(eta - c * at.slope), one);
+      const T newton = gamma + f / stiffness;
+      s.converged = all(done | within(f, noise));
+      if (s.converged) {  // the last correction, free of the bracket, so that derivatives pass through it
+        s.gamma = select(plastic & (newton > zero), newton, gamma);
+        s.inverse_stiffness = select(plastic, T(c / stiffness), zero);
         break;
       }
-      next = select(outside, T(T(0.5) * (low + high)), next);
-      const T change = next - gamma;
+      const T next = bracket.next(gamma, f, newton);
+      done = done | within(T(next - gamma), T(last * next));
       gamma = select(plastic, next, gamma);
-      const T small = T(k_last_correction) * gamma;
-      converged = all(at_rest | ((change <= small) & (T(0.0) - change <= small)));
     }
   }
-  Solution<T> s;
-  s.gamma = gamma;
-  s.overstress = select(plastic, T(eta * gamma / select(plastic, c, one)), T(0.0));
-  s.inverse_stiffness = select(plastic, T(c / stiffness), T(0.0));
-  s.converged = converged;
+  s.overstress = eta * s.gamma / select(plastic, c, one);
   return s;
 }
 
@@ -130,52 +223,45 @@ Solution<T> solve_linear_rate(const Problem<T>& p, const Yield<T>& trial) {
 /// that neither the infinite slope of γ^(1/n) at zero nor an infinite A is met.
 template <class T>
 Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
-  using Mask = decltype(trial.value > trial.value);
-  const T zero(0.0), one(1.0), tiny(1e-200);
-  const T n = p.flow->exponent, drag = p.flow->drag_stress, eta = p.flow->viscosity;
-  const Mask plastic = (trial.value > zero) & (p.rate > zero), at_rest = !plastic;
-  const T inverse_a = eta / (select(plastic, p.rate, one) * drag);
-  const T a = select(inverse_a > tiny, T(one / select(inverse_a > tiny, inverse_a, one)), T(1e200));
+  const T zero(0.0), one(1.0), tiny(1e-280);
+  const T n = p.flow->exponent, inverse_n = one / n, drag = p.flow->drag_stress;
+  const auto plastic = flows(p, trial);
+  const T inverse_a = p.flow->viscosity / (select(plastic, p.rate, one) * drag);
+  const auto flow_curve = [&](const T& base, const T& exponent) {  // base^exponent, base >= 0
+    return select(base > tiny, power<T>(select(base > tiny, base, one), exponent), zero);
+  };
+  // Viscosity rules where the whole overstress flows less than the rate-independent solution.
+  const T y_trial = select(plastic, T(trial.value / drag), one), bound = upper_bound(p, trial);
+  const T rigid = select(plastic, Bracket<T>(bound).inside(T(trial.value / (zero - trial.slope))), one);
+  const auto viscous = y_trial < flow_curve(T(rigid * inverse_a), inverse_n);
+  const T a = select(viscous, T(one / select(viscous, inverse_a, one)), zero);
 
-  const T y_trial = select(plastic, T(trial.value / drag), one);
-  const T gamma_rigid = select(plastic, T(T(0.0) - trial.value / trial.slope), one);
-  const T gamma_viscous = a * power<T>(y_trial, n);
-  const Mask viscous = gamma_viscous < gamma_rigid;
-  const T elastic =
-      p.twice_shear +
-      (p.recalls ? zero : T(T(k_two_thirds) * p.strength * p.strength * p.flow->kinematic_modulus));
-  T v = select(viscous, y_trial, gamma_rigid);
-  T low = zero,
-    high =
-        T(1.001) * select(viscous, y_trial,
-                          T(T(select(plastic, trial.value, zero)) / select(elastic > tiny, elastic, tiny)));
+  const T noise = rounding(p, trial), last = last_correction(p);
+  Bracket<T> bracket(select(viscous, T(largest_overstress(p, trial) / drag), bound));
+  T v = select(viscous, y_trial, rigid);
+  auto done = !plastic;
   Solution<T> s{zero, zero, zero, false};
   for (int i = 0; i < k_max_iterations; ++i) {
-    const T base = select(viscous, v, T(v * inverse_a));
-    const T raised =
-        select(base > tiny, power<T>(select(base > tiny, base, one), select(viscous, n, T(one / n))), zero);
+    const T raised = flow_curve(select(viscous, v, T(v * inverse_a)), select(viscous, n, inverse_n));
     const T gamma = select(viscous, T(a * raised), v), y = select(viscous, v, raised);
-    const Yield<T> at = yield(p, gamma);
+    const Point<T> at = point(p, trial, gamma);
     const T r = at.value - drag * y;
     // dγ/dx, finite where viscosity rules, and dx/dγ, finite elsewhere
     const T compliance = select(viscous, T(n * gamma / (drag * select(viscous, y, one))), zero);
     const T stiffness = select(viscous, zero, T(drag * y / (n * select(gamma > tiny, gamma, one))));
     const T softening = one - at.slope * compliance;
-    const T inverse = select(viscous, T(compliance / softening), T(one / (stiffness - at.slope)));
+    const T inverse = select(viscous, compliance, one) / select(viscous, softening, T(stiffness - at.slope));
     const T dx = select(viscous, T(r / softening), T(stiffness * inverse * r)), dgamma = inverse * r;
+    s.converged = all(done | within(r, noise));
     if (s.converged) {  // the last correction, free of the bracket, so that derivatives pass through it
-      s.gamma = select(plastic, T(gamma + dgamma), zero);
-      s.overstress = select(plastic, T(drag * y + dx), zero);
+      const T flow = gamma + dgamma, x = drag * y + dx;
+      s.gamma = select(plastic, select(flow > zero, flow, gamma), zero);
+      s.overstress = select(plastic, select(x > zero, x, T(drag * y)), zero);
       s.inverse_stiffness = select(plastic, inverse, zero);
       break;
     }
-    low = select(r > zero, v, low);
-    high = select(r < zero, v, high);
-    const T newton = v + select(viscous, T(dx / drag), dgamma);
-    const Mask outside = (newton < low) | (newton > high);
-    const T next = select(outside, T(T(0.5) * (low + high)), newton);
-    const T moved = next - v, small = T(k_last_correction) * next;
-    s.converged = all(at_rest | ((moved <= small) & (zero - moved <= small)));
+    const T next = bracket.next(v, r, v + select(viscous, T(dx / drag), dgamma));
+    done = done | within(T(next - v), T(last * next));
     v = select(plastic, next, v);
   }
   return s;

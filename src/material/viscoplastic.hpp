@@ -28,6 +28,9 @@
 
 namespace solidus::material {
 
+/// A trial stress above this, or not a number, is outside the law's range [Pa].
+inline constexpr double k_largest_stress = 1e100;
+
 class Viscoplastic {
  public:
   template <class T>
@@ -57,11 +60,17 @@ class Viscoplastic {
     T plastic_power;        ///< s : ε̇^vp [W/m³]
     T dissipation;          ///< D_mech, the sum of both (2.113) [W/m³]
     Status status = Status::converged;
+    // What thermal_derivatives.hpp reads where flow_increment > 0:
+    T overstress{};         ///< x = η γ̇/m for n = 1 [Pa]
+    T inverse_stiffness{};  ///< ∂γ/∂Φ^trial [1/Pa]
+    T relative_norm{1.0};   ///< ‖β̂‖ [Pa]
   };
 
   /// Keeps a reference to the material. Without Material::flow the solid is elastic.
   explicit Viscoplastic(const Material& material)
-      : material_(&material), flow_(material.flow ? &*material.flow : nullptr) {}
+      : material_(&material),
+        flow_(material.flow ? &*material.flow : nullptr),
+        linear_rate_(flow_ != nullptr && flow_->linear_rate()) {}
 
   /// @param initial_temperature Θ_0 of 2.51 [K]
   template <class T>
@@ -93,11 +102,16 @@ class Viscoplastic {
     return flow_ != nullptr && flow_->kinematic == KinematicHardening::armstrong_frederick;
   }
   template <class T>
-  void correct(const Properties<T>& p, const State<T>& start, const Shear<T>& shear, const Sym<T>& trial,
-               double dt, Response<T>& r, Sym<T>& deviator) const;
+  static Response<T> elastic(const Properties<T>& p, const State<T>& start, const Shear<T>& shear,
+                             const Sym<T>& free, const Sym<T>& strain, double dt, Status status);
+  template <class T>
+  Response<T> plastic(const Properties<T>& p, const State<T>& start, const Shear<T>& shear,
+                      const Sym<T>& free, const Sym<T>& strain, double dt,
+                      const return_mapping::Problem<T>& problem, const return_mapping::Yield<T>& trial) const;
 
   const Material* material_;
   const Flow* flow_;
+  bool linear_rate_;  ///< n = 1 at every temperature
 };
 
 /// The tangent as a 6×6 matrix.

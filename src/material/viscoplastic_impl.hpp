@@ -2,8 +2,6 @@
 /// viscoplastic.hpp only.
 #pragma once
 
-#include <algorithm>
-
 #include "material/viscoplastic.hpp"
 
 namespace solidus::material {
@@ -36,44 +34,24 @@ Viscoplastic::Shear<T> Viscoplastic::shear(const PointProperties<T>& p, double d
   }
   // 1/(2Ĝ) = f_S/(2G) + Δt λ/η times 2G η: neither limit divides by zero.
   const T lambda = one - p.solid_fraction;
-  const T flowing = T(dt) * lambda * twice_shear;
-  const T sum = p.solid_fraction * p.viscosity + flowing;
   const auto fluid = lambda > zero;
-  const T divisor = select(fluid, sum, one);
-  return {select(fluid, T(twice_shear * p.viscosity / divisor), twice_shear),
-          select(fluid, T(flowing / divisor), zero), p.solid_fraction, one};
+  if (!any(fluid)) return {twice_shear, zero, one, one};
+  const T flowing = T(dt) * lambda * twice_shear;
+  const T inverse = one / select(fluid, T(p.solid_fraction * p.viscosity + flowing), one);
+  return {select(fluid, T(twice_shear * p.viscosity * inverse), twice_shear),
+          select(fluid, T(flowing * inverse), zero), p.solid_fraction, one};
 }
 
 template <class T>
 Viscoplastic::Response<T> Viscoplastic::update(const Properties<T>& p, const State<T>& start,
                                                const Sym<T>& strain, double dt) const {
+  using namespace return_mapping;
   const Shear<T> sh = shear(p.elastic, dt);
   const Sym<T> free = dev(strain) - start.plastic_strain - start.viscous_strain;  // ê
-  Sym<T> s = sh.twice_shear * free;                                               // 4.131b, trial
-  Response<T> r;
-  r.state = start;
-  r.bulk = p.elastic.bulk;
-  r.twice_shear = sh.twice_shear;
-  r.flow_increment = r.plastic_dissipation = r.plastic_power = T(0.0);
-  if (flow_ != nullptr) correct(p, start, sh, Sym<T>(s), dt, r, s);
+  if (flow_ == nullptr) return elastic(p, start, sh, free, strain, dt, Status::converged);
 
-  // 4.145: Δε^v is the viscous share of what is not plastic.
-  const Sym<T> viscous = sh.viscous_share * (free - (r.state.plastic_strain - start.plastic_strain));
-  r.state.viscous_strain = start.viscous_strain + viscous;
-  r.viscous_dissipation = T(1.0 / dt) * dot(s, viscous);  // 2.114
-  r.dissipation = r.viscous_dissipation + r.plastic_dissipation;
-  const T pressure = p.elastic.bulk * (trace(strain) - p.elastic.thermal_strain);  // 2.57b
-  r.stress = s;
-  for (int i = 0; i < 3; ++i) r.stress[i] += pressure;
-  return r;
-}
-
-// The plastic corrector (4.137–4.147) and its tangent, where the trial state lies outside the yield surface.
-template <class T>
-void Viscoplastic::correct(const Properties<T>& p, const State<T>& start, const Shear<T>& sh,
-                           const Sym<T>& trial, double dt, Response<T>& r, Sym<T>& s) const {
-  using namespace return_mapping;
-  const T zero(0.0), w = sh.strength;
+  const T w = sh.strength;
+  const Sym<T> trial_deviator = sh.twice_shear * free;  // 4.131b
   const Problem<T> problem{flow_->isotropic,
                            &flow_->curves,
                            &p.flow,
@@ -82,33 +60,68 @@ void Viscoplastic::correct(const Properties<T>& p, const State<T>& start, const 
                            w,
                            T(sh.flow_share * T(dt)),
                            T(T(k_root_two_thirds) * w * p.flow.recall),
-                           trial,
+                           trial_deviator,
                            start.back_strain,
                            start.hardening};
-  const Yield<T> at_start = yield(problem, zero);
-  if (!any((at_start.value > zero) & (problem.rate > zero))) return;
+  const Yield<T> trial = yield(problem, T(0.0));
+  if (any(flows(problem, trial))) return plastic(p, start, sh, free, strain, dt, problem, trial);
+  return elastic(p, start, sh, free, strain, dt,
+                 all(trial.norm < T(k_largest_stress)) ? Status::converged : Status::outside_range);
+}
 
+/// Elastic and viscous, given the strain that is left for both.
+template <class T>
+[[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::elastic(
+    const Properties<T>& p, const State<T>& start, const Shear<T>& sh, const Sym<T>& free,
+    const Sym<T>& strain, double dt, Status status) {
+  const T zero(0.0), pressure = p.elastic.bulk * (trace(strain) - p.elastic.thermal_strain);  // 2.57b
+  const Sym<T> s = sh.twice_shear * free, viscous = sh.viscous_share * free;                  // 4.145
+  const T dissipation = T(1.0 / dt) * dot(s, viscous);                                        // 2.114
+  const Sym<T> none{{zero, zero, zero, zero, zero, zero}};  // {} would clear the whole response first
+  return {{{s[0] + pressure, s[1] + pressure, s[2] + pressure, s[3], s[4], s[5]}},
+          {start.viscous_strain + viscous, start.plastic_strain, start.back_strain, start.hardening},
+          p.elastic.bulk,
+          sh.twice_shear,
+          none,
+          none,
+          none,
+          zero,
+          dissipation,
+          zero,
+          zero,
+          dissipation,
+          status};
+}
+
+/// The plastic corrector (4.137–4.147) and its tangent. Lanes inside the yield surface have γ = 0.
+template <class T>
+[[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::plastic(
+    const Properties<T>& p, const State<T>& start, const Shear<T>& sh, const Sym<T>& free,
+    const Sym<T>& strain, double dt, const return_mapping::Problem<T>& problem,
+    const return_mapping::Yield<T>& trial) const {
+  using namespace return_mapping;
   const Solution<T> solution =
-      flow_->linear_rate() ? solve_linear_rate(problem, at_start) : solve_power_rate(problem, at_start);
-  const T gamma = solution.gamma, stiff = sh.twice_shear;
-  const Yield<T> end = problem.recalls ? yield(problem, gamma) : at_start;
+      linear_rate_ ? solve_linear_rate(problem, trial) : solve_power_rate(problem, trial);
+  const T gamma = solution.gamma, stiff = sh.twice_shear, w = sh.strength, radius = T(k_root_two_thirds) * w;
+  const Yield<T> end = problem.recalls ? yield(problem, gamma) : trial;
   const Sym<T>& n = end.direction;
-  if (!solution.converged) r.status = Status::cut_the_step;
+  const Sym<T> flow = gamma * n, rest = free - flow;
 
+  Response<T> r = elastic(p, start, sh, rest, strain, dt,  // 4.146a
+                          solution.converged ? Status::converged : Status::cut_the_step);
+  r.state.plastic_strain = start.plastic_strain + flow;               // 4.144a
+  r.state.back_strain = end.fading * (start.back_strain - w * flow);  // 4.144b
+  r.state.hardening = start.hardening + radius * gamma;               // 4.144c
   r.flow_increment = gamma;
   r.direction = n;
-  r.state.plastic_strain = start.plastic_strain + gamma * n;                  // 4.144a
-  r.state.back_strain = end.fading * (start.back_strain - T(w * gamma) * n);  // 4.144b
-  r.state.hardening = start.hardening + T(k_root_two_thirds) * w * gamma;     // 4.144c
-  s = trial - T(stiff * gamma) * n;                                           // 4.146a
 
   const T rate = T(1.0 / dt) * gamma;
-  r.plastic_power = rate * dot(s, n);
-  r.plastic_dissipation =
-      rate * (solution.overstress + T(k_root_two_thirds) * w * p.flow.flow_stress);  // 2.117
+  r.plastic_power = rate * stiff * dot(rest, n);
+  r.plastic_dissipation = rate * (solution.overstress + radius * p.flow.flow_stress);  // 2.117
   if (problem.recalls)
     r.plastic_dissipation += rate * T(k_two_thirds) * p.flow.kinematic_modulus * problem.recall *
                              dot(r.state.back_strain, r.state.back_strain);
+  r.dissipation += r.plastic_dissipation;
 
   const T turning = stiff * gamma / end.norm;  // share of the stiffness that the turning of n takes
   const T along = stiff * stiff * solution.inverse_stiffness;
@@ -116,6 +129,7 @@ void Viscoplastic::correct(const Properties<T>& p, const State<T>& start, const 
   r.right = n;
   r.left = T(stiff * turning - along) * n;
   if (problem.recalls) r.left -= T(along * gamma / end.norm) * (end.drift - dot(n, end.drift) * n);
+  return r;
 }
 
 }  // namespace solidus::material
