@@ -39,6 +39,7 @@ FlowProperties<T> flow_properties_at(const Flow& flow, const T& temperature) {
   p.exponent = detail::value(flow.exponent, temperature);
   p.drag_stress = detail::value(flow.drag_stress, temperature);
   p.temperature = temperature;
+  p.beyond = T(0.0);  // a type of automatic differentiation need not start at zero
   return p;
 }
 
