@@ -87,7 +87,8 @@ TEST(CoupledHalfSpace, MeetsItsEquationsOnBothSidesOfTheFront) {
   for (double film : {std::numeric_limits<double>::infinity(), 2.0})
     for (double delta : k_couplings) {
       const CoupledHalfSpace space{delta, film};
-      for (const auto& [xi, tau] : {std::pair{0.4, 1.5}, {1.0, 1.5}, {2.2, 1.5}, {1.5, 4.0}}) {
+      for (const auto& place : {std::pair{0.4, 1.5}, {1.0, 1.5}, {2.2, 1.5}, {1.5, 4.0}}) {
+        const double xi = place.first, tau = place.second;
         const auto u_x = [&](double x, double t) {
           return first([&](double y) { return space.displacement(y, t); }, x, h);
         };
