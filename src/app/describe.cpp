@@ -12,6 +12,7 @@
 #include "base/key_docs.hpp"
 #include "material/library.hpp"
 #include "model/case_keys.hpp"
+#include "point/spec.hpp"
 
 namespace solidus::app {
 
@@ -25,21 +26,34 @@ void print(const std::string& text) {
 
 namespace {
 
-const SectionInfo& keys_of(FileKind file) {
-  return file == FileKind::case_file ? model::case_keys().info() : material::material_section().info();
+struct DeclaredFile {
+  const SectionInfo& keys;
+  const char *reference, *schema;  ///< titles
+};
+
+DeclaredFile declared(FileKind file) {
+  switch (file) {
+    case FileKind::material_file:
+      return {material::material_section().info(), "Reference: the material file", "Solidus material"};
+    case FileKind::point_file:
+      return {point::point_section().info(), "Reference: the point file", "Solidus point"};
+    case FileKind::case_file:
+      break;
+  }
+  return {model::case_keys().info(), "Reference: the case file", "Solidus case"};
 }
 
 }  // namespace
 
 ExitCode explain(FileKind file, const std::string& key, bool manual) {
-  const std::string title =
-      file == FileKind::case_file ? "Reference: the case file" : "Reference: the material file";
-  print(manual ? reference_manual(keys_of(file), title) : solidus::explain(keys_of(file), key));
+  const DeclaredFile of = declared(file);
+  print(manual ? reference_manual(of.keys, of.reference) : solidus::explain(of.keys, key));
   return k_done;
 }
 
 ExitCode schema(FileKind file) {
-  print(json_schema(keys_of(file), file == FileKind::case_file ? "Solidus case" : "Solidus material"));
+  const DeclaredFile of = declared(file);
+  print(json_schema(of.keys, of.schema));
   return k_done;
 }
 

@@ -83,7 +83,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 
   CaseArguments arguments;
   std::string key, name, unit = "m";
-  bool manual = false, of_material = false;
+  bool manual = false, of_material = false, of_point = false;
   CLI::App* run_verb = program.add_subcommand("run", "Run a case");
   add_case_arguments(*run_verb, arguments);
   run_verb->add_option("-o,--output", arguments.output,
@@ -98,8 +98,20 @@ ExitCode parse_and_run(int argc, char** argv) {
   explain_verb->add_flag("--manual", manual, "The reference manual of all keys, in Markdown");
   CLI::App* schema_verb =
       program.add_subcommand("schema", "Print the JSON Schema of the case file, for editors");
-  for (CLI::App* verb : {explain_verb, schema_verb})
-    verb->add_flag("--material", of_material, "Keys of a material file instead of a case file");
+  for (CLI::App* verb : {explain_verb, schema_verb}) {
+    CLI::Option* material =
+        verb->add_flag("--material", of_material, "Keys of a material file instead of a case file");
+    verb->add_flag("--point", of_point, "Keys of a point file instead of a case file")->excludes(material);
+  }
+  CLI::App* point_verb = program.add_subcommand(
+      "point", "Take a point of a material through a history of strain, stress and temperature");
+  point_verb->add_option("CASE", arguments.path, "A point file, or a folder with a point.toml")->required();
+  point_verb
+      ->add_option("--set", arguments.set,
+                   "Change a key, PATH=VALUE, for example --set temperature=\"300 degC\"")
+      ->allow_extra_args(false);
+  point_verb->add_option("-o,--output", arguments.output,
+                         "Folder of the results; default results/FOLDER/FILE");
   CLI::App* mesh_verb = program.add_subcommand("mesh-info", "Report groups, sizes and quality of a mesh");
   mesh_verb->add_option("CASE", arguments.path, "A mesh file, or a case")->required();
   mesh_verb->add_option("--set", arguments.set, "Change a key of the case, PATH=VALUE")
@@ -108,6 +120,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   CLI::App* materials_verb =
       program.add_subcommand("materials", "List the material library, or print one material");
   materials_verb->add_option("NAME", name, "A material of the library, or a material file");
+  materials_verb->add_option("-o,--output", arguments.output,
+                             "Folder for tables of the properties and the flow curves (CSV)");
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
   for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
 
@@ -128,13 +142,16 @@ ExitCode parse_and_run(int argc, char** argv) {
     throw InputError({}, error.what(), "`solidus --help` shows verbs and options");
   }
   set_log_level(level);
-  const FileKind file = of_material ? FileKind::material_file : FileKind::case_file;
+  const FileKind file = of_material ? FileKind::material_file
+                        : of_point  ? FileKind::point_file
+                                    : FileKind::case_file;
   if (*run_verb) return run(arguments);
   if (*check_verb) return check(arguments);
+  if (*point_verb) return run_point(arguments);
   if (*explain_verb) return explain(file, key, manual);
   if (*schema_verb) return schema(file);
   if (*mesh_verb) return mesh_info(arguments, unit);
-  if (*materials_verb) return materials(name);
+  if (*materials_verb) return materials(name, arguments.output);
   if (*version_verb) return version();
   return k_our_bug;
 }

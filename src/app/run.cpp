@@ -5,11 +5,10 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
+#include "app/places.hpp"
 #include "app/verbs.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
@@ -20,30 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The repository that the present folder belongs to, else the present folder.
-fs::path results_root() {
-  const fs::path here = fs::current_path();
-  std::error_code error;
-  for (fs::path folder = here; folder.has_relative_path(); folder = folder.parent_path())
-    if (fs::exists(folder / ".git", error)) return folder;
-  return here;
-}
-
 /// -o, else the case's own wish (seen from the present folder), else results/CASE/VARIANT.
 fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
   if (!arguments.output.empty()) return arguments.output;
   if (c.spec.output.folder) return *c.spec.output.folder;
   return results_root() / results::default_run_folder(c.file);
-}
-
-/// Tells a script where the results are: the path goes to the file that SOLIDUS_RESULTS_NOTE names, because a
-/// terminal's output cannot be piped without losing the progress bar.
-void note_folder(const fs::path& folder) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  const char* note = std::getenv("SOLIDUS_RESULTS_NOTE");
-  if (rank == 0 && note != nullptr)
-    std::ofstream(note) << fs::absolute(folder).lexically_normal().string() << "\n";
 }
 
 volatile std::sig_atomic_t stop_asked = 0;

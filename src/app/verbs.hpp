@@ -23,15 +23,19 @@ void print(const std::string& text);
 
 ExitCode run(const CaseArguments& arguments);
 ExitCode check(const CaseArguments& arguments);
+/// A material point through a history of strain, stress and temperature.
+/// @param arguments path: a point file, or a folder with a point.toml
+ExitCode run_point(const CaseArguments& arguments);
 /// The files whose keys are declared.
-enum class FileKind { case_file, material_file };
+enum class FileKind { case_file, material_file, point_file };
 /// @param key a path such as "time.step"; empty: all keys
 ExitCode explain(FileKind file, const std::string& key, bool manual);
 ExitCode schema(FileKind file);
 /// @param path a case, or a mesh file with the unit of its lengths
 ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit);
-/// @param name a material of the library or a file; empty: the list
-ExitCode materials(const std::string& name);
+/// @param name   a material of the library or a file; empty: the list
+/// @param output a folder for its tables (CSV); empty: none
+ExitCode materials(const std::string& name, const std::string& output);
 ExitCode version();
 
 }  // namespace solidus::app

@@ -1,0 +1,15 @@
+/// Where results go, and how a script learns of it.
+#pragma once
+
+#include <filesystem>
+
+namespace solidus::app {
+
+/// The repository that the present folder belongs to, else the present folder.
+std::filesystem::path results_root();
+
+/// Tells a script where the results are: the path goes to the file that SOLIDUS_RESULTS_NOTE names, because a
+/// terminal's output cannot be piped without losing the progress bar.
+void note_folder(const std::filesystem::path& folder);
+
+}  // namespace solidus::app

@@ -1,0 +1,213 @@
+/// The verb `point`: a material point through a history, its tables and what the pictures are drawn from.
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "app/places.hpp"
+#include "app/verbs.hpp"
+#include "base/types.hpp"
+#include "material/library.hpp"
+#include "model/case_materials.hpp"
+#include "model/overrides.hpp"
+#include "point/point_case.hpp"
+#include "results/csv.hpp"
+#include "results/json.hpp"
+#include "results/output_file.hpp"
+#include "results/run_folder.hpp"
+
+namespace solidus::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using point::Curve;
+using point::PointCase;
+using point::Record;
+using results::Json;
+
+constexpr const char* k_marker =
+    "# Written by Solidus: the point file as it was run, all defaults filled in.";
+
+/// A table as one text: a file is written whole or not at all.
+std::string table(const std::vector<Record>& records) {
+  std::string text;
+  for (const point::Column& column : point::columns()) text += (text.empty() ? "" : ",") + column.header();
+  for (const Record& record : records) {
+    text += '\n';
+    const char* separator = "";
+    for (const point::Column& column : point::columns()) {
+      const double value = column.shown(record);
+      if (!std::isfinite(value)) throw results::NotFiniteError("column '" + column.header() + "'", {});
+      text += separator + results::number_text(value);
+      separator = ",";
+    }
+  }
+  return text + "\n";
+}
+
+std::string table(const point::Measured& measured) {
+  std::string text;
+  for (const point::Column* column : measured.columns) text += (text.empty() ? "" : ",") + column->header();
+  for (const std::vector<double>& row : measured.rows) {
+    text += '\n';
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + results::number_text(row[i]);
+  }
+  return text + "\n";
+}
+
+/// Makes the folder, unless it holds what is not ours.
+void prepare(const fs::path& folder, const PointCase& point_case, const std::string& file) {
+  const fs::path echo = folder / "point.toml";
+  std::string first_line;
+  std::ifstream in(echo);
+  const bool ours = static_cast<bool>(std::getline(in, first_line)) && first_line == k_marker;
+  if (!ours)
+    for (const char* name : {"point.toml", "case.toml", "summary.json"})
+      if (fs::exists(folder / name))
+        throw results::OutputError(folder.string(),
+                                   fmt::format("this folder holds a {} of something else", name),
+                                   "choose another folder with -o");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw results::OutputError(folder.string(), "cannot make the results folder: " + error.message(),
+                               "choose another folder with -o");
+  results::write_file(
+      echo, fmt::format("{}\n# from {}\n{}", k_marker, fs::absolute(file).lexically_normal().string(),
+                        to_toml(point_case.document)));
+}
+
+/// What to tell of properties whose data do not hold at the temperatures of the history; empty: nothing.
+/// Throws InputError where a table refuses.
+std::string warning(const Curve& curve, const std::vector<Record>& records) {
+  const auto [coldest, hottest] =
+      std::minmax_element(records.begin(), records.end(),
+                          [](const Record& a, const Record& b) { return a.temperature < b.temperature; });
+  constexpr double k_rounding = 1e-6;  // [K], of a conversion from degC
+  const auto celsius = [](double kelvin) { return fmt::format("{:.6g}", kelvin - k_zero_celsius); };
+  std::string properties;
+  for (const auto& range : material::left_ranges(curve.material, coldest->temperature + k_rounding,
+                                                 hottest->temperature - k_rounding)) {
+    const std::string text =
+        fmt::format("{} ({} to {})", range.property, celsius(range.valid_from), celsius(range.valid_to));
+    if (range.refused)
+      throw InputError(
+          {}, fmt::format("{}: outside the data of '{}': {} degC", curve.name, curve.material.name, text),
+          "its table has extrapolation = \"error\"");
+    properties += (properties.empty() ? "" : ", ") + text;
+  }
+  if (properties.empty()) return {};
+  return fmt::format("{}: from {} to {} degC, outside the data of {}", curve.name,
+                     celsius(coldest->temperature), celsius(hottest->temperature), properties);
+}
+
+Json list(const std::vector<std::string>& texts) {
+  Json::Array array;
+  for (const std::string& text : texts) array.emplace_back(text);
+  return array;
+}
+
+Json picture_entry(const point::PictureSpec& picture) {
+  Json entry;
+  entry.add("file", picture.file).add("title", picture.title).add("x", picture.x);
+  entry.add("y", list(picture.y)).add("logarithmic", list(picture.logarithmic));
+  return entry;
+}
+
+/// One line of the overview on the terminal.
+std::string line(const Curve& curve, const point::History& history) {
+  double peak = 0;
+  int iterations = 0;
+  for (const Record& r : history.records) {
+    peak = std::max(peak, von_mises(r.stress));
+    iterations = std::max(iterations, r.iterations);
+  }
+  const Record& last = history.records.back();
+  return fmt::format("  {:<24} {:>6} {:>12.6g} {:>10.5g} {:>14.5g} {:>12.4g} {:>12.4g} {:>10}\n", curve.name,
+                     history.records.size() - 1, last.time, last.temperature - k_zero_celsius, 1e-6 * peak,
+                     1e-6 * von_mises(last.stress), last.equivalent_plastic, iterations);
+}
+
+struct Summary {
+  Json::Array curves;
+  std::string lines, notes, failures;
+};
+
+void run_curve(const Curve& curve, const fs::path& folder, Summary& summary) {
+  const point::History history = point::run(curve.material, curve.program);
+  const std::string outside = warning(curve, history.records);
+  results::write_file(folder / (curve.name + ".csv"), table(history.records));
+  Json entry;
+  entry.add("name", curve.name).add("label", curve.label).add("material", curve.material.name);
+  entry.add("file", curve.name + ".csv").add("steps", history.records.size() - 1);
+  entry.add("finished", history.finished);
+  if (!history.finished) {
+    entry.add("reason", history.reason);
+    summary.failures += fmt::format("{}: {}\n", curve.name, history.reason);
+  }
+  if (!outside.empty()) {
+    entry.add("warning", outside);
+    summary.notes += "  warning: " + outside + "\n";
+  }
+  summary.lines += line(curve, history);
+  if (curve.measured) {
+    const std::string file = curve.name + "_measured.csv";
+    results::write_file(folder / file, table(*curve.measured));
+    entry.add("measured", file);
+    Json::Array fits;
+    for (const point::Deviation& d : point::deviations(*curve.measured, history.records)) {
+      Json fit;
+      fit.add("column", d.column->header()).add("rms", d.rms).add("largest_measured", d.largest);
+      fits.emplace_back(std::move(fit.add("points", d.points)));
+      summary.notes +=
+          fmt::format("  {}: {} deviates by {:.4g} {} (rms of {} points, largest measured {:.4g})\n",
+                      curve.name, d.column->name, d.rms, d.column->unit, d.points, d.largest);
+    }
+    entry.add("deviations", std::move(fits));
+  }
+  summary.curves.emplace_back(std::move(entry));
+}
+
+}  // namespace
+
+ExitCode run_point(const CaseArguments& arguments) {
+  int processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &processes);
+  if (processes > 1) throw InputError({}, "a point runs on one process", "solidus point without mpirun");
+  fs::path file = arguments.path;
+  if (fs::is_directory(file)) file /= "point.toml";
+  Value document = load_document(file);
+  for (const std::string& assignment : arguments.set) model::apply_override(document, assignment);
+  const auto library = model::material_folders();
+  const PointCase point_case = point::make_point_case(std::move(document), library);
+
+  const fs::path folder = arguments.output.empty() ? results_root() / results::default_run_folder(file)
+                                                   : fs::path(arguments.output);
+  prepare(folder, point_case, file.string());
+  Summary summary;
+  for (const Curve& curve : point_case.curves) run_curve(curve, folder, summary);
+
+  Json json;
+  json.add("kind", "point").add("program", "Solidus " SOLIDUS_VERSION).add("title", point_case.title);
+  json.add("curves", std::move(summary.curves));
+  Json::Array pictures;
+  for (const auto& picture : point_case.pictures) pictures.push_back(picture_entry(picture));
+  json.add("pictures", std::move(pictures));
+  results::write_file(folder / "summary.json", json.text());
+  print(fmt::format("{}\n  {:<24} {:>6} {:>12} {:>10} {:>14} {:>12} {:>12} {:>10}\n{}{}",
+                    point_case.title.empty() ? file.string() : point_case.title, "curve", "steps", "end [s]",
+                    "[degC]", "peak Mises[MPa]", "end [MPa]", "plastic [1]", "iterations", summary.lines,
+                    summary.notes));
+  note_folder(folder);
+  print("Results in " + folder.lexically_normal().string() + "\n");
+  if (summary.failures.empty()) return k_done;
+  std::fputs(("solidus: " + summary.failures).c_str(), stderr);
+  return k_cannot_go_on;
+}
+
+}  // namespace solidus::app
