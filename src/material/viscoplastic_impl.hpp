@@ -114,6 +114,9 @@ template <class T>
   r.state.hardening = start.hardening + radius * gamma;               // 4.144c
   r.flow_increment = gamma;
   r.direction = n;
+  r.overstress = solution.overstress;
+  r.inverse_stiffness = solution.inverse_stiffness;
+  r.relative_norm = end.norm;
 
   const T rate = T(1.0 / dt) * gamma;
   r.plastic_power = rate * stiff * dot(rest, n);
