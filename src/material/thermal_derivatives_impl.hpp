@@ -1,0 +1,239 @@
+/// Bodies of the templates of thermal_derivatives.hpp. Included by thermal_derivatives.hpp only.
+#pragma once
+
+#include "material/thermal_derivatives.hpp"
+
+namespace solidus::material {
+
+template <class T>
+Viscoplastic::Properties<Jet<T>> thermal_properties(const Viscoplastic& law, const T& temperature,
+                                                    const T& initial_temperature, Frozen frozen) {
+  const auto hold = [](Jet<T>& a) { a = Jet<T>(a.v); };
+  auto p = law.properties_at(Jet<T>::variable(temperature), Jet<T>(initial_temperature));
+  if (frozen.phase) {
+    hold(p.elastic.solid_fraction);
+    for (const PhaseChange& change : law.material().phase_changes)
+      p.elastic.thermal_strain.d -= T(change.volume_change) * detail::slope(change.fraction, temperature);
+  }
+  if (frozen.flow_stress) hold(p.flow.flow_stress);
+  if (frozen.viscosity)
+    for (Jet<T>* a : {&p.elastic.viscosity, &p.flow.viscosity, &p.flow.exponent, &p.flow.drag_stress})
+      hold(*a);
+  if (frozen.recall) hold(p.flow.recall);
+  return p;
+}
+
+/// The update at its solution, with its derivatives in Θ and, through covectors, in ε.
+template <class T>
+class Variation {
+ public:
+  using J = Jet<T>;
+  using State = Viscoplastic::State<T>;
+
+  Variation(const Viscoplastic& law, const Viscoplastic::Properties<J>& p, const State& start,
+            const Sym<T>& strain, double dt, const Viscoplastic::Response<T>& r)
+      : law_(law),
+        p_(p),
+        shear_(law.shear(p.elastic, dt)),
+        dt_(dt),
+        trace_(trace(strain)),
+        trial_(dev(strain) - start.plastic_strain - start.viscous_strain),
+        elastic_(trial_),
+        zeta_(r.state.back_strain),
+        xi_(r.state.hardening) {
+    if (law.material().flow) add_flow(start, r);
+  }
+
+  /// dσ/dΘ.
+  Sym<T> stress() const {
+    const J pressure = p_.elastic.bulk * (J(trace_) - p_.elastic.thermal_strain);
+    Sym<T> slope = shear_.twice_shear.d * elastic_ + shear_.twice_shear.v * elastic_theta_;
+    for (int i = 0; i < 3; ++i) slope[i] += pressure.d;
+    return slope;
+  }
+
+  Derivatives<T> flow_increment() const {
+    return {gamma_, gamma_theta_, T(inverse_ * shear_.twice_shear.v) * normal_};
+  }
+
+  /// @param in_strain  false: without the covector
+  Derivatives<T> entropy(bool in_strain = true) const {
+    const J& k = p_.elastic.bulk;
+    const J pull = k * p_.elastic.thermal_strain;
+    const J q = spring_slope();
+    const T squared = dot(elastic_, elastic_), tr2 = T(0.5) * trace_ * trace_;
+    const T volumetric = k.d * trace_ - pull.d;
+    Derivatives<T> s;
+    s.value = -(k.d * tr2) + pull.d * trace_ - q.v * squared;
+    s.temperature =
+        -(k.dd * tr2) + pull.dd * trace_ - q.d * squared - T(2.0) * q.v * dot(elastic_, elastic_theta_);
+    if (!law_.material().flow) {
+      if (in_strain) s.strain = T(-2.0 * q.v) * elastic_;
+    } else {
+      const Flow& flow = *law_.material().flow;
+      const J stored = hardening_energy<J>(flow.isotropic, flow.curves, p_.flow, J(xi_));
+      const J& kinematic = p_.flow.kinematic_modulus;
+      const T third(1.0 / 3.0), zeta2 = dot(zeta_, zeta_);
+      s.value -= stored.d + third * kinematic.d * zeta2;
+      s.temperature -= stored.dd + stress_theta_ * xi_theta_ + third * kinematic.dd * zeta2 +
+                       T(2.0) * third * kinematic.d * dot(zeta_, zeta_theta_);
+      if (in_strain)
+        s.strain = along_strain(T(-2.0 * q.v) * elastic_, T(T(-2.0) * third * kinematic.d) * zeta_,
+                                T(0.0) - stress_theta_ * radius().v);
+    }
+    if (in_strain)
+      for (int i = 0; i < 3; ++i) s.strain[i] -= volumetric;
+    return s;
+  }
+
+  Derivatives<T> dissipation() const {
+    const J viscous = J(T(1.0 / dt_)) * shear_.twice_shear * shear_.viscous_share;
+    const T squared = dot(elastic_, elastic_);
+    Derivatives<T> d;
+    d.value = viscous.v * squared;
+    d.temperature = viscous.d * squared + T(2.0) * viscous.v * dot(elastic_, elastic_theta_);
+    const Sym<T> by_elastic = T(2.0 * viscous.v) * elastic_;
+    if (!law_.material().flow) {
+      d.strain = by_elastic;
+      return d;
+    }
+    // D_plas Δt = γ f,  f = x + w √⅔ σ_0 + ⅔ K b ζ:ζ
+    const T rate(1.0 / dt_), zeta2 = dot(zeta_, zeta_);
+    const J fixed = radius() * p_.flow.flow_stress;
+    const J recalled = law_.symmetric()
+                           ? J(T(0.0))
+                           : J(T(return_mapping::k_two_thirds)) * p_.flow.kinematic_modulus * recall();
+    const T force = overstress_ + fixed.v + recalled.v * zeta2;
+    const T force_theta = overstress_theta_ + overstress_gamma_ * gamma_theta_ + fixed.d +
+                          recalled.d * zeta2 + T(2.0) * recalled.v * dot(zeta_, zeta_theta_);
+    d.value += rate * gamma_ * force;
+    d.temperature += rate * (gamma_theta_ * force + gamma_ * force_theta);
+    d.strain = along_strain(by_elastic, T(T(2.0) * rate * gamma_ * recalled.v) * zeta_,
+                            rate * (force + gamma_ * overstress_gamma_));
+    return d;
+  }
+
+ private:
+  J radius() const { return J(T(return_mapping::k_root_two_thirds)) * shear_.strength; }  // w √⅔
+  J recall() const { return radius() * p_.flow.recall; }                                  // b
+
+  /// a − n (n : a).
+  Sym<T> across(const Sym<T>& a) const { return a - dot(normal_, a) * normal_; }
+
+  /// W_Θ/(a:a) at fixed elastic strain, and its derivative.
+  J spring_slope() const {
+    const J &g = p_.elastic.shear, &f = p_.elastic.solid_fraction;
+    const J g_theta(g.d, g.dd, T(0.0)), f_theta(f.d, T(0.0), T(0.0));
+    switch (law_.material().liquid_model) {
+      case LiquidModel::modified_shear:
+        return f * g_theta + f_theta * g;
+      case LiquidModel::degenerated:
+        return g_theta;
+      case LiquidModel::maxwell:
+        break;
+    }
+    const J share = shear_.twice_shear / (J(T(2.0)) * g);  // Ĝ/G
+    return (f * g_theta - f_theta * g) * share * share;
+  }
+
+  void add_flow(const State& start, const Viscoplastic::Response<T>& r) {
+    const T zero(0.0), one(1.0);
+    const auto flows = r.flow_increment > zero;
+    gamma_ = select(flows, r.flow_increment, zero);
+    inverse_ = select(flows, r.inverse_stiffness, zero);
+    overstress_ = select(flows, r.overstress, zero);
+    const T inverse_norm = one / select(flows, r.relative_norm, one);
+    for (int i = 0; i < 6; ++i) normal_[i] = select(flows, r.direction[i], zero);
+    elastic_ = trial_ - gamma_ * normal_;
+
+    const Flow& flow = *law_.material().flow;
+    const J& stiff = shear_.twice_shear;
+    const J& w = shear_.strength;
+    const J modulus = J(T(return_mapping::k_two_thirds)) * w * p_.flow.kinematic_modulus;
+    const bool recalls = !law_.symmetric();
+    const J fading = recalls ? J(one) / (J(one) + recall() * J(gamma_)) : J(one);
+    const T fading_gamma = recalls ? T(T(0.0) - recall().v * fading.v * fading.v) : zero;
+    const J xi = J(start.hardening) + radius() * J(gamma_);
+    const HardeningStress<J> k = hardening_stress<J>(flow.isotropic, flow.curves, p_.flow, xi);
+    stress_theta_ = k.stress.d - k.slope.v * xi.d;
+
+    // Φ at the solution as a function of temperature, n held: Φ_n is zero.
+    const J pull = modulus * fading;
+    const J phi = stiff * J(dot(normal_, trial_)) + pull * J(dot(normal_, start.back_strain)) -
+                  (stiff + w * pull) * J(gamma_) - radius() * (p_.flow.flow_stress + k.stress);
+    rate_derivatives(flow);
+    gamma_theta_ = inverse_ * (phi.d - overstress_theta_);
+
+    // β̂ turns with temperature and, for Armstrong–Frederick, with γ
+    per_norm_ = inverse_norm;
+    drift_ = across(T(modulus.v * fading_gamma) * start.back_strain);
+    const Sym<T> turn = across(stiff.d * trial_ + pull.d * start.back_strain) + gamma_theta_ * drift_;
+    const Sym<T> normal_theta = inverse_norm * turn;
+    elastic_theta_ = T(zero - gamma_theta_) * normal_ - gamma_ * normal_theta;
+
+    // ζ = B (ζ* − w γ n)
+    const T by_fading = one / fading.v;
+    zeta_gamma_ = T(fading_gamma * by_fading) * zeta_ - T(fading.v * w.v) * normal_;
+    zeta_turn_ = fading.v * w.v * gamma_;
+    zeta_theta_ = T(fading.d * by_fading) * zeta_ - T(fading.v * w.d * gamma_) * normal_ +
+                  gamma_theta_ * zeta_gamma_ - zeta_turn_ * normal_theta;
+    xi_theta_ = xi.d + radius().v * gamma_theta_;
+  }
+
+  /// x_γ and x_Θ of γ = m Δt/η x (x/D)^(n−1), each at fixed other.
+  void rate_derivatives(const Flow& flow) {
+    const T zero(0.0), one(1.0);
+    const J &m = shear_.flow_share, &eta = p_.flow.viscosity, &n = p_.flow.exponent, &d = p_.flow.drag_stress;
+    const auto liquid = !(m.v > zero);
+    const auto viscous = overstress_ > zero;
+    const T x = overstress_, m_safe = select(liquid, one, m.v);
+    const T per_n = one / n.v;
+    overstress_gamma_ = select(viscous, T(x * per_n / select(viscous, gamma_, one)), zero);
+    if (flow.linear_rate()) {
+      overstress_theta_ = select(liquid, zero, T((eta.d * gamma_ / T(dt_) - x * m.d) / m_safe));
+      return;
+    }
+    using std::log;
+    const T eta_safe = select(viscous, eta.v, one);
+    const T size = log(T(select(viscous, x, d.v) / d.v));
+    overstress_theta_ =
+        x * (d.d / d.v * (one - per_n) + per_n * (eta.d / eta_safe - m.d / m_safe - n.d * size));
+  }
+
+  /// The covector of a function of a, ζ and γ from its partial derivatives.
+  Sym<T> along_strain(const Sym<T>& by_elastic, const Sym<T>& by_zeta, const T& by_gamma) const {
+    const Sym<T> by_normal = across(gamma_ * by_elastic + zeta_turn_ * by_zeta);
+    const T through_gamma =
+        by_gamma - dot(by_elastic, normal_) + dot(by_zeta, zeta_gamma_) - per_norm_ * dot(by_normal, drift_);
+    const T stiff = shear_.twice_shear.v;
+    return by_elastic - T(stiff * per_norm_) * by_normal + T(through_gamma * inverse_ * stiff) * normal_;
+  }
+
+  const Viscoplastic& law_;
+  const Viscoplastic::Properties<J>& p_;
+  Viscoplastic::Shear<J> shear_;
+  double dt_;
+  T trace_;
+  Sym<T> trial_, elastic_;  ///< ê, a
+  Sym<T> zeta_;
+  T xi_;
+  // Zero without flow:
+  T gamma_{0.0}, inverse_{0.0}, per_norm_{0.0}, overstress_{0.0};
+  T overstress_gamma_{0.0}, overstress_theta_{0.0}, stress_theta_{0.0};  ///< x_γ, x_Θ, K_ξΘ
+  T gamma_theta_{0.0}, xi_theta_{0.0};
+  T zeta_turn_{0.0};  ///< ζ turns with n by −zeta_turn_ dn
+  Sym<T> normal_ = zeros(), drift_ = zeros(), elastic_theta_ = zeros(), zeta_theta_ = zeros(),
+         zeta_gamma_ = zeros();
+
+  static Sym<T> zeros() { return {{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)}}; }
+};
+
+template <class T>
+ThermalDerivatives<T> thermal_derivatives(const Viscoplastic& law, const Viscoplastic::Properties<Jet<T>>& p,
+                                          const Viscoplastic::State<T>& start, const Sym<T>& strain,
+                                          double dt, const Viscoplastic::Response<T>& response) {
+  const Variation<T> v(law, p, start, strain, dt, response);
+  return {v.stress(), v.entropy(), v.dissipation(), v.flow_increment()};
+}
+
+}  // namespace solidus::material
