@@ -167,6 +167,11 @@ Section<PointSpec> point_keys() {
              "second order: the two-step method of Gear; each segment begins with a step of backward Euler"}})
       .initially("backward_euler")
       .doc("Of the flow in time.");
+  s.choice("thermal", &PointSpec::thermal,
+           {{"prescribed", Thermal::prescribed, "the segments say it"},
+            {"adiabatic", Thermal::adiabatic, "no heat comes or goes: it follows from the first law"}})
+      .initially("prescribed")
+      .doc("Where the temperature comes from.");
   s.sections("segment", &PointSpec::segments, segment_keys());
   s.sections("curve", &PointSpec::curves, curve_keys());
   s.sections("picture", &PointSpec::pictures, picture_keys());

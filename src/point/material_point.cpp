@@ -54,26 +54,63 @@ bool correction(const std::vector<int>& free, const Target& target, const Law::R
   return true;
 }
 
+/// Of an adiabatic step [K].
+constexpr double k_temperature_tolerance = 1e-9;
+
 }  // namespace
 
-MaterialPoint::MaterialPoint(const material::Material& material, double temperature, double strain_reference,
-                             Integration integration)
-    : law_(material), strain_reference_(strain_reference), integration_(integration) {
-  now_.temperature = temperature;
-  const double thermal = law_.properties_at(temperature, strain_reference).elastic.thermal_strain;
+MaterialPoint::MaterialPoint(const material::Material& material, const Options& options)
+    : law_(material), options_(options) {
+  now_.temperature = options.temperature;
+  const double thermal =
+      law_.properties_at(options.temperature, options.strain_reference).elastic.thermal_strain;
   for (int i = 0; i < 3; ++i) now_.strain[i] = thermal / 3;
 }
 
+Stored MaterialPoint::stored(const PointState& s) const {
+  const Sym<double> elastic = s.strain - s.history.viscous_strain - s.history.plastic_strain;
+  const auto state = material::thermal_state<double>(
+      law_, {elastic, s.history.hardening, s.history.back_strain}, s.temperature, strain_reference());
+  const auto latent = material::latent_heat(law_.material(), strain_reference(), s.temperature);
+  return {state.internal_energy + latent.heat, state.entropy + state.latent_entropy,
+          state.capacity + state.latent_capacity};
+}
+
 StepResult MaterialPoint::attempt(const Target& end, double dt) const {
-  const bool two_step = integration_ == Integration::two_step && step_before_ > 0;
+  return options_.thermal == Thermal::adiabatic ? attempt_adiabatic(end, dt)
+                                                : attempt_at(end.temperature, end, dt);
+}
+
+/// Newton's method in the temperature with the capacity as its slope; a bracket where latent heat bends it.
+StepResult MaterialPoint::attempt_adiabatic(const Target& end, double dt) const {
+  const Stored before = stored(now_);
+  double temperature = now_.temperature, low = 0.5 * temperature, high = 2 * temperature;
+  StepResult result;
+  for (int i = 0; i < k_max_iterations; ++i) {
+    result = attempt_at(temperature, end, dt);
+    if (!result.converged) return result;
+    const Stored now = stored(result.state);
+    const double work = 0.5 * dot(now_.stress + result.state.stress, result.state.strain - now_.strain);
+    const double excess = now.energy - before.energy - work;
+    if (std::abs(excess) <= k_temperature_tolerance * now.capacity) return result;
+    (excess > 0 ? high : low) = temperature;
+    const double next = temperature - excess / now.capacity;
+    temperature = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  result.converged = false;
+  return result;
+}
+
+StepResult MaterialPoint::attempt_at(double temperature, const Target& end, double dt) const {
+  const bool two_step = options_.integration == Integration::two_step && step_before_ > 0;
   const auto step =
       two_step ? material::TimeStep::two_step(dt, step_before_) : material::TimeStep::backward_euler(dt);
   const auto start = material::start_state(step, now_.history, history_before_);
-  const auto p = law_.properties_at(end.temperature, strain_reference_);
-  const auto before = law_.properties_at(now_.temperature, strain_reference_);
+  const auto p = law_.properties_at(temperature, strain_reference());
+  const auto before = law_.properties_at(now_.temperature, strain_reference());
 
   StepResult result;
-  result.thermal_strain = p.elastic.thermal_strain;
+  result.effective_step = step.dt;
   const std::vector<int> free = free_components(end);
   Sym<double> strain = now_.strain;
   const double growth = (p.elastic.thermal_strain - before.elastic.thermal_strain) / 3;
@@ -108,7 +145,7 @@ StepResult MaterialPoint::attempt(const Target& end, double dt) const {
   result.residuals.push_back(missing);
   result.converged = good() && missing <= tolerance();
   result.response = response;
-  result.state = {now_.time + dt, end.temperature, strain, response.stress, response.state};
+  result.state = {now_.time + dt, temperature, strain, response.stress, response.state};
   return result;
 }
 

@@ -4,18 +4,25 @@
 ///
 /// by Newton's method with the law's consistent tangent, on the free rows and columns. Where the tangent has
 /// no shear stiffness (a liquid), the strain of least change is taken. Source: the law, viscoplastic.hpp.
+///
+/// An adiabatic point finds its temperature from the first law, mechanical and thermal part at once:
+///
+///   E(Θ) + L(Θ) − (E + L)_n = ½ (σ + σ_n) : (ε − ε_n)
+///
+/// so that heating by dissipation, cooling by elastic strain and latent heat need no formula of their own.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "material/free_energy.hpp"
 #include "material/time_integration.hpp"
-#include "material/viscoplastic.hpp"
 #include "point/loading.hpp"
 
 namespace solidus::point {
 
 enum class Integration { backward_euler, two_step };
+enum class Thermal { prescribed, adiabatic };
 
 struct PointState {
   double time = 0;  ///< [s]
@@ -27,20 +34,32 @@ struct PointState {
 struct StepResult {
   PointState state;
   material::Viscoplastic::Response<double> response;
-  double thermal_strain = 0;      ///< e^θ, volumetric
+  double effective_step = 0;      ///< of the law [s]
   std::vector<double> residuals;  ///< largest stress missing before each Newton correction [Pa]
   bool converged = false;
 };
 
+/// What a state stores.
+struct Stored {
+  double energy;    ///< E + L [J/m³], zero for the free material at Θ_0
+  double entropy;   ///< S^E + S^pc [J/(m³ K)]
+  double capacity;  ///< ∂(E + L)/∂Θ [J/(m³ K)]
+};
+
 class MaterialPoint {
  public:
-  /// Starts free of stress. Keeps a reference to the material.
-  /// @param temperature       at the start [K]
-  /// @param strain_reference  Θ_0 of 2.51, where the strain is zero [K]
-  MaterialPoint(const material::Material& material, double temperature, double strain_reference,
-                Integration integration);
+  struct Options {
+    double temperature = 293.15;       ///< at the start [K]
+    double strain_reference = 293.15;  ///< Θ_0 of 2.51, where the strain is zero [K]
+    Integration integration = Integration::backward_euler;
+    Thermal thermal = Thermal::prescribed;
+  };
 
-  /// One step from the present state; nothing changes until accept().
+  /// Starts free of stress. Keeps a reference to the material.
+  MaterialPoint(const material::Material& material, const Options& options);
+
+  /// One step from the present state; nothing changes until accept(). An adiabatic point does not read the
+  /// target's temperature.
   StepResult attempt(const Target& end, double dt) const;
   void accept(const StepResult& result);
   /// The next step is one of backward Euler: the loading turns here, and what went before does not foretell
@@ -49,12 +68,15 @@ class MaterialPoint {
 
   const PointState& state() const { return now_; }
   const material::Viscoplastic& law() const { return law_; }
-  double strain_reference() const { return strain_reference_; }
+  double strain_reference() const { return options_.strain_reference; }
+  Stored stored(const PointState& state) const;
 
  private:
+  StepResult attempt_at(double temperature, const Target& end, double dt) const;
+  StepResult attempt_adiabatic(const Target& end, double dt) const;
+
   material::Viscoplastic law_;
-  double strain_reference_;
-  Integration integration_;
+  Options options_;
   PointState now_;
   material::Viscoplastic::State<double> history_before_;
   double step_before_ = 0;  ///< [s]; zero: there is no step to build on

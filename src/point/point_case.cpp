@@ -125,6 +125,14 @@ void check_overrides(const CurveSpec& curve, const std::vector<SegmentSpec>& seg
   check(curve.stress.has_value(), used(&SegmentSpec::stress), "stress");
 }
 
+/// The temperature of an adiabatic point is an answer.
+void refuse_temperatures(const std::vector<SegmentSpec>& segments) {
+  for (const SegmentSpec& s : segments)
+    if (s.temperature || s.temperature_rate)
+      throw InputError(s.where, "the segment sets a temperature, and thermal = \"adiabatic\"",
+                       "segments without temperature and temperature_rate");
+}
+
 Curve make_curve(const PointSpec& spec, const CurveSpec& curve, std::span<const fs::path> library) {
   const std::vector<SegmentSpec>& segments = curve.segments.empty() ? spec.segments : curve.segments;
   const SourceLocation& where = curve.where.file.empty() ? spec.where : curve.where;
@@ -136,9 +144,10 @@ Curve make_curve(const PointSpec& spec, const CurveSpec& curve, std::span<const 
   if (!result.material.mechanical())
     throw InputError(where, fmt::format("the material '{}' has no elastic properties", result.material.name),
                      "young_modulus, poisson_ratio and expansion");
-  result.program.temperature = curve.temperature.value_or(spec.temperature);
-  result.program.strain_reference = spec.strain_reference.value_or(result.program.temperature);
-  result.program.integration = spec.integration;
+  const double temperature = curve.temperature.value_or(spec.temperature);
+  result.program.options = {temperature, spec.strain_reference.value_or(temperature), spec.integration,
+                            spec.thermal};
+  if (spec.thermal == Thermal::adiabatic) refuse_temperatures(segments);
   result.program.segments = make_segments(segments, curve);
   if (curve.measured) result.measured = read_measured(*curve.measured, curve.where);
   return result;

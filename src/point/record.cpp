@@ -50,11 +50,15 @@ std::vector<Column> make_columns() {
   c.add("solid_fraction", "1", "1", [](const Record& r) { return r.solid_fraction; });
   c.add("viscous_dissipation", "W/m3", "W/m3", [](const Record& r) { return r.viscous_dissipation; });
   c.add("plastic_dissipation", "W/m3", "W/m3", [](const Record& r) { return r.plastic_dissipation; });
+  c.add("thermal_dissipation", "W/m3", "W/m3", [](const Record& r) { return r.thermal_dissipation; });
   c.add("plastic_power", "W/m3", "W/m3", [](const Record& r) { return r.plastic_power; });
   c.add("work", "J/m3", "kJ/m3", [](const Record& r) { return r.work; });
   c.add("dissipated", "J/m3", "kJ/m3", [](const Record& r) { return r.dissipated; });
   c.add("isotropic_energy", "J/m3", "kJ/m3", [](const Record& r) { return r.isotropic_energy; });
   c.add("kinematic_energy", "J/m3", "kJ/m3", [](const Record& r) { return r.kinematic_energy; });
+  c.add("internal_energy", "J/m3", "kJ/m3", [](const Record& r) { return r.internal_energy; });
+  c.add("heat", "J/m3", "kJ/m3", [](const Record& r) { return r.heat; });
+  c.add("entropy", "J/m3/K", "kJ/m3/K", [](const Record& r) { return r.entropy; });
   c.add("iterations", "1", "1", [](const Record& r) { return static_cast<double>(r.iterations); });
   c.add("cuts", "1", "1", [](const Record& r) { return static_cast<double>(r.cuts); });
   return std::move(c.list);

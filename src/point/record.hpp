@@ -20,10 +20,14 @@ struct Record {
   double viscous_dissipation = 0;  ///< 2.114 [W/m³]
   double plastic_dissipation = 0;  ///< 2.117 [W/m³]
   double plastic_power = 0;        ///< s : ε̇^vp [W/m³]
+  double thermal_dissipation = 0;  ///< 2.120 [W/m³]
   double isotropic_energy = 0;     ///< K of 2.49d [J/m³]
   double kinematic_energy = 0;     ///< ⅓ K ζ : ζ [J/m³]
   double work = 0;                 ///< ∫ σ : dε [J/m³]
   double dissipated = 0;           ///< ∫ D_mech dt [J/m³]
+  double internal_energy = 0;      ///< with latent heat, zero at the start [J/m³]
+  double entropy = 0;              ///< with that of latent heat, zero at the start [J/(m³ K)]
+  double heat = 0;                 ///< taken in: internal energy less work [J/m³]
   int iterations = 0, cuts = 0;    ///< Newton's, and how often the step was halved
   std::vector<double> residuals;   ///< of Newton's method [Pa]; no column
 };

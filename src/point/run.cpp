@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/types.hpp"
 
@@ -14,6 +15,12 @@ using material::Flow;
 using material::Viscoplastic;
 
 constexpr int k_max_cuts = 10;
+
+/// w, the factor of the yield stress in a degenerated liquid.
+double strength(const MaterialPoint& point, double temperature) {
+  const auto p = point.law().properties_at(temperature, point.strain_reference());
+  return point.law().shear(p.elastic, 1.0).strength;  // the same for every step
+}
 
 /// What the state of the point holds beside stress and strain.
 Record record_of(const MaterialPoint& point, const PointState& state) {
@@ -29,12 +36,15 @@ Record record_of(const MaterialPoint& point, const PointState& state) {
   r.equivalent_plastic = state.history.hardening;
   r.thermal_strain = p.elastic.thermal_strain / 3;
   r.solid_fraction = p.elastic.solid_fraction;
+  const Stored stored = point.stored(state);
+  r.internal_energy = stored.energy;
+  r.entropy = stored.entropy;
   if (!material.flow) return r;
   const Flow& flow = *material.flow;
-  const double strength = point.law().shear(p.elastic, 1.0).strength;  // of any step
   const double xi = state.history.hardening;
-  r.flow_stress = strength * (p.flow.flow_stress +
-                              material::hardening_stress(flow.isotropic, flow.curves, p.flow, xi).stress);
+  r.flow_stress =
+      strength(point, state.temperature) *
+      (p.flow.flow_stress + material::hardening_stress(flow.isotropic, flow.curves, p.flow, xi).stress);
   r.back_stress = (-2.0 / 3 * p.flow.kinematic_modulus) * state.history.back_strain;
   r.isotropic_energy = material::hardening_energy(flow.isotropic, flow.curves, p.flow, xi);
   r.kinematic_energy =
@@ -44,13 +54,21 @@ Record record_of(const MaterialPoint& point, const PointState& state) {
 
 /// The rates of the step and the sums over time: the work by the trapezoidal rule, what is dissipated by the
 /// rate at the end of the step, as the law has it.
-Record record_of(const MaterialPoint& point, const StepResult& step, const Record& before) {
+Record record_of(const MaterialPoint& point, const StepResult& step, const Record& first,
+                 const Record& before) {
   Record r = record_of(point, step.state);
+  r.internal_energy -= first.internal_energy;
+  r.entropy -= first.entropy;
   r.viscous_dissipation = step.response.viscous_dissipation;
   r.plastic_dissipation = step.response.plastic_dissipation;
   r.plastic_power = step.response.plastic_power;
   r.work = before.work + 0.5 * dot(before.stress + r.stress, r.strain - before.strain);
   r.dissipated = before.dissipated + step.response.dissipation * (r.time - before.time);
+  r.heat = r.internal_energy - r.work;
+  if (const auto& flow = point.law().material().flow)
+    r.thermal_dissipation = -std::sqrt(2.0 / 3) * strength(point, r.temperature) * r.temperature *
+                            flow->flow_stress.derivative(r.temperature) * step.response.flow_increment /
+                            step.effective_step;  // 2.120
   r.residuals = step.residuals;
   r.iterations = static_cast<int>(step.residuals.size()) - 1;
   return r;
@@ -80,8 +98,8 @@ std::string failure(const MaterialPoint& point, const Record& last, const Segmen
 }
 
 /// One step of the loading, halved where it must be.
-bool march(MaterialPoint& point, const Path& path, double start, double dt, std::vector<Record>& records,
-           StepResult& step) {
+bool march(MaterialPoint& point, const Path& path, double start, double dt, const Record& first,
+           std::vector<Record>& records, StepResult& step) {
   double done = 0, part = dt;
   int cuts = 0;
   while (done < dt) {
@@ -93,7 +111,7 @@ bool march(MaterialPoint& point, const Path& path, double start, double dt, std:
       part = 0.5 * size;
       continue;
     }
-    Record record = record_of(point, step, records.back());
+    Record record = record_of(point, step, first, records.back());
     record.cuts = cuts;
     records.push_back(std::move(record));
     point.accept(step);
@@ -106,9 +124,11 @@ bool march(MaterialPoint& point, const Path& path, double start, double dt, std:
 }  // namespace
 
 History run(const material::Material& material, const Program& program) {
-  MaterialPoint point(material, program.temperature, program.strain_reference, program.integration);
+  MaterialPoint point(material, program.options);
   History history;
-  history.records.push_back(record_of(point, point.state()));
+  const Record first = record_of(point, point.state());
+  history.records.push_back(first);
+  history.records.back().internal_energy = history.records.back().entropy = 0;  // counted from here
   for (std::size_t i = 0; i < program.segments.size(); ++i) {
     const Segment& segment = program.segments[i];
     const Path path(segment, point.state().strain, point.state().stress, point.state().temperature);
@@ -116,7 +136,7 @@ History run(const material::Material& material, const Program& program) {
     double start = 0;
     StepResult step;
     for (const double dt : path.steps()) {
-      if (!march(point, path, start, dt, history.records, step)) {
+      if (!march(point, path, start, dt, first, history.records, step)) {
         history.finished = false;
         history.reason = failure(point, history.records.back(), segment, i + 1, step);
         return history;

@@ -11,9 +11,7 @@
 namespace solidus::point {
 
 struct Program {
-  double temperature = 293.15;       ///< at the start [K]
-  double strain_reference = 293.15;  ///< Θ_0 of 2.51, where the strain is zero [K]
-  Integration integration = Integration::backward_euler;
+  MaterialPoint::Options options;
   std::vector<Segment> segments;
 };
 

@@ -53,6 +53,7 @@ struct PointSpec {
   double temperature = 0;
   std::optional<double> strain_reference;
   Integration integration = Integration::backward_euler;
+  Thermal thermal = Thermal::prescribed;
   std::vector<SegmentSpec> segments;
   std::vector<CurveSpec> curves;
   std::vector<PictureSpec> pictures;
