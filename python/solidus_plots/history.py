@@ -32,14 +32,15 @@ class Table(dict):
         return groups
 
 
-def read_table(path):
+def read_table(path, first="time[s]"):
+    """`first`: what the first column must be."""
     path = Path(path)
     if not path.exists():
         raise ResultError(f"{path}: there is no such file")
     with path.open(newline="") as file:
         rows = list(csv.reader(file))
-    if not rows or rows[0][0] != "time[s]":
-        raise ResultError(f"{path}: not a table of Solidus (its first column must be time[s])")
+    if not rows or rows[0][0] != first:
+        raise ResultError(f"{path}: not a table of Solidus (its first column must be {first})")
     # A run that is still going on may end in half a row.
     whole = [row for row in rows[1:] if len(row) == len(rows[0])]
     table = Table()

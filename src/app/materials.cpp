@@ -1,10 +1,14 @@
 /// The verb `materials`: the library, or one material with its sources.
 #include <fmt/format.h>
 
+#include <array>
+
+#include "app/material_tables.hpp"
 #include "app/verbs.hpp"
 #include "base/units.hpp"
 #include "material/library.hpp"
 #include "model/case_materials.hpp"
+#include "results/output_error.hpp"
 
 namespace solidus::app {
 
@@ -24,17 +28,39 @@ std::string property(const std::string& name, const Table& table, const std::str
   return out;
 }
 
+/// Measured curves: a column for each temperature.
+std::string flow_curves(const material::FlowCurves& curves) {
+  std::string out = "  plasticity.flow_curve  stress [MPa] over plastic strain\n";
+  for (std::size_t row = 0; row < curves.temperatures().size(); ++row) {
+    out += fmt::format("  {:<22} {:>12} ", "", celsius(curves.temperatures()[row]));
+    for (std::size_t i = 0; i < curves.strains().size(); ++i)
+      out += fmt::format(" {:g}: {:.4g}", curves.strains()[i],
+                         1e-6 * curves.stresses()[row * curves.strains().size() + i]);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string plasticity(const material::Flow& flow) {
+  constexpr std::array isotropic{"none", "linear", "saturation", "power", "table"};
+  constexpr std::array kinematic{"none", "linear", "armstrong_frederick"};
+  return fmt::format("  {:<22} isotropic hardening {}, kinematic hardening {}, rate dependence {}\n",
+                     "plasticity", isotropic.at(static_cast<std::size_t>(flow.isotropic)),
+                     kinematic.at(static_cast<std::size_t>(flow.kinematic)),
+                     flow.rate_independent() ? "none" : "perzyna");
+}
+
 std::string describe(const Material& m) {
   std::string out = fmt::format("{}: {}\n", m.name, m.title);
   out += property("density", Table(m.density), "kg/m3");
-  out += property("conductivity", m.conductivity, "W/m/K");
-  out += property("specific_heat", m.specific_heat, "J/kg/K");
-  if (m.mechanical()) {
-    out += property("young_modulus", m.young_modulus, "Pa");
-    out += property("poisson_ratio", m.poisson_ratio, "1");
-    out += property("expansion", m.expansion, "1/K");
+  for (const material::Property& p : m.properties()) out += property(p.name, *p.table, p.unit);
+  if (m.mechanical())
     out += fmt::format("  {:<22} {}\n", "expansion_reference", celsius(m.expansion_reference));
-    if (m.solidification()) out += property("twice_shear_viscosity", m.liquid_viscosity, "Pa s");
+  if (m.flow) out += plasticity(*m.flow);
+  if (m.flow && !m.flow->curves.empty()) out += flow_curves(m.flow->curves);
+  if (m.mechanical() && m.solidification()) {
+    constexpr std::array models{"maxwell", "modified_shear", "degenerated"};
+    out += fmt::format("  {:<22} {}\n", "liquid_model", models.at(static_cast<std::size_t>(m.liquid_model)));
   }
   for (const auto& change : m.phase_changes)
     out += fmt::format("  {:<22} {} to {}, latent heat {:.6g} J/kg, volume change {:.3g}{}\n", change.name,
@@ -53,12 +79,20 @@ std::string describe(const Material& m) {
 
 }  // namespace
 
-ExitCode materials(const std::string& name) {
+ExitCode materials(const std::string& name, const std::string& output) {
   const auto folders = model::material_folders();
   if (!name.empty()) {
-    print(describe(material::find_material(name, folders)));
+    const Material material = material::find_material(name, folders);
+    std::string out = describe(material);
+    if (!output.empty()) {
+      results::on_first_process([&] { write_material_tables(material, output); });
+      out += fmt::format("Tables in {}\n", output);
+    }
+    print(out);
     return k_done;
   }
+  if (!output.empty())
+    throw InputError({}, "-o needs the name of a material", "solidus materials NAME -o FOLDER");
   std::string out;
   for (const std::string& each : material::material_names(folders))
     out += fmt::format("{:<28} {}\n", each, material::find_material(each, folders).title);
