@@ -1,11 +1,10 @@
 /// Blocks, strips and measures for the verification of heat conduction.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 
+#include "csv.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
@@ -59,16 +58,6 @@ inline double l2_error(const mesh::Mesh& mesh, AnalysisKind kind, const std::vec
       }
   }
   return std::sqrt(sum / volume);
-}
-
-/// A CSV file of a verification, for the plots of the documentation.
-inline std::ofstream csv(const std::string& name, const std::string& header) {
-  const std::filesystem::path folder = std::filesystem::path(SOLIDUS_BINARY_DIR) / "verification";
-  std::filesystem::create_directories(folder);
-  std::ofstream file(folder / (name + ".csv"));
-  file.precision(10);
-  file << header << '\n';
-  return file;
 }
 
 }  // namespace solidus::verification
