@@ -36,6 +36,8 @@ struct Jet {
   friend Jet operator/(const Jet& a, const Jet& b) { return a * chain(b, inverse(b.v)); }
   friend auto operator<(const Jet& a, const Jet& b) { return a.v < b.v; }
   friend auto operator>(const Jet& a, const Jet& b) { return a.v > b.v; }
+  friend auto operator<=(const Jet& a, const Jet& b) { return a.v <= b.v; }
+  friend auto operator>=(const Jet& a, const Jet& b) { return a.v >= b.v; }
 
   /// f(a) from f, f', f'' at a.v.
   static Jet chain(const Jet& a, const Jet& f) { return {f.v, f.d * a.d, f.dd * a.d * a.d + f.d * a.dd}; }
@@ -92,6 +94,9 @@ T power(const T& x, const T& n) {
   if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Lane>) {
     using std::pow;
     return pow(x, n);
+  } else if constexpr (detail::IsJet<T>::value) {
+    const auto value = power(x.v, n.v);  // exp(n ln x) would lose digits
+    return T::chain(n * log(x), {value, value, value});
   } else {
     using std::exp, std::log;
     return exp(T(n * T(log(x))));

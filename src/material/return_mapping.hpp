@@ -21,10 +21,12 @@ inline constexpr double k_two_thirds = 2.0 / 3.0;
 inline constexpr double k_root_two_thirds = 0.81649658092772603;
 /// A correction of γ below which one more reaches rounding, in γ and in the slope that the tangent uses.
 inline constexpr double k_last_correction = 1e-7;
-/// What rounding leaves of Φ, in parts of ‖β̂‖.
+/// What rounding leaves of a sum, in parts of its largest terms.
 inline constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
 /// Bisection alone would get there: the bracket is never wider than 1e12 solutions or so.
 inline constexpr int k_max_iterations = 80;
+/// Bounds are taken that much larger, so that rounding does not put the solution outside.
+inline constexpr double k_beyond = 1 + 1e-3;
 
 /// ‖a‖ with a derivative at a = 0, for automatic differentiation; and a finite a/‖a‖ there.
 template <class T>
@@ -54,19 +56,24 @@ struct Problem {
 template <class T>
 struct Yield {
   T value, slope;    ///< Φ, Φ'
+  T noise;           ///< what rounding leaves of Φ [Pa]
   Sym<T> direction;  ///< n
   T norm;            ///< ‖β̂‖
   T fading;          ///< B
   Sym<T> drift;      ///< ∂β̂/∂γ (Armstrong–Frederick)
 };
 
-/// Φ and Φ' from ‖β̂‖ and the factor of γ; hardening added.
+/// Subtracts the radius from Φ and its slope from Φ'.
+/// @return what enters the rounding of the radius [Pa]: hardening cancels (saturation) or is steep in ξ
 template <class T>
-[[gnu::always_inline]] inline void add_radius(const Problem<T>& p, const T& gamma, T& value, T& slope) {
-  const T step = T(k_root_two_thirds) * p.strength;
-  const auto k = hardening_stress<T>(p.isotropic, *p.curves, *p.flow, T(p.hardening + step * gamma));
+[[gnu::always_inline]] inline T subtract_radius(const Problem<T>& p, const T& gamma, T& value, T& slope) {
+  const T step = T(k_root_two_thirds) * p.strength, xi = p.hardening + step * gamma;
+  const auto k = hardening_stress<T>(p.isotropic, *p.curves, *p.flow, xi);
   value -= step * (p.flow->flow_stress + k.stress);
   slope -= step * step * k.slope;
+  T terms = k.slope * xi;
+  if (p.isotropic == IsotropicHardening::saturation) terms += p.flow->saturation_stress;
+  return step * terms;
 }
 
 template <class T>
@@ -80,33 +87,26 @@ template <class T>
   const Sym<T> drift = (p.recalls ? T(-pull * p.recall * fading) : zero) * p.back_strain;
   T value = norm - (p.twice_shear + w * pull) * gamma;
   T slope = dot(n, drift) - (p.twice_shear + w * pull * fading);
-  add_radius(p, gamma, value, slope);
-  return {value, slope, n, norm, fading, drift};
+  const T sum = p.recalls ? T(smooth_norm(p.trial) + modulus * smooth_norm(p.back_strain)) : norm;
+  const T noise = T(k_rounding) * (sum + subtract_radius(p, gamma, value, slope));
+  return {value, slope, noise, n, norm, fading, drift};
 }
 
-/// Φ and Φ' alone: what the iteration needs.
+/// The scalars of Yield alone: what the iteration needs.
 template <class T>
 struct Point {
-  T value, slope;
+  T value, slope, noise;
 };
 template <class T>
 [[gnu::always_inline]] inline Point<T> point(const Problem<T>& p, const Yield<T>& trial, const T& gamma) {
   if (p.recalls) {
     const Yield<T> y = yield(p, gamma);
-    return {y.value, y.slope};
+    return {y.value, y.slope, y.noise};
   }
   const T stiffness = p.stiffness();  // β̂ stays
-  Point<T> at{trial.norm - stiffness * gamma, -stiffness};
-  add_radius(p, gamma, at.value, at.slope);
-  return at;
-}
-
-/// What rounding leaves of Φ [Pa].
-template <class T>
-T rounding(const Problem<T>& p, const Yield<T>& trial) {
-  const T size =
-      p.recalls ? T(smooth_norm(p.trial) + p.kinematic() * smooth_norm(p.back_strain)) : trial.norm;
-  return T(k_rounding) * size;
+  T value = trial.norm - stiffness * gamma, slope = -stiffness;
+  const T noise = T(k_rounding) * (trial.norm + subtract_radius(p, gamma, value, slope));
+  return {value, slope, noise};
 }
 
 /// A γ with Φ(γ) <= 0. Prager: Φ falls at least as fast as (2Ĝ + ⅔w²K) γ. Armstrong–Frederick:
@@ -117,18 +117,16 @@ T upper_bound(const Problem<T>& p, const Yield<T>& trial) {
     const auto fine = b > T(0.0);
     return select(fine, T(a / select(fine, b, T(1.0))), T(0.0));
   };
-  const T beyond_rounding(1.0 + 1e-3);
-  if (!p.recalls) return beyond_rounding * ratio(trial.value, p.stiffness());
+  if (!p.recalls) return T(k_beyond) * ratio(trial.value, p.stiffness());
   const T elastic = ratio(smooth_norm(p.trial), p.twice_shear);
   const T kinematic = ratio(smooth_norm(p.back_strain), p.strength);
-  return beyond_rounding * select(elastic > kinematic, elastic, kinematic);
+  return T(k_beyond) * select(elastic > kinematic, elastic, kinematic);
 }
 
-/// The largest Φ(γ) for γ >= 0. Prager: that of γ = 0. Armstrong–Frederick: ‖β̂‖ is convex in B, so it stays
-/// below its values at B = 1 and 0.
+/// The largest Φ(γ) that Armstrong–Frederick allows: ‖β̂‖ is convex in B and stays below its values at B = 1
+/// and 0.
 template <class T>
 T largest_overstress(const Problem<T>& p, const Yield<T>& trial) {
-  if (!p.recalls) return trial.value;
   const T freed = smooth_norm(p.trial) - trial.norm;
   return trial.value + select(freed > T(0.0), freed, T(0.0));
 }
@@ -140,7 +138,7 @@ class Bracket {
  public:
   explicit Bracket(const T& high) : low_(0.0), high_(high) {}
 
-  T inside(const T& v) const { return select((v >= low_) & (v <= high_), v, T(T(0.5) * (low_ + high_))); }
+  T inside(const T& v) const { return select((v > low_) & (v < high_), v, T(T(0.5) * (low_ + high_))); }
   /// The next iterate.
   /// @param v, f    the last one and the function there
   /// @param newton  where Newton's method goes from there
@@ -194,7 +192,7 @@ template <class T>
   const bool linear =
       !p.recalls && (p.isotropic == IsotropicHardening::none || p.isotropic == IsotropicHardening::linear);
   if (!linear) {
-    const T noise = c * rounding(p, trial), last = last_correction(p);
+    const T last = last_correction(p);
     Bracket<T> bracket(upper_bound(p, trial));
     T gamma = select(plastic, bracket.inside(s.gamma), zero);
     auto done = !plastic;
@@ -203,15 +201,16 @@ template <class T>
       const Point<T> at = point(p, trial, gamma);
       const T f = c * at.value - eta * gamma, stiffness = select(plastic, T(eta - c * at.slope), one);
       const T newton = gamma + f / stiffness;
-      s.converged = all(done | within(f, noise));
+      done = done | within(f, T(c * at.noise));
+      s.converged = all(done);
       if (s.converged) {  // the last correction, free of the bracket, so that derivatives pass through it
         s.gamma = select(plastic & (newton > zero), newton, gamma);
         s.inverse_stiffness = select(plastic, T(c / stiffness), zero);
         break;
       }
-      const T next = bracket.next(gamma, f, newton);
+      const T next = select(done, gamma, bracket.next(gamma, f, newton));  // a lane that is done stays
       done = done | within(T(next - gamma), T(last * next));
-      gamma = select(plastic, next, gamma);
+      gamma = next;
     }
   }
   s.overstress = eta * s.gamma / select(plastic, c, one);
@@ -236,8 +235,14 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
   const auto viscous = y_trial < flow_curve(T(rigid * inverse_a), inverse_n);
   const T a = select(viscous, T(one / select(viscous, inverse_a, one)), zero);
 
-  const T noise = rounding(p, trial), last = last_correction(p);
-  Bracket<T> bracket(select(viscous, T(largest_overstress(p, trial) / drag), bound));
+  const T last = last_correction(p);
+  T y_bound = T(k_beyond) * y_trial;
+  if (p.recalls) {  // Φ may rise at first
+    const T overstress = largest_overstress(p, trial) / drag,
+            flow = flow_curve(T(bound * inverse_a), inverse_n);
+    y_bound = T(k_beyond) * select(overstress < flow, overstress, flow);
+  }
+  Bracket<T> bracket(select(viscous, y_bound, bound));
   T v = select(viscous, y_trial, rigid);
   auto done = !plastic;
   Solution<T> s{zero, zero, zero, false};
@@ -252,7 +257,8 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
     const T softening = one - at.slope * compliance;
     const T inverse = select(viscous, compliance, one) / select(viscous, softening, T(stiffness - at.slope));
     const T dx = select(viscous, T(r / softening), T(stiffness * inverse * r)), dgamma = inverse * r;
-    s.converged = all(done | within(r, noise));
+    done = done | within(r, at.noise);
+    s.converged = all(done);
     if (s.converged) {  // the last correction, free of the bracket, so that derivatives pass through it
       const T flow = gamma + dgamma, x = drag * y + dx;
       s.gamma = select(plastic, select(flow > zero, flow, gamma), zero);
@@ -260,9 +266,10 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
       s.inverse_stiffness = select(plastic, inverse, zero);
       break;
     }
-    const T next = bracket.next(v, r, v + select(viscous, T(dx / drag), dgamma));
+    const T newton = v + select(viscous, T(dx / drag), dgamma);
+    const T next = select(done, v, bracket.next(v, r, newton));  // a lane that is done stays
     done = done | within(T(next - v), T(last * next));
-    v = select(plastic, next, v);
+    v = next;
   }
   return s;
 }

@@ -64,9 +64,9 @@ Viscoplastic::Response<T> Viscoplastic::update(const Properties<T>& p, const Sta
                            start.back_strain,
                            start.hardening};
   const Yield<T> trial = yield(problem, T(0.0));
-  if (any(flows(problem, trial))) return plastic(p, start, sh, free, strain, dt, problem, trial);
-  return elastic(p, start, sh, free, strain, dt,
-                 all(trial.norm < T(k_largest_stress)) ? Status::converged : Status::outside_range);
+  const bool in_range = all(trial.norm < T(k_largest_stress));
+  if (in_range && any(flows(problem, trial))) return plastic(p, start, sh, free, strain, dt, problem, trial);
+  return elastic(p, start, sh, free, strain, dt, in_range ? Status::converged : Status::outside_range);
 }
 
 /// Elastic and viscous, given the strain that is left for both.

@@ -1,0 +1,237 @@
+/// The local equation alone: a million problems over the whole admissible range, and beyond what metals do.
+#include "material/return_mapping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "flow_cases.hpp"
+
+namespace solidus::material::test {
+namespace {
+
+using namespace return_mapping;
+
+/// A double that counts its exponentials: one for each look at Φ when hardening saturates.
+struct Counted {
+  double v = 0;
+  Counted() = default;
+  Counted(double x) : v(x) {}  // NOLINT
+  double value() const { return v; }
+  static inline int exponentials = 0;
+
+  friend Counted operator+(Counted a, Counted b) { return a.v + b.v; }
+  friend Counted operator-(Counted a, Counted b) { return a.v - b.v; }
+  friend Counted operator*(Counted a, Counted b) { return a.v * b.v; }
+  friend Counted operator/(Counted a, Counted b) { return a.v / b.v; }
+  friend Counted operator-(Counted a) { return -a.v; }
+  Counted& operator+=(Counted b) { return *this = *this + b; }
+  Counted& operator-=(Counted b) { return *this = *this - b; }
+  friend bool operator<(Counted a, Counted b) { return a.v < b.v; }
+  friend bool operator>(Counted a, Counted b) { return a.v > b.v; }
+  friend bool operator<=(Counted a, Counted b) { return a.v <= b.v; }
+  friend bool operator>=(Counted a, Counted b) { return a.v >= b.v; }
+  friend Counted sqrt(Counted a) { return std::sqrt(a.v); }
+  friend Counted log(Counted a) { return std::log(a.v); }
+  friend Counted exp(Counted a) {
+    ++exponentials;
+    return std::exp(a.v);
+  }
+};
+
+/// A problem and what it refers to.
+struct Posed {
+  FlowProperties<double> flow;
+  Sym<double> trial, back_strain;
+  Problem<double> problem;
+
+  Posed(const Posed&) = delete;
+  Posed(Random& random, IsotropicHardening isotropic, bool recalls, const FlowCurves& curves)
+      : problem{isotropic, &curves, &flow, recalls, 0, 1, 1, 0, trial, back_strain, 0} {
+    const auto zero_or = [&](double low, double high) {
+      return uniform(random, 0, 1) < 0.15 ? 0.0 : decades(random, low, high);
+    };
+    flow.flow_stress = flow.hardening_origin = decades(random, 3, 9);
+    flow.saturation_stress = flow.flow_stress + zero_or(0, 9);
+    flow.saturation_rate = decades(random, -1, 4);
+    flow.hardening_modulus = zero_or(0, 11);
+    flow.reference_strain = decades(random, -6, -1);
+    flow.hardening_exponent = uniform(random, 0, 1);
+    flow.kinematic_modulus = recalls ? decades(random, 3, 11) : zero_or(3, 11);
+    flow.recall = recalls ? decades(random, -1, 4) : 0;
+    flow.exponent = uniform(random, 0, 1) < 0.2 ? 1.0 : decades(random, 0, std::log10(50.0));
+    flow.drag_stress = decades(random, 3, 9);
+    flow.temperature = 500;
+
+    problem.twice_shear = decades(random, 0, 11.5);
+    problem.strength = uniform(random, 0, 1) < 0.3 ? decades(random, -12, 0) : 1.0;
+    problem.recall = k_root_two_thirds * problem.strength * flow.recall;
+    problem.rate = decades(random, -12, 3);
+    flow.viscosity = problem.rate * zero_or(-12, 20);
+    problem.hardening = zero_or(-8, 0);
+    // 1/(√⅔ recall) is the most that loading can reach; three times that after heating
+    const double most = recalls ? 3 / (k_root_two_thirds * flow.recall) : zero_or(-6, -1);
+    back_strain = dev(random_tensor(random, 1));
+    back_strain *= uniform(random, 0, 1) * most / norm(back_strain);
+    const double k = hardening_stress(isotropic, curves, flow, problem.hardening).stress;
+    const double radius = k_root_two_thirds * problem.strength * (flow.flow_stress + k);
+    Sym<double> relative = dev(random_tensor(random, 1));
+    relative *= radius * (1 + decades(random, -12, 6)) / norm(relative);
+    trial = relative - problem.kinematic() * back_strain;
+    // An elastic strain of 10 is no small strain any more.
+    problem.twice_shear = std::max(problem.twice_shear, 0.1 * norm(trial));
+  }
+};
+
+/// The same problems on another number type, one or one per lane.
+template <class T>
+struct Copy {
+  FlowProperties<T> flow;
+  Sym<T> trial, back_strain;
+  Problem<T> problem;
+
+  explicit Copy(const std::vector<std::unique_ptr<Posed>>& from)
+      : problem{from[0]->problem.isotropic,
+                from[0]->problem.curves,
+                &flow,
+                from[0]->problem.recalls,
+                {},
+                {},
+                {},
+                {},
+                trial,
+                back_strain,
+                {}} {
+    const auto gather = [&](auto pick) {
+      T number(pick(*from[0]));
+      if constexpr (std::is_same_v<T, Lane>)
+        for (int i = 0; i < k_lanes; ++i) number.set(i, pick(*from[static_cast<std::size_t>(i)]));
+      return number;
+    };
+    using P = const Posed&;
+    flow.flow_stress = gather([](P p) { return p.flow.flow_stress; });
+    flow.hardening_origin = gather([](P p) { return p.flow.hardening_origin; });
+    flow.saturation_stress = gather([](P p) { return p.flow.saturation_stress; });
+    flow.saturation_rate = gather([](P p) { return p.flow.saturation_rate; });
+    flow.hardening_modulus = gather([](P p) { return p.flow.hardening_modulus; });
+    flow.reference_strain = gather([](P p) { return p.flow.reference_strain; });
+    flow.hardening_exponent = gather([](P p) { return p.flow.hardening_exponent; });
+    flow.kinematic_modulus = gather([](P p) { return p.flow.kinematic_modulus; });
+    flow.recall = gather([](P p) { return p.flow.recall; });
+    flow.viscosity = gather([](P p) { return p.flow.viscosity; });
+    flow.exponent = gather([](P p) { return p.flow.exponent; });
+    flow.drag_stress = gather([](P p) { return p.flow.drag_stress; });
+    flow.temperature = gather([](P p) { return p.flow.temperature; });
+    problem.twice_shear = gather([](P p) { return p.problem.twice_shear; });
+    problem.strength = gather([](P p) { return p.problem.strength; });
+    problem.rate = gather([](P p) { return p.problem.rate; });
+    problem.recall = gather([](P p) { return p.problem.recall; });
+    problem.hardening = gather([](P p) { return p.problem.hardening; });
+    for (int c = 0; c < 6; ++c) {
+      trial[c] = gather([c](P p) { return p.trial[c]; });
+      back_strain[c] = gather([c](P p) { return p.back_strain[c]; });
+    }
+  }
+  Copy(const Copy&) = delete;
+};
+
+/// Convex, concave and straight pieces, some short.
+FlowCurves bent_curves() {
+  return FlowCurves(
+      {0, 1e-6, 1e-4, 1.1e-4, 1e-3, 0.02, 0.3, 0.31, 2}, {300, 900},
+      {1e8, 1e8, 1.5e8, 2.5e8, 2.6e8, 2.6e8, 3e8, 9e8, 1e9, 1e7, 5e7, 5e7, 9e7, 1e8, 3e8, 3e8, 3e8, 4e8});
+}
+
+/// |Φ(γ) − x| and the distance of (γ, x) from the rate curve, in parts of what rounding leaves of Φ.
+double defect(const Problem<double>& p, const Yield<double>& trial, const Solution<double>& s) {
+  const Yield<double> end = yield(p, s.gamma);
+  const double drag = p.flow->drag_stress, n = p.flow->exponent;
+  // γ = A (x/D)^n underflows for a small overstress and a large n.
+  const double gamma = std::max(s.gamma, 1e-280);
+  const double x = drag * std::pow(gamma * p.flow->viscosity / (p.rate * drag), 1 / n);
+  const double curve = s.gamma < 1e-280 && s.overstress < x ? 0 : std::abs(x - s.overstress);
+  // the last places of γ and x, too
+  const double noise = std::max(end.noise, trial.noise) +
+                       k_rounding * (s.gamma * (std::abs(end.slope) + p.stiffness()) + s.overstress);
+  return std::max(std::abs(end.value - s.overstress), curve) / noise;
+}
+
+TEST(ReturnMapping, SolvesAMillionProblemsToRounding) {
+  const FlowCurves curves = bent_curves();
+  Random random(21);
+  double worst = 0;
+  int viscous = 0, plastic = 0;
+  for (int i = 0; i < 1'000'000; ++i) {
+    const Posed posed(random, k_isotropic[i % 5], i / 5 % 3 == 2, curves);
+    const auto& p = posed.problem;
+    const Yield<double> trial = yield(p, 0.0);
+    if (!flows(p, trial)) continue;  // rounding of a small overstress
+    const auto s = solve_power_rate(p, trial);
+    ASSERT_TRUE(s.converged) << i;
+    ASSERT_GE(s.gamma, 0) << i;
+    ASSERT_GE(s.overstress, 0) << i;
+    ASSERT_GE(s.inverse_stiffness, 0) << i;
+    worst = std::max(worst, defect(p, trial, s));
+    ++(s.overstress > 0.5 * trial.value ? viscous : plastic);
+    if (posed.flow.exponent == 1) {
+      const auto linear = solve_linear_rate(p, trial);
+      ASSERT_TRUE(linear.converged) << i;
+      worst = std::max(worst, defect(p, trial, linear));
+    }
+    ASSERT_LT(worst, 10) << i << " kind " << i % 5 << " n " << posed.flow.exponent;
+  }
+  EXPECT_GT(viscous, 100'000);
+  EXPECT_GT(plastic, 100'000);
+}
+
+TEST(ReturnMapping, NeedsFewIterations) {
+  const FlowCurves curves = bent_curves();
+  Random random(22);
+  std::vector<int> count;
+  for (int i = 0; i < 100'000; ++i) {
+    std::vector<std::unique_ptr<Posed>> one;
+    one.push_back(std::make_unique<Posed>(random, IsotropicHardening::saturation, i % 3 == 2, curves));
+    const Copy<Counted> counted(one);
+    const Yield<Counted> trial = yield(counted.problem, Counted(0.0));
+    if (!flows(counted.problem, trial)) continue;
+    Counted::exponentials = 0;  // n = 1: no other than those of hardening
+    EXPECT_TRUE(solve_linear_rate(counted.problem, trial).converged);
+    count.push_back(Counted::exponentials);
+  }
+  std::sort(count.begin(), count.end());
+  EXPECT_LE(count[count.size() / 2], 5);
+  EXPECT_LE(count[count.size() * 99 / 100], 20);
+  EXPECT_LE(count.back(), k_max_iterations / 2);
+}
+
+TEST(ReturnMapping, APackOfUnlikeProblemsIsSolvedAsEachAlone) {
+  const FlowCurves curves = bent_curves();
+  Random random(23);
+  for (int i = 0; i < 5'000; ++i) {
+    std::vector<std::unique_ptr<Posed>> lanes;
+    for (int l = 0; l < k_lanes; ++l) {
+      lanes.push_back(std::make_unique<Posed>(random, k_isotropic[i % 5], i / 5 % 2 == 1, curves));
+      if (l == 3) lanes[3]->trial = -1.0 * lanes[3]->problem.kinematic() * lanes[3]->back_strain;  // inside
+      if (l == 5) lanes[5]->problem.rate = 0;                                                      // liquid
+    }
+    const Copy<Lane> packed(lanes);
+    const auto s = solve_power_rate(packed.problem, yield(packed.problem, Lane(0.0)));
+    ASSERT_TRUE(s.converged) << i;
+    for (int l = 0; l < k_lanes; ++l) {
+      const Problem<double>& p = lanes[static_cast<std::size_t>(l)]->problem;
+      const Yield<double> trial = yield(p, 0.0);
+      if (l == 3 || l == 5 || !flows(p, trial)) {
+        ASSERT_EQ(s.gamma[l], 0) << i;
+        ASSERT_EQ(s.overstress[l], 0) << i;
+        ASSERT_EQ(s.inverse_stiffness[l], 0) << i;
+      } else {
+        ASSERT_LT(defect(p, trial, {s.gamma[l], s.overstress[l], 0, true}), 10) << i << ' ' << l;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace solidus::material::test
