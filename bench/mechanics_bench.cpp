@@ -47,7 +47,7 @@ struct Prepared {
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));
     kernel->bind(*matrix);
     history = kernel->initial_history();
-    kernel->prepare({temperature, temperature, &history, 1.0});
+    kernel->prepare({temperature, temperature, &history, &history, 1.0, 1.0});
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1e-4 * std::sin(static_cast<double>(i));
   }
   void report(benchmark::State& state) const {

@@ -10,15 +10,15 @@ from pathlib import Path
 import sys
 import tomllib
 
-from solidus_plots import curves, maps, style
+from solidus_plots import curves, maps, point, style
 from solidus_plots.history import read_table
 from solidus_plots.vtu import ResultError, read_collection
 
 # What plots.toml may say; anything else is a typo.
-KEYS = {"curves": {"file", "title", "quantity", "lines", "levels", "moments", "compare"},
-        "maps": {"file", "title", "quantity", "field", "component", "unit", "times", "mirror",
+KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "compare"},
+        "maps": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "mirror",
                  "magnification", "bodies", "contours", "range"},
-        "deformed": {"file", "title", "time", "mirror", "magnification", "bodies"}}
+        "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"}}
 REQUIRED = {"curves": ("file", "lines"), "maps": ("file", "field"), "deformed": ("file",)}
 
 
@@ -55,8 +55,13 @@ def draw(results, spec_file=None):
     style.setup()
     summary_file = results / "summary.json"
     summary = json.loads(summary_file.read_text()) if summary_file.exists() else {}
+    if summary.get("kind") == "point":
+        return point.draw(results, summary)
     spec_file = spec_file or find_spec(results, summary)
     spec = read_spec(spec_file) if spec_file else {}
+    variant = summary.get("variant") or results.resolve().name
+    spec = {section: [picture for picture in pictures if variant in picture.get("only", [variant])]
+            for section, pictures in spec.items()}
     folder = results / "plots"
     folder.mkdir(exist_ok=True)
     history = read_table(results / "history.csv")

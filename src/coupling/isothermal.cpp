@@ -44,6 +44,11 @@ void IsothermalSplit::mechanical_phase(const State& old, State& trial, double ti
 
   effort.energy.contact = contact_energy(phases_) - spring_energy;
   effort.energy.work = report.work.external_work + report.work.support_work;
+  effort.energy.viscous_dissipation = report.work.dissipation - report.work.plastic_dissipation;
+  effort.energy.plastic_dissipation = report.work.plastic_dissipation;
+  effort.energy.plastic_work = report.work.plastic_work;
+  effort.least_dissipation = report.work.least_dissipation;
+  effort.largest_dissipation = report.work.largest_dissipation;
   effort.mechanics = effort_of(report.newton, MPI_Wtime() - start);
 }
 

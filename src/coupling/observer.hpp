@@ -18,7 +18,8 @@ struct PhaseEffort {
   double seconds = 0;
 };
 
-/// The first law over one step, all in joules (whole body; axisymmetric: the full revolution).
+/// The first law over one step, all in joules (whole body; axisymmetric: the full revolution), and where
+/// mechanical work goes.
 struct EnergyAudit {
   double stored_heat = 0;  ///< change of sensible and latent heat
   double structural = 0;   ///< change of the structural energy W + M + Θ S
@@ -27,6 +28,10 @@ struct EnergyAudit {
   double heat_in = 0;      ///< through boundaries and from sources
   double heat_exchanged =
       0;  ///< what the defect is measured against: the sum of magnitudes of heat moved in the step
+  double viscous_dissipation = 0;  ///< heat of the flowing melt (2.114)
+  double plastic_dissipation = 0;  ///< heat of plastic flow (2.117)
+  double plastic_work = 0;         ///< work of the deviator on plastic flow
+  double hardening() const { return plastic_work - plastic_dissipation; }  ///< what hardening stores
   double defect() const { return stored_heat + structural + contact - work - heat_in; }
 };
 
@@ -41,6 +46,8 @@ struct StepEffort {
   PhaseEffort heat, mechanics;
   EnergyAudit energy;
   std::vector<ContactSummary> contacts;
+  /// The least and the largest D_mech at any point and zero [W/m³]: the least is zero but for rounding.
+  double least_dissipation = 0, largest_dissipation = 0;
   double solid_fraction = 1;                        ///< of the bodies that can melt, by volume
   double min_temperature = 0, max_temperature = 0;  ///< [K]
 };

@@ -13,6 +13,9 @@
 
 namespace solidus::material {
 
+/// 1 + √2: of a step against the one before, in the two-step method.
+inline constexpr double k_largest_growth = 2.4142135623730951;
+
 /// z* = now z_n + before z_{n−1}, and the effective step.
 struct TimeStep {
   double dt;  ///< Δt_eff [s]

@@ -18,12 +18,15 @@ struct StepStart {
   std::span<const double> temperature;          ///< Θ_n [K], [local node]
   std::span<const double> initial_temperature;  ///< Θ_0 [K], [local node]
   const BlockHistory* old_history;              ///< at t_n
-  double dt;                                    ///< [s]
+  const BlockHistory* start_history;            ///< z*, from which the effective step sets out
+  double dt;                                    ///< t_{n+1} − t_n [s]
+  double effective_dt;                          ///< of the law [s] (material/time_integration.hpp)
 };
 
 /// Sums over the counted elements of a block.
 struct BlockWork {
-  double internal_work = 0, dissipation = 0;  ///< [J]
+  double internal_work = 0, dissipation = 0, plastic_dissipation = 0, plastic_work = 0;  ///< [J]
+  double least_dissipation = 0, largest_dissipation = 0;                                 ///< [W/m³]
 };
 
 class BlockKernel {

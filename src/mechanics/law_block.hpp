@@ -2,8 +2,14 @@
 /// elements at a time.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/element_matrix.hpp"
@@ -36,6 +42,10 @@ class LawBlock final : public BlockKernel {
   using Vectors = typename Operator::Vectors;
   using State = typename Law::template State<Lane>;
   using Properties = typename Law::template Properties<Lane>;
+  using Response =
+      decltype(std::declval<Law>().update(std::declval<Properties>(), State{}, Sym<Lane>{}, 1.0));
+  using Values = decltype(values_of(std::declval<Law>(), std::declval<Properties>(), std::declval<Response>(),
+                                    Sym<Lane>{}));
   using Matrix = ElementMatrix<n_nodes, Operator::dim>;
   static constexpr std::size_t dim = Operator::dim;
   static_assert(sizeof(State) % sizeof(Lane) == 0, "a state is made of lanes");
@@ -65,7 +75,9 @@ class LawBlock final : public BlockKernel {
 
   double prepare(const StepStart& start) override {
     old_history_ = start.old_history;
+    start_history_ = start.start_history;
     dt_ = start.dt;
+    effective_dt_ = start.effective_dt;
     points_.set_dt(start.dt);
     Lane scale(0.0);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
@@ -93,8 +105,8 @@ class LawBlock final : public BlockKernel {
       Vectors f{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
-        const auto response =
-            law_.update(properties_[index(batch, q)], old_state(batch, q), b.strain(displacement), dt_);
+        const auto response = law_.update(properties_[index(batch, q)], start_state(batch, q),
+                                          b.strain(displacement), effective_dt_);
         b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
         if (response.status != material::Status::converged) spoil(f);
       }
@@ -107,14 +119,14 @@ class LawBlock final : public BlockKernel {
   void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
-      Matrix symmetric, skew;
-      bool any_skew = false;
+      Matrix symmetric;
+      std::optional<Matrix> skew;
+      if (!law_.symmetric()) skew.emplace();
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Lane w = geometry_.weight_at(batch, q);
-        const auto response =
-            law_.update(properties_[index(batch, q)], old_state(batch, q), b.strain(displacement), dt_);
-        using Response = std::remove_const_t<decltype(response)>;
+        const auto response = law_.update(properties_[index(batch, q)], start_state(batch, q),
+                                          b.strain(displacement), effective_dt_);
         if constexpr (IsotropicTangent<Response>) {
           add_isotropic(b, w * response.bulk, w * response.twice_shear, symmetric);
         } else {
@@ -127,68 +139,69 @@ class LawBlock final : public BlockKernel {
           if (!any(response.flow_increment > Lane(0.0))) continue;
           Vectors right{};
           b.add_force(response.right, right);
-          if (law_.symmetric()) {  // left = (left : right) right, right being of unit length
+          if (!skew) {  // left = (left : right) right, right being of unit length
             add_product(right, w * dot(response.left, response.right), symmetric);
-          } else {
-            Vectors left{};
-            b.add_force(response.left, left);
-            add_product(left, right, w, symmetric, skew);
-            any_skew = true;
+            continue;
           }
+          Vectors left{};
+          b.add_force(response.left, left);
+          add_product(left, right, w, symmetric, *skew);
         }
       }
       const auto* slots = slots_.data() + static_cast<std::size_t>(batch) * n_nodes * n_nodes * k_lanes;
       scatter<1>(symmetric, slots, matrix);
-      if (any_skew) scatter<-1>(skew, slots, matrix);
+      if (skew) scatter<-1>(*skew, slots, matrix);
     }
   }
 
   BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) override {
     BlockWork work;
+    Lane internal_work(0.0), dissipation(0.0), least(0.0), largest(0.0);
+    PlasticPower plastic;
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
-      Averages average;
-      Lane volume(0.0), internal_work(0.0), dissipation(0.0);
+      const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
+      Values sums;
+      Lane volume(0.0);
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Lane w = geometry_.weight_at(batch, q);
         const auto& p = properties_[index(batch, q)];
-        const LaneMask solid = elastic_part(p).solid_fraction >= Lane(1.0);
-        const State old = old_state(batch, q);
         const Sym<Lane> old_strain = b.strain(old_displacement), strain = b.strain(displacement);
-        const auto response = law_.update(p, old, strain, dt_);
+        const auto response = law_.update(p, start_state(batch, q), strain, effective_dt_);
         std::memcpy(static_cast<void*>(trial.values.data() + index(batch, q) * n_state), &response.state,
                     sizeof(State));
-
-        const Sym<Lane> inelastic = inelastic_strain(response.state);
-        const Lane work_density = dot(response.stress, strain - old_strain);
         volume += w;
-        internal_work += w * work_density;
-        dissipation += w * response.dissipation;
-        average.stress += w * response.stress;
-        average.strain += w * strain;
-        average.inelastic += w * inelastic;
+        add_weighted(sums, w, values_of(law_, p, response, strain));
 
-        const auto elastic_squared = [&](const Sym<Lane>& e, const Sym<Lane>& minus) {
-          const Sym<Lane> elastic = dev(e - minus);
-          return select(solid, dot(elastic, elastic), Lane(0.0));
-        };
+        const LaneMask solid = elastic_part(p).solid_fraction >= Lane(1.0);
         auto& point = points_.at(batch, q);
-        point.strain_trace = trace(strain);
-        point.elastic_squared = elastic_squared(strain, inelastic);
+        point.now = deformation(strain, response.state, solid);
         point.dissipation = response.dissipation;
-        point.work = work_density;
-        points_.set_old(batch, q, trace(old_strain), elastic_squared(old_strain, inelastic_strain(old)));
+        point.work = dot(response.stress, strain - old_strain);
+        points_.set_old(batch, q, deformation(old_strain, old_state(batch, q), solid));
+
+        const PlasticPower power = plastic_power(law_, response);
+        internal_work += counted * w * point.work;
+        dissipation += counted * w * response.dissipation;
+        plastic.dissipation += counted * w * power.dissipation;
+        plastic.power += counted * w * power.power;
+        least = min(least, counted * response.dissipation);
+        largest = max(largest, counted * response.dissipation);
       }
-      const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
-      work.internal_work += sum(counted * internal_work);
-      work.dissipation += dt_ * sum(counted * dissipation);
       const Lane inverse =
           select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));  // padding has no volume
-      average.stress *= inverse;
-      average.strain *= inverse;
-      average.inelastic *= inverse;
-      averages_[static_cast<std::size_t>(batch)] = average;
+      Values& average = averages_[static_cast<std::size_t>(batch)];
+      average = Values{};
+      add_weighted(average, inverse, sums);
+    }
+    work.internal_work = sum(internal_work);
+    work.dissipation = dt_ * sum(dissipation);
+    work.plastic_dissipation = dt_ * sum(plastic.dissipation);
+    work.plastic_work = dt_ * sum(plastic.power);
+    for (int lane = 0; lane < k_lanes; ++lane) {
+      work.least_dissipation = std::min(work.least_dissipation, least[lane]);
+      work.largest_dissipation = std::max(work.largest_dissipation, largest[lane]);
     }
     return work;
   }
@@ -202,15 +215,17 @@ class LawBlock final : public BlockKernel {
           using StateOfOne = typename Law::template State<double>;
           const auto p =
               element_of<typename Law::template Properties<double>>(properties_[index(batch, q)], lane);
-          const auto old = element_of<StateOfOne>(old_state(batch, q), lane);
+          const auto start = element_of<StateOfOne>(start_state(batch, q), lane);
           const auto strain_of_one = element_of<Sym<double>>(strain, lane);
-          if (law_.update(p, old, strain_of_one, dt_).status == material::Status::converged) continue;
+          if (!std::isfinite(norm(strain_of_one)) ||  // that is not the law's fault
+              law_.update(p, start, strain_of_one, effective_dt_).status == material::Status::converged)
+            continue;
           return fmt::format(
               "element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, at the start of the step "
               "{}",
               block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)],
               points_.at(batch, q).temperature[lane], elastic_part(p).solid_fraction, text(strain_of_one),
-              text(old));
+              text(start));
         }
       }
     }
@@ -219,21 +234,9 @@ class LawBlock final : public BlockKernel {
 
   ElementFields fields() const override {
     ElementFields out;
-    const auto element = [](const Sym<Lane>& a, int lane) {
-      std::array<double, 6> r;
-      for (int i = 0; i < 6; ++i) r[static_cast<std::size_t>(i)] = a[i][lane];
-      return r;
-    };
-    for (Index e = 0; e < geometry_.n_elements; ++e) {
-      const Averages& average = averages_[static_cast<std::size_t>(e / k_lanes)];
-      const int lane = e % k_lanes;
-      out.stress.push_back(element(average.stress, lane));
-      out.strain.push_back(element(average.strain, lane));
-      out.inelastic_strain.push_back(element(average.inelastic, lane));
-      const Sym<double> stress{out.stress.back()};
-      out.von_mises.push_back(von_mises(stress));
-      out.pressure.push_back(-trace(stress) / 3);
-    }
+    for (Index e = 0; e < geometry_.n_elements; ++e)
+      append(out, element_of<typename Values::OfOne>(averages_[static_cast<std::size_t>(e / k_lanes)],
+                                                     e % k_lanes));
     return out;
   }
 
@@ -265,10 +268,6 @@ class LawBlock final : public BlockKernel {
   }
 
  private:
-  struct Averages {
-    Sym<Lane> stress, strain, inelastic;
-  };
-
   std::size_t index(Index batch, int point) const {
     return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
            static_cast<std::size_t>(point);
@@ -285,11 +284,19 @@ class LawBlock final : public BlockKernel {
     return Operator(geometry_.gradients_at(batch, point), values_at(point), inverse_radius, mean);
   }
 
-  State old_state(Index batch, int point) const {
+  State state_of(const BlockHistory& history, Index batch, int point) const {
     State state;
-    std::memcpy(static_cast<void*>(&state), old_history_->values.data() + index(batch, point) * n_state,
+    std::memcpy(static_cast<void*>(&state), history.values.data() + index(batch, point) * n_state,
                 sizeof(State));
     return state;
+  }
+  State old_state(Index batch, int point) const { return state_of(*old_history_, batch, point); }
+  State start_state(Index batch, int point) const { return state_of(*start_history_, batch, point); }
+
+  static Deformation deformation(const Sym<Lane>& strain, const State& state, const LaneMask& solid) {
+    const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
+    const auto [hardening, back_squared] = hardening_of(state);
+    return {trace(strain), select(solid, dot(elastic, elastic), Lane(0.0)), hardening, back_squared};
   }
 
   /// b̄_a of 6.23.
@@ -336,9 +343,10 @@ class LawBlock final : public BlockKernel {
   PackVector<Properties> properties_;              ///< at Θ_n: [batch][point]
   PackVector<Lane> means_;                         ///< b̄_a, B-bar only: [batch][node][dim]
   std::vector<algebra::BlockMatrix::Slot> slots_;  ///< [batch][a][b][lane]
-  PackVector<Averages> averages_;                  ///< [batch]
+  PackVector<Values> averages_;                    ///< [batch]
   const BlockHistory* old_history_ = nullptr;
-  double dt_ = 0;
+  const BlockHistory* start_history_ = nullptr;
+  double dt_ = 0, effective_dt_ = 0;
 };
 
 }  // namespace solidus::mechanics

@@ -2,15 +2,13 @@
 /// properties and state.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
-#include <cstring>
+#include <bit>
 #include <string>
-#include <type_traits>
 
 #include "material/viscoelastic.hpp"
 #include "material/viscoplastic.hpp"
+#include "mechanics/mechanical_phase.hpp"
 
 namespace solidus::mechanics {
 
@@ -34,32 +32,80 @@ Sym<T> inelastic_strain(const material::Viscoplastic::State<T>& state) {
   return state.viscous_strain + state.plastic_strain;
 }
 
-inline std::string text(const Sym<double>& a) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g}, {:.4g}, {:.4g}, {:.4g})", a[0], a[1], a[2], a[3], a[4], a[5]);
+/// What hardening has stored, beside temperature: ξ and ζ:ζ.
+template <class T>
+std::array<T, 2> hardening_of(const material::Viscoelastic::State<T>&) {
+  return {T(0.0), T(0.0)};
 }
-/// A state in words, for the message of a step that failed.
-inline std::string text(const material::Viscoelastic::State<double>& state) {
-  return fmt::format("viscous strain {}", text(state.viscous_strain));
+template <class T>
+std::array<T, 2> hardening_of(const material::Viscoplastic::State<T>& state) {
+  return {state.hardening, dot(state.back_strain, state.back_strain)};
 }
-inline std::string text(const material::Viscoplastic::State<double>& state) {
-  return fmt::format("equivalent plastic strain {:.4g}, plastic strain {}, back strain {}, viscous strain {}",
-                     state.hardening, text(state.plastic_strain), text(state.back_strain),
-                     text(state.viscous_strain));
+
+/// s : ε̇^vp and the plastic part of D_mech [W/m³].
+struct PlasticPower {
+  Lane power{}, dissipation{};
+};
+template <class Response>
+PlasticPower plastic_power(const material::Viscoelastic&, const Response&) {
+  return {};
 }
+inline PlasticPower plastic_power(const material::Viscoplastic&,
+                                  const material::Viscoplastic::Response<Lane>& r) {
+  return {r.plastic_power, r.plastic_dissipation};
+}
+
+/// What results show of a point or, averaged, of an element (units as in ElementFields).
+template <class T>
+struct ViscoelasticValues {
+  using OfOne = ViscoelasticValues<double>;
+  Sym<T> stress, strain, viscous_strain;
+  T dissipation{};
+};
+template <class T>
+struct ViscoplasticValues {
+  using OfOne = ViscoplasticValues<double>;
+  Sym<T> stress, strain, viscous_strain, plastic_strain, back_stress;
+  T equivalent_plastic_strain{}, flow_stress{}, dissipation{};
+};
+
+template <class Response>
+ViscoelasticValues<Lane> values_of(const material::Viscoelastic&, const material::PointProperties<Lane>&,
+                                   const Response& r, const Sym<Lane>& strain) {
+  return {r.stress, strain, r.state.viscous_strain, r.dissipation};
+}
+ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
+                                   const material::Viscoplastic::Properties<Lane>& p,
+                                   const material::Viscoplastic::Response<Lane>& r, const Sym<Lane>& strain);
+
+/// Appends those of one element; what a law does not know is zero.
+void append(ElementFields& fields, const ViscoelasticValues<double>& values);
+void append(ElementFields& fields, const ViscoplasticValues<double>& values);
+
+/// sum += weight × values, of a struct that holds nothing but lanes.
+template <class Values>
+void add_weighted(Values& sum, const Lane& weight, const Values& values) {
+  using Lanes = std::array<Lane, sizeof(Values) / sizeof(Lane)>;
+  auto total = std::bit_cast<Lanes>(sum);
+  const auto added = std::bit_cast<Lanes>(values);
+  for (std::size_t i = 0; i < total.size(); ++i) total[i] += weight * added[i];
+  sum = std::bit_cast<Values>(total);
+}
+
+/// In words, for the message of a step that failed.
+std::string text(const Sym<double>& a);
+std::string text(const material::Viscoelastic::State<double>& state);
+std::string text(const material::Viscoplastic::State<double>& state);
 
 /// One element of a batch: the same struct on double, of one on Lane that holds nothing but lanes.
 template <class OnDouble, class OnLane>
 OnDouble element_of(const OnLane& batch, int lane) {
-  static_assert(std::is_trivially_copyable_v<OnDouble> && std::is_trivially_copyable_v<OnLane>);
   static_assert(sizeof(OnLane) == sizeof(OnDouble) * k_lanes);
   constexpr std::size_t n = sizeof(OnDouble) / sizeof(double);
-  std::array<Lane, n> lanes;
-  std::memcpy(static_cast<void*>(lanes.data()), &batch, sizeof batch);
+  const auto lanes = std::bit_cast<std::array<Lane, n>>(batch);
   std::array<double, n> values;
   for (std::size_t i = 0; i < n; ++i) values[i] = lanes[i][lane];
-  OnDouble result;
-  std::memcpy(static_cast<void*>(&result), values.data(), sizeof result);
-  return result;
+  return std::bit_cast<OnDouble>(values);
 }
 
 }  // namespace solidus::mechanics

@@ -52,6 +52,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       weight(mesh.x.size() * static_cast<std::size_t>(components_), 0.0);
   for (const mesh::Block& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
+    plastic_ = plastic_ || material.flow.has_value();
     blocks_.push_back(make_block_kernel(mesh, block, kind, material, options_.b_bar));
     blocks_.back()->add_nodal_volume(material.density, mass);
   }
@@ -90,7 +91,39 @@ MechanicalState MechanicalPhase::initial_state() const {
   MechanicalState state;
   state.displacement.assign(forces_.size(), 0.0);
   for (const auto& block : blocks_) state.history.push_back(block->initial_history());
+  if (options_.integration == TimeIntegration::two_step) state.before = state.history;
   return state;
+}
+
+/// The first step, and one that grows beyond what the two-step method stands, are backward Euler steps.
+material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, double dt) const {
+  const bool two_step = options_.integration == TimeIntegration::two_step && old.dt_before > 0 &&
+                        dt <= material::k_largest_growth * old.dt_before;
+  return two_step ? material::TimeStep::two_step(dt, old.dt_before) : material::TimeStep::backward_euler(dt);
+}
+
+/// Hands the blocks Θ_n and the start of the effective step.
+void MechanicalPhase::prepare(const MechanicalState& old, std::span<const double> temperature, double dt) {
+  const material::TimeStep step = time_step(old, dt);
+  const bool extrapolates = step.before != 0;
+  if (extrapolates) {
+    start_ = old.history;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      PackVector<Lane>& start = start_[b].values;
+      const PackVector<Lane>& before = old.before[b].values;
+      for (std::size_t i = 0; i < start.size(); ++i)
+        start[i] = Lane(step.now) * start[i] + Lane(step.before) * before[i];
+    }
+  }
+  double stiffness = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    stiffness += blocks_[b]->prepare({.temperature = temperature,
+                                      .initial_temperature = initial_temperature_,
+                                      .old_history = &old.history[b],
+                                      .start_history = extrapolates ? &start_[b] : &old.history[b],
+                                      .dt = dt,
+                                      .effective_dt = step.dt});
+  round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
 }
 
 double MechanicalPhase::residual(std::span<const double> x, std::span<double> r) {
@@ -139,13 +172,10 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
                                    std::span<const double> temperature, double time, double dt) {
   assert(old.displacement.size() == forces_.size() && old.history.size() == blocks_.size() && dt > 0);
   loads_->evaluate(time, external_);
-  double stiffness = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    stiffness += blocks_[b]->prepare({temperature, initial_temperature_, &old.history[b], dt});
+  prepare(old, temperature, dt);
 
   algebra::NewtonOptions newton_options = options_.newton;
-  newton_options.absolute_tolerance = std::max(
-      newton_options.absolute_tolerance, k_round_off_strain * std::sqrt(algebra::global_sum(stiffness)));
+  newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   std::vector<double> x = old.displacement;
   loads_->prescribe(time, x);
   PhaseReport report;
@@ -165,9 +195,17 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
     const BlockWork work = blocks_[b]->finish(old.displacement, x, next.history.back());
     total.internal_work += work.internal_work;
     total.dissipation += work.dissipation;
+    total.plastic_dissipation += work.plastic_dissipation;
+    total.plastic_work += work.plastic_work;
+    total.least_dissipation = std::min(total.least_dissipation, work.least_dissipation);
+    total.largest_dissipation = std::max(total.largest_dissipation, work.largest_dissipation);
   }
   report.work = measure(old, x, total);
   next.displacement = std::move(x);
+  if (options_.integration == TimeIntegration::two_step) {
+    next.before = old.history;
+    next.dt_before = dt;
+  }
   trial = std::move(next);
   return report;
 }
@@ -177,16 +215,23 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
   // The residual at the solution: internal + contributions − loads, which is the support force where fixed.
   std::vector<double> r(external_.size());
   residual(x, r);
-  double local[4] = {0, 0, sums.internal_work, sums.dissipation};
+  double local[6] = {0, 0, sums.internal_work, sums.dissipation, sums.plastic_dissipation, sums.plastic_work};
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double increment = x[i] - old.displacement[i];
     reactions_[i] = loads_->fixed()[i] ? r[i] : 0.0;
     local[0] += external_[i] * increment;
     local[1] += reactions_[i] * increment;
   }
-  double all[4];
-  MPI_Allreduce(local, all, 4, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  return {all[0], all[1], all[2], all[3]};
+  double all[6];
+  MPI_Allreduce(local, all, 6, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return {.external_work = all[0],
+          .support_work = all[1],
+          .internal_work = all[2],
+          .dissipation = all[3],
+          .plastic_dissipation = all[4],
+          .plastic_work = all[5],
+          .least_dissipation = algebra::global_min(sums.least_dissipation),
+          .largest_dissipation = algebra::global_max(sums.largest_dissipation)};
 }
 
 std::string MechanicalPhase::worst_place(std::span<const double> x) {

@@ -4,9 +4,9 @@
 ///   r(u) = ∫ B̄ᵀ σ dV − f(t) + contributions = 0
 ///
 /// Newton's criterion measures the residual against the forces that the bodies exchange with the world
-/// (loads, supports, contact), or a millionth of the internal forces where there are none. Backward Euler in
-/// time. The strain is small, so geometry, sparsity and the map from element entries to matrix slots are
-/// computed once, in the constructor.
+/// (loads, supports, contact), or a millionth of the internal forces where there are none. In
+/// time backward Euler, or the two-step method (material/time_integration.hpp). The strain is small, so
+/// geometry, sparsity and the map from element entries to matrix slots are computed once, in the constructor.
 #pragma once
 
 #include <array>
@@ -19,6 +19,7 @@
 #include "algebra/newton.hpp"
 #include "base/types.hpp"
 #include "material/material.hpp"
+#include "material/time_integration.hpp"
 #include "mechanics/balance.hpp"
 #include "mechanics/conditions.hpp"
 #include "mechanics/mechanical_state.hpp"
@@ -30,11 +31,14 @@ class BlockKernel;
 class Loads;
 struct BlockWork;
 
+enum class TimeIntegration { backward_euler, two_step };
+
 struct MechanicsOptions {
   algebra::NewtonOptions newton;
   /// Constant volumetric mode (Q1/P0, 6.2) in 4-node quads and 8-node hexes; other shapes use the standard
   /// operator.
   bool b_bar = true;
+  TimeIntegration integration = TimeIntegration::backward_euler;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
   double linear_tolerance = 1e-8;  ///< iterative solvers, relative
   /// False when a contribution's tangent is not symmetric (friction); a law's is found by itself
@@ -46,10 +50,15 @@ struct MechanicsOptions {
 /// strain: per metre of thickness). Forces are those at t_{n+1}, times the displacement increment, so that by
 /// equilibrium internal_work = external_work + support_work + the work of contributions, to the residual.
 struct MechanicalWork {
-  double external_work = 0;  ///< of pressures, tractions and gravity
-  double support_work = 0;   ///< of the reactions at prescribed displacements
-  double internal_work = 0;  ///< ∫ σ_{n+1} : Δε dV
-  double dissipation = 0;    ///< Δt ∫ D_mech dV
+  double external_work = 0;        ///< of pressures, tractions and gravity
+  double support_work = 0;         ///< of the reactions at prescribed displacements
+  double internal_work = 0;        ///< ∫ σ_{n+1} : Δε dV
+  double dissipation = 0;          ///< Δt ∫ D_mech dV, viscous and plastic (2.113)
+  double plastic_dissipation = 0;  ///< the plastic part of it (2.117)
+  double plastic_work = 0;         ///< Δt ∫ s : ε̇^vp dV: plastic dissipation and what hardening stores
+  /// The least and the largest D_mech at any point and zero [W/m³]; the least is negative by rounding at
+  /// most.
+  double least_dissipation = 0, largest_dissipation = 0;
 };
 
 struct PhaseReport {
@@ -62,9 +71,14 @@ struct PhaseReport {
 struct ElementFields {
   std::vector<std::array<double, 6>> stress;  ///< [Pa]
   std::vector<std::array<double, 6>> strain;
-  std::vector<std::array<double, 6>> inelastic_strain;  ///< viscous
-  std::vector<double> von_mises;                        ///< of the average stress [Pa]
-  std::vector<double> pressure;                         ///< −tr σ/3 [Pa], positive in compression
+  std::vector<std::array<double, 6>> viscous_strain;  ///< ε^v of the melt
+  std::vector<std::array<double, 6>> plastic_strain;  ///< ε^vp
+  std::vector<std::array<double, 6>> back_stress;     ///< q, centre of the yield surface [Pa]
+  std::vector<double> equivalent_plastic_strain;      ///< ξ
+  std::vector<double> flow_stress;  ///< σ_0 + K_ξ, the von Mises stress (less back stress) of slow flow [Pa]
+  std::vector<double> dissipation;  ///< D_mech [W/m³]
+  std::vector<double> von_mises;    ///< of the average stress [Pa]
+  std::vector<double> pressure;     ///< −tr σ/3 [Pa], positive in compression
 };
 
 class MechanicalPhase : private algebra::NonlinearSystem {
@@ -92,6 +106,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   /// Of the last solve; blocks in the order of the mesh.
   std::vector<ElementFields> element_fields() const;
+  /// True when a material can flow plastically: then there are plastic fields to show.
+  bool plastic() const { return plastic_; }
   /// Support forces of the last solve, [owned node][component] [N], zero where nothing is prescribed.
   std::span<const double> reactions() const { return reactions_; }
 
@@ -112,6 +128,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   void add_residual_to_balance(std::span<const double> r);
   std::string law_failure(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
+  material::TimeStep time_step(const MechanicalState& old, double dt) const;
+  void prepare(const MechanicalState& old, std::span<const double> temperature, double dt);
   MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
 
   const mesh::Mesh& mesh_;
@@ -119,6 +137,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   int components_;
   MechanicsOptions options_;
   std::vector<algebra::Contribution*> contributions_;
+  bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;
   std::unique_ptr<algebra::BlockMatrix> matrix_;
@@ -126,9 +145,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   algebra::GhostExchange ghosts_;
   BodyBalance balance_;
   std::vector<double> initial_temperature_;
-  std::vector<double> x_;         ///< of the last residual
-  std::vector<double> forces_;    ///< internal forces, [local node][component]; ghost rows are scrap
-  std::vector<double> external_;  ///< loads at t_{n+1}, [owned node][component]
+  std::vector<BlockHistory> start_;  ///< z* of the two-step method, one per block
+  double round_off_ = 0;             ///< residual that is rounding [N]
+  std::vector<double> x_;            ///< of the last residual
+  std::vector<double> forces_;       ///< internal forces, [local node][component]; ghost rows are scrap
+  std::vector<double> external_;     ///< loads at t_{n+1}, [owned node][component]
   std::vector<double> reactions_;
   double seconds_assembly_ = 0, seconds_residual_ = 0;
 };

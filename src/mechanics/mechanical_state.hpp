@@ -8,7 +8,8 @@
 namespace solidus::mechanics {
 
 /// The history of one mesh block: [batch][point][component], whatever the law keeps (viscoelastic: the
-/// viscous strain, components in the order of Sym). Lanes beyond the block's elements are padding.
+/// viscous strain, components in the order of Sym; viscoplastic: Viscoplastic::State). Lanes beyond the
+/// block's elements are padding.
 struct BlockHistory {
   int n_components = 0, n_points = 0;
   PackVector<Lane> values;
@@ -17,6 +18,10 @@ struct BlockHistory {
 struct MechanicalState {
   std::vector<double> displacement;   ///< [local node][component] [m], ghosts up to date
   std::vector<BlockHistory> history;  ///< one per block of the mesh
+  /// Of the two-step method: the history at t_{n−1} and t_n − t_{n−1} [s], zero where none is known. Empty
+  /// with backward Euler.
+  std::vector<BlockHistory> before;
+  double dt_before = 0;
 };
 
 }  // namespace solidus::mechanics

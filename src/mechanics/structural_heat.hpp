@@ -1,9 +1,9 @@
 /// What deformation does to the heat balance: structural heating and mechanical dissipation
 /// (monograph 2.123a, 2.127b).
 ///
-/// With S = −(W_Θ + M_Θ) the structural entropy and E = W + M + Θ S the structural energy per volume, the
-/// thermal phase (at the configuration of the last mechanical solve) receives, weighted with each node's
-/// basis function,
+/// With S = −(W_Θ + M_Θ + K_Θ) the structural entropy and E = W + M + K + Θ S the structural energy per
+/// volume (K: what hardening stores), the thermal phase (at the configuration of the last mechanical solve)
+/// receives, weighted with each node's basis function,
 ///
 ///   entropy form:  Θ_{n+1} [S(ε_{n+1}, Θ_{n+1}) − S(ε_n, Θ_n)]/Δt − D_mech                  (4.48a)
 ///   energy form:   [E(ε_{n+1}, Θ_{n+1}) − E(ε_n, Θ_n) − σ_{n+1} : Δε]/Δt

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/hardening_heat.hpp"
+
 namespace solidus::mechanics {
 
 Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
@@ -19,34 +21,41 @@ Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
 
 StructuralPoints::StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material)
     : geometry_(geometry),
-      thermoelastic_(material),
+      material_(material),
       points_(static_cast<std::size_t>(geometry.n_batches) * static_cast<std::size_t>(geometry.n_points)) {
-  thermoelastic_.phase_changes.clear();
+  material_.phase_changes.clear();
 }
 
 void StructuralPoints::set_temperature(Index batch, int point, Lane temperature, Lane thermal_strain) {
   Point& p = at(batch, point);
   p.temperature = temperature;
-  const Lane reference(thermoelastic_.expansion_reference);
-  p.strain_offset = thermal_strain - properties_at(thermoelastic_, temperature, reference).thermal_strain;
+  const Lane reference(material_.expansion_reference);
+  p.strain_offset = thermal_strain - properties_at(material_, temperature, reference).thermal_strain;
 }
 
-material::PointProperties<Lane> StructuralPoints::properties(const Point& at, Lane temperature) const {
-  auto p = properties_at(thermoelastic_, temperature, Lane(thermoelastic_.expansion_reference));
+StructuralPoints::State StructuralPoints::state(const Point& at, const Deformation& deformation,
+                                                Lane temperature, Want want) const {
+  auto p = properties_at(material_, temperature, Lane(material_.expansion_reference));
   p.thermal_strain += at.strain_offset;
-  return p;
+  const auto d = derivatives_at(material_, temperature, temperature);
+  const Lane deviator_squared = Lane(4.0) * p.shear * p.shear * deformation.elastic_squared;
+  const auto structural = structural_state(p, d, temperature, deformation.strain_trace, deviator_squared);
+  State r{structural.entropy, structural.internal_energy, Lane(0.0)};
+  if (want == Want::state_and_capacity)
+    r.capacity = structural_capacity(p, d, curvatures_at(material_, temperature), temperature,
+                                     deformation.strain_trace, deviator_squared);
+  if (!material_.flow || !any(deformation.hardening > Lane(0.0))) return r;  // ζ moves with ξ only
+  const auto stored =
+      hardening_state(*material_.flow, deformation.hardening, deformation.back_squared, temperature);
+  r.entropy += stored.entropy;
+  r.internal_energy += stored.internal_energy;
+  r.capacity += stored.capacity;
+  return r;
 }
 
-material::StructuralState<Lane> StructuralPoints::state(const Point& at, Lane temperature, Lane strain_trace,
-                                                        Lane elastic_squared) const {
-  const auto p = properties(at, temperature);
-  const auto d = derivatives_at(thermoelastic_, temperature, temperature);
-  return structural_state(p, d, temperature, strain_trace, Lane(4.0) * p.shear * p.shear * elastic_squared);
-}
-
-void StructuralPoints::set_old(Index batch, int point, Lane strain_trace, Lane elastic_squared) {
+void StructuralPoints::set_old(Index batch, int point, const Deformation& deformation) {
   Point& p = at(batch, point);
-  const auto old = state(p, p.temperature, strain_trace, elastic_squared);
+  const State old = state(p, deformation, p.temperature, Want::state);
   p.old_entropy = old.entropy;
   p.old_energy = old.internal_energy;
 }
@@ -83,14 +92,10 @@ void StructuralPoints::add_heat(StructuralForm form, std::span<const double> tem
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
       const Lane theta = temperature_at(geometry_, batch, q, temperature);
-      const auto p = properties(at, theta);
-      const auto d = derivatives_at(thermoelastic_, theta, theta);
-      const Lane deviator_squared = Lane(4.0) * p.shear * p.shear * at.elastic_squared;
-      const auto now = structural_state(p, d, theta, at.strain_trace, deviator_squared);
+      const State now = state(at, at.now, theta, tangent ? Want::state_and_capacity : Want::state);
       Lane density;
       if (tangent) {
-        const auto c = curvatures_at(thermoelastic_, theta);
-        density = rate * structural_capacity(p, d, c, theta, at.strain_trace, deviator_squared);
+        density = rate * now.capacity;
         if (form == StructuralForm::entropy) density += rate * (now.entropy - at.old_entropy);
       } else if (form == StructuralForm::entropy) {
         density = rate * theta * (now.entropy - at.old_entropy) - at.dissipation;
@@ -118,8 +123,7 @@ double StructuralPoints::energy_change(std::span<const double> temperature) cons
     Lane change(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
-      const auto now =
-          state(at, temperature_at(geometry_, batch, q, temperature), at.strain_trace, at.elastic_squared);
+      const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature), Want::state);
       change += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy);
     }
     total += sum(change * geometry_.counted[static_cast<std::size_t>(batch)]);

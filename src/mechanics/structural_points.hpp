@@ -10,18 +10,25 @@
 
 namespace solidus::mechanics {
 
+/// What the structural energy of a point depends on beside its temperature.
+struct Deformation {
+  Lane strain_trace;     ///< tr ε
+  Lane elastic_squared;  ///< dev ε^E : dev ε^E, zero unless solid
+  Lane hardening;        ///< ξ
+  Lane back_squared;     ///< ζ : ζ
+};
+
 class StructuralPoints {
  public:
   struct Point {
     Lane temperature;  ///< Θ_n [K], at which the mechanical phase was solved
     Lane strain_offset;  ///< e^θ minus 3 α (Θ − Θ_ref): initial strain and straining of phase changes, held
                          ///< (4.81)
-    Lane strain_trace;     ///< tr ε_{n+1}
-    Lane elastic_squared;  ///< dev ε^E : dev ε^E at t_{n+1}, zero unless solid
-    Lane old_entropy;      ///< S(ε_n, Θ_n) [J/(m³ K)]
-    Lane old_energy;       ///< E(ε_n, Θ_n) [J/m³]
-    Lane dissipation;      ///< D_mech [W/m³]
-    Lane work;             ///< σ_{n+1} : Δε [J/m³]
+    Deformation now;   ///< at t_{n+1}
+    Lane old_entropy;  ///< S of the deformation at t_n and Θ_n [J/(m³ K)]
+    Lane old_energy;   ///< E of the deformation at t_n and Θ_n [J/m³]
+    Lane dissipation;  ///< D_mech [W/m³]
+    Lane work;         ///< σ_{n+1} : Δε [J/m³]
   };
 
   /// Keeps a reference to the geometry.
@@ -38,7 +45,7 @@ class StructuralPoints {
   /// phase.
   void set_temperature(Index batch, int point, Lane temperature, Lane thermal_strain);
   /// Fills the old entropy and energy from the deformation at t_n.
-  void set_old(Index batch, int point, Lane strain_trace, Lane elastic_squared);
+  void set_old(Index batch, int point, const Deformation& old);
 
   /// BlockKernel::add_structural_heat and structural_energy_change.
   void add_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
@@ -51,12 +58,15 @@ class StructuralPoints {
     return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
            static_cast<std::size_t>(point);
   }
-  material::PointProperties<Lane> properties(const Point& at, Lane temperature) const;
-  material::StructuralState<Lane> state(const Point& at, Lane temperature, Lane strain_trace,
-                                        Lane elastic_squared) const;
+  /// Entropy, internal energy and Θ ∂S/∂Θ of deformation and hardening.
+  struct State {
+    Lane entropy, internal_energy, capacity;
+  };
+  enum class Want { state, state_and_capacity };
+  State state(const Point& at, const Deformation& deformation, Lane temperature, Want want) const;
 
   const mesh::BlockGeometry& geometry_;
-  material::Material thermoelastic_;  ///< without phase changes: their fraction and straining are held
+  material::Material material_;  ///< without phase changes: their fraction and straining are held
   PackVector<Point> points_;
   PackVector<Lane> correction_;  ///< share of a node less what the points give it, [batch][node]; empty: none
   double dt_ = 0;

@@ -6,6 +6,7 @@
 
 #include "base/units.hpp"
 #include "model/case_file.hpp"
+#include "model/field_list.hpp"
 #include "model/run_input.hpp"
 
 namespace solidus::model {
@@ -170,21 +171,12 @@ void check_contacts(const CaseSpec& spec) {
   }
 }
 
-/// The unit of a field inside the program.
-std::string field_unit(const std::string& field) {
-  if (field == "temperature") return "K";
-  if (field == "displacement" || field == "gap") return "m";
-  if (field == "conductance") return "W/m2/K";
-  if (field == "solid_fraction" || field == "viscous_strain") return "1";
-  return "Pa";
-}
-
 /// The unit of a probe inside the program, through differences.
 std::string probe_unit(const CaseSpec& spec, const ProbeSpec& probe) {
-  if (probe.kind != ProbeSpec::Kind::difference) return field_unit(probe.field);
+  if (probe.kind != ProbeSpec::Kind::difference) return field_info(probe.field).unit;
   const auto first = std::find_if(spec.probes.begin(), spec.probes.end(),
                                   [&](const ProbeSpec& p) { return p.name == probe.of[0]; });
-  return field_unit(first->field);
+  return field_info(first->field).unit;
 }
 
 /// The unit of an integral follows from the dimension of its group, which only the mesh knows.

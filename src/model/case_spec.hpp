@@ -11,6 +11,7 @@
 #include "base/types.hpp"
 #include "contact/spec.hpp"
 #include "heat/thermal_phase.hpp"
+#include "mechanics/mechanical_phase.hpp"
 
 namespace solidus::model {
 
@@ -120,6 +121,7 @@ struct MechanicsSpec {
   int max_iterations = 0;
   bool line_search = true;
   bool b_bar = true;
+  mechanics::TimeIntegration integration = mechanics::TimeIntegration::backward_euler;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
 };
 

@@ -56,6 +56,7 @@ mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   options.newton.max_iterations = spec.mechanics.max_iterations;
   options.newton.line_search = spec.mechanics.line_search;
   options.b_bar = spec.mechanics.b_bar;
+  options.integration = spec.mechanics.integration;
   options.solver = spec.mechanics.solver;
   return options;
 }

@@ -63,6 +63,15 @@ Section<MechanicsSpec> mechanics_keys() {
   s.key("b_bar", &MechanicsSpec::b_bar)
       .initially(true)
       .doc("Mean volumetric strain per element in quads and hexahedra (Q1/P0, monograph 6.2): no locking.");
+  using mechanics::TimeIntegration;
+  s.choice(
+       "integration", &MechanicsSpec::integration,
+       {{"backward_euler", TimeIntegration::backward_euler, "first order, no oscillations"},
+        {"bdf2", TimeIntegration::two_step,
+         "two-step method of second order; the first step, and one more than 2.4 times as long as the one "
+         "before, by backward Euler"}})
+      .initially("backward_euler")
+      .doc("How inelastic strains advance in time (monograph 4.64-4.73).");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -mechanics_ change it further.");
   return s;
 }

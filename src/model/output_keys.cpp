@@ -1,17 +1,9 @@
 #include "model/case_keys.hpp"
+#include "model/field_list.hpp"
 
 namespace solidus::model {
 
 namespace {
-
-/// Fields of the bodies; contact surfaces always carry all of theirs (gap, contact pressure, conductance).
-const std::vector<std::string> k_fields = {"temperature", "solid_fraction", "displacement",  "stress",
-                                           "von_mises",   "pressure",       "viscous_strain"};
-
-/// What probes sample: those of contact surfaces too, zero away from them.
-const std::vector<std::string> k_probed = {
-    "temperature", "solid_fraction", "displacement",     "stress", "von_mises",
-    "pressure",    "viscous_strain", "contact_pressure", "gap",    "conductance"};
 
 /// The kinds of probe that sample a field.
 const std::vector<std::string> k_sampling = {"point", "mean", "minimum", "maximum", "integral"};
@@ -31,7 +23,7 @@ Section<ProbeSpec> probe_keys() {
             {"difference", P::Kind::difference, "the difference of two other probes"}})
       .initially("point")
       .doc("What is taken.");
-  s.key("field", &P::field).choices(k_probed).when("kind", k_sampling).doc("The field.");
+  s.key("field", &P::field).choices(field_names(true)).when("kind", k_sampling).doc("The field.");
   s.key("component", &P::component)
       .initially("")
       .when("kind", k_sampling)
@@ -58,7 +50,7 @@ Section<OutputSpec> output_keys() {
       .doc("Fields are written at these times, met exactly.");
   s.key("fields", &OutputSpec::fields)
       .initially(Value::list())
-      .choices(k_fields)
+      .choices(field_names(false))
       .doc("The fields to write; empty: all there are.");
   s.key("checkpoint_every", &OutputSpec::checkpoint_every)
       .at_least(1)

@@ -148,6 +148,24 @@ class RangeWatch : public coupling::Observer {
   std::vector<std::vector<std::string>> warned_;
 };
 
+// The second law for deformation: every law dissipates; warns once where one does not (2.113).
+class DissipationWatch : public coupling::Observer {
+ public:
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord& record, const coupling::State& state) override {
+    constexpr double k_rounding = 1e-9;
+    if (warned_ || record.least_dissipation >= -k_rounding * record.largest_dissipation) return;
+    logging::warn("t = {:g} s: deformation dissipates {:.3g} W/m3 somewhere; it must not be negative",
+                  state.time, record.least_dissipation);
+    warned_ = true;
+  }
+  void stopped(const coupling::Stop&, const coupling::State&) override {}
+  void end(const coupling::State&) override {}
+
+ private:
+  bool warned_ = false;
+};
+
 // Remembers why a run stopped, for the caller.
 class StopReason : public coupling::Observer {
  public:
@@ -216,8 +234,10 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
                         const std::optional<results::Checkpoint>& from, results::Recorder& recorder) {
   coupling::Simulation simulation(std::make_unique<coupling::IsothermalSplit>(a.phases), time_options(spec));
   RangeWatch watch(spec, a);
+  DissipationWatch dissipation;
   StopReason why;
   simulation.add(watch);
+  simulation.add(dissipation);
   simulation.add(recorder);
   simulation.add(why);
   simulation.stop_when(options.stop_asked);

@@ -1,5 +1,7 @@
 #include "model/run_input.hpp"
 
+#include "model/field_list.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,8 +17,8 @@ results::Sampled sampled(const CaseSpec& spec, const ProbeSpec& probe) {
   result.field = probe.field;
   result.where = probe.where;
   try {
-    result.component =
-        results::component_index(probe.component, field_components(spec, probe.field), spec.analysis.kind);
+    result.component = results::component_index(
+        probe.component, field_info(probe.field).components(spec.analysis.kind), spec.analysis.kind);
   } catch (const std::invalid_argument& error) {
     throw InputError(probe.where,
                      fmt::format("probe '{}' of the field '{}': {}", probe.name, probe.field, error.what()));
@@ -67,11 +69,6 @@ coupling::TimeOptions time_options(const CaseSpec& spec) {
     for (long i = 1; i <= n; ++i) options.output_times.push_back(static_cast<double>(i) * every);
   }
   return options;
-}
-
-int field_components(const CaseSpec& spec, const std::string& field) {
-  if (field == "displacement") return displacement_components(spec.analysis.kind);
-  return field == "stress" || field == "viscous_strain" ? 6 : 1;
 }
 
 std::vector<results::Probe> probes(const CaseSpec& spec) {

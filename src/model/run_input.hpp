@@ -12,9 +12,6 @@ namespace solidus::model {
 /// End, step sizes, and all output times of a transient run.
 coupling::TimeOptions time_options(const CaseSpec& spec);
 
-/// The fields that a case can name, with their components in this analysis (1, 2, 3 or 6).
-int field_components(const CaseSpec& spec, const std::string& field);
-
 /// The probes in the order of the case; points know the number of their body. Throws InputError for a
 /// component that the field does not have.
 std::vector<results::Probe> probes(const CaseSpec& spec);

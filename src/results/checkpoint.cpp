@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 1";
+constexpr const char* k_format = "Solidus checkpoint 2";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
   return fmt::format("history/block_{}_{}", b, mesh::name(mesh.blocks[b].shape));
@@ -45,10 +45,14 @@ std::vector<double> numbers_of(const Checkpoint& c) {
           e.contact,
           e.work,
           e.heat_in,
-          e.heat_exchanged};
+          e.heat_exchanged,
+          e.viscous_dissipation,
+          e.plastic_dissipation,
+          e.plastic_work,
+          c.state.mechanics.dt_before};
 }
 
-constexpr std::size_t k_numbers = 17;
+constexpr std::size_t k_numbers = 21;
 
 void set_numbers(const std::vector<double>& n, Checkpoint& c) {
   c.state.time = n[0];
@@ -56,7 +60,8 @@ void set_numbers(const std::vector<double>& n, Checkpoint& c) {
   c.continuation.size = n[2];
   c.rejected = static_cast<int>(n[3]);
   c.continuation.options = {n[4], n[5] != 0.0, n[6], n[7], n[8], n[9], static_cast<int>(n[10])};
-  c.energy = {n[11], n[12], n[13], n[14], n[15], n[16]};
+  c.energy = {n[11], n[12], n[13], n[14], n[15], n[16], n[17], n[18], n[19]};
+  c.state.mechanics.dt_before = n[20];
 }
 
 // History of the elements this process counts, [element][point][component].
@@ -93,13 +98,13 @@ void take_nodes(TableReader& in, const std::string& name, const Places& places, 
   in.require(taken == places.size(), name);
 }
 
-void take_history(TableReader& in, const std::string& name, const mesh::Block& block,
-                  mechanics::BlockHistory& history) {
+void take_history(TableReader& in, const std::string& name, const std::string& values,
+                  const mesh::Block& block, mechanics::BlockHistory& history) {
   const auto per_element = static_cast<std::size_t>(history.n_points * history.n_components);
   if (per_element == 0) return;
   const Places places = places_of(block.input_element);
   std::size_t taken = 0;
-  in.each(name + "/element", name + "/values", [&](std::int64_t number, std::span<const double> row) {
+  in.each(name + "/element", values, [&](std::int64_t number, std::span<const double> row) {
     const auto place = places.find(number);
     if (place == places.end() || row.size() != per_element) return;
     const std::size_t e = place->second;
@@ -107,7 +112,7 @@ void take_history(TableReader& in, const std::string& name, const mesh::Block& b
       history.values[(e / k_lanes) * per_element + k].set(static_cast<int>(e % k_lanes), row[k]);
     ++taken;
   });
-  in.require(taken == block.input_element.size(), name);
+  in.require(taken == block.input_element.size(), values);
 }
 
 void compare(const fs::path& path, TableReader& in, const Fingerprint& fingerprint) {
@@ -135,8 +140,15 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   take_nodes(in, "temperature", nodes, c.state.heat.temperature);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
   take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
-  for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b)
-    take_history(in, block_name(mesh, b), mesh.blocks[b], c.state.mechanics.history[b]);
+  mechanics::MechanicalState& mechanics = c.state.mechanics;
+  // A run that went on with backward Euler left no history before the last: the next step is one too.
+  if (mechanics.before.empty()) mechanics.dt_before = 0;
+  for (std::size_t b = 0; b < mechanics.history.size(); ++b) {
+    const std::string name = block_name(mesh, b);
+    take_history(in, name, name + "/values", mesh.blocks[b], mechanics.history[b]);
+    if (mechanics.dt_before > 0)
+      take_history(in, name, name + "/before", mesh.blocks[b], mechanics.before[b]);
+  }
   return c;
 }
 
@@ -185,7 +197,10 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     const std::string name = block_name(mesh, b);
     out.rows<std::int64_t>(name + "/element", 1,
                            std::span(block.input_element).first(static_cast<std::size_t>(block.n_counted)));
-    out.rows<double>(name + "/values", history.n_points * history.n_components, pack_history(block, history));
+    const int width = history.n_points * history.n_components;
+    out.rows<double>(name + "/values", width, pack_history(block, history));
+    if (c.state.mechanics.dt_before > 0)
+      out.rows<double>(name + "/before", width, pack_history(block, c.state.mechanics.before[b]));
   }
   out.finish([&] {
     std::error_code error;

@@ -12,7 +12,7 @@ namespace {
 GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
                                       const Probes& probes) {
   return {phases.heat != nullptr && options.melting, !phases.contacts.empty(), phases.mechanics != nullptr,
-          probes.columns()};
+          phases.mechanics != nullptr && phases.mechanics->plastic(), probes.columns()};
 }
 
 int process() {

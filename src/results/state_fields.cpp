@@ -31,6 +31,13 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
     add("von_mises", "Pa", 1, Place::cell);
     add("pressure", "Pa", 1, Place::cell);
     add("viscous_strain", "1", 6, Place::cell);
+    add("dissipation", "W/m3", 1, Place::cell);
+    if (phases.mechanics->plastic()) {
+      add("plastic_strain", "1", 6, Place::cell);
+      add("equivalent_plastic_strain", "1", 1, Place::cell);
+      add("back_stress", "Pa", 6, Place::cell);
+      add("flow_stress", "Pa", 1, Place::cell);
+    }
   }
   for (const auto& v : values_) bodies_.add({v->name, v->unit, v->components, v->place, v->values});
   if (phases.contacts.empty()) return;
@@ -72,12 +79,21 @@ void StateFields::update(const coupling::State& state) {
 
 void StateFields::update_elements() {
   const std::vector<mechanics::ElementFields> blocks = phases_.mechanics->element_fields();
-  std::array<std::size_t, 4> at{};
+  std::map<std::string, std::size_t> filled;
+  const auto append_to = [&](const char* name, const auto& values) {
+    append(*by_name_.at(name), filled[name], values);
+  };
   for (const mechanics::ElementFields& block : blocks) {
-    append(*by_name_["stress"], at[0], block.stress);
-    append(*by_name_["von_mises"], at[1], block.von_mises);
-    append(*by_name_["pressure"], at[2], block.pressure);
-    append(*by_name_["viscous_strain"], at[3], block.inelastic_strain);
+    append_to("stress", block.stress);
+    append_to("von_mises", block.von_mises);
+    append_to("pressure", block.pressure);
+    append_to("viscous_strain", block.viscous_strain);
+    append_to("dissipation", block.dissipation);
+    if (!phases_.mechanics->plastic()) continue;
+    append_to("plastic_strain", block.plastic_strain);
+    append_to("equivalent_plastic_strain", block.equivalent_plastic_strain);
+    append_to("back_stress", block.back_stress);
+    append_to("flow_stress", block.flow_stress);
   }
 }
 

@@ -50,7 +50,10 @@ std::vector<Column> step_columns() {
           {"work", "J"},
           {"heat_in", "J"},
           {"heat_exchanged", "J"},
-          {"energy_defect", "J"}};
+          {"energy_defect", "J"},
+          {"viscous_dissipation", "J"},
+          {"plastic_dissipation", "J"},
+          {"plastic_work", "J"}};
 }
 
 std::vector<Cell> step_row(const coupling::StepRecord& r) {
@@ -82,7 +85,10 @@ std::vector<Cell> step_row(const coupling::StepRecord& r) {
           r.energy.work,
           r.energy.heat_in,
           r.energy.heat_exchanged,
-          r.energy.defect()};
+          r.energy.defect(),
+          r.energy.viscous_dissipation,
+          r.energy.plastic_dissipation,
+          r.energy.plastic_work};
 }
 
 std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
@@ -106,6 +112,12 @@ std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
     add("work", "J", sum_.work);
   }
   if (options_.mechanics && options_.contact) add("contact_energy", "J", sum_.contact);
+  if (options_.mechanics) add("viscous_dissipation", "J", sum_.viscous_dissipation);
+  if (options_.plastic) {
+    add("plastic_dissipation", "J", sum_.plastic_dissipation);
+    add("plastic_work", "J", sum_.plastic_work);
+    add("hardening_energy", "J", sum_.hardening());
+  }
   add("heat_exchanged", "J", sum_.heat_exchanged);
   add("energy_defect", "J", sum_.defect());
   std::erase_if(all, [this](const auto& entry) {
@@ -134,6 +146,9 @@ void GlobalHistory::add(const coupling::StepEffort& step) {
   sum_.work += step.energy.work;
   sum_.heat_in += step.energy.heat_in;
   sum_.heat_exchanged += step.energy.heat_exchanged;
+  sum_.viscous_dissipation += step.energy.viscous_dissipation;
+  sum_.plastic_dissipation += step.energy.plastic_dissipation;
+  sum_.plastic_work += step.energy.plastic_work;
 }
 
 std::vector<double> GlobalHistory::values() const {

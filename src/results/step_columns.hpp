@@ -14,11 +14,12 @@ std::vector<Column> step_columns();
 std::vector<Cell> step_row(const coupling::StepRecord& record);
 
 /// The columns of history.csv that concern the whole model: temperatures, solid fraction, contact, and the
-/// first law summed over the steps since the start. Which of them exist follows from the analysis.
+/// first law and dissipation summed over the steps since the start. Which of them exist follows from the
+/// analysis.
 class GlobalHistory {
  public:
   struct Options {
-    bool melting = true, contact = true, mechanics = true;
+    bool melting = true, contact = true, mechanics = true, plastic = false;
     /// Columns that probes of the same header give already; they are left out here.
     std::vector<Column> taken = {};
   };

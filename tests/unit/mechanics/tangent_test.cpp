@@ -4,6 +4,7 @@
 #include "body.hpp"
 #include "lattice.hpp"
 #include "mechanics/law_block.hpp"
+#include "plastic_material.hpp"
 
 namespace solidus {
 namespace {
@@ -90,17 +91,27 @@ struct Setting {
     algebra::BlockMatrix matrix(mesh, nc, std::move(graph));
     kernel.bind(matrix);
     const mechanics::BlockHistory history = kernel.initial_history();
-    kernel.prepare({temperature, temperature, &history, 0.5});
+    kernel.prepare({temperature, temperature, &history, &history, 0.5, 0.5});
     matrix.set_zero();
     kernel.add_tangent(u, matrix);
     std::vector<double> y(static_cast<std::size_t>(mesh.n_owned_nodes * nc));
     matrix.multiply(direction, y);
     return y;
   }
+  /// Share of the elements that flow at u.
+  double plastic_share(BlockKernel& kernel) {
+    const mechanics::BlockHistory history = kernel.initial_history();
+    mechanics::BlockHistory trial = history;
+    kernel.prepare({temperature, temperature, &history, &history, 0.5, 0.5});
+    kernel.finish(u, u, trial);
+    const std::vector<double> xi = kernel.fields().equivalent_plastic_strain;
+    return static_cast<double>(std::count_if(xi.begin(), xi.end(), [](double x) { return x > 0; })) /
+           static_cast<double>(xi.size());
+  }
   /// The same by central differences of the forces.
   std::vector<double> difference(BlockKernel& kernel, double step) {
     const mechanics::BlockHistory history = kernel.initial_history();
-    kernel.prepare({temperature, temperature, &history, 0.5});
+    kernel.prepare({temperature, temperature, &history, &history, 0.5, 0.5});
     const auto forces = [&](double s) {
       std::vector<double> x = u, f(u.size(), 0.0);
       for (std::size_t i = 0; i < x.size(); ++i) x[i] += s * direction[i];
@@ -132,6 +143,17 @@ void check() {
   mechanics::LawBlock<Stiffening, n, kind, b_bar> nonlinear(s.mesh, block, s.material);
   // truncation h² = 1e-8 of a cubic law, round-off 1e-16/h
   expect_near(s.product(nonlinear), s.difference(nonlinear, 1e-4), 1e-7);
+
+  using material::KinematicHardening;
+  for (const auto kinematic : {KinematicHardening::linear, KinematicHardening::armstrong_frederick}) {
+    s.material = test::plastic_material(kinematic);
+    const auto plastic = mechanics::make_block_kernel(s.mesh, block, kind, s.material, b_bar);
+    EXPECT_EQ(plastic->symmetric(), kinematic == KinematicHardening::linear);
+    const auto tangent = s.product(*plastic);
+    // the same truncation and round-off, on a law that yields in every point
+    expect_near(tangent, s.difference(*plastic, 1e-4), 1e-6);
+    ASSERT_GT(s.plastic_share(*plastic), 0.9);
+  }
 }
 
 TEST(Tangent, IsTheDerivativeOfTheForcesInPlaneStrain) {

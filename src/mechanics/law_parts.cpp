@@ -1,0 +1,67 @@
+#include "mechanics/law_parts.hpp"
+
+#include <fmt/format.h>
+
+namespace solidus::mechanics {
+
+namespace {
+
+template <class Values>
+void append_common(ElementFields& fields, const Values& values) {
+  fields.stress.push_back(values.stress.c);
+  fields.strain.push_back(values.strain.c);
+  fields.viscous_strain.push_back(values.viscous_strain.c);
+  fields.dissipation.push_back(values.dissipation);
+  fields.von_mises.push_back(von_mises(values.stress));
+  fields.pressure.push_back(-trace(values.stress) / 3);
+}
+
+}  // namespace
+
+ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
+                                   const material::Viscoplastic::Properties<Lane>& p,
+                                   const material::Viscoplastic::Response<Lane>& r, const Sym<Lane>& strain) {
+  ViscoplasticValues<Lane> v{r.stress, strain, r.state.viscous_strain, r.state.plastic_strain, {}, {},
+                             {},       {}};
+  v.dissipation = r.dissipation;
+  v.equivalent_plastic_strain = r.state.hardening;
+  if (!law.material().flow) return v;
+  const material::Flow& flow = *law.material().flow;
+  const Lane strength = law.shear(p.elastic, 1.0).strength;
+  const auto hardening = hardening_stress(flow.isotropic, flow.curves, p.flow, r.state.hardening);
+  v.flow_stress = strength * (p.flow.flow_stress + hardening.stress);
+  v.back_stress = Lane(-2.0 / 3.0) * strength * p.flow.kinematic_modulus * r.state.back_strain;
+  return v;
+}
+
+void append(ElementFields& fields, const ViscoelasticValues<double>& values) {
+  append_common(fields, values);
+  fields.plastic_strain.push_back({});
+  fields.back_stress.push_back({});
+  fields.equivalent_plastic_strain.push_back(0);
+  fields.flow_stress.push_back(0);
+}
+
+void append(ElementFields& fields, const ViscoplasticValues<double>& values) {
+  append_common(fields, values);
+  fields.plastic_strain.push_back(values.plastic_strain.c);
+  fields.back_stress.push_back(values.back_stress.c);
+  fields.equivalent_plastic_strain.push_back(values.equivalent_plastic_strain);
+  fields.flow_stress.push_back(values.flow_stress);
+}
+
+std::string text(const Sym<double>& a) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}, {:.4g}, {:.4g}, {:.4g})", a[0], a[1], a[2], a[3], a[4], a[5]);
+}
+
+std::string text(const material::Viscoelastic::State<double>& state) {
+  return fmt::format("viscous strain {}", text(state.viscous_strain));
+}
+
+std::string text(const material::Viscoplastic::State<double>& state) {
+  return fmt::format("equivalent plastic strain {:.4g}, plastic strain {}, back strain {}, viscous strain {}",
+                     state.hardening, text(state.plastic_strain), text(state.back_strain),
+                     text(state.viscous_strain));
+}
+
+}  // namespace solidus::mechanics

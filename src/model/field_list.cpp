@@ -1,0 +1,46 @@
+#include "model/field_list.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+
+namespace solidus::model {
+
+namespace {
+
+constexpr auto k_vector = FieldInfo::Rank::vector, k_tensor = FieldInfo::Rank::tensor,
+               k_scalar = FieldInfo::Rank::scalar;
+
+constexpr FieldInfo k_fields[] = {{"temperature", "K"},
+                                  {"solid_fraction", "1"},
+                                  {"displacement", "m", k_vector},
+                                  {"stress", "Pa", k_tensor},
+                                  {"von_mises", "Pa"},
+                                  {"pressure", "Pa"},
+                                  {"viscous_strain", "1", k_tensor},
+                                  {"dissipation", "W/m3"},
+                                  {"plastic_strain", "1", k_tensor},
+                                  {"equivalent_plastic_strain", "1"},
+                                  {"back_stress", "Pa", k_tensor},
+                                  {"flow_stress", "Pa"},
+                                  {"contact_pressure", "Pa", k_scalar, true},
+                                  {"gap", "m", k_scalar, true},
+                                  {"conductance", "W/m2/K", k_scalar, true}};
+
+}  // namespace
+
+const FieldInfo& field_info(std::string_view name) {
+  const auto* found = std::find_if(std::begin(k_fields), std::end(k_fields),
+                                   [&](const FieldInfo& f) { return f.name == name; });
+  assert(found != std::end(k_fields));
+  return *found;
+}
+
+std::vector<std::string> field_names(bool with_contact) {
+  std::vector<std::string> names;
+  for (const FieldInfo& field : k_fields)
+    if (with_contact || !field.of_contact) names.emplace_back(field.name);
+  return names;
+}
+
+}  // namespace solidus::model
