@@ -83,7 +83,8 @@ class Cylinder:
 
     def lyapunov(self, s):
         """L of 2.24 with Theta_0 the ambient temperature; the pressure is a dead load."""
-        return self.energy(s) - law.AMBIENT * self.entropy(s) - self.pressure * self.strip.r[0] * s.u[0]
+        potential = -self.pressure * self.strip.r[0] * s.u[0]
+        return self.energy(s) - law.AMBIENT * self.entropy(s) + potential + self._kinetic(s)
 
     def film(self, t):
         """Heat out of the wall [N mm/s] at the nodes, and its derivative."""
@@ -183,22 +184,34 @@ class Cylinder:
         before = (p.gather(old.u), p.gather(old.t), old.plastic)
         if scheme.mechanical == "simultaneous":
             def outside(r, k, v):
-                self._load(r[0])
+                self._act(r[0], k[:n, :n], v[0], old, dt)
                 self._films(r[1], k[n:, n:], v[1], dt)
 
             u, t = self._newton(lambda u, t: self._coupled(scheme, before, u, t, dt), [old.u, old.t], outside)
-            new = State(u, t, self._plastic(scheme, before, p.gather(u), p.gather(t), None))
+            new = self._state(old, u, t, self._plastic(scheme, before, p.gather(u), p.gather(t), None), dt)
             return new, self.lyapunov(new)
 
-        (u,) = self._newton(lambda u: self._forces(scheme, before, u)[None], [old.u], lambda r, k, v: self._load(r[0]))
+        (u,) = self._newton(lambda u: self._forces(scheme, before, u)[None], [old.u],
+                            lambda r, k, v: self._act(r[0], k, v[0], old, dt))
         fixed = p.gather(u)
         mechanics = self._mechanics(scheme, before, fixed)
         (t,) = self._newton(lambda t: self._balance(scheme, before, fixed, t, dt, mechanics)[None], [old.t],
                             lambda r, k, v: self._films(r[0], k, v[0], dt))
         plastic = self._plastic(scheme, before, fixed, p.gather(t), mechanics[1])
-        return State(u, t, plastic), self._lyapunov_between(old, u, mechanics)
+        new = self._state(old, u, t, plastic, dt)
+        return new, self._lyapunov_between(new, old, mechanics)
 
-    def _lyapunov_between(self, old, u, mechanics):
+    def _state(self, old, u, t, plastic, dt):
+        return State(u, t, plastic)
+
+    def _act(self, r, k, u, old, dt):
+        """What is not the wall's own force: the pressure."""
+        r[0] -= self.pressure * self.strip.r[0]
+
+    def _kinetic(self, state):
+        return 0.0
+
+    def _lyapunov_between(self, new, old, mechanics):
         """L after the mechanical phase, where the points have temperatures of their own. Under the closed rule the
         nodes keep their sensible heat and the points add its change."""
         p, steel = self.strip, self.steel
@@ -211,10 +224,11 @@ class Cylinder:
             return p.store(nodes, sensible).sum() + (p.weight * at_points).sum()
 
         energy, entropy = total(law.sensible_heat, steel.energy), total(law.sensible_entropy, steel.entropy)
-        return energy - law.AMBIENT * entropy - self.pressure * p.r[0] * u[0]
+        return energy - law.AMBIENT * entropy - self.pressure * p.r[0] * new.u[0] + self._kinetic(new)
 
-    def step_matrix(self, scheme, dt):
-        """The linearised step (u_n, Theta_n) -> (u_{n+1}, Theta_{n+1}) about the free wall at the initial temperature.
+    def linearised(self, scheme, dt):
+        """Derivatives of both residuals of a step with respect to (u_1, Theta_1) and (u_n, Theta_n), films included, about
+        the free wall at the initial temperature.
 
         The ambient temperature must be the initial one and the pressure zero, so that this is a state of rest.
         """
@@ -230,10 +244,12 @@ class Cylinder:
         r, k = self.strip.matrix(residual, [rest.u, rest.t, rest.u, rest.t])
         self._films(r[1], k[n:, n:2 * n], rest.t, dt)
         assert np.abs(r).max() < 1e-9
-        return -np.linalg.solve(k[:, :2 * n], k[:, 2 * n:])
+        return k[:, :2 * n], k[:, 2 * n:]
 
-    def _load(self, r):
-        r[0] -= self.pressure * self.strip.r[0]
+    def step_matrix(self, scheme, dt):
+        """The linearised step (u_n, Theta_n) -> (u_1, Theta_1) about that state."""
+        new, old = self.linearised(scheme, dt)
+        return -np.linalg.solve(new, old)
 
     def _films(self, r, k, t, dt):
         q, dq = self.film(t)
