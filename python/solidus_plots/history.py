@@ -33,13 +33,13 @@ class Table(dict):
 
 
 def read_table(path, first="time[s]"):
-    """`first`: what the first column must be."""
+    """`first`: what the first column must be; None: anything."""
     path = Path(path)
     if not path.exists():
         raise ResultError(f"{path}: there is no such file")
     with path.open(newline="") as file:
         rows = list(csv.reader(file))
-    if not rows or rows[0][0] != first:
+    if not rows or (first is not None and rows[0][0] != first):
         raise ResultError(f"{path}: not a table of Solidus (its first column must be {first})")
     # A run that is still going on may end in half a row.
     whole = [row for row in rows[1:] if len(row) == len(rows[0])]
