@@ -138,8 +138,8 @@ struct Summary {
   std::string lines, notes, failures;
 };
 
-void run_curve(const Curve& curve, const fs::path& folder, Summary& summary) {
-  const point::History history = point::run(curve.material, curve.program);
+void write_curve(const Curve& curve, const point::History& history, const fs::path& folder,
+                 Summary& summary) {
   const std::string outside = warning(curve, history.records);
   results::write_file(folder / (curve.name + ".csv"), table(history.records));
   Json entry;
@@ -188,9 +188,12 @@ ExitCode run_point(const CaseArguments& arguments) {
 
   const fs::path folder = arguments.output.empty() ? results_root() / results::default_run_folder(file)
                                                    : fs::path(arguments.output);
+  std::vector<point::History> histories;  // all of them before anything is written
+  for (const Curve& curve : point_case.curves) histories.push_back(point::run(curve.material, curve.program));
   prepare(folder, point_case, file.string());
   Summary summary;
-  for (const Curve& curve : point_case.curves) run_curve(curve, folder, summary);
+  for (std::size_t i = 0; i < histories.size(); ++i)
+    write_curve(point_case.curves[i], histories[i], folder, summary);
 
   Json json;
   json.add("kind", "point").add("program", "Solidus " SOLIDUS_VERSION).add("title", point_case.title);

@@ -49,15 +49,17 @@ void loaded_keys(Section<SegmentSpec>& s) {
 
 void free_component_keys(Section<SegmentSpec>& s) {
   const std::vector<std::string> kind = {"components"};
-  s.section("strains", &SegmentSpec::strains, component_keys("strains", "Total strains at the end.", "1"))
+  s.section("strains", &SegmentSpec::strains,
+            component_keys("strains", "Total strains at the end, of kind components.", "1"))
       .when("kind", kind);
   s.section("strain_rates", &SegmentSpec::strain_rates,
-            component_keys("strain_rates", "Rates of total strain.", "1/s"))
+            component_keys("strain_rates", "Rates of total strain, of kind components.", "1/s"))
       .when("kind", kind);
-  s.section("stresses", &SegmentSpec::stresses, component_keys("stresses", "Stresses at the end.", "Pa"))
+  s.section("stresses", &SegmentSpec::stresses,
+            component_keys("stresses", "Stresses at the end, of kind components.", "Pa"))
       .when("kind", kind);
   s.section("stress_rates", &SegmentSpec::stress_rates,
-            component_keys("stress_rates", "Rates of stress.", "Pa/s"))
+            component_keys("stress_rates", "Rates of stress, of kind components.", "Pa/s"))
       .when("kind", kind);
   s.key("hold_strain", &SegmentSpec::hold_strain)
       .choices({"xx", "yy", "zz", "xy", "yz", "xz"})
@@ -130,7 +132,6 @@ Section<CurveSpec> curve_keys() {
       .doc(
           "A CSV file of measured points for the pictures and for the deviation: a header of columns of the "
           "history with units, for example strain_xx[percent],stress_xx[MPa]; the first is the abscissa.");
-  s.sections("segment", &CurveSpec::segments, segment_keys()).doc("In place of the file's own segments.");
   s.place(&CurveSpec::where);
   return s;
 }

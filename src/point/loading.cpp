@@ -7,9 +7,6 @@ namespace solidus::point {
 
 namespace {
 
-constexpr const char* k_duration_rule =
-    "give its duration, or to one ramp both a target and a rate that lead there";
-
 /// The time that a ramp with target and rate takes; the sign of the rate follows from the target.
 std::optional<double> time_needed(const Ramp& ramp, double from) {
   if (!ramp.target || !ramp.rate) return std::nullopt;
@@ -18,17 +15,11 @@ std::optional<double> time_needed(const Ramp& ramp, double from) {
 
 double duration_of(const Segment& segment, const Target& begin) {
   std::optional<double> duration = segment.duration;
-  const auto take = [&](const Ramp& ramp, double from) {
-    const std::optional<double> needed = time_needed(ramp, from);
-    if (!needed) return;
-    if (duration) throw InputError(segment.where, "the segment's duration is given twice", k_duration_rule);
-    duration = needed;
-  };
-  for (int i = 0; i < 6; ++i) take(segment.components[static_cast<std::size_t>(i)], begin.value[i]);
-  take(segment.temperature, begin.temperature);
-  if (!duration) throw InputError(segment.where, "the segment has no duration", k_duration_rule);
-  if (!(*duration > 0) || !std::isfinite(*duration))
-    throw InputError(segment.where, "the segment takes " + std::to_string(*duration) + " s",
+  for (int i = 0; i < 6 && !duration; ++i)
+    duration = time_needed(segment.components[static_cast<std::size_t>(i)], begin.value[i]);
+  if (!duration) duration = time_needed(segment.temperature, begin.temperature);
+  if (!duration || !(*duration > 0) || !std::isfinite(*duration))
+    throw InputError(segment.where, "the segment takes no time: its target is there already",
                      "a target that differs from what is there, and a rate that is not zero");
   return *duration;
 }
@@ -51,6 +42,17 @@ double growth(double first, double sum, int n) {
 }
 
 }  // namespace
+
+void check_duration(const Segment& segment) {
+  int given = segment.duration ? 1 : 0;
+  const auto count = [&](const Ramp& ramp) { given += ramp.target && ramp.rate ? 1 : 0; };
+  for (const ComponentRamp& ramp : segment.components) count(ramp);
+  count(segment.temperature);
+  if (given != 1)
+    throw InputError(segment.where,
+                     given == 0 ? "the segment has no duration" : "the segment's duration is given twice",
+                     "its duration, or to one ramp both a target and a rate that lead there");
+}
 
 Path::Path(const Segment& segment, const Sym<double>& strain, const Sym<double>& stress, double temperature)
     : segment_(&segment) {

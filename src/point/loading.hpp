@@ -35,6 +35,9 @@ struct Segment {
   SourceLocation where;
 };
 
+/// Throws InputError where a segment has no duration, or more than one.
+void check_duration(const Segment& segment);
+
 /// The values at the end of a step.
 struct Target {
   std::array<Control, 6> of;
@@ -46,7 +49,7 @@ struct Target {
 class Path {
  public:
   /// @param strain, stress, temperature  at the beginning
-  /// Throws InputError where the segment has no duration, or more than one.
+  /// Throws InputError where its duration is zero: a target that is there already.
   Path(const Segment& segment, const Sym<double>& strain, const Sym<double>& stress, double temperature);
 
   double duration() const { return duration_; }

@@ -79,6 +79,7 @@ Segment make_segment(const SegmentSpec& s) {
   segment.steps = s.steps;
   segment.first_step = s.first_step;
   segment.where = s.where;
+  check_duration(segment);
   return segment;
 }
 
@@ -134,10 +135,8 @@ void refuse_temperatures(const std::vector<SegmentSpec>& segments) {
 }
 
 Curve make_curve(const PointSpec& spec, const CurveSpec& curve, std::span<const fs::path> library) {
-  const std::vector<SegmentSpec>& segments = curve.segments.empty() ? spec.segments : curve.segments;
   const SourceLocation& where = curve.where.file.empty() ? spec.where : curve.where;
-  if (segments.empty()) throw InputError(where, "there is no loading", "at least one [[segment]]");
-  check_overrides(curve, segments);
+  check_overrides(curve, spec.segments);
   Curve result{curve.name, curve.label.empty() ? curve.name : curve.label, {}, {}, std::nullopt};
   result.material = material::find_material(curve.material.value_or(spec.material), library,
                                             curve.material ? curve.where : spec.where);
@@ -147,8 +146,8 @@ Curve make_curve(const PointSpec& spec, const CurveSpec& curve, std::span<const 
   const double temperature = curve.temperature.value_or(spec.temperature);
   result.program.options = {temperature, spec.strain_reference.value_or(temperature), spec.integration,
                             spec.thermal};
-  if (spec.thermal == Thermal::adiabatic) refuse_temperatures(segments);
-  result.program.segments = make_segments(segments, curve);
+  if (spec.thermal == Thermal::adiabatic) refuse_temperatures(spec.segments);
+  result.program.segments = make_segments(spec.segments, curve);
   if (curve.measured) result.measured = read_measured(*curve.measured, curve.where);
   return result;
 }
@@ -209,6 +208,7 @@ PointCase make_point_case(Value document, std::span<const fs::path> library) {
   PointSpec spec;
   point_section().assign(spec, result.document);
   result.title = spec.title;
+  if (spec.segments.empty()) throw InputError(spec.where, "there is no loading", "at least one [[segment]]");
   if (spec.curves.empty()) spec.curves.emplace_back().name = "history";
   std::set<std::string> names;
   for (const CurveSpec& curve : spec.curves) {

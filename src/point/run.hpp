@@ -22,7 +22,7 @@ struct History {
 };
 
 /// Marches through all segments. A step that does not converge is halved, ten times at most. Throws
-/// InputError for a segment without a duration.
+/// InputError for a segment that takes no time.
 History run(const material::Material& material, const Program& program);
 
 }  // namespace solidus::point

@@ -37,7 +37,6 @@ struct CurveSpec {
   std::string name, label;
   std::optional<std::string> material, measured;
   std::optional<double> temperature, strain_rate, stress;
-  std::vector<SegmentSpec> segments;
   SourceLocation where;
 };
 
