@@ -7,8 +7,9 @@ namespace solidus::algebra {
 
 namespace {
 
-constexpr double k_smallest_step = 0.05;  ///< of the line search
-constexpr int k_line_search_trials = 6;   ///< residuals after the full step
+// A body that is plastic all through has next to no stiffness: its full step can be a hundred times too long.
+constexpr double k_smallest_step = 1e-3;  ///< of the line search
+constexpr int k_line_search_trials = 12;  ///< residuals after the full step
 
 double dot(std::span<const double> a, std::span<const double> b, std::size_t n) {
   double s = 0;

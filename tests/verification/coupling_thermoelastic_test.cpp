@@ -114,6 +114,21 @@ TEST(AdiabaticStraining, CoolsAsTheEntropySays) {
     out << 1.0 / (16 << i) << "," << of_quad4[0][i] << "," << of_quad4[1][i] << "\n";
 }
 
+// For small strains ΔΘ = −3αkΘ tr ε/C, in a single step. What is left is of the order of ΔΘ/Θ.
+TEST(AdiabaticStraining, ASmallStrainCoolsByKelvinsFormulaToOneInTenThousand) {
+  constexpr double k_strain = 2e-6;
+  const double kelvin = -3 * k_alpha * k_bulk * k_start * k_strain / k_capacity;
+  for (const Kind& body : k_bodies)
+    for (StructuralForm form : {StructuralForm::entropy, StructuralForm::energy}) {
+      Coupled c = cube(body, form);
+      c.hold("top", 1, Table({0, 1}, {0, k_strain}));
+      c.hold("right", 0);
+      if (body.kind == AnalysisKind::solid) c.hold("front", 2);
+      const double change = uniform_temperature(c, verification::march(c, 1, 1)) - k_start;
+      EXPECT_NEAR(change, kelvin, 1e-4 * std::abs(kelvin)) << name(body.shape, form);
+    }
+}
+
 TEST(AdiabaticTension, CoolsAsKelvinSays) {
   constexpr double k_stress = 2e8;
   const double exact = root([](double t) {

@@ -62,10 +62,13 @@ struct PlasticTube {
   }
   double axial(double r) const { return 0.5 * (radial(r) + hoop(r)); }
 
-  /// Radial displacement for ν = 1/2, G = E/3; from the elastic part, which has σ_θ − σ_r = 4 G u/r.
-  double displacement(double r, double shear) const {
-    const double c = front();
-    return elastic_scale(c) * outer * outer / (2 * shear * r);
+  /// Radial displacement. The dilatation is elastic, (r u)'/r = (1 + ν)(1 − 2ν)/E (σ_r + σ_θ), and
+  /// σ_r + σ_θ = (r² σ_r)'/r: so u = (1 + ν)(1 − 2ν)/E r σ_r + const/r. Exact for ν = 1/2; for ν < 1/2 in so
+  /// far as no plastic strain is axial (Hill's assumption, exact with Tresca's flow rule).
+  double displacement(double r, double young, double poisson) const {
+    return (1 + poisson) / young *
+           ((1 - 2 * poisson) * r * radial(r) +
+            2 * (1 - poisson) * elastic_scale(front()) * outer * outer / r);
   }
 
  private:
