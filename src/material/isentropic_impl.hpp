@@ -6,9 +6,9 @@
 namespace solidus::material {
 namespace detail {
 
-/// What may be left of ΔS^E, in parts of C_v: rounding of Θ̄ alone leaves 1e-16, that of a strain of 1 about
-/// 1e-14.
-inline constexpr double k_entropy_tolerance = 1e-12;
+/// What may be left of ΔS^E, in parts of C_v: a temperature of 1000 K is then exact to 1e-8 K. Rounding
+/// leaves 1e-16, with a strain of 1 about 1e-14.
+inline constexpr double k_entropy_tolerance = 1e-11;
 inline constexpr int k_max_temperatures = 100;
 /// A property keeps this part of its value along its line.
 inline constexpr double k_kept_share = 0.25;
@@ -44,7 +44,7 @@ class Range {
 
 /// Values of jets.
 template <class T>
-Viscoplastic::Properties<T> values(const Viscoplastic::Properties<Jet<T>>& p) {
+[[gnu::always_inline]] inline Viscoplastic::Properties<T> values(const Viscoplastic::Properties<Jet<T>>& p) {
   const auto& e = p.elastic;
   const auto& f = p.flow;
   return {{e.bulk.v, e.shear.v, e.thermal_strain.v, e.solid_fraction.v, e.viscosity.v},
@@ -104,8 +104,8 @@ Isentropic::Properties<T> Isentropic::properties_at(const T& temperature,
 }
 
 template <class T>
-Viscoplastic::Properties<Jet<T>> Isentropic::at_temperature(const Properties<T>& p,
-                                                            const T& temperature) const {
+[[gnu::always_inline]] inline Viscoplastic::Properties<Jet<T>> Isentropic::at_temperature(
+    const Properties<T>& p, const T& temperature) const {
   using J = Jet<T>;
   const T change = temperature - p.temperature;
   const J young = detail::along(p.young, change), poisson = detail::along(p.poisson, change);
@@ -205,7 +205,8 @@ Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T
     }
     low = select(f < zero, theta, low);
     high = select(f > zero, theta, high);
-    const T newton = theta - f / slope;
+    const T step = T(0.0) - f / (theta * slope);  // of ln Θ, in which sensible heat is linear
+    const T newton = theta * (T(1.0) + step * (T(1.0) + T(0.5) * step));
     theta = select((newton >= low) & (newton <= high), newton, T(T(0.5) * (low + high)));
   }
 }

@@ -30,8 +30,9 @@ class Variation {
   using J = Jet<T>;
   using State = Viscoplastic::State<T>;
 
-  Variation(const Viscoplastic& law, const Viscoplastic::Properties<J>& p, const State& start,
-            const Sym<T>& strain, double dt, const Viscoplastic::Response<T>& r)
+  [[gnu::always_inline]] Variation(const Viscoplastic& law, const Viscoplastic::Properties<J>& p,
+                                   const State& start, const Sym<T>& strain, double dt,
+                                   const Viscoplastic::Response<T>& r)
       : law_(law),
         p_(p),
         shear_(law.shear(p.elastic, dt)),
@@ -41,11 +42,11 @@ class Variation {
         elastic_(trial_),
         zeta_(r.state.back_strain),
         xi_(r.state.hardening) {
-    if (law.material().flow) add_flow(start, r);
+    if (law.material().flow && any(r.flow_increment > T(0.0))) add_flow(start, r);
   }
 
   /// dσ/dΘ.
-  Sym<T> stress() const {
+  [[gnu::always_inline]] Sym<T> stress() const {
     const J pressure = p_.elastic.bulk * (J(trace_) - p_.elastic.thermal_strain);
     Sym<T> slope = shear_.twice_shear.d * elastic_ + shear_.twice_shear.v * elastic_theta_;
     for (int i = 0; i < 3; ++i) slope[i] += pressure.d;
@@ -57,7 +58,7 @@ class Variation {
   }
 
   /// @param in_strain  false: without the covector
-  Derivatives<T> entropy(bool in_strain = true) const {
+  [[gnu::always_inline]] Derivatives<T> entropy(bool in_strain = true) const {
     const J& k = p_.elastic.bulk;
     const J pull = k * p_.elastic.thermal_strain;
     const J q = spring_slope();
@@ -121,7 +122,7 @@ class Variation {
   Sym<T> across(const Sym<T>& a) const { return a - dot(normal_, a) * normal_; }
 
   /// W_Θ/(a:a) at fixed elastic strain, and its derivative.
-  J spring_slope() const {
+  [[gnu::always_inline]] J spring_slope() const {
     const J &g = p_.elastic.shear, &f = p_.elastic.solid_fraction;
     const J g_theta(g.d, g.dd, T(0.0)), f_theta(f.d, T(0.0), T(0.0));
     switch (law_.material().liquid_model) {
@@ -136,7 +137,7 @@ class Variation {
     return (f * g_theta - f_theta * g) * share * share;
   }
 
-  void add_flow(const State& start, const Viscoplastic::Response<T>& r) {
+  [[gnu::always_inline]] void add_flow(const State& start, const Viscoplastic::Response<T>& r) {
     const T zero(0.0), one(1.0);
     const auto flows = r.flow_increment > zero;
     gamma_ = select(flows, r.flow_increment, zero);
@@ -181,7 +182,7 @@ class Variation {
   }
 
   /// x_γ and x_Θ of γ = m Δt/η x (x/D)^(n−1), each at fixed other.
-  void rate_derivatives(const Flow& flow) {
+  [[gnu::always_inline]] void rate_derivatives(const Flow& flow) {
     const T zero(0.0), one(1.0);
     const J &m = shear_.flow_share, &eta = p_.flow.viscosity, &n = p_.flow.exponent, &d = p_.flow.drag_stress;
     const auto liquid = !(m.v > zero);
