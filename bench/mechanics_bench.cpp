@@ -1,5 +1,5 @@
-/// Nanoseconds per element of the mechanical tangent and residual (viscoelastic law), assembly into the block
-/// matrix included.
+/// Nanoseconds per element of the mechanical tangent and residual, assembly into the block matrix included:
+/// elastic, and J2 plasticity with all points flowing.
 ///
 ///   OMP_NUM_THREADS=1 ./mechanics_bench        (build with -DSOLIDUS_MARCH=native for the numbers of the
 ///   design)
@@ -10,6 +10,7 @@
 
 #include "lattice.hpp"
 #include "mechanics/block_kernel.hpp"
+#include "mechanics/law_block.hpp"
 
 namespace solidus {
 namespace {
@@ -24,24 +25,73 @@ material::Material steel() {
   return m;
 }
 
+/// Rate-independent, linear hardening: the return mapping is in closed form.
+material::Material j2() {
+  material::Material m = steel();
+  material::Flow flow;
+  flow.flow_stress = Table({280, 400, 600, 800}, {3e6, 2.5e6, 2e6, 1e6});
+  flow.isotropic = material::IsotropicHardening::linear;
+  flow.hardening_modulus = 1e9;
+  flow.viscosity = 0.0;
+  m.flow = flow;
+  return m;
+}
+
+/// Saturating and kinematic hardening: a Newton iteration in every point.
+material::Material saturating() {
+  material::Material m = j2();
+  m.flow->isotropic = material::IsotropicHardening::saturation;
+  m.flow->saturation_stress = Table({280, 400, 600, 800}, {6e6, 5e6, 4e6, 2e6});
+  m.flow->saturation_rate = 50.0;
+  m.flow->kinematic = material::KinematicHardening::linear;
+  m.flow->kinematic_modulus = 2e9;
+  return m;
+}
+
+/// The law with its tangent as a 6×6 matrix: what an element costs that knows nothing of its form.
+struct General : material::Viscoplastic {
+  using Viscoplastic::Viscoplastic;
+  template <class T>
+  struct Response {
+    Sym<T> stress;
+    State<T> state;
+    Sym4<T> tangent;
+    T dissipation, plastic_power, plastic_dissipation;
+    material::Status status;
+  };
+  template <class T>
+  Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain, double dt) const {
+    const auto r = Viscoplastic::update(p, start, strain, dt);
+    return {r.stress, r.state, full_tangent(r), r.dissipation, r.plastic_power, r.plastic_dissipation,
+            r.status};
+  }
+};
+
 /// One block ready to compute, with its matrix.
 struct Prepared {
   mesh::Mesh mesh;
-  material::Material material = steel();
+  material::Material material;
   int components;
   std::unique_ptr<mechanics::BlockKernel> kernel;
   std::unique_ptr<algebra::BlockMatrix> matrix;
   mechanics::BlockHistory history;
   std::vector<double> temperature, temperature_rate, u, forces;
 
-  Prepared(mesh::Shape shape, int cells, AnalysisKind kind)
+  Prepared(mesh::Shape shape, int cells, AnalysisKind kind, material::Material of = steel(),
+           bool general = false)
       : mesh(test::make_mesh({.shape = shape, .cells = {cells, cells, cells}, .distortion = 0.1})),
+        material(std::move(of)),
         components(displacement_components(kind)),
-        kernel(mechanics::make_block_kernel(mesh, mesh.blocks.front(), kind, material, true)),
         temperature(mesh.x.size(), 300.0),
         temperature_rate(mesh.x.size()),
         u(mesh.x.size() * static_cast<std::size_t>(components)),
         forces(u.size()) {
+    const mesh::Block& block = mesh.blocks.front();
+    if (general)
+      kernel = std::make_unique<mechanics::LawBlock<General, 4, AnalysisKind::solid, false>>(mesh, block,
+                                                                                             material);
+    else
+      kernel = mechanics::make_block_kernel(mesh, block, kind, material, true);
     algebra::NodeGraph graph(mesh);
     graph.add_cliques(mesh.blocks.front().nodes, mesh::node_count(shape));
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));
@@ -58,8 +108,9 @@ struct Prepared {
   }
 };
 
-void tangent(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
-  Prepared p(shape, cells, kind);
+void tangent(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind,
+             material::Material material = steel(), bool general = false) {
+  Prepared p(shape, cells, kind, std::move(material), general);
   for (auto _ : state) {
     p.matrix->set_zero();
     p.kernel->add_tangent(p.u, *p.matrix);
@@ -75,8 +126,9 @@ void hand_over(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKi
   p.report(state);
 }
 
-void residual(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
-  Prepared p(shape, cells, kind);
+void residual(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind,
+              material::Material material = steel()) {
+  Prepared p(shape, cells, kind, std::move(material));
   for (auto _ : state) benchmark::DoNotOptimize(p.kernel->add_forces(p.u, p.forces));
   p.report(state);
 }
@@ -97,6 +149,16 @@ constexpr auto k_axisymmetric = AnalysisKind::axisymmetric;
 BENCHMARK_CAPTURE(tangent, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(hand_over, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(residual, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, tet4_j2, mesh::Shape::tet4, 30, k_solid, j2())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tet4_j2, mesh::Shape::tet4, 30, k_solid, j2())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, tet4_j2_general, mesh::Shape::tet4, 30, k_solid, j2(), true)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, tet4_saturating, mesh::Shape::tet4, 30, k_solid, saturating())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tet4_saturating, mesh::Shape::tet4, 30, k_solid, saturating())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, hex8_j2, mesh::Shape::hex8, 30, k_solid, j2())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, hex8_j2, mesh::Shape::hex8, 30, k_solid, j2())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(tangent, hex8, mesh::Shape::hex8, 30, k_solid)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(hand_over, hex8, mesh::Shape::hex8, 30, k_solid)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(residual, hex8, mesh::Shape::hex8, 30, k_solid)->Unit(benchmark::kMillisecond);

@@ -20,17 +20,17 @@ void append_common(ElementFields& fields, const Values& values) {
 
 ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
                                    const material::Viscoplastic::Properties<Lane>& p,
-                                   const material::Viscoplastic::Response<Lane>& r, const Sym<Lane>& strain) {
-  ViscoplasticValues<Lane> v{r.stress, strain, r.state.viscous_strain, r.state.plastic_strain, {}, {},
-                             {},       {}};
-  v.dissipation = r.dissipation;
-  v.equivalent_plastic_strain = r.state.hardening;
+                                   const material::Viscoplastic::State<Lane>& state) {
+  ViscoplasticValues<Lane> v;
+  v.viscous_strain = state.viscous_strain;
+  v.plastic_strain = state.plastic_strain;
+  v.equivalent_plastic_strain = state.hardening;
   if (!law.material().flow) return v;
   const material::Flow& flow = *law.material().flow;
   const Lane strength = law.shear(p.elastic, 1.0).strength;
-  const auto hardening = hardening_stress(flow.isotropic, flow.curves, p.flow, r.state.hardening);
+  const auto hardening = hardening_stress(flow.isotropic, flow.curves, p.flow, state.hardening);
   v.flow_stress = strength * (p.flow.flow_stress + hardening.stress);
-  v.back_stress = Lane(-2.0 / 3.0) * strength * p.flow.kinematic_modulus * r.state.back_strain;
+  v.back_stress = Lane(-2.0 / 3.0) * strength * p.flow.kinematic_modulus * state.back_strain;
   return v;
 }
 

@@ -50,8 +50,8 @@ template <class Response>
 PlasticPower plastic_power(const material::Viscoelastic&, const Response&) {
   return {};
 }
-inline PlasticPower plastic_power(const material::Viscoplastic&,
-                                  const material::Viscoplastic::Response<Lane>& r) {
+template <class Response>
+PlasticPower plastic_power(const material::Viscoplastic&, const Response& r) {
   return {r.plastic_power, r.plastic_dissipation};
 }
 
@@ -74,9 +74,20 @@ ViscoelasticValues<Lane> values_of(const material::Viscoelastic&, const material
                                    const Response& r, const Sym<Lane>& strain) {
   return {r.stress, strain, r.state.viscous_strain, r.dissipation};
 }
+/// The flow stress and what follows from state and properties: everything but stress, strain and dissipation.
 ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
                                    const material::Viscoplastic::Properties<Lane>& p,
-                                   const material::Viscoplastic::Response<Lane>& r, const Sym<Lane>& strain);
+                                   const material::Viscoplastic::State<Lane>& state);
+template <class Response>
+ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
+                                   const material::Viscoplastic::Properties<Lane>& p, const Response& r,
+                                   const Sym<Lane>& strain) {
+  ViscoplasticValues<Lane> v = values_of(law, p, r.state);
+  v.stress = r.stress;
+  v.strain = strain;
+  v.dissipation = r.dissipation;
+  return v;
+}
 
 /// Appends those of one element; what a law does not know is zero.
 void append(ElementFields& fields, const ViscoelasticValues<double>& values);

@@ -11,8 +11,11 @@ namespace {
 
 GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
                                       const Probes& probes) {
-  return {phases.heat != nullptr && options.melting, !phases.contacts.empty(), phases.mechanics != nullptr,
-          phases.mechanics != nullptr && phases.mechanics->plastic(), probes.columns()};
+  return {.melting = phases.heat != nullptr && options.melting,
+          .contact = !phases.contacts.empty(),
+          .mechanics = phases.mechanics != nullptr,
+          .taken = probes.columns(),
+          .plastic = phases.mechanics != nullptr && phases.mechanics->plastic()};
 }
 
 int process() {

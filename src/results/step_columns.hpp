@@ -19,9 +19,10 @@ std::vector<Cell> step_row(const coupling::StepRecord& record);
 class GlobalHistory {
  public:
   struct Options {
-    bool melting = true, contact = true, mechanics = true, plastic = false;
+    bool melting = true, contact = true, mechanics = true;
     /// Columns that probes of the same header give already; they are left out here.
     std::vector<Column> taken = {};
+    bool plastic = false;  ///< a material can flow plastically
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 

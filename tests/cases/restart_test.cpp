@@ -83,6 +83,13 @@ TEST_F(Restart, GoesOnWithTheSameBitsWithMultigrid) {
   expect_the_same("--set mechanics.solver='\"multigrid\"'", 1);
 }
 
+TEST_F(Restart, GoesOnWithTheSameBitsOfATwoStepMethodAndPlasticHistory) {
+  expect_the_same(
+      "--set mechanics.integration='\"bdf2\"' --set time.step='\"0.5 s\"'"
+      " --set body.part.material='\"aluminium_99_7_plastic\"'",
+      1);
+}
+
 // MUMPS on several processes adds in the order in which messages come: two runs never have the same bits.
 TEST_F(Restart, GoesOnWithTheSameBitsOnTwoProcesses) {
   expect_the_same("--set mechanics.solver='\"multigrid\"'", 2);

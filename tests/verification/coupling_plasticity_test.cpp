@@ -33,7 +33,7 @@ Coupled bar(IsotropicHardening isotropic, KinematicHardening kinematic) {
   flow.reference_strain = 2e-3;
   flow.hardening_exponent = Table({300, 900}, {0.2, 0.1});
   flow.kinematic = kinematic;
-  flow.kinematic_modulus = Table({300, 900}, {1e10, 4e9});
+  if (kinematic != KinematicHardening::none) flow.kinematic_modulus = Table({300, 900}, {1e10, 4e9});
   flow.recall = 80.0;
   flow.viscosity = 1e9;
   m.flow = flow;

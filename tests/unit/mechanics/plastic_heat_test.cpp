@@ -20,6 +20,7 @@ material::Material material_of(material::IsotropicHardening isotropic, Kinematic
   m.young_modulus = Table({300, 500}, {2e11, 1.5e11});
   m.expansion = Table({300, 500}, {1.0e-5, 1.4e-5});
   m.flow->isotropic = isotropic;
+  if (kinematic == KinematicHardening::none) m.flow->kinematic_modulus = 0.0;
   m.flow->reference_strain = 1e-3;
   m.flow->hardening_exponent = Table({300, 500}, {0.3, 0.2});
   m.flow->viscosity = 0.0;

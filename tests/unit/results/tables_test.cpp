@@ -228,6 +228,25 @@ TEST(GlobalHistory, SumsTheFirstLawOverTheSteps) {
   EXPECT_DOUBLE_EQ(history.relative_defect(), 3.0 / 60.0);
 }
 
+TEST(GlobalHistory, ShowsWhereThePlasticWorkWent) {
+  GlobalHistory history({.plastic = true});
+  coupling::StepRecord step = sample_step();
+  step.energy.viscous_dissipation = 1;
+  step.energy.plastic_dissipation = 4;
+  step.energy.plastic_work = 5;
+  history.add(step);
+  history.add(step);
+  const auto columns = history.columns();
+  const auto values = history.values();
+  std::map<std::string, double> by_header;
+  for (std::size_t i = 0; i < columns.size(); ++i) by_header[columns[i].header()] = values[i];
+  EXPECT_DOUBLE_EQ(by_header.at("viscous_dissipation[J]"), 2.0);
+  EXPECT_DOUBLE_EQ(by_header.at("plastic_dissipation[J]"), 8.0);
+  EXPECT_DOUBLE_EQ(by_header.at("plastic_work[J]"), 10.0);
+  EXPECT_DOUBLE_EQ(by_header.at("hardening_energy[J]"), 2.0);
+  EXPECT_EQ(GlobalHistory({}).columns().size(), columns.size() - 3);
+}
+
 TEST(GlobalHistory, LeavesOutWhatAProbeGivesUnderTheSameHeader) {
   const GlobalHistory history({true, true, true, {{"solid_fraction", "1"}, {"T_min", "K"}}});
   EXPECT_EQ(history.columns().size(), history.values().size());
