@@ -29,11 +29,14 @@ class Range {
  public:
   explicit Range(const T& middle) : middle_(middle), low_(T(0.5) * middle), high_(T(2.0) * middle) {}
   void keep(const T& value, const T& slope) {
-    const T zero(0.0), steep(1e-200), room = T(1.0 - k_kept_share) * value;
-    const auto rises = (slope > steep) & (value > zero), falls = (slope < -steep) & (value > zero);
-    const T bound = middle_ - room / select(rises | falls, slope, T(1.0));
-    low_ = select(rises & (bound > low_), bound, low_);
-    high_ = select(falls & (bound < high_), bound, high_);
+    const T zero(0.0), steep(1e-200);
+    const T rise = select(slope < zero, T(-slope), slope);
+    const T reach = T(1.0 - k_kept_share) * value / select(rise > steep, rise, steep);
+    const T below = middle_ - select(slope > zero, reach, middle_);
+    const T above = middle_ + select(slope < zero, reach, middle_);
+    const auto positive = value > zero;
+    low_ = select(positive, select(below > low_, below, low_), low_);
+    high_ = select(positive, select(above < high_, above, high_), high_);
   }
   const T& low() const { return low_; }
   const T& high() const { return high_; }
@@ -193,7 +196,7 @@ Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T
 
     // Types that carry derivatives take one step more, which their derivatives need.
     const bool last = solved || i == detail::k_max_temperatures;
-    solved = all((f <= tolerance) & (zero - f <= tolerance));
+    solved = all(f <= tolerance) && all(-f <= tolerance);
     if (last || (solved && detail::is_plain<T>)) {
       r.temperature = theta;
       r.entropy_defect = f;
@@ -207,7 +210,8 @@ Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T
     high = select(f > zero, theta, high);
     const T step = T(0.0) - f / (theta * slope);  // of ln Θ, in which sensible heat is linear
     const T newton = theta * (T(1.0) + step * (T(1.0) + T(0.5) * step));
-    theta = select((newton >= low) & (newton <= high), newton, T(T(0.5) * (low + high)));
+    const T middle = T(0.5) * (low + high);
+    theta = select(newton >= low, select(newton <= high, newton, middle), middle);
   }
 }
 
