@@ -1,16 +1,23 @@
 #include "point/loading.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace solidus::point {
 
 namespace {
 
+/// Relative difference below which a target is there already: the accuracy of stresses found by iteration.
+constexpr double k_same = 1e-9;
+/// Of the duration, the rounding of a sum of steps.
+constexpr double k_rounding = 1e-12;
+
 /// The time that a ramp with target and rate takes; the sign of the rate follows from the target.
 std::optional<double> time_needed(const Ramp& ramp, double from) {
   if (!ramp.target || !ramp.rate) return std::nullopt;
-  return std::abs(*ramp.target - from) / std::abs(*ramp.rate);
+  const double way = std::abs(*ramp.target - from);
+  if (way <= k_same * std::max(std::abs(*ramp.target), std::abs(from))) return 0;
+  return way / std::abs(*ramp.rate);
 }
 
 double duration_of(const Segment& segment, const Target& begin) {
@@ -70,6 +77,7 @@ Path::Path(const Segment& segment, const Sym<double>& strain, const Sym<double>&
 }
 
 Target Path::at(double time) const {
+  if (time >= (1 - k_rounding) * duration_) return end_;
   const double part = time / duration_;
   Target target = begin_;
   target.value = (1 - part) * begin_.value + part * end_.value;

@@ -38,7 +38,7 @@ TEST(CyclicPoint, FollowsTheClosedFormOfCombinedHardeningForAnyStep) {
   for (const int steps : {3, 40}) {
     const History h = run_all(combined(), k_cold, cycles(0.01, 3, steps));
     double p_start = 0, xi_start = 0, p = 0, xi = 0, previous = 0, direction = 1;
-    auto table = csv("point_cyclic_combined", "strain,exact_stress[MPa],stress[MPa]");
+    auto table = csv("point_cyclic_combined", "strain[%],exact_stress[MPa],stress[MPa]");
     for (const Record& r : h.records) {
       const double strain = r.strain[0];
       if ((strain - previous) * direction < 0) direction = -direction, p_start = p, xi_start = xi;
@@ -52,7 +52,7 @@ TEST(CyclicPoint, FollowsTheClosedFormOfCombinedHardeningForAnyStep) {
       EXPECT_NEAR(r.plastic_strain[0], p, 1e-12);
       EXPECT_NEAR(r.equivalent_plastic, xi, 1e-11);
       EXPECT_NEAR(1.5 * r.back_stress[0], k_kin * p, 1e-9 * k_flow_stress);
-      table << strain << "," << 1e-6 * k_young * (strain - p) << "," << 1e-6 * r.stress[0] << "\n";
+      table << 100 * strain << "," << 1e-6 * k_young * (strain - p) << "," << 1e-6 * r.stress[0] << "\n";
     }
   }
 }
@@ -106,9 +106,9 @@ TEST(CyclicPoint, StableLoopOfArmstrongFrederickHasTheAmplitudeOfTheClosedForm) 
     const double amplitude = k_limit * std::tanh(0.5 * k_recall * range);
     EXPECT_NEAR(up.stress[0], -down.stress[0], 1e-5 * up.stress[0]);  // closed and symmetric
     errors.push_back(std::abs(up.stress[0] - k_flow_stress - amplitude) / amplitude);
-    auto table = csv("point_armstrong_frederick_loop", "strain,stress[MPa],back_stress[MPa]");
+    auto table = csv("point_armstrong_frederick_loop", "strain[%],stress[MPa],back_stress[MPa]");
     for (const Record& r : h.records)
-      table << r.strain[0] << "," << 1e-6 * r.stress[0] << "," << 1.5e-6 * r.back_stress[0] << "\n";
+      table << 100 * r.strain[0] << "," << 1e-6 * r.stress[0] << "," << 1.5e-6 * r.back_stress[0] << "\n";
   }
   EXPECT_LT(errors[1], 2e-3);
   EXPECT_NEAR(observed_order(errors[0], errors[1]), 1, 0.2);
