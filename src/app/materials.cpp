@@ -20,31 +20,44 @@ std::string celsius(double kelvin) {
   return fmt::format("{:.6g} degC", units::to_display(kelvin, "K", "degC"));
 }
 
-std::string property(const std::string& name, const Table& table, const std::string& unit) {
-  if (table.constant()) return fmt::format("  {:<22} {:.6g} {}\n", name, table.y()[0], unit);
-  std::string out = fmt::format("  {:<22} of temperature [{}]\n", name, unit);
+/// Stresses are printed in MPa, numbers without a unit as they are.
+struct Shown {
+  std::string unit;
+  double scale = 1;
+  explicit Shown(const std::string& si) : unit(si == "Pa" ? "MPa" : si == "1" ? "" : si) {
+    if (si == "Pa") scale = 1e-6;
+  }
+};
+
+std::string property(const std::string& name, const Table& table, const std::string& si_unit) {
+  const Shown shown(si_unit);
+  const std::string space = shown.unit.empty() ? "" : " ";
+  if (table.constant())
+    return fmt::format("  {:<29} {:.6g}{}{}\n", name, shown.scale * table.y()[0], space, shown.unit);
+  std::string out =
+      fmt::format("  {:<29} of temperature{}\n", name, shown.unit.empty() ? "" : " [" + shown.unit + "]");
   for (std::size_t i = 0; i < table.x().size(); ++i)
-    out += fmt::format("  {:<22} {:>12}  {:.6g}\n", "", celsius(table.x()[i]), table.y()[i]);
+    out += fmt::format("  {:<29} {:>12}  {:.6g}\n", "", celsius(table.x()[i]), shown.scale * table.y()[i]);
   return out;
 }
 
-/// Measured curves: a column for each temperature.
+/// Measured curves, one a row.
 std::string flow_curves(const material::FlowCurves& curves) {
-  std::string out = "  plasticity.flow_curve  stress [MPa] over plastic strain\n";
+  std::string out = fmt::format("  {:<29} stress [MPa] over plastic strain\n  {:<29} {:>12} ",
+                                "plasticity.flow_curve", "", "");
+  for (const double strain : curves.strains()) out += fmt::format(" {:>7.4g}", strain);
   for (std::size_t row = 0; row < curves.temperatures().size(); ++row) {
-    out += fmt::format("  {:<22} {:>12} ", "", celsius(curves.temperatures()[row]));
+    out += fmt::format("\n  {:<29} {:>12} ", "", celsius(curves.temperatures()[row]));
     for (std::size_t i = 0; i < curves.strains().size(); ++i)
-      out += fmt::format(" {:g}: {:.4g}", curves.strains()[i],
-                         1e-6 * curves.stresses()[row * curves.strains().size() + i]);
-    out += "\n";
+      out += fmt::format(" {:>7.4g}", 1e-6 * curves.stresses()[row * curves.strains().size() + i]);
   }
-  return out;
+  return out + "\n";
 }
 
 std::string plasticity(const material::Flow& flow) {
   constexpr std::array isotropic{"none", "linear", "saturation", "power", "table"};
   constexpr std::array kinematic{"none", "linear", "armstrong_frederick"};
-  return fmt::format("  {:<22} isotropic hardening {}, kinematic hardening {}, rate dependence {}\n",
+  return fmt::format("  {:<29} isotropic hardening {}, kinematic hardening {}, rate dependence {}\n",
                      "plasticity", isotropic.at(static_cast<std::size_t>(flow.isotropic)),
                      kinematic.at(static_cast<std::size_t>(flow.kinematic)),
                      flow.rate_independent() ? "none" : "perzyna");
@@ -53,24 +66,26 @@ std::string plasticity(const material::Flow& flow) {
 std::string describe(const Material& m) {
   std::string out = fmt::format("{}: {}\n", m.name, m.title);
   out += property("density", Table(m.density), "kg/m3");
-  for (const material::Property& p : m.properties()) out += property(p.name, *p.table, p.unit);
+  const bool curves = m.flow && !m.flow->curves.empty();
+  for (const material::Property& p : m.properties())
+    if (!curves || p.table != &m.flow->flow_stress) out += property(p.name, *p.table, p.unit);
   if (m.mechanical())
-    out += fmt::format("  {:<22} {}\n", "expansion_reference", celsius(m.expansion_reference));
+    out += fmt::format("  {:<29} {}\n", "expansion_reference", celsius(m.expansion_reference));
   if (m.flow) out += plasticity(*m.flow);
-  if (m.flow && !m.flow->curves.empty()) out += flow_curves(m.flow->curves);
+  if (curves) out += flow_curves(m.flow->curves);
   if (m.mechanical() && m.solidification()) {
     constexpr std::array models{"maxwell", "modified_shear", "degenerated"};
-    out += fmt::format("  {:<22} {}\n", "liquid_model", models.at(static_cast<std::size_t>(m.liquid_model)));
+    out += fmt::format("  {:<29} {}\n", "liquid_model", models.at(static_cast<std::size_t>(m.liquid_model)));
   }
   for (const auto& change : m.phase_changes)
-    out += fmt::format("  {:<22} {} to {}, latent heat {:.6g} J/kg, volume change {:.3g}{}\n", change.name,
+    out += fmt::format("  {:<29} {} to {}, latent heat {:.6g} J/kg, volume change {:.3g}{}\n", change.name,
                        celsius(change.fraction.solidus()), celsius(change.fraction.liquidus()),
                        change.latent_heat, change.volume_change,
                        change.solidification ? ", solidification" : "");
   out += "Sources and validity\n";
   for (const auto& note : m.notes)
     out +=
-        fmt::format("  {:<22} {}{}\n", note.property, note.source.empty() ? "no source given" : note.source,
+        fmt::format("  {:<29} {}{}\n", note.property, note.source.empty() ? "no source given" : note.source,
                     note.valid_to > note.valid_from
                         ? fmt::format(" ({} to {})", celsius(note.valid_from), celsius(note.valid_to))
                         : "");

@@ -89,6 +89,14 @@ conductivity = "40 W/m/K"
 specific_heat = "500 J/kg/K"
 )";
 
+/// It yields too; its flow stress stands in line 9, last.
+const std::string k_plastic_material = k_material + R"(young_modulus = "200 GPa"
+poisson_ratio = 0.3
+expansion = "1.2e-5 1/K"
+[plasticity]
+flow_stress = { argument_unit = "degC", unit = "MPa", points = [[20, 300], [600, 90]] }
+)";
+
 /// `text` with the first `what` replaced; a test that changes nothing would prove nothing.
 std::string changed(std::string text, const std::string& what, const std::string& with) {
   const std::size_t at = text.find(what);
@@ -295,6 +303,33 @@ std::vector<BadInput> material_files() {
                    changed(k_material, "\"40 W/m/K\"",
                            "{ argument_unit = \"degC\", unit = \"W/m/K\", points = [[100, 40], [20, 50]] }"),
                    {"own.toml:3:", "point 2 of 'conductivity'"}),
+      bad_material("flow_stress_that_rises_with_temperature", changed(k_plastic_material, "90]]", "310]]"),
+                   {"own.toml:9:15", "from 300 MPa at 20 degC to 310 MPa at 600 degC", "2.121",
+                    "allow_thermal_hardening"}),
+      bad_material("flow_stress_in_the_wrong_unit", changed(k_plastic_material, "\"MPa\"", "\"GPa\""),
+                   {"own.toml:9:15", "tenth of Young's modulus", "is a unit wrong?"}),
+      bad_material("plasticity_without_stiffness",
+                   changed(k_plastic_material,
+                           "young_modulus = \"200 GPa\"\npoisson_ratio = "
+                           "0.3\nexpansion = \"1.2e-5 1/K\"\n",
+                           ""),
+                   {"own.toml:5", "no elastic properties"}),
+      bad_material("hardening_without_its_modulus", k_plastic_material + "isotropic_hardening = \"linear\"\n",
+                   {"own.toml:8", "'hardening_modulus' is missing"}),
+      bad_material("key_of_another_hardening", k_plastic_material + "saturation_rate = 10\n",
+                   {"own.toml:10:19", "'saturation_rate' does not belong", "saturation"}),
+      bad_material("rate_exponent_below_one",
+                   k_plastic_material + "rate_dependence = \"perzyna\"\nviscosity = \"1e9 Pa "
+                                        "s\"\nrate_exponent = 0.5\n",
+                   {"own.toml:12:17", "'rate_exponent'", "at least 1"}),
+      bad_material("flow_curve_that_softens",
+                   changed(k_plastic_material, "flow_stress", "isotropic_hardening = \"table\" # ") +
+                       "[[plasticity.flow_curve]]\ntemperature = \"20 degC\"\nstress = { unit = \"MPa\", "
+                       "points = [[0, 300], [0.1, 250]] }\n",
+                   {"own.toml:12:10", "falls from 300 MPa", "softening is not supported"}),
+      bad_material("liquid_model_of_what_never_melts",
+                   "liquid_model = \"degenerated\"\n" + k_plastic_material,
+                   {"own.toml", "does not solidify"}),
       {"mechanics_of_a_material_without_stiffness",
        {{"case.toml", changed(good_but("\"steel_mould\"", "\"own.toml\""), "physics = \"heat\"",
                               "physics = \"thermomechanical\"")},
@@ -318,6 +353,11 @@ std::vector<BadInput> command_lines() {
       bad_arguments("explanation_of_an_unknown_key", "explain time.stop", {"'stop'", "did you mean 'step'?"}),
       bad_arguments("material_that_is_not_there", "materials aluminum_99_7",
                     {"did you mean 'aluminium_99_7'?"}),
+      bad_arguments("tables_of_no_material", "materials -o tables", {"materials NAME -o FOLDER"}),
+      {"tables_where_a_file_is",
+       {{"taken", "a file"}},
+       "materials steel_mould -o taken/here",
+       {"taken/here"}},
       {"results_where_a_file_is",
        {{"case.toml", k_good}, {"taken", "a file"}},
        "run case.toml -o taken/here",
@@ -412,8 +452,10 @@ TEST(BadInputTest, TheCasesTheBrokenOnesAreMadeFromAreRight) {
   std::ofstream(folder / "mesh.toml") << k_mesh_case;
   std::ofstream(folder / "part.msh") << mesh();
   std::ofstream(folder / "own.toml") << k_material;
+  std::ofstream(folder / "plastic.toml") << k_plastic_material;
   for (const char* arguments :
-       {"check good.toml", "check mesh.toml", "check good.toml --set body.block.material=own.toml"}) {
+       {"check good.toml", "check mesh.toml", "check good.toml --set body.block.material=own.toml",
+        "check good.toml --set body.block.material=plastic.toml"}) {
     const Outcome outcome = run(folder, arguments);
     EXPECT_EQ(outcome.code, 0) << arguments << ": " << outcome.errors;
   }

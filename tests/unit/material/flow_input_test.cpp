@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "base/document.hpp"
 #include "base/key_docs.hpp"
 #include "material/library.hpp"
@@ -347,6 +349,29 @@ drag_stress = "30 MPa")")),
                                        "plasticity.hardening_exponent", "plasticity.kinematic_modulus",
                                        "plasticity.recall", "plasticity.viscosity",
                                        "plasticity.rate_exponent", "plasticity.drag_stress"}));
+}
+
+TEST(FlowInput, TheExamplesOfTheGuideAreRead) {
+  std::ifstream guide(SOLIDUS_SOURCE_DIR "/docs/guide/materials.md");
+  ASSERT_TRUE(guide);
+  int examples = 0;
+  bool inside = false;
+  std::string block;
+  for (std::string line; std::getline(guide, line);) {
+    if (inside && line == "```") {
+      const bool whole_card = block.rfind("title", 0) == 0;
+      const Material m = read(whole_card ? block : k_elastic + k_solidifies + block);
+      EXPECT_NE(m.flow.has_value(), whole_card) << block;
+      ++examples;
+      inside = false;
+    } else if (inside) {
+      block += line + "\n";
+    } else if (line == "```toml") {
+      inside = true;
+      block.clear();
+    }
+  }
+  EXPECT_GE(examples, 7);
 }
 
 TEST(FlowInput, EveryKeyIsExplainedWithItsFormula) {
