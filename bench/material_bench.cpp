@@ -5,8 +5,10 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "material/isentropic.hpp"
 #include "material/viscoplastic.hpp"
 
 namespace solidus::material {
@@ -50,17 +52,17 @@ Material casting(IsotropicHardening isotropic, double viscosity, double exponent
 }
 
 /// Points with a history and a strain that is new: 1e-4 elastic, 4e-3 plastic everywhere.
-template <class T>
+template <class Law, class T>
 struct Points {
   struct Point {
-    Viscoplastic::Properties<T> properties;
+    typename Law::template Properties<T> properties;
     Viscoplastic::State<T> start;
     Sym<T> strain;
   };
   std::vector<Point> points;
   static constexpr std::size_t lanes = sizeof(T) / sizeof(double);
 
-  Points(const Viscoplastic& law, double temperature, double amplitude) : points(k_points / lanes) {
+  Points(const Law& law, double temperature, double amplitude) : points(k_points / lanes) {
     double phase = 0;
     const auto wave = [&](double size) {
       double values[lanes];
@@ -83,14 +85,16 @@ struct Points {
       p.start.plastic_strain = dev(p.start.plastic_strain);
       p.start.back_strain = dev(p.start.back_strain);
       p.start.hardening = T(1e-3) + wave(1e-4);
+      if constexpr (std::is_same_v<Law, Isentropic>)
+        p.properties.entropy = law.entropy(p.properties, Sym<T>{}, p.start);
     }
   }
 };
 
-template <class T>
+template <class Law, class T>
 void update(benchmark::State& state, const Material& material, double temperature, double amplitude) {
-  const Viscoplastic law(material);
-  const Points<T> set(law, temperature, amplitude);
+  const Law law(material);
+  const Points<Law, T> set(law, temperature, amplitude);
   for (auto _ : state)
     for (const auto& p : set.points) {
       auto response = law.update(p.properties, p.start, p.strain, 0.1);
@@ -101,13 +105,14 @@ void update(benchmark::State& state, const Material& material, double temperatur
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+template <class Law = Viscoplastic>
 void both(const char* name, const Material& material, double temperature, double amplitude) {
   const std::string stem(name);
   benchmark::RegisterBenchmark((stem + "/scalar").c_str(), [=](benchmark::State& s) {
-    update<double>(s, material, temperature, amplitude);
+    update<Law, double>(s, material, temperature, amplitude);
   });
   benchmark::RegisterBenchmark((stem + "/packed").c_str(), [=](benchmark::State& s) {
-    update<Lane>(s, material, temperature, amplitude);
+    update<Law, Lane>(s, material, temperature, amplitude);
   });
 }
 
@@ -125,6 +130,9 @@ void register_all() {
   both("perzyna_n5", casting(linear, 1e9, 5), k_cold, k_plastic);
   both("armstrong_frederick", casting(linear, 0, 1, KinematicHardening::armstrong_frederick), k_cold,
        k_plastic);
+  both<Isentropic>("isentropic_elastic", casting(linear, 0, 1), k_cold, k_elastic);
+  both<Isentropic>("isentropic_linear", casting(linear, 0, 1), k_cold, k_plastic);
+  both<Isentropic>("isentropic_saturation", casting(saturation, 0, 1), k_cold, k_plastic);
   both("liquid", casting(linear, 0, 1), k_hot, k_plastic);
 }
 

@@ -98,14 +98,14 @@ def block(divisions, element, **more):
 
 def micro():
     rows = []
-    for program in ("mechanics_bench", "heat_bench"):
+    for program in ("material_bench", "mechanics_bench", "heat_bench"):
         before = load()
         out = WORK / f"{program}.json"
         run([(PROGRAMS / "bench" / program).resolve(), f"--benchmark_repetitions={REPEAT}", "--benchmark_min_time=0.3",
              f"--benchmark_out={out}", "--benchmark_out_format=json"], WORK / "log.txt")
         for b in json.loads(out.read_text())["benchmarks"]:
             if b.get("aggregate_name", "median" if REPEAT == 1 else "") == "median":
-                what = "per_node" if "per_node" in b else "per_element"
+                what = next(key for key in ("per_point", "per_node", "per_element") if key in b)
                 rows.append({"program": program.removesuffix("_bench"), "name": b["run_name"],
                              "ns": 1e9 * b[what], "of": what.removeprefix("per_"), "load": before})
     return rows

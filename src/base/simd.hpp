@@ -18,26 +18,28 @@ inline constexpr int k_registers = k_lanes / k_register_width;  ///< of a lane
 
 struct LaneMask {
   RegisterMask v[k_registers];  ///< -1 where true, 0 where false
-  friend LaneMask operator&(LaneMask a, const LaneMask& b) {
+  [[gnu::always_inline]] friend LaneMask operator&(LaneMask a, const LaneMask& b) {
     for (int r = 0; r < k_registers; ++r) a.v[r] &= b.v[r];
     return a;
   }
-  friend LaneMask operator|(LaneMask a, const LaneMask& b) {
+  [[gnu::always_inline]] friend LaneMask operator|(LaneMask a, const LaneMask& b) {
     for (int r = 0; r < k_registers; ++r) a.v[r] |= b.v[r];
     return a;
   }
-  friend LaneMask operator!(LaneMask a) {
+  [[gnu::always_inline]] friend LaneMask operator!(LaneMask a) {
     for (RegisterMask& r : a.v) r = ~r;
     return a;
   }
   bool operator[](int i) const { return v[i / k_register_width][i % k_register_width] != 0; }
 };
 
+// Always inlined: in a function that has grown large a compiler otherwise calls even these, and a call makes
+// the caller keep every register in memory.
 struct Lane {
   Register v[k_registers]{};
 
   Lane() = default;
-  Lane(double s) {  // NOLINT: a number is a pack of equal numbers
+  [[gnu::always_inline]] Lane(double s) {  // NOLINT: a number is a pack of equal numbers
     for (Register& r : v) r = Register{} + s;
   }
 
@@ -50,55 +52,55 @@ struct Lane {
   double operator[](int i) const { return v[i / k_register_width][i % k_register_width]; }
   void set(int i, double s) { v[i / k_register_width][i % k_register_width] = s; }
 
-  Lane& operator+=(const Lane& b) {
+  [[gnu::always_inline]] Lane& operator+=(const Lane& b) {
     for (int r = 0; r < k_registers; ++r) v[r] += b.v[r];
     return *this;
   }
-  Lane& operator-=(const Lane& b) {
+  [[gnu::always_inline]] Lane& operator-=(const Lane& b) {
     for (int r = 0; r < k_registers; ++r) v[r] -= b.v[r];
     return *this;
   }
-  Lane& operator*=(const Lane& b) {
+  [[gnu::always_inline]] Lane& operator*=(const Lane& b) {
     for (int r = 0; r < k_registers; ++r) v[r] *= b.v[r];
     return *this;
   }
-  Lane& operator/=(const Lane& b) {
+  [[gnu::always_inline]] Lane& operator/=(const Lane& b) {
     for (int r = 0; r < k_registers; ++r) v[r] /= b.v[r];
     return *this;
   }
-  friend Lane operator+(Lane a, const Lane& b) { return a += b; }
-  friend Lane operator-(Lane a, const Lane& b) { return a -= b; }
-  friend Lane operator*(Lane a, const Lane& b) { return a *= b; }
-  friend Lane operator/(Lane a, const Lane& b) { return a /= b; }
-  friend Lane operator-(Lane a) {
+  [[gnu::always_inline]] friend Lane operator+(Lane a, const Lane& b) { return a += b; }
+  [[gnu::always_inline]] friend Lane operator-(Lane a, const Lane& b) { return a -= b; }
+  [[gnu::always_inline]] friend Lane operator*(Lane a, const Lane& b) { return a *= b; }
+  [[gnu::always_inline]] friend Lane operator/(Lane a, const Lane& b) { return a /= b; }
+  [[gnu::always_inline]] friend Lane operator-(Lane a) {
     for (Register& r : a.v) r = -r;
     return a;
   }
-  friend LaneMask operator<(const Lane& a, const Lane& b) {
+  [[gnu::always_inline]] friend LaneMask operator<(const Lane& a, const Lane& b) {
     LaneMask m;
     for (int r = 0; r < k_registers; ++r) m.v[r] = a.v[r] < b.v[r];
     return m;
   }
-  friend LaneMask operator<=(const Lane& a, const Lane& b) {
+  [[gnu::always_inline]] friend LaneMask operator<=(const Lane& a, const Lane& b) {
     LaneMask m;
     for (int r = 0; r < k_registers; ++r) m.v[r] = a.v[r] <= b.v[r];
     return m;
   }
-  friend LaneMask operator==(const Lane& a, const Lane& b) {
+  [[gnu::always_inline]] friend LaneMask operator==(const Lane& a, const Lane& b) {
     LaneMask m;
     for (int r = 0; r < k_registers; ++r) m.v[r] = a.v[r] == b.v[r];
     return m;
   }
-  friend LaneMask operator>(const Lane& a, const Lane& b) { return b < a; }
-  friend LaneMask operator>=(const Lane& a, const Lane& b) { return b <= a; }
+  [[gnu::always_inline]] friend LaneMask operator>(const Lane& a, const Lane& b) { return b < a; }
+  [[gnu::always_inline]] friend LaneMask operator>=(const Lane& a, const Lane& b) { return b <= a; }
 };
 
 /// `mask ? a : b`, lane by lane; for plain numbers the ternary operator. Laws use it instead of a branch.
-inline Lane select(const LaneMask& mask, Lane a, const Lane& b) {
+[[gnu::always_inline]] inline Lane select(const LaneMask& mask, Lane a, const Lane& b) {
   for (int r = 0; r < k_registers; ++r) a.v[r] = mask.v[r] ? a.v[r] : b.v[r];
   return a;
 }
-inline double select(bool mask, double a, double b) {
+[[gnu::always_inline]] inline double select(bool mask, double a, double b) {
   return mask ? a : b;
 }
 

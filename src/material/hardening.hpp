@@ -47,14 +47,14 @@ inline CurvePoint<Lane> curve_point(const FlowCurves& curves, Lane xi, Lane thet
 
 }  // namespace detail
 
-/// @param curves read by kind table only
+namespace detail {
+
+/// The kinds that bend.
 template <class T>
-HardeningStress<T> hardening_stress(IsotropicHardening kind, const FlowCurves& curves,
-                                    const FlowProperties<T>& p, const T& xi) {
+HardeningStress<T> curved_stress(IsotropicHardening kind, const FlowCurves& curves,
+                                 const FlowProperties<T>& p, const T& xi) {
   using std::exp;
   switch (kind) {
-    case IsotropicHardening::linear:
-      return {p.hardening_modulus * xi, p.hardening_modulus};
     case IsotropicHardening::saturation: {
       const T rise = p.saturation_stress - p.hardening_origin;
       const T decay = exp(T(-p.saturation_rate * xi));
@@ -74,9 +74,23 @@ HardeningStress<T> hardening_stress(IsotropicHardening kind, const FlowCurves& c
       return {T(at.stress) + slope * dx + T(at.stress_theta) * dt, slope};
     }
     case IsotropicHardening::none:
+    case IsotropicHardening::linear:
       break;
   }
   return {T(0.0), T(0.0)};
+}
+
+}  // namespace detail
+
+/// @param curves read by kind table only
+// Inline where it is short: a call would make a return mapping keep all of its numbers in memory.
+template <class T>
+[[gnu::always_inline]] inline HardeningStress<T> hardening_stress(IsotropicHardening kind,
+                                                                  const FlowCurves& curves,
+                                                                  const FlowProperties<T>& p, const T& xi) {
+  if (kind == IsotropicHardening::none) return {T(0.0), T(0.0)};
+  if (kind == IsotropicHardening::linear) return {p.hardening_modulus * xi, p.hardening_modulus};
+  return detail::curved_stress(kind, curves, p, xi);
 }
 
 /// K(ξ, Θ) [J/m³], the stored energy of isotropic hardening. On a Jet in temperature it carries K_Θ and

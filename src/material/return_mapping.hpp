@@ -55,12 +55,12 @@ struct Problem {
 /// Φ and what belongs to it at one γ.
 template <class T>
 struct Yield {
-  T value, slope;    ///< Φ, Φ'
-  T noise;           ///< what rounding leaves of Φ [Pa]
-  Sym<T> direction;  ///< n
-  T norm;            ///< ‖β̂‖
-  T fading;          ///< B
-  Sym<T> drift;      ///< ∂β̂/∂γ (Armstrong–Frederick)
+  T value, slope;   ///< Φ, Φ'
+  T noise;          ///< what rounding leaves of Φ [Pa]
+  Sym<T> relative;  ///< β̂; n = β̂/‖β̂‖
+  T norm;           ///< ‖β̂‖
+  T fading;         ///< B
+  T drift;          ///< ∂β̂/∂γ = drift ζ* (Armstrong–Frederick; else 0)
 };
 
 /// Subtracts the radius from Φ and its slope from Φ'.
@@ -83,13 +83,15 @@ template <class T>
   const T pull = modulus * fading;
   const Sym<T> relative = p.trial + pull * p.back_strain;
   const T norm = smooth_norm(relative);
-  const Sym<T> n = T(one / norm) * relative;
-  const Sym<T> drift = (p.recalls ? T(-pull * p.recall * fading) : zero) * p.back_strain;
-  T value = norm - (p.twice_shear + w * pull) * gamma;
-  T slope = dot(n, drift) - (p.twice_shear + w * pull * fading);
-  const T sum = p.recalls ? T(smooth_norm(p.trial) + modulus * smooth_norm(p.back_strain)) : norm;
-  const T noise = T(k_rounding) * (sum + subtract_radius(p, gamma, value, slope));
-  return {value, slope, noise, n, norm, fading, drift};
+  T value = norm - (p.twice_shear + w * pull) * gamma, slope = -(p.twice_shear + w * pull * fading);
+  T drift = zero, terms = norm;
+  if (p.recalls) {
+    drift = -pull * p.recall * fading;
+    slope += drift * dot(relative, p.back_strain) / norm;
+    terms = smooth_norm(p.trial) + modulus * smooth_norm(p.back_strain);
+  }
+  const T noise = T(k_rounding) * (terms + subtract_radius(p, gamma, value, slope));
+  return {value, slope, noise, relative, norm, fading, drift};
 }
 
 /// The scalars of Yield alone: what the iteration needs.
@@ -232,7 +234,8 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
   // Viscosity rules where the whole overstress flows less than the rate-independent solution.
   const T y_trial = select(plastic, T(trial.value / drag), one), bound = upper_bound(p, trial);
   const T rigid = select(plastic, Bracket<T>(bound).inside(T(trial.value / (zero - trial.slope))), one);
-  const auto viscous = y_trial < flow_curve(T(rigid * inverse_a), inverse_n);
+  const T y_rigid = flow_curve(T(rigid * inverse_a), inverse_n);
+  const auto viscous = y_trial < y_rigid;
   const T a = select(viscous, T(one / select(viscous, inverse_a, one)), zero);
 
   const T last = last_correction(p);
@@ -243,7 +246,9 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
     y_bound = T(k_beyond) * select(overstress < flow, overstress, flow);
   }
   Bracket<T> bracket(select(viscous, y_bound, bound));
-  T v = select(viscous, y_trial, rigid);
+  // x changes little with γ where plasticity rules; at the least Newton's first iterate from `rigid`.
+  const T share = one - y_rigid / y_trial, least = one / (n + one);
+  T v = select(viscous, y_trial, T(rigid * select(share > least, share, least)));
   auto done = !plastic;
   Solution<T> s{zero, zero, zero, false};
   for (int i = 0; i < k_max_iterations; ++i) {

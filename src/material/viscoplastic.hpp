@@ -101,6 +101,19 @@ class Viscoplastic {
   bool recalls() const {
     return flow_ != nullptr && flow_->kinematic == KinematicHardening::armstrong_frederick;
   }
+  /// What plastic flow has made of a point: members as in Response and State.
+  template <class T>
+  struct Flowed {
+    Sym<T> plastic_strain, back_strain;
+    T hardening, twice_shear;
+    Sym<T> left, direction;
+    return_mapping::Solution<T> solution;
+    T relative_norm, dissipation, power;
+    Status status;
+  };
+  template <class T>
+  static Response<T> response(const Properties<T>& p, const Sym<T>& old_viscous, const Shear<T>& shear,
+                              const Sym<T>& rest, const Sym<T>& strain, double dt, const Flowed<T>& f);
   template <class T>
   static Response<T> elastic(const Properties<T>& p, const State<T>& start, const Shear<T>& shear,
                              const Sym<T>& free, const Sym<T>& strain, double dt, Status status);
@@ -108,6 +121,12 @@ class Viscoplastic {
   Response<T> plastic(const Properties<T>& p, const State<T>& start, const Shear<T>& shear,
                       const Sym<T>& free, const Sym<T>& strain, double dt,
                       const return_mapping::Problem<T>& problem, const return_mapping::Yield<T>& trial) const;
+  template <bool recalls, class T>
+  static Response<T> returned(const Properties<T>& p, const State<T>& start, const Shear<T>& shear,
+                              const Sym<T>& free, const Sym<T>& strain, double dt,
+                              const return_mapping::Problem<T>& problem,
+                              const return_mapping::Solution<T>& solution,
+                              const return_mapping::Yield<T>& end);
 
   const Material* material_;
   const Flow* flow_;

@@ -69,31 +69,55 @@ Viscoplastic::Response<T> Viscoplastic::update(const Properties<T>& p, const Sta
   return elastic(p, start, sh, free, strain, dt, in_range ? Status::converged : Status::outside_range);
 }
 
-/// Elastic and viscous, given the strain that is left for both.
+/// The answer, once the plastic flow is known: one initialisation, so that its parts stay in registers until
+/// then.
+/// @param rest the strain that spring and dashpot share
+template <class T>
+[[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::response(
+    const Properties<T>& p, const Sym<T>& old_viscous, const Shear<T>& sh, const Sym<T>& rest,
+    const Sym<T>& strain, double dt, const Flowed<T>& f) {
+  const T pressure = p.elastic.bulk * (trace(strain) - p.elastic.thermal_strain);  // 2.57b
+  const Sym<T> s = sh.twice_shear * rest, viscous = sh.viscous_share * rest;       // 4.146a, 4.145
+  const T dissipation = T(1.0 / dt) * dot(s, viscous);                             // 2.114
+  return {.stress = {{s[0] + pressure, s[1] + pressure, s[2] + pressure, s[3], s[4], s[5]}},
+          .state = {old_viscous + viscous, f.plastic_strain, f.back_strain, f.hardening},
+          .bulk = p.elastic.bulk,
+          .twice_shear = f.twice_shear,
+          .left = f.left,
+          .right = f.direction,
+          .direction = f.direction,
+          .flow_increment = f.solution.gamma,
+          .viscous_dissipation = dissipation,
+          .plastic_dissipation = f.dissipation,
+          .plastic_power = f.power,
+          .dissipation = dissipation + f.dissipation,
+          .status = f.status,
+          .overstress = f.solution.overstress,
+          .inverse_stiffness = f.solution.inverse_stiffness,
+          .relative_norm = f.relative_norm};
+}
+
 template <class T>
 [[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::elastic(
     const Properties<T>& p, const State<T>& start, const Shear<T>& sh, const Sym<T>& free,
     const Sym<T>& strain, double dt, Status status) {
-  const T zero(0.0), pressure = p.elastic.bulk * (trace(strain) - p.elastic.thermal_strain);  // 2.57b
-  const Sym<T> s = sh.twice_shear * free, viscous = sh.viscous_share * free;                  // 4.145
-  const T dissipation = T(1.0 / dt) * dot(s, viscous);                                        // 2.114
-  const Sym<T> none{{zero, zero, zero, zero, zero, zero}};  // {} would clear the whole response first
-  return {{{s[0] + pressure, s[1] + pressure, s[2] + pressure, s[3], s[4], s[5]}},
-          {start.viscous_strain + viscous, start.plastic_strain, start.back_strain, start.hardening},
-          p.elastic.bulk,
-          sh.twice_shear,
-          none,
-          none,
-          none,
-          zero,
-          dissipation,
-          zero,
-          zero,
-          dissipation,
-          status};
+  const T zero(0.0), one(1.0);
+  const Sym<T> none{{zero, zero, zero, zero, zero, zero}};
+  return response(p, start.viscous_strain, sh, free, strain, dt,
+                  Flowed<T>{start.plastic_strain,
+                            start.back_strain,
+                            start.hardening,
+                            sh.twice_shear,
+                            none,
+                            none,
+                            {zero, zero, zero, true},
+                            one,
+                            zero,
+                            zero,
+                            status});
 }
 
-/// The plastic corrector (4.137–4.147) and its tangent. Lanes inside the yield surface have γ = 0.
+/// The plastic corrector (4.137–4.147).
 template <class T>
 [[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::plastic(
     const Properties<T>& p, const State<T>& start, const Shear<T>& sh, const Sym<T>& free,
@@ -102,37 +126,45 @@ template <class T>
   using namespace return_mapping;
   const Solution<T> solution =
       linear_rate_ ? solve_linear_rate(problem, trial) : solve_power_rate(problem, trial);
-  const T gamma = solution.gamma, stiff = sh.twice_shear, w = sh.strength, radius = T(k_root_two_thirds) * w;
-  const Yield<T> end = problem.recalls ? yield(problem, gamma) : trial;
-  const Sym<T>& n = end.direction;
-  const Sym<T> flow = gamma * n, rest = free - flow;
-
-  Response<T> r = elastic(p, start, sh, rest, strain, dt,  // 4.146a
-                          solution.converged ? Status::converged : Status::cut_the_step);
-  r.state.plastic_strain = start.plastic_strain + flow;               // 4.144a
-  r.state.back_strain = end.fading * (start.back_strain - w * flow);  // 4.144b
-  r.state.hardening = start.hardening + radius * gamma;               // 4.144c
-  r.flow_increment = gamma;
-  r.direction = n;
-  r.overstress = solution.overstress;
-  r.inverse_stiffness = solution.inverse_stiffness;
-  r.relative_norm = end.norm;
-
-  const T rate = T(1.0 / dt) * gamma;
-  r.plastic_power = rate * stiff * dot(rest, n);
-  r.plastic_dissipation = rate * (solution.overstress + radius * p.flow.flow_stress);  // 2.117
   if (problem.recalls)
-    r.plastic_dissipation += rate * T(k_two_thirds) * p.flow.kinematic_modulus * problem.recall *
-                             dot(r.state.back_strain, r.state.back_strain);
-  r.dissipation += r.plastic_dissipation;
+    return returned<true>(p, start, sh, free, strain, dt, problem, solution, yield(problem, solution.gamma));
+  return returned<false>(p, start, sh, free, strain, dt, problem, solution, trial);  // β̂ stays
+}
 
-  const T turning = stiff * gamma / end.norm;  // share of the stiffness that the turning of n takes
+/// The state on the (overstressed) yield surface, and the tangent. Lanes inside it have γ = 0.
+template <bool recalls, class T>
+[[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::returned(
+    const Properties<T>& p, const State<T>& start, const Shear<T>& sh, const Sym<T>& free,
+    const Sym<T>& strain, double dt, const return_mapping::Problem<T>& problem,
+    const return_mapping::Solution<T>& solution, const return_mapping::Yield<T>& end) {
+  using namespace return_mapping;
+  const T gamma = solution.gamma, stiff = sh.twice_shear, w = sh.strength, radius = T(k_root_two_thirds) * w;
+  const T inverse_norm = T(1.0) / end.norm, rate = T(1.0 / dt) * gamma;
+  const Sym<T> n = inverse_norm * end.relative, flow = gamma * n, rest = free - flow;
+  const Sym<T> back_strain = end.fading * (start.back_strain - w * flow);  // 4.144b
+
+  T dissipation = rate * (solution.overstress + radius * p.flow.flow_stress);  // 2.117
+  const T turning = stiff * gamma * inverse_norm;  // share of the stiffness that the turning of n takes
   const T along = stiff * stiff * solution.inverse_stiffness;
-  r.twice_shear = stiff * (T(1.0) - turning);
-  r.right = n;
-  r.left = T(stiff * turning - along) * n;
-  if (problem.recalls) r.left -= T(along * gamma / end.norm) * (end.drift - dot(n, end.drift) * n);
-  return r;
+  Sym<T> left = T(stiff * turning - along) * n;
+  if constexpr (recalls) {
+    dissipation +=
+        rate * T(k_two_thirds) * p.flow.kinematic_modulus * problem.recall * dot(back_strain, back_strain);
+    left -=
+        T(along * gamma * inverse_norm * end.drift) * (problem.back_strain - dot(n, problem.back_strain) * n);
+  }
+  return response(p, start.viscous_strain, sh, rest, strain, dt,
+                  Flowed<T>{.plastic_strain = start.plastic_strain + flow,  // 4.144a
+                            .back_strain = back_strain,
+                            .hardening = start.hardening + radius * gamma,  // 4.144c
+                            .twice_shear = stiff * (T(1.0) - turning),
+                            .left = left,
+                            .direction = n,
+                            .solution = solution,
+                            .relative_norm = end.norm,
+                            .dissipation = dissipation,
+                            .power = rate * stiff * dot(rest, n),
+                            .status = solution.converged ? Status::converged : Status::cut_the_step});
 }
 
 }  // namespace solidus::material

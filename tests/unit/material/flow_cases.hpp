@@ -87,6 +87,16 @@ Viscoplastic::State<T> convert(const Viscoplastic::State<From>& s) {
           T(s.hardening)};
 }
 
+template <class T, class From>
+Viscoplastic::Properties<T> convert(const Viscoplastic::Properties<From>& p) {
+  const PointProperties<From>& e = p.elastic;
+  const FlowProperties<From>& f = p.flow;
+  return {{T(e.bulk), T(e.shear), T(e.thermal_strain), T(e.solid_fraction), T(e.viscosity)},
+          {T(f.flow_stress), T(f.hardening_origin), T(f.saturation_stress), T(f.saturation_rate),
+           T(f.hardening_modulus), T(f.reference_strain), T(f.hardening_exponent), T(f.kinematic_modulus),
+           T(f.recall), T(f.viscosity), T(f.exponent), T(f.drag_stress), T(f.temperature), T(f.beyond)}};
+}
+
 /// ‖s − w q‖ − w √⅔ (σ_0 + K_ξ) at a state (2.106, 2.107).
 inline double yield_function(const Viscoplastic& law, const Viscoplastic::Properties<double>& p, double w,
                              const Sym<double>& stress, const Viscoplastic::State<double>& state) {
