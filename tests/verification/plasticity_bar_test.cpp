@@ -89,7 +89,7 @@ void expect_uniaxial(const March& march, double exact, const char* what) {
 }
 
 TEST(BarBetweenWalls, HeatedAndCooledHasTheStressesAndTheResidualStressOfTheClosedForm) {
-  std::vector<std::vector<double>> rows;
+  std::vector<std::vector<double>> rows{{k_start, 0, 0}};
   for (const Hardening& hardening : k_hardenings) {
     const ClosedForm exact{hardening};
     for (const auto& [shape, kind] : k_bars) {
