@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "material/free_energy.hpp"
+#include "material/time_integration.hpp"
 #include "thermal_cases.hpp"
 
 namespace solidus::material::test {
@@ -145,6 +146,25 @@ TEST(Isentropic, ElasticEntropyOfTheFreeEnergyKeepsItsValue) {
       }
   EXPECT_EQ(checked, 60);
   EXPECT_GT(plastic, 20);
+}
+
+TEST(Isentropic, TheTwoStepMethodStartsFromItsStateAndKeepsTheEntropyOfTheCommittedOne) {
+  const Material m = varying_material({IsotropicHardening::saturation, KinematicHardening::linear, 1e7, 3});
+  const Isentropic law(m);
+  Random random(12);
+  const auto before = random_state(random);
+  auto now = before;
+  now.plastic_strain += dev(random_tensor(random, 1e-4));
+  now.hardening += 1e-4;
+  const auto old_strain = random_tensor(random, 1e-4), strain = random_tensor(random, 3e-3);
+  const TimeStep step = TimeStep::two_step(0.5, 0.7);
+  auto p = law.properties_at(650.0, k_start_temperature);
+  p.entropy = law.entropy(p, old_strain, now);
+  const auto r = law.update(p, start_state(step, now, before), strain, step.dt);
+  EXPECT_GT(r.flow_increment, 0);
+  const double after =
+      frozen_entropy(m, r.state, strain, r.temperature, 650) + sensible_heat(m, 650.0, r.temperature).entropy;
+  EXPECT_NEAR(after, frozen_entropy(m, now, old_strain, 650, 650), 1e-10 * p.capacity.value);
 }
 
 TEST(Isentropic, KelvinEffectOfElasticStrainingIsMinusThreeAlphaKThetaTraceOverC) {
