@@ -20,6 +20,7 @@ constexpr std::size_t k_points = 64;          ///< 23 KiB of properties, history
 Material casting() {
   Material m;
   m.density = 2650;
+  m.specific_heat = 1000;
   m.young_modulus = Table({300, 800}, {70e9, 40e9});
   m.poisson_ratio = 0.33;
   m.expansion = 2.4e-5;
