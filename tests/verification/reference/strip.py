@@ -95,5 +95,5 @@ class Strip:
                 d = residual(*moved).imag / STEP
                 for g in range(equations):
                     for a in range(2):
-                        np.add.at(jacobian, (g, e + a, f, e + b), d[g, a])
+                        jacobian[g, e + a, f, e + b] += d[g, a]
         return np.array([self.scatter(x) for x in base]), jacobian.reshape(equations * n, fields * n)
