@@ -217,7 +217,13 @@ PointCase make_point_case(Value document, std::span<const fs::path> library) {
       throw InputError(curve.where, fmt::format("there are two curves named '{}'", curve.name));
     result.curves.push_back(make_curve(spec, curve, library));
   }
-  for (const PictureSpec& picture : spec.pictures) check_picture(picture);
+  std::set<std::string> files = {"overview"};
+  for (const PictureSpec& picture : spec.pictures) {
+    check_picture(picture);
+    if (!files.insert(picture.file).second)
+      throw InputError(picture.where, fmt::format("there are two pictures named '{}'", picture.file),
+                       "another name; 'overview' is always drawn");
+  }
   result.pictures = std::move(spec.pictures);
   return result;
 }
