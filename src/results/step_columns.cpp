@@ -50,10 +50,10 @@ std::vector<Column> step_columns() {
           {"work", "J"},
           {"heat_in", "J"},
           {"heat_exchanged", "J"},
-          {"energy_defect", "J"},
           {"viscous_dissipation", "J"},
           {"plastic_dissipation", "J"},
-          {"plastic_work", "J"}};
+          {"plastic_work", "J"},
+          {"energy_defect", "J"}};
 }
 
 std::vector<Cell> step_row(const coupling::StepRecord& r) {
@@ -85,10 +85,10 @@ std::vector<Cell> step_row(const coupling::StepRecord& r) {
           r.energy.work,
           r.energy.heat_in,
           r.energy.heat_exchanged,
-          r.energy.defect(),
           r.energy.viscous_dissipation,
           r.energy.plastic_dissipation,
-          r.energy.plastic_work};
+          r.energy.plastic_work,
+          r.energy.defect()};
 }
 
 std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
