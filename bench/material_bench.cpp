@@ -86,8 +86,10 @@ struct Points {
       p.start.plastic_strain = dev(p.start.plastic_strain);
       p.start.back_strain = dev(p.start.back_strain);
       p.start.hardening = T(1e-3) + wave(1e-4);
-      if constexpr (std::is_same_v<Law, Isentropic>)
+      if constexpr (std::is_same_v<Law, Isentropic>) {
+        for (int i = 0; i < 3; ++i) p.strain[i] += T(amplitude / 3);  // cools by kelvins
         p.properties.entropy = law.entropy(p.properties, Sym<T>{}, p.start);
+      }
     }
   }
 };
@@ -134,6 +136,9 @@ void register_all() {
   both<Isentropic>("isentropic_elastic", casting(linear, 0, 1), k_cold, k_elastic);
   both<Isentropic>("isentropic_linear", casting(linear, 0, 1), k_cold, k_plastic);
   both<Isentropic>("isentropic_saturation", casting(saturation, 0, 1), k_cold, k_plastic);
+  both<Isentropic>("isentropic_n3", casting(linear, 1e9, 3), k_cold, k_plastic);
+  both<Isentropic>("isentropic_armstrong_frederick",
+                   casting(linear, 0, 1, KinematicHardening::armstrong_frederick), k_cold, k_plastic);
   both("liquid", casting(linear, 0, 1), k_hot, k_plastic);
 }
 

@@ -22,7 +22,7 @@
 #pragma once
 
 #include "material/hardening_heat.hpp"
-#include "material/thermal_derivatives.hpp"
+#include "material/viscoplastic.hpp"
 
 namespace solidus::material {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "material/isentropic.hpp"
+#include "material/reduced_entropy.hpp"
 
 namespace solidus::material {
 namespace detail {
@@ -10,18 +11,11 @@ namespace detail {
 /// leaves 1e-16, with a strain of 1 about 1e-14.
 inline constexpr double k_entropy_tolerance = 1e-11;
 inline constexpr int k_max_temperatures = 100;
+/// A defect after which one more step of Newton's method, which squares it, reaches the tolerance.
+inline constexpr double k_last_defect = 3e-6;
+inline constexpr int k_max_coupled = 4;
 /// A property keeps this part of its value along its line.
 inline constexpr double k_kept_share = 0.25;
-
-/// A line in the temperature.
-template <class T>
-Jet<T> along(const Table::Line<T>& line, const T& change) {
-  return {line.value + line.slope * change, line.slope, T(0.0)};
-}
-template <class T>
-Jet<T> along(const T& value, const T& slope, const T& change) {
-  return {value + slope * change, slope, T(0.0)};
-}
 
 /// Where positive numbers stay above k_kept_share of their values.
 template <class T>
@@ -45,15 +39,88 @@ class Range {
   T middle_, low_, high_;
 };
 
-/// Values of jets.
 template <class T>
-[[gnu::always_inline]] inline Viscoplastic::Properties<T> values(const Viscoplastic::Properties<Jet<T>>& p) {
-  const auto& e = p.elastic;
-  const auto& f = p.flow;
-  return {{e.bulk.v, e.shear.v, e.thermal_strain.v, e.solid_fraction.v, e.viscosity.v},
-          {f.flow_stress.v, f.hardening_origin.v, f.saturation_stress.v, f.saturation_rate.v,
-           f.hardening_modulus.v, f.reference_strain.v, f.hardening_exponent.v, f.kinematic_modulus.v,
-           f.recall.v, f.viscosity.v, f.exponent.v, f.drag_stress.v, f.temperature.v, f.beyond.v}};
+[[gnu::always_inline]] inline T magnitude(const T& a) {
+  return select(a < T(0.0), T(T(0.0) - a), a);
+}
+
+/// F and Θ F', the latter the slope in ln Θ, in which sensible heat is linear.
+template <class T>
+struct Defect {
+  T value, slope;
+
+  /// Where Newton's method goes from θ.
+  [[gnu::always_inline]] T step(const T& theta) const {
+    const T by = T(0.0) - value / slope;
+    return theta * (T(1.0) + by * (T(1.0) + T(0.5) * by));
+  }
+};
+
+/// ∫C_v/Θ dΘ from Θ_n, less S^E_n.
+template <class T>
+class SensibleEntropy {
+ public:
+  [[gnu::always_inline]] explicit SensibleEntropy(const Isentropic::Properties<T>& p)
+      : start_(p.entropy),
+        slope_(p.capacity.slope),
+        base_(p.capacity.value - p.capacity.slope * p.temperature),
+        temperature_(p.temperature),
+        inverse_(T(1.0) / p.temperature) {}
+
+  /// @param entropy, entropy_theta  S and dS/dΘ, γ eliminated
+  [[gnu::always_inline]] Defect<T> defect(const T& theta, const T& entropy, const T& entropy_theta) const {
+    using std::log;
+    return {entropy + (base_ * T(log(T(theta * inverse_))) + slope_ * (theta - temperature_)) - start_,
+            theta * entropy_theta + (base_ + slope_ * theta)};
+  }
+
+ private:
+  T start_, slope_, base_;  ///< S^E_n, and C_v = base + slope Θ
+  T temperature_, inverse_;
+};
+
+/// Newton's method in γ and Θ̄ together (4.97) from a solution of the isothermal mapping, whose overstress it
+/// continues as x ~ γ^(1/n).
+/// @param r, at     the solution at `theta`
+/// @param defect    F there
+/// @param by_newton  Θ̄ of the first step
+/// @return Θ̄, near enough for one more isothermal mapping; where a step fails, the one before it
+template <class T>
+[[gnu::always_inline]] inline T coupled_newton(const Material& material, const Isentropic::Properties<T>& p,
+                                               const ReducedEntropy<T>& s, const SensibleEntropy<T>& sensible,
+                                               const Viscoplastic::Response<T>& r,
+                                               const typename ReducedEntropy<T>::Point& at, const T& theta,
+                                               const T& defect, const T& by_newton) {
+  const T zero(0.0), one(1.0);
+  const auto flows = r.flow_increment > zero;
+  const T old_gamma = select(flows, r.flow_increment, one);
+  const T close = T(k_last_defect) * p.capacity.value;
+  T result = by_newton, largest = magnitude(defect);
+  T gamma =
+      r.flow_increment + select(flows, T(r.inverse_stiffness * at.flow.yield_theta * (result - theta)), zero);
+  for (int i = 0; i < k_max_coupled && any(largest > close); ++i) {
+    const auto next = s.at(p, elastic_along(material, p, result), result, gamma);
+    T excess = zero, gamma_theta = zero;  // γ less the solution at this temperature
+    if (any(flows)) {
+      const T ratio = select(flows, T(gamma / old_gamma), one), n = p.flow.exponent;
+      const T overstress =
+          r.overstress * (material.flow->linear_rate() ? ratio : power<T>(ratio, T(one / n)));
+      const T stiffness = overstress / (n * ratio * old_gamma) - next.flow.yield_gamma;  // x_γ − Φ_γ
+      const T inverse = select(flows, T(one / select(flows, stiffness, one)), zero);
+      excess = inverse * (next.flow.yield - overstress);
+      gamma_theta = inverse * next.flow.yield_theta;
+    }
+    const Defect<T> f = sensible.defect(result, T(next.entropy + next.flow.entropy_gamma * excess),
+                                        T(next.entropy_theta + next.flow.entropy_gamma * gamma_theta));
+    const T to = f.step(result), size = magnitude(f.value);
+    const T flow = gamma + excess + gamma_theta * (to - result);
+    auto good = size < largest;
+    good = good & (flow >= zero);
+    result = select(good, to, result);
+    gamma = select(good, flow, gamma);
+    largest = select(good, size, zero);
+  }
+  return result;
 }
 
 }  // namespace detail
@@ -107,50 +174,21 @@ Isentropic::Properties<T> Isentropic::properties_at(const T& temperature,
 }
 
 template <class T>
-[[gnu::always_inline]] inline Viscoplastic::Properties<Jet<T>> Isentropic::at_temperature(
-    const Properties<T>& p, const T& temperature) const {
-  using J = Jet<T>;
-  const T change = temperature - p.temperature;
-  const J young = detail::along(p.young, change), poisson = detail::along(p.poisson, change);
-  const J from_reference = J::variable(temperature) - J(T(law_.material().expansion_reference));
-  Viscoplastic::Properties<J> r;
-  auto& e = r.elastic;
-  e.bulk = young / (J(3.0) * (J(1.0) - J(2.0) * poisson));
-  e.shear = young / (J(2.0) * (J(1.0) + poisson));
-  if (law_.material().liquid_model == LiquidModel::modified_shear)
-    e.shear = select(p.held_shear > T(0.0), J(p.held_shear), e.shear);
-  e.thermal_strain = J(3.0) * detail::along(p.expansion, change) * from_reference + J(p.strain_offset);
-  e.solid_fraction = p.solid_fraction;
-  e.viscosity = p.viscosity;
-  if (!law_.material().flow) return r;
-
-  auto& f = r.flow;
-  const FlowProperties<T>&v = p.flow, &d = p.flow_slope;
-  f.flow_stress = v.flow_stress;
-  f.hardening_origin = detail::along(v.hardening_origin, d.hardening_origin, change);
-  f.saturation_stress = detail::along(v.saturation_stress, d.saturation_stress, change);
-  f.saturation_rate = detail::along(v.saturation_rate, d.saturation_rate, change);
-  f.hardening_modulus = detail::along(v.hardening_modulus, d.hardening_modulus, change);
-  f.reference_strain = detail::along(v.reference_strain, d.reference_strain, change);
-  f.hardening_exponent = detail::along(v.hardening_exponent, d.hardening_exponent, change);
-  f.kinematic_modulus = detail::along(v.kinematic_modulus, d.kinematic_modulus, change);
-  f.recall = v.recall;
-  f.viscosity = v.viscosity;
-  f.exponent = v.exponent;
-  f.drag_stress = v.drag_stress;
-  f.temperature = p.temperature;
-  f.beyond = J(change, T(1.0), T(0.0));
-  return r;
+Viscoplastic::Properties<Jet<T>> Isentropic::at_temperature(const Properties<T>& p,
+                                                            const T& temperature) const {
+  const ElasticAlong<T> e = elastic_along(law_.material(), p, temperature);
+  return {{e.bulk, Jet<T>(T(0.5)) * e.twice_shear, e.thermal_strain, p.solid_fraction, p.viscosity},
+          flow_jets(p, temperature)};
 }
 
 template <class T>
 T Isentropic::entropy(const Properties<T>& p, const Sym<T>& strain, const State<T>& state) const {
   using J = Jet<T>;
   const T zero(0.0), one(1.0);
-  const auto at = at_temperature(p, p.temperature);
+  const auto at = elastic_along(law_.material(), p, p.temperature);
   const Sym<T> elastic = dev(strain) - state.viscous_strain - state.plastic_strain;
-  const T squared = dot(elastic, elastic), tr = trace(strain), f = p.solid_fraction;
-  T spring = at.elastic.shear.d * squared;
+  const T squared = dot(elastic, elastic), f = p.solid_fraction, shear = T(0.5) * at.twice_shear.d;
+  T spring = shear * squared;
   switch (law_.material().liquid_model) {
     case LiquidModel::modified_shear:
       spring *= f;
@@ -161,14 +199,13 @@ T Isentropic::entropy(const Properties<T>& p, const Sym<T>& strain, const State<
       const auto mushy = f < one;
       const T kept = T(k_spring_strain * k_spring_strain) * f * f;
       const T held = select(squared < kept, squared, kept);
-      spring = select(mushy, T(at.elastic.shear.d * held / select(f > zero, f, one)), spring);
+      spring = select(mushy, T(shear * held / select(f > zero, f, one)), spring);
       break;
     }
   }
-  const J pull = at.elastic.bulk * at.elastic.thermal_strain;
-  T s = pull.d * tr - T(0.5) * at.elastic.bulk.d * tr * tr - spring;
+  T s = elastic_entropy(at, one, trace(strain), spring);
   if (law_.material().flow)
-    s -= hardening_potential<J>(*law_.material().flow, at.flow, J(state.hardening),
+    s -= hardening_potential<J>(*law_.material().flow, flow_jets(p, p.temperature), J(state.hardening),
                                 J(dot(state.back_strain, state.back_strain)))
              .d;
   return s;
@@ -177,41 +214,40 @@ T Isentropic::entropy(const Properties<T>& p, const Sym<T>& strain, const State<
 template <class T>
 Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T>& start,
                                            const Sym<T>& strain, double dt) const {
-  using std::log;
-  const T zero(0.0);
+  const T zero(0.0), tolerance = T(detail::k_entropy_tolerance) * p.capacity.value;
+  const ReducedEntropy<T> reduced(law_, start, strain, dt);
+  const detail::SensibleEntropy<T> sensible(p);
   T theta = p.temperature, low = p.lowest, high = p.highest;
-  const T tolerance = T(detail::k_entropy_tolerance) * p.capacity.value;
-  const T base = p.capacity.value - p.capacity.slope * p.temperature;  // C_v at Θ = 0 on its line
   bool solved = false;
   for (int i = 0;; ++i) {
-    const auto at = at_temperature(p, theta);
-    Response<T> r;
-    static_cast<Viscoplastic::Response<T>&>(r) = law_.update(detail::values(at), start, strain, dt);
-    const Variation<T> variation(law_, at, start, strain, dt, r);
-    const Derivatives<T> s = variation.entropy(false);
-    const T change = theta - p.temperature;
-    const T sensible = base * T(log(T(theta / p.temperature))) + p.capacity.slope * change;
-    const T slope = s.temperature + (base + p.capacity.slope * theta) / theta;  // F' = C/Θ̄
-    const T f = s.value + sensible - p.entropy;
+    const auto elastic = elastic_along(material(), p, theta);
+    auto r = law_.update<T>({elastic_values(p, elastic), flow_values(p, theta)}, start, strain, dt);
+    const auto at = reduced.at(p, elastic, theta, r.flow_increment);
+    const auto f = sensible.defect(
+        theta, at.entropy,
+        T(at.entropy_theta + at.flow.entropy_gamma * r.inverse_stiffness * at.flow.yield_theta));
 
     // Types that carry derivatives take one step more, which their derivatives need.
     const bool last = solved || i == detail::k_max_temperatures;
-    solved = all(f <= tolerance) && all(-f <= tolerance);
+    solved = all(f.value <= tolerance) && all(-f.value <= tolerance);
     if (last || (solved && detail::is_plain<T>)) {
-      r.temperature = theta;
-      r.entropy_defect = f;
-      r.thermal_left = variation.stress();
-      r.thermal_right = symmetric() ? r.thermal_left : T(-1.0) * variation.entropy().strain;
-      r.thermal_factor = T(1.0) / slope;
       if (!solved && r.status == Status::converged) r.status = Status::outside_range;
-      return r;
+      const Sym<T> left = reduced.stress_slope(at, r.flow_increment, r.inverse_stiffness);
+      return {r,
+              theta,
+              f.value,
+              left,
+              symmetric() ? left : reduced.minus_entropy_slope(at, r.flow_increment, r.inverse_stiffness),
+              theta / f.slope};
     }
-    low = select(f < zero, theta, low);
-    high = select(f > zero, theta, high);
-    const T step = T(0.0) - f / (theta * slope);  // of ln Θ, in which sensible heat is linear
-    const T newton = theta * (T(1.0) + step * (T(1.0) + T(0.5) * step));
-    const T middle = T(0.5) * (low + high);
-    theta = select(newton >= low, select(newton <= high, newton, middle), middle);
+    low = select(f.value < zero, theta, low);
+    high = select(f.value > zero, theta, high);
+    const auto inside = [&](const T& a, const T& otherwise) {
+      return select(a >= low, select(a <= high, a, otherwise), otherwise);
+    };
+    const T newton = f.step(theta), middle = T(0.5) * (low + high);
+    const T coupled = detail::coupled_newton(material(), p, reduced, sensible, r, at, theta, f.value, newton);
+    theta = inside(coupled, inside(newton, middle));
   }
 }
 

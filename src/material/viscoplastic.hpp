@@ -60,7 +60,7 @@ class Viscoplastic {
     T plastic_power;        ///< s : ε̇^vp [W/m³]
     T dissipation;          ///< D_mech, the sum of both (2.113) [W/m³]
     Status status = Status::converged;
-    // What thermal_derivatives.hpp reads where flow_increment > 0:
+    // What thermal_derivatives.hpp and isentropic.hpp read where flow_increment > 0:
     T overstress{};         ///< x = η γ̇/m for n = 1 [Pa]
     T inverse_stiffness{};  ///< ∂γ/∂Φ^trial [1/Pa]
     T relative_norm{1.0};   ///< ‖β̂‖ [Pa]

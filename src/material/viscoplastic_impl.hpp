@@ -22,7 +22,8 @@ Viscoplastic::Properties<T> Viscoplastic::properties_at(const T& temperature,
 }
 
 template <class T>
-Viscoplastic::Shear<T> Viscoplastic::shear(const PointProperties<T>& p, double dt) const {
+[[gnu::always_inline]] inline Viscoplastic::Shear<T> Viscoplastic::shear(const PointProperties<T>& p,
+                                                                         double dt) const {
   const T zero(0.0), one(1.0), twice_shear = T(2.0) * p.shear;
   switch (material_->liquid_model) {
     case LiquidModel::modified_shear:
