@@ -104,6 +104,20 @@ struct Lane {
   return mask ? a : b;
 }
 
+/// Where both, where either holds: for templates on the number type, whose masks may be plain truth values.
+inline LaneMask both(LaneMask a, LaneMask b) {
+  return a & b;
+}
+inline bool both(bool a, bool b) {
+  return a && b;
+}
+inline LaneMask either(LaneMask a, LaneMask b) {
+  return a | b;
+}
+inline bool either(bool a, bool b) {
+  return a || b;
+}
+
 inline bool any(LaneMask m) {
   for (int r = 1; r < k_registers; ++r) m.v[0] |= m.v[r];
   return any(m.v[0]);

@@ -33,7 +33,9 @@ FlowProperties<T> flow_properties_at(const Flow& flow, const T& temperature) {
   p.hardening_modulus = detail::value(flow.hardening_modulus, temperature);
   p.reference_strain = detail::value(flow.reference_strain, temperature);
   p.hardening_exponent = detail::value(flow.hardening_exponent, temperature);
-  p.kinematic_modulus = detail::value(flow.kinematic_modulus, temperature);
+  p.kinematic_modulus = flow.kinematic == KinematicHardening::none
+                            ? T(0.0)
+                            : detail::value(flow.kinematic_modulus, temperature);
   p.recall = detail::value(flow.recall, temperature);
   p.viscosity = detail::value(flow.viscosity, temperature);
   p.exponent = detail::value(flow.exponent, temperature);

@@ -115,7 +115,7 @@ template <class T>
     const T to = f.step(result), size = magnitude(f.value);
     const T flow = gamma + excess + gamma_theta * (to - result);
     auto good = size < largest;
-    good = good & (flow >= zero);
+    good = both(good, flow >= zero);
     result = select(good, to, result);
     gamma = select(good, flow, gamma);
     largest = select(good, size, zero);
@@ -162,7 +162,8 @@ Isentropic::Properties<T> Isentropic::properties_at(const T& temperature,
     d.hardening_modulus = detail::line(flow.hardening_modulus, temperature).slope;
     d.reference_strain = detail::line(flow.reference_strain, temperature).slope;
     d.hardening_exponent = detail::line(flow.hardening_exponent, temperature).slope;
-    d.kinematic_modulus = detail::line(flow.kinematic_modulus, temperature).slope;
+    if (flow.kinematic != KinematicHardening::none)
+      d.kinematic_modulus = detail::line(flow.kinematic_modulus, temperature).slope;
     range.keep(p.flow.saturation_rate, d.saturation_rate);
     range.keep(p.flow.hardening_modulus, d.hardening_modulus);
     range.keep(p.flow.reference_strain, d.reference_strain);

@@ -140,7 +140,7 @@ class Bracket {
  public:
   explicit Bracket(const T& high) : low_(0.0), high_(high) {}
 
-  T inside(const T& v) const { return select((v > low_) & (v < high_), v, T(T(0.5) * (low_ + high_))); }
+  T inside(const T& v) const { return select(both(v > low_, v < high_), v, T(T(0.5) * (low_ + high_))); }
   /// The next iterate.
   /// @param v, f    the last one and the function there
   /// @param newton  where Newton's method goes from there
@@ -166,7 +166,7 @@ struct Solution {
 template <class T>
 [[gnu::always_inline]] inline auto flows(const Problem<T>& p, const Yield<T>& trial) {
   const T zero(0.0);
-  return (trial.value > zero) & (p.rate > zero) & (p.stiffness() > zero);
+  return both(both(trial.value > zero, p.rate > zero), p.stiffness() > zero);
 }
 
 /// The correction after which one more ends the iteration, as a part of γ. Between the points of a table
@@ -180,7 +180,7 @@ T last_correction(const Problem<T>& p) {
 /// |a| <= b.
 template <class T>
 auto within(const T& a, const T& b) {
-  return (a <= b) & (T(0.0) - a <= b);
+  return both(a <= b, T(0.0) - a <= b);
 }
 
 /// n = 1: m Δt Φ(γ) = η γ.
@@ -203,15 +203,15 @@ template <class T>
       const Point<T> at = point(p, trial, gamma);
       const T f = c * at.value - eta * gamma, stiffness = select(plastic, T(eta - c * at.slope), one);
       const T newton = gamma + f / stiffness;
-      done = done | within(f, T(c * at.noise));
+      done = either(done, within(f, T(c * at.noise)));
       s.converged = all(done);
       if (s.converged) {  // the last correction, free of the bracket, so that derivatives pass through it
-        s.gamma = select(plastic & (newton > zero), newton, gamma);
+        s.gamma = select(both(plastic, newton > zero), newton, gamma);
         s.inverse_stiffness = select(plastic, T(c / stiffness), zero);
         break;
       }
       const T next = select(done, gamma, bracket.next(gamma, f, newton));  // a lane that is done stays
-      done = done | within(T(next - gamma), T(last * next));
+      done = either(done, within(T(next - gamma), T(last * next)));
       gamma = next;
     }
   }
@@ -262,7 +262,7 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
     const T softening = one - at.slope * compliance;
     const T inverse = select(viscous, compliance, one) / select(viscous, softening, T(stiffness - at.slope));
     const T dx = select(viscous, T(r / softening), T(stiffness * inverse * r)), dgamma = inverse * r;
-    done = done | within(r, at.noise);
+    done = either(done, within(r, at.noise));
     s.converged = all(done);
     if (s.converged) {  // the last correction, free of the bracket, so that derivatives pass through it
       const T flow = gamma + dgamma, x = drag * y + dx;
@@ -273,7 +273,7 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
     }
     const T newton = v + select(viscous, T(dx / drag), dgamma);
     const T next = select(done, v, bracket.next(v, r, newton));  // a lane that is done stays
-    done = done | within(T(next - v), T(last * next));
+    done = either(done, within(T(next - v), T(last * next)));
     v = next;
   }
   return s;
