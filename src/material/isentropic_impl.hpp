@@ -162,8 +162,9 @@ Isentropic::Properties<T> Isentropic::properties_at(const T& temperature,
     d.hardening_modulus = detail::line(flow.hardening_modulus, temperature).slope;
     d.reference_strain = detail::line(flow.reference_strain, temperature).slope;
     d.hardening_exponent = detail::line(flow.hardening_exponent, temperature).slope;
-    if (flow.kinematic != KinematicHardening::none)
-      d.kinematic_modulus = detail::line(flow.kinematic_modulus, temperature).slope;
+    d.kinematic_modulus = flow.kinematic == KinematicHardening::none
+                              ? zero
+                              : detail::line(flow.kinematic_modulus, temperature).slope;
     range.keep(p.flow.saturation_rate, d.saturation_rate);
     range.keep(p.flow.hardening_modulus, d.hardening_modulus);
     range.keep(p.flow.reference_strain, d.reference_strain);
