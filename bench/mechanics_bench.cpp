@@ -91,13 +91,14 @@ struct Prepared {
       kernel = std::make_unique<mechanics::LawBlock<General, 4, AnalysisKind::solid, false>>(mesh, block,
                                                                                              material);
     else
-      kernel = mechanics::make_block_kernel(mesh, block, kind, material, true);
+      kernel =
+          mechanics::make_block_kernel(mesh, block, kind, material, mechanics::Mapping::isothermal, true);
     algebra::NodeGraph graph(mesh);
     graph.add_cliques(mesh.blocks.front().nodes, mesh::node_count(shape));
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));
     kernel->bind(*matrix);
     history = kernel->initial_history();
-    kernel->prepare({temperature, temperature, &history, &history, 1.0, 1.0});
+    kernel->prepare({temperature, temperature, u, &history, &history, 1.0, 1.0});
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1e-4 * std::sin(static_cast<double>(i));
   }
   void report(benchmark::State& state) const {

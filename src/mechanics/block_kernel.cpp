@@ -25,7 +25,9 @@ std::unique_ptr<BlockKernel> make_block_of_law(const mesh::Mesh& mesh, const mes
 
 std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
                                                AnalysisKind kind, const material::Material& material,
-                                               bool b_bar) {
+                                               Mapping mapping, bool b_bar) {
+  if (mapping == Mapping::isentropic)
+    return make_block_of_law<material::Isentropic>(mesh, block, kind, material, b_bar);
   // The Maxwell element alone has a shorter history and an isotropic tangent.
   if (!material.flow && material.liquid_model == material::LiquidModel::maxwell)
     return make_block_of_law<material::Viscoelastic>(mesh, block, kind, material, b_bar);

@@ -17,6 +17,7 @@ namespace solidus::mechanics {
 struct StepStart {
   std::span<const double> temperature;          ///< Θ_n [K], [local node]
   std::span<const double> initial_temperature;  ///< Θ_0 [K], [local node]
+  std::span<const double> old_displacement;     ///< at t_n [m], [local node][component]
   const BlockHistory* old_history;              ///< at t_n
   const BlockHistory* start_history;            ///< z*, from which the effective step sets out
   double dt;                                    ///< t_{n+1} − t_n [s]
@@ -38,7 +39,8 @@ class BlockKernel {
   /// Looks up matrix slots.
   virtual void bind(const algebra::BlockMatrix& matrix) = 0;
   virtual BlockHistory initial_history() const = 0;
-  /// Properties at the quadrature points for the temperature of this step. Returns the square of the nodal
+  /// Properties at the quadrature points for the temperature of this step, and the entropy that an isentropic
+  /// law holds. Returns the square of the nodal
   /// forces that a strain of 1 would cause, counted elements only: the scale of round-off.
   virtual double prepare(const StepStart& start) = 0;
   /// forces += ∫ B̄ᵀ σ dV at u ([local node][component]); returns the sum of squares of the element's nodal
@@ -68,6 +70,6 @@ class BlockKernel {
 /// @param b_bar for 4-node quads and 8-node hexes; ignored for other shapes
 std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
                                                AnalysisKind kind, const material::Material& material,
-                                               bool b_bar);
+                                               Mapping mapping, bool b_bar);
 
 }  // namespace solidus::mechanics

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "material/isentropic.hpp"
 #include "material/viscoelastic.hpp"
 #include "material/viscoplastic.hpp"
 #include "mechanics/block_kernel.hpp"
@@ -28,5 +29,11 @@ template <>
 Maker make_block<material::Viscoplastic, AnalysisKind::axisymmetric>;
 template <>
 Maker make_block<material::Viscoplastic, AnalysisKind::solid>;
+template <>
+Maker make_block<material::Isentropic, AnalysisKind::plane_strain>;
+template <>
+Maker make_block<material::Isentropic, AnalysisKind::axisymmetric>;
+template <>
+Maker make_block<material::Isentropic, AnalysisKind::solid>;
 
 }  // namespace solidus::mechanics

@@ -33,6 +33,18 @@ concept RankOneTangent = IsotropicTangent<Response> && requires(const Response& 
   r.right;
   r.flow_increment;
 };
+/// A law whose tangent has the adiabatic part thermal_factor thermal_left ⊗ thermal_right besides.
+template <class Response>
+concept AdiabaticTangent = RankOneTangent<Response> && requires(const Response& r) {
+  r.thermal_factor;
+  r.thermal_left;
+  r.thermal_right;
+};
+/// A law that holds the entropy of the committed state.
+template <class Properties>
+concept HoldsEntropy = requires(Properties& p) {
+  p.entropy;
+};
 
 /// Law: built from a material; `properties_at`, `update`, `symmetric`, and the overloads of law_parts.hpp.
 template <class Law, int n_nodes, AnalysisKind kind, bool b_bar>
@@ -81,14 +93,18 @@ class LawBlock final : public BlockKernel {
     points_.set_dt(start.dt);
     Lane scale(0.0);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      [[maybe_unused]] const Vectors old_displacement = gather(start.old_displacement, batch);
       Vectors f{};
       for (int q = 0; q < geometry_.n_points; ++q) {
-        const Lane theta = temperature_at(geometry_, batch, q, start.temperature);
-        properties_[index(batch, q)] =
-            law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
-        const auto& p = elastic_part(properties_[index(batch, q)]);
-        points_.set_temperature(batch, q, theta, p.thermal_strain);
         const Operator b = at_point(batch, q);
+        const Lane theta = temperature_at(geometry_, batch, q, start.temperature);
+        Properties& properties = properties_[index(batch, q)];
+        properties =
+            law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
+        if constexpr (HoldsEntropy<Properties>)
+          properties.entropy = law_.entropy(properties, b.strain(old_displacement), old_state(batch, q));
+        const auto& p = elastic_part(law_, properties);
+        points_.set_temperature(batch, q, theta, p.thermal_strain);
         for (std::size_t a = 0; a < n_nodes; ++a)
           for (std::size_t i = 0; i < dim; ++i)
             f[a][i] += p.bulk * geometry_.weight_at(batch, q) * abs(b.divergence(a, i));
@@ -135,18 +151,13 @@ class LawBlock final : public BlockKernel {
             for (auto& entry : row) entry *= w;
           add_general(b, c, symmetric);
         }
-        if constexpr (RankOneTangent<Response>) {
-          if (!any(response.flow_increment > Lane(0.0))) continue;
-          Vectors right{};
-          b.add_force(response.right, right);
-          if (!skew) {  // left = (left : right) right, right being of unit length
-            add_product(right, w * dot(response.left, response.right), symmetric);
-            continue;
-          }
-          Vectors left{};
-          b.add_force(response.left, left);
-          add_product(left, right, w, symmetric, *skew);
-        }
+        if constexpr (RankOneTangent<Response>)
+          if (any(response.flow_increment > Lane(0.0)))  // right is of unit length
+            add_rank_one(b, response.left, response.right, w, dot(response.left, response.right), symmetric,
+                         skew);
+        if constexpr (AdiabaticTangent<Response>)
+          add_rank_one(b, response.thermal_left, response.thermal_right, w * response.thermal_factor,
+                       Lane(1.0), symmetric, skew);
       }
       const auto* slots = slots_.data() + static_cast<std::size_t>(batch) * n_nodes * n_nodes * k_lanes;
       scatter<1>(symmetric, slots, matrix);
@@ -174,7 +185,7 @@ class LawBlock final : public BlockKernel {
         volume += w;
         add_weighted(sums, w, values_of(law_, p, response, strain));
 
-        const LaneMask solid = elastic_part(p).solid_fraction >= Lane(1.0);
+        const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
         auto& point = points_.at(batch, q);
         point.now = deformation(strain, response.state, solid);
         point.dissipation = response.dissipation;
@@ -224,8 +235,8 @@ class LawBlock final : public BlockKernel {
               "element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, at the start of the step "
               "{}",
               block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)],
-              points_.at(batch, q).temperature[lane], elastic_part(p).solid_fraction, text(strain_of_one),
-              text(start));
+              points_.at(batch, q).temperature[lane], elastic_part(law_, p).solid_fraction,
+              text(strain_of_one), text(start));
         }
       }
     }
@@ -297,6 +308,20 @@ class LawBlock final : public BlockKernel {
     const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
     const auto [hardening, back_squared] = hardening_of(state);
     return {trace(strain), select(solid, dot(elastic, elastic), Lane(0.0)), hardening, back_squared};
+  }
+
+  /// factor left ⊗ right; without a skew part left = share right.
+  static void add_rank_one(const Operator& b, const Sym<Lane>& left, const Sym<Lane>& right, Lane factor,
+                           Lane share, Matrix& symmetric, std::optional<Matrix>& skew) {
+    Vectors of_right{};
+    b.add_force(right, of_right);
+    if (!skew) {
+      add_product(of_right, factor * share, symmetric);
+      return;
+    }
+    Vectors of_left{};
+    b.add_force(left, of_left);
+    add_product(of_left, of_right, factor, symmetric, *skew);
   }
 
   /// b̄_a of 6.23.

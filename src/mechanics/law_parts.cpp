@@ -16,21 +16,46 @@ void append_common(ElementFields& fields, const Values& values) {
   fields.pressure.push_back(-trace(values.stress) / 3);
 }
 
+ViscoplasticValues<Lane> values_of(const material::Viscoplastic::State<Lane>& state) {
+  ViscoplasticValues<Lane> v;
+  v.viscous_strain = state.viscous_strain;
+  v.plastic_strain = state.plastic_strain;
+  v.equivalent_plastic_strain = state.hardening;
+  return v;
+}
+
+/// @param yield, kinematic_modulus σ_0 + K_ξ and K [Pa]; strength: w of the liquid models
+void set_flow(ViscoplasticValues<Lane>& v, const material::Viscoplastic::State<Lane>& state, Lane strength,
+              Lane yield, Lane kinematic_modulus) {
+  v.flow_stress = strength * yield;
+  v.back_stress = Lane(-2.0 / 3.0) * strength * kinematic_modulus * state.back_strain;
+}
+
 }  // namespace
 
 ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
                                    const material::Viscoplastic::Properties<Lane>& p,
                                    const material::Viscoplastic::State<Lane>& state) {
-  ViscoplasticValues<Lane> v;
-  v.viscous_strain = state.viscous_strain;
-  v.plastic_strain = state.plastic_strain;
-  v.equivalent_plastic_strain = state.hardening;
+  ViscoplasticValues<Lane> v = values_of(state);
   if (!law.material().flow) return v;
   const material::Flow& flow = *law.material().flow;
   const Lane strength = law.shear(p.elastic, 1.0).strength;
   const auto hardening = hardening_stress(flow.isotropic, flow.curves, p.flow, state.hardening);
-  v.flow_stress = strength * (p.flow.flow_stress + hardening.stress);
-  v.back_stress = Lane(-2.0 / 3.0) * strength * p.flow.kinematic_modulus * state.back_strain;
+  set_flow(v, state, strength, p.flow.flow_stress + hardening.stress, p.flow.kinematic_modulus);
+  return v;
+}
+
+ViscoplasticValues<Lane> values_of(const material::Isentropic& law,
+                                   const material::Isentropic::Properties<Lane>& p,
+                                   const material::Isentropic::State<Lane>& state, const Lane& temperature) {
+  using J = Jet<Lane>;
+  ViscoplasticValues<Lane> v = values_of(state);
+  if (!law.material().flow) return v;
+  const material::Flow& flow = *law.material().flow;
+  const auto at = law.at_temperature(p, temperature).flow;
+  const Lane strength = law.isothermal().shear(elastic_part(law, p), 1.0).strength;  // of f_S, frozen
+  const auto hardening = hardening_stress<J>(flow.isotropic, flow.curves, at, J(state.hardening));
+  set_flow(v, state, strength, at.flow_stress.v + hardening.stress.v, at.kinematic_modulus.v);
   return v;
 }
 
@@ -48,6 +73,11 @@ void append(ElementFields& fields, const ViscoplasticValues<double>& values) {
   fields.back_stress.push_back(values.back_stress.c);
   fields.equivalent_plastic_strain.push_back(values.equivalent_plastic_strain);
   fields.flow_stress.push_back(values.flow_stress);
+}
+
+void append(ElementFields& fields, const IsentropicValues<double>& values) {
+  append(fields, values.mechanical);
+  fields.intermediate_temperature.push_back(values.temperature);
 }
 
 std::string text(const Sym<double>& a) {

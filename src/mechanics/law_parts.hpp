@@ -6,20 +6,29 @@
 #include <bit>
 #include <string>
 
+#include "material/isentropic.hpp"
 #include "material/viscoelastic.hpp"
 #include "material/viscoplastic.hpp"
 #include "mechanics/mechanical_phase.hpp"
 
 namespace solidus::mechanics {
 
-/// The part of the properties that every law has.
+/// The part of the properties that every law has, at Θ_n.
 template <class T>
-const material::PointProperties<T>& elastic_part(const material::PointProperties<T>& p) {
+const material::PointProperties<T>& elastic_part(const material::Viscoelastic&,
+                                                 const material::PointProperties<T>& p) {
   return p;
 }
 template <class T>
-const material::PointProperties<T>& elastic_part(const material::Viscoplastic::Properties<T>& p) {
+const material::PointProperties<T>& elastic_part(const material::Viscoplastic&,
+                                                 const material::Viscoplastic::Properties<T>& p) {
   return p.elastic;
+}
+template <class T>
+material::PointProperties<T> elastic_part(const material::Isentropic& law,
+                                          const material::Isentropic::Properties<T>& p) {
+  const auto e = law.at_temperature(p, p.temperature).elastic;
+  return {e.bulk.v, e.shear.v, e.thermal_strain.v, e.solid_fraction.v, e.viscosity.v};
 }
 
 /// What to subtract from the strain for the elastic one.
@@ -54,6 +63,10 @@ template <class Response>
 PlasticPower plastic_power(const material::Viscoplastic&, const Response& r) {
   return {r.plastic_power, r.plastic_dissipation};
 }
+template <class Response>
+PlasticPower plastic_power(const material::Isentropic&, const Response& r) {
+  return {r.plastic_power, r.plastic_dissipation};
+}
 
 /// What results show of a point or, averaged, of an element (units as in ElementFields).
 template <class T>
@@ -67,6 +80,12 @@ struct ViscoplasticValues {
   using OfOne = ViscoplasticValues<double>;
   Sym<T> stress, strain, viscous_strain, plastic_strain, back_stress;
   T equivalent_plastic_strain{}, flow_stress{}, dissipation{};
+};
+template <class T>
+struct IsentropicValues {
+  using OfOne = IsentropicValues<double>;
+  ViscoplasticValues<T> mechanical;
+  T temperature{};  ///< Θ̄
 };
 
 template <class Response>
@@ -88,10 +107,25 @@ ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
   v.dissipation = r.dissipation;
   return v;
 }
+/// The same of the isentropic mapping, at Θ̄ but for what it freezes.
+ViscoplasticValues<Lane> values_of(const material::Isentropic& law,
+                                   const material::Isentropic::Properties<Lane>& p,
+                                   const material::Isentropic::State<Lane>& state, const Lane& temperature);
+template <class Response>
+IsentropicValues<Lane> values_of(const material::Isentropic& law,
+                                 const material::Isentropic::Properties<Lane>& p, const Response& r,
+                                 const Sym<Lane>& strain) {
+  IsentropicValues<Lane> v{values_of(law, p, r.state, r.temperature), r.temperature};
+  v.mechanical.stress = r.stress;
+  v.mechanical.strain = strain;
+  v.mechanical.dissipation = r.dissipation;
+  return v;
+}
 
 /// Appends those of one element; what a law does not know is zero.
 void append(ElementFields& fields, const ViscoelasticValues<double>& values);
 void append(ElementFields& fields, const ViscoplasticValues<double>& values);
+void append(ElementFields& fields, const IsentropicValues<double>& values);
 
 /// sum += weight × values, of a struct that holds nothing but lanes.
 template <class Values>

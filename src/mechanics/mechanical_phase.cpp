@@ -53,7 +53,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   for (const mesh::Block& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     plastic_ = plastic_ || material.flow.has_value();
-    blocks_.push_back(make_block_kernel(mesh, block, kind, material, options_.b_bar));
+    blocks_.push_back(make_block_kernel(mesh, block, kind, material, options_.mapping, options_.b_bar));
     blocks_.back()->add_nodal_volume(material.density, mass);
   }
   for (std::size_t node = 0; node < mass.size(); ++node)
@@ -102,7 +102,7 @@ material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, double
   return two_step ? material::TimeStep::two_step(dt, old.dt_before) : material::TimeStep::backward_euler(dt);
 }
 
-/// Hands the blocks Θ_n and the start of the effective step.
+/// Hands the blocks Θ_n, the state at t_n and the start of the effective step.
 void MechanicalPhase::prepare(const MechanicalState& old, std::span<const double> temperature, double dt) {
   const material::TimeStep step = time_step(old, dt);
   const bool extrapolates = step.before != 0;
@@ -119,6 +119,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, std::span<const double
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     stiffness += blocks_[b]->prepare({.temperature = temperature,
                                       .initial_temperature = initial_temperature_,
+                                      .old_displacement = old.displacement,
                                       .old_history = &old.history[b],
                                       .start_history = extrapolates ? &start_[b] : &old.history[b],
                                       .dt = dt,

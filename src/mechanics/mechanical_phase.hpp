@@ -1,5 +1,5 @@
 /// The quasi-static mechanical phase: equilibrium at t_{n+1} with the temperature held
-/// (monograph 4.46, 6.25).
+/// (monograph 4.46, 6.25), or with the entropy of every quadrature point held (4.40).
 ///
 ///   r(u) = ∫ B̄ᵀ σ dV − f(t) + contributions = 0
 ///
@@ -33,12 +33,19 @@ struct BlockWork;
 
 enum class TimeIntegration { backward_euler, two_step };
 
+/// What the mechanical phase holds.
+enum class Mapping {
+  isothermal,  ///< Θ = Θ_n
+  isentropic  ///< elastic entropy S^E = S^E(ε_n, z_n, Θ_n), at an intermediate temperature Θ̄ (4.72–4.124)
+};
+
 struct MechanicsOptions {
   algebra::NewtonOptions newton;
   /// Constant volumetric mode (Q1/P0, 6.2) in 4-node quads and 8-node hexes; other shapes use the standard
   /// operator.
   bool b_bar = true;
   TimeIntegration integration = TimeIntegration::backward_euler;
+  Mapping mapping = Mapping::isothermal;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
   double linear_tolerance = 1e-8;  ///< iterative solvers, relative
   /// False when a contribution's tangent is not symmetric (friction); a law's is found by itself
@@ -76,9 +83,10 @@ struct ElementFields {
   std::vector<std::array<double, 6>> back_stress;     ///< q, centre of the yield surface [Pa]
   std::vector<double> equivalent_plastic_strain;      ///< ξ
   std::vector<double> flow_stress;  ///< σ_0 + K_ξ, the von Mises stress (less back stress) of slow flow [Pa]
-  std::vector<double> dissipation;  ///< D_mech [W/m³]
-  std::vector<double> von_mises;    ///< of the average stress [Pa]
-  std::vector<double> pressure;     ///< −tr σ/3 [Pa], positive in compression
+  std::vector<double> dissipation;               ///< D_mech [W/m³]
+  std::vector<double> von_mises;                 ///< of the average stress [Pa]
+  std::vector<double> pressure;                  ///< −tr σ/3 [Pa], positive in compression
+  std::vector<double> intermediate_temperature;  ///< Θ̄ [K]; empty in the isothermal mapping
 };
 
 class MechanicalPhase : private algebra::NonlinearSystem {
@@ -94,11 +102,13 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   int components() const { return components_; }
   AnalysisKind kind() const { return kind_; }
+  Mapping mapping() const { return options_.mapping; }
   /// Zero displacement, no inelastic strain.
   MechanicalState initial_state() const;
 
   /// Solves for t_{n+1} = time from the state at time − dt. `trial` is written only on success.
-  /// @param temperature [K], [local node], ghosts up to date: Θ_n, held during the phase
+  /// @param temperature [K], [local node], ghosts up to date: Θ_n, held during the phase or the one at which
+  ///                    the entropy is held
   /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the element whose law
   /// found no state, with its inputs, or the node of the largest residual.
   PhaseReport solve(const MechanicalState& old, MechanicalState& trial, std::span<const double> temperature,

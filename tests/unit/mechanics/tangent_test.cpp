@@ -91,7 +91,7 @@ struct Setting {
     algebra::BlockMatrix matrix(mesh, nc, std::move(graph));
     kernel.bind(matrix);
     const mechanics::BlockHistory history = kernel.initial_history();
-    kernel.prepare({temperature, temperature, &history, &history, 0.5, 0.5});
+    kernel.prepare({temperature, temperature, u, &history, &history, 0.5, 0.5});
     matrix.set_zero();
     kernel.add_tangent(u, matrix);
     std::vector<double> y(static_cast<std::size_t>(mesh.n_owned_nodes * nc));
@@ -102,7 +102,7 @@ struct Setting {
   double plastic_share(BlockKernel& kernel) {
     const mechanics::BlockHistory history = kernel.initial_history();
     mechanics::BlockHistory trial = history;
-    kernel.prepare({temperature, temperature, &history, &history, 0.5, 0.5});
+    kernel.prepare({temperature, temperature, u, &history, &history, 0.5, 0.5});
     kernel.finish(u, u, trial);
     const std::vector<double> xi = kernel.fields().equivalent_plastic_strain;
     return static_cast<double>(std::count_if(xi.begin(), xi.end(), [](double x) { return x > 0; })) /
@@ -111,7 +111,7 @@ struct Setting {
   /// The same by central differences of the forces.
   std::vector<double> difference(BlockKernel& kernel, double step) {
     const mechanics::BlockHistory history = kernel.initial_history();
-    kernel.prepare({temperature, temperature, &history, &history, 0.5, 0.5});
+    kernel.prepare({temperature, temperature, u, &history, &history, 0.5, 0.5});
     const auto forces = [&](double s) {
       std::vector<double> x = u, f(u.size(), 0.0);
       for (std::size_t i = 0; i < x.size(); ++i) x[i] += s * direction[i];
@@ -135,7 +135,8 @@ void check() {
   Setting s(shape, kind);
   ASSERT_EQ(s.mesh.blocks.size(), 1u);
   const auto& block = s.mesh.blocks.front();
-  const auto viscoelastic = mechanics::make_block_kernel(s.mesh, block, kind, s.material, b_bar);
+  const auto viscoelastic =
+      mechanics::make_block_kernel(s.mesh, block, kind, s.material, mechanics::Mapping::isothermal, b_bar);
   const auto product = s.product(*viscoelastic);
   expect_near(product, s.difference(*viscoelastic, 1.0), 1e-10);  // the law is linear: no truncation
   mechanics::LawBlock<FullViscoelastic, n, kind, b_bar> general(s.mesh, block, s.material);
@@ -147,7 +148,8 @@ void check() {
   using material::KinematicHardening;
   for (const auto kinematic : {KinematicHardening::linear, KinematicHardening::armstrong_frederick}) {
     s.material = test::plastic_material(kinematic);
-    const auto plastic = mechanics::make_block_kernel(s.mesh, block, kind, s.material, b_bar);
+    const auto plastic =
+        mechanics::make_block_kernel(s.mesh, block, kind, s.material, mechanics::Mapping::isothermal, b_bar);
     EXPECT_EQ(plastic->symmetric(), kinematic == KinematicHardening::linear);
     const auto tangent = s.product(*plastic);
     // the same truncation and round-off, on a law that yields in every point
