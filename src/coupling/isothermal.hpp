@@ -5,24 +5,15 @@
 /// Conditionally stable: see docs/theory/coupling.md. With only one of the phases it is that phase alone.
 #pragma once
 
-#include "coupling/phases.hpp"
-#include "coupling/scheme.hpp"
+#include "coupling/sequential_split.hpp"
 
 namespace solidus::coupling {
 
-class IsothermalSplit : public CouplingScheme {
+class IsothermalSplit final : public SequentialSplit {
  public:
   /// The phases must outlive the scheme.
-  explicit IsothermalSplit(Phases phases) : phases_(std::move(phases)) {}
-  void synchronise(const State& state) override;
-  void forget() override;
-  StepEffort advance(const State& old, State& trial, double time, double dt) override;
-
- private:
-  void mechanical_phase(const State& old, State& trial, double time, double dt, StepEffort& effort);
-  void thermal_phase(const State& old, State& trial, double time, double dt, StepEffort& effort);
-
-  Phases phases_;
+  explicit IsothermalSplit(Phases phases)
+      : SequentialSplit(std::move(phases), mechanics::Mapping::isothermal) {}
 };
 
 }  // namespace solidus::coupling

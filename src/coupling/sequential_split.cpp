@@ -1,6 +1,8 @@
-#include "coupling/isothermal.hpp"
+#include "coupling/sequential_split.hpp"
 
 #include <mpi.h>
+
+#include <stdexcept>
 
 namespace solidus::coupling {
 
@@ -13,17 +15,22 @@ PhaseEffort effort_of(const algebra::NewtonReport& newton, double seconds) {
 
 }  // namespace
 
-void IsothermalSplit::synchronise(const State& state) {
+SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping) : phases_(std::move(phases)) {
+  if (phases_.mechanics != nullptr && phases_.mechanics->mapping() != mapping)
+    throw std::invalid_argument("the mechanical phase was built for another split");
+}
+
+void SequentialSplit::synchronise(const State& state) {
   if (phases_.mechanics == nullptr) return;  // without deformation the gaps stay as they were made
   for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
 }
 
-void IsothermalSplit::forget() {
+void SequentialSplit::forget() {
   if (phases_.mechanics != nullptr) phases_.mechanics->forget();
   if (phases_.heat != nullptr) phases_.heat->forget();
 }
 
-StepEffort IsothermalSplit::advance(const State& old, State& trial, double time, double dt) {
+StepEffort SequentialSplit::advance(const State& old, State& trial, double time, double dt) {
   StepEffort effort;
   if (phases_.mechanics != nullptr) mechanical_phase(old, trial, time, dt, effort);
   if (phases_.heat != nullptr) thermal_phase(old, trial, time, dt, effort);
@@ -31,8 +38,9 @@ StepEffort IsothermalSplit::advance(const State& old, State& trial, double time,
   return effort;
 }
 
-// Equilibrium at the temperature of t_n (4.46), then gaps and conductances of the configuration found.
-void IsothermalSplit::mechanical_phase(const State& old, State& trial, double time, double dt,
+// Equilibrium from the temperature of t_n (4.40, 4.46), then gaps and conductances of the configuration
+// found.
+void SequentialSplit::mechanical_phase(const State& old, State& trial, double time, double dt,
                                        StepEffort& effort) {
   const double start = MPI_Wtime();
   const double spring_energy = contact_energy(phases_);
@@ -52,8 +60,8 @@ void IsothermalSplit::mechanical_phase(const State& old, State& trial, double ti
   effort.mechanics = effort_of(report.newton, MPI_Wtime() - start);
 }
 
-// The balance of energy at the new configuration (4.53): Γ stays as the mechanical phase left it.
-void IsothermalSplit::thermal_phase(const State& old, State& trial, double time, double dt,
+// The balance of energy at the new configuration (4.43, 4.53): Γ stays as the mechanical phase left it.
+void SequentialSplit::thermal_phase(const State& old, State& trial, double time, double dt,
                                     StepEffort& effort) {
   const double start = MPI_Wtime();
   const heat::PhaseReport report = phases_.heat->solve(old.heat, trial.heat, time, dt);

@@ -226,6 +226,13 @@ void check_probes(const CaseSpec& spec) {
   }
 }
 
+void check_coupling(const CaseSpec& spec) {
+  if (spec.isentropic() && spec.coupling.structural_heating == CouplingSpec::StructuralHeating::none)
+    throw InputError(spec.coupling.where,
+                     "the isentropic split holds entropy, which structural_heating = \"none\" loses",
+                     "structural_heating \"entropy\" or \"energy\", or scheme = \"isothermal\"");
+}
+
 }  // namespace
 
 void check_case(const CaseSpec& spec) {
@@ -237,6 +244,7 @@ void check_case(const CaseSpec& spec) {
   check_names(spec.bodies, "[[body]]");
   check_conditions(spec);
   check_contacts(spec);
+  check_coupling(spec);
   check_probes(spec);
   probes(spec);  // components that their fields do not have
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)

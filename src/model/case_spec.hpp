@@ -126,11 +126,12 @@ struct MechanicsSpec {
 };
 
 struct CouplingSpec {
-  enum class Scheme { isothermal };
+  enum class Scheme { isothermal, isentropic };
   Scheme scheme = Scheme::isothermal;
   /// How deformation enters the heat balance (mechanics/structural_heat.hpp); none: not at all.
   enum class StructuralHeating { entropy, energy, none };
   StructuralHeating structural_heating = StructuralHeating::entropy;
+  SourceLocation where;
 };
 
 struct ProbeSpec {
@@ -173,6 +174,11 @@ struct CaseSpec {
   int dimension() const { return analysis.kind == AnalysisKind::solid ? 3 : 2; }
   bool has_heat() const { return analysis.physics != Physics::mechanics; }
   bool has_mechanics() const { return analysis.physics != Physics::heat; }
+  /// Heat and mechanics with a mechanical phase that holds entropy.
+  bool isentropic() const {
+    return analysis.physics == Physics::thermomechanical &&
+           coupling.scheme == CouplingSpec::Scheme::isentropic;
+  }
 };
 
 }  // namespace solidus::model

@@ -18,9 +18,10 @@ namespace {
 std::string analysis_text(const CaseSpec& spec) {
   constexpr std::array<const char*, 3> k_physics = {"heat", "mechanics", "thermomechanical"};
   constexpr std::array<const char*, 3> k_kinds = {"plane strain", "axisymmetric", "3D"};
-  return fmt::format("{}, {}, {} rule", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
+  return fmt::format("{}, {}, {} rule{}", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
                      k_physics.at(static_cast<std::size_t>(spec.analysis.physics)),
-                     spec.heat.integration == heat::Integration::closed ? "closed" : "open");
+                     spec.heat.integration == heat::Integration::closed ? "closed" : "open",
+                     spec.isentropic() ? ", isentropic" : "");
 }
 
 std::string mesh_text(const mesh::Mesh& mesh) {

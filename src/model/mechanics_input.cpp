@@ -57,6 +57,7 @@ mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   options.newton.line_search = spec.mechanics.line_search;
   options.b_bar = spec.mechanics.b_bar;
   options.integration = spec.mechanics.integration;
+  options.mapping = spec.isentropic() ? mechanics::Mapping::isentropic : mechanics::Mapping::isothermal;
   options.solver = spec.mechanics.solver;
   return options;
 }

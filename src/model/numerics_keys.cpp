@@ -78,11 +78,15 @@ Section<MechanicsSpec> mechanics_keys() {
 
 Section<CouplingSpec> coupling_keys() {
   Section<CouplingSpec> s("coupling", "How the two phases take turns.");
+  s.place(&CouplingSpec::where);
   s.choice("scheme", &CouplingSpec::scheme,
            {{"isothermal", CouplingSpec::Scheme::isothermal,
-             "mechanical phase at fixed temperature, then thermal phase at fixed configuration"}})
+             "mechanical phase at fixed temperature, then thermal phase at fixed configuration"},
+            {"isentropic", CouplingSpec::Scheme::isentropic,
+             "mechanical phase at fixed entropy of every point, then the same: stable however strongly "
+             "deformation and heat are coupled"}})
       .initially("isothermal")
-      .doc("The operator split.");
+      .doc("The operator split. With heat or mechanics alone there is nothing to split.");
   using Heating = CouplingSpec::StructuralHeating;
   s.choice("structural_heating", &CouplingSpec::structural_heating,
            {{"entropy", Heating::entropy,

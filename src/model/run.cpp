@@ -10,6 +10,7 @@
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
 #include "base/units.hpp"
+#include "coupling/isentropic.hpp"
 #include "coupling/isothermal.hpp"
 #include "coupling/simulation.hpp"
 #include "material/library.hpp"
@@ -230,9 +231,14 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
   return {};
 }
 
+std::unique_ptr<coupling::CouplingScheme> scheme(const CaseSpec& spec, const coupling::Phases& phases) {
+  if (spec.isentropic()) return std::make_unique<coupling::IsentropicSplit>(phases);
+  return std::make_unique<coupling::IsothermalSplit>(phases);
+}
+
 RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
                         const std::optional<results::Checkpoint>& from, results::Recorder& recorder) {
-  coupling::Simulation simulation(std::make_unique<coupling::IsothermalSplit>(a.phases), time_options(spec));
+  coupling::Simulation simulation(scheme(spec, a.phases), time_options(spec));
   RangeWatch watch(spec, a);
   DissipationWatch dissipation;
   StopReason why;

@@ -1,9 +1,12 @@
-/// Thermo-mechanical bodies driven by the isothermal split, and what every step reports of the first law.
+/// Thermo-mechanical bodies driven by the splits, and what every step reports of the first law.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "coupling/isentropic.hpp"
 #include "coupling/isothermal.hpp"
 #include "mechanics_bodies.hpp"
 
@@ -19,6 +22,7 @@ struct Coupled {
   heat::Conditions thermal;
   std::optional<contact::ContactSpec> contact;
   std::optional<mechanics::StructuralForm> form;
+  mechanics::Mapping mapping = mechanics::Mapping::isothermal;  ///< which makes the split
   heat::Integration integration = heat::Integration::closed;
 
   /// Every node of a group at rest in a direction, or as the table says.
@@ -51,8 +55,9 @@ struct CoupledRun {
 };
 
 /// Equal steps from zero to `end`. The criteria of both phases are at round-off, so that what remains of the
-/// first law is the scheme's.
-inline CoupledRun march(const Coupled& c, double end, int n_steps) {
+/// first law is the scheme's. `watch` sees the state after every step.
+inline CoupledRun march(const Coupled& c, double end, int n_steps,
+                        const std::function<void(const coupling::State&)>& watch = {}) {
   std::optional<contact::ContactPair> pair;
   std::vector<algebra::Contribution*> mechanical, thermal;
   if (c.contact) {
@@ -69,6 +74,7 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps) {
 
   mechanics::MechanicsOptions mechanics_options = test::strict();
   mechanics_options.newton.max_iterations = 60;
+  mechanics_options.mapping = c.mapping;
   mechanics::MechanicalPhase mechanics(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options,
                                        mechanical);
   std::optional<mechanics::StructuralHeat> structural;
@@ -86,17 +92,22 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps) {
   phases.mechanics = &mechanics;
   phases.structural = structural ? &*structural : nullptr;
   if (pair) phases.contacts = {&*pair};
-  coupling::IsothermalSplit split(phases);
+  std::unique_ptr<coupling::CouplingScheme> split;
+  if (c.mapping == mechanics::Mapping::isentropic)
+    split = std::make_unique<coupling::IsentropicSplit>(phases);
+  else
+    split = std::make_unique<coupling::IsothermalSplit>(phases);
 
   CoupledRun run;
   run.end.heat = heat.initial_state(c.start);
   run.end.mechanics = mechanics.initial_state();
-  split.synchronise(run.end);
+  split->synchronise(run.end);
   for (int n = 1; n <= n_steps; ++n) {
     coupling::State trial = run.end;
     trial.time = end * n / n_steps;
-    run.steps.push_back(split.advance(run.end, trial, trial.time, end / n_steps).energy);
+    run.steps.push_back(split->advance(run.end, trial, trial.time, end / n_steps).energy);
     run.end = std::move(trial);
+    if (watch) watch(run.end);
   }
   return run;
 }
