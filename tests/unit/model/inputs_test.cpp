@@ -127,6 +127,18 @@ TEST(ModelInput, ContactTakesItsPenaltyAsANumberOrAsAFactor) {
   EXPECT_FALSE(absolute.nodal_heat);
 }
 
+TEST(ModelInput, TheSplitChoosesWhatTheMechanicalPhaseHolds) {
+  using mechanics::Mapping;
+  EXPECT_EQ(mechanics_options(read()).mapping, Mapping::isothermal);
+  const std::string isentropic = "[coupling]\nscheme = \"isentropic\"\n";
+  EXPECT_EQ(mechanics_options(read(isentropic)).mapping, Mapping::isentropic);
+  CaseSpec alone = read(isentropic);
+  alone.analysis.physics = Physics::mechanics;
+  EXPECT_EQ(mechanics_options(alone).mapping, Mapping::isothermal);
+  EXPECT_THAT(error([&] { read(isentropic + "structural_heating = \"none\"\n"); }),
+              HasSubstr("the isentropic split holds entropy"));
+}
+
 TEST(ModelInput, OutputTimesAreTheListAndTheMultiples) {
   const coupling::TimeOptions t = time_options(read("[output]\nevery = \"4 s\"\ntimes = [\"1 s\"]\n"));
   EXPECT_THAT(t.output_times, ::testing::ElementsAre(1.0, 4.0, 8.0));
