@@ -83,6 +83,33 @@ TEST(AluminiumCylinder, EnergyFormClosesTheFirstLaw) {
   EXPECT_LT(relative_defect(r), 1e-8);
 }
 
+/// The largest difference of a column over all rows.
+double difference(const CaseRun& a, const CaseRun& b, const std::string& column) {
+  const auto &x = a.history.at(column), &y = b.history.at(column);
+  EXPECT_EQ(x.size(), y.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+    largest = std::max(largest, std::abs(x[i] - y[i]));
+  return largest;
+}
+
+// Figure 7.21: aluminium is weakly coupled, what is left is the error of a step of 1 s.
+TEST(AluminiumCylinder, BothSplitsSuperpose) {
+  for (const std::string file : {"isentropic.toml", "plastic.toml"}) {
+    std::vector<std::string> more = k_small;
+    more.push_back("coupling.structural_heating=\"energy\"");
+    more.push_back("coupling.scheme=\"isothermal\"");
+    const CaseRun isothermal = run("cases/aluminium_cylinder/" + file, "isothermal_" + file, more);
+    more.back() = "coupling.scheme=\"isentropic\"";
+    const CaseRun isentropic = run("cases/aluminium_cylinder/" + file, "isentropic_" + file, more);
+    ASSERT_TRUE(isothermal.finished && isentropic.finished) << isothermal.reason << isentropic.reason;
+    for (const char* column : {"T_center[degC]", "T_casting_surface[degC]", "T_mould_surface[degC]"})
+      EXPECT_LT(difference(isothermal, isentropic, column), 0.3) << file << " " << column;  // of 200 K
+    EXPECT_LT(difference(isothermal, isentropic, "gap[mm]"), 2e-4) << file;                 // of 0.05 mm
+    EXPECT_LT(relative_defect(isentropic), 1e-8) << file;
+  }
+}
+
 TEST(AluminiumCylinder, PlasticMetalYieldsWhereElasticMetalCarriesStress) {
   const CaseRun r = run("cases/aluminium_cylinder/plastic.toml", "plastic", k_small);
   ASSERT_TRUE(r.finished) << r.reason;
