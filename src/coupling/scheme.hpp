@@ -1,4 +1,4 @@
-/// The interface that every coupling scheme implements: isothermal now, isentropic, simultaneous and
+/// The interface that every coupling scheme implements: isothermal and isentropic now, simultaneous and
 /// block-iterative later.
 #pragma once
 

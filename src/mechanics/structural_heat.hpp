@@ -5,9 +5,10 @@
 /// volume (K: what hardening stores), the thermal phase (at the configuration of the last mechanical solve)
 /// receives, weighted with each node's basis function,
 ///
-///   entropy form:  Θ_{n+1} [S(ε_{n+1}, Θ_{n+1}) − S(ε_n, Θ_n)]/Δt − D_mech                  (4.48a)
+///   entropy form:  Θ_{n+1} [S(ε_{n+1}, Θ_{n+1}) − S(ε_n, Θ_n)]/Δt − D_mech          (4.43a, 4.48a)
 ///   energy form:   [E(ε_{n+1}, Θ_{n+1}) − E(ε_n, Θ_n) − σ_{n+1} : Δε]/Δt
 ///
+/// σ, D_mech and the internal variables being those of the mechanical phase, isothermal or isentropic;
 /// both including the capacity products of 2.127a. They differ at second order in the step; the energy form
 /// closes the first law to the residuals. Solid fraction and straining of phase changes are held at their
 /// values in the mechanical phase at both ends of the step (4.81): the energy of the transformation itself is
