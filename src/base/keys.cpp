@@ -191,7 +191,7 @@ Function read_function_table(const Value& table, const Key& key) {
 
 std::string_view name(Argument argument) {
   constexpr std::array<std::string_view, 6> names = {"constant", "time",     "temperature",
-                                                   "gap",      "pressure", "strain"};
+                                                     "gap",      "pressure", "strain"};
   return names[static_cast<std::size_t>(argument)];
 }
 

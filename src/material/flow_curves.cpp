@@ -136,9 +136,9 @@ FlowCurves::Value FlowCurves::at(double strain, double temperature) const {
   const double width = thetas[row + 1] - thetas[row];
   const double t = (temperature - thetas[row]) / width;
   const auto between = [t](double a, double b) { return (1 - t) * a + t * b; };
-  return {between(cold.stress, hot.stress), between(cold.slope, hot.slope), between(cold.energy, hot.energy),
-          (hot.stress - cold.stress) / width, (hot.slope - cold.slope) / width,
-          (hot.energy - cold.energy) / width};
+  return {between(cold.stress, hot.stress), between(cold.slope, hot.slope),
+          between(cold.energy, hot.energy), (hot.stress - cold.stress) / width,
+          (hot.slope - cold.slope) / width, (hot.energy - cold.energy) / width};
 }
 
 }  // namespace solidus::material
