@@ -41,7 +41,7 @@ inline Register square_root(Register a) {
 #if SOLIDUS_REGISTER_BYTES == 32
   return _mm256_sqrt_pd(a);
 #else
-  Register root;
+  Register root{};
   for (int i = 0; i < k_register_width; ++i) root[i] = __builtin_sqrt(a[i]);
   return root;
 #endif
