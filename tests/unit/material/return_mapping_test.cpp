@@ -32,7 +32,6 @@ struct Counted {
   friend bool operator<(Counted a, Counted b) { return a.v < b.v; }
   friend bool operator>(Counted a, Counted b) { return a.v > b.v; }
   friend bool operator<=(Counted a, Counted b) { return a.v <= b.v; }
-  friend bool operator>=(Counted a, Counted b) { return a.v >= b.v; }
   friend Counted sqrt(Counted a) { return std::sqrt(a.v); }
   friend Counted log(Counted a) { return std::log(a.v); }
   friend Counted exp(Counted a) {

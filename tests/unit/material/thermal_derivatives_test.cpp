@@ -127,7 +127,8 @@ void check(LiquidModel liquid, Frozen frozen) {
   Random random(5);
   Errors e;
   // f_S = 1e-12, or 1e-6 where it varies: automatic differentiation then loses f_S,Θ/f_S = 2e4 of its digits,
-  // because it differentiates γ = f_S Φ/(η + f_S D) before f_S cancels.
+  // because it differentiates γ = f_S Φ/(η + f_S D) before f_S cancels: with other roundings (clang, fused
+  // multiply-add) up to 7e-9 are left.
   const double almost_liquid = frozen.phase ? 930 - 5e-11 : 930 - 5e-5;
   for (const auto isotropic : k_isotropic)
     for (const auto kinematic : k_kinematic)
@@ -140,7 +141,9 @@ void check(LiquidModel liquid, Frozen frozen) {
               Errors one;
               compare(law, temperature, frozen, random_state(random), random_tensor(random, size),
                       decades(random, -2, 2), one);
-              ASSERT_LT(std::max({one.stress, one.dissipation, one.gamma, one.entropy}), 1e-9)
+              const bool loses_digits = !frozen.phase && temperature == almost_liquid;
+              ASSERT_LT(std::max({one.stress, one.dissipation, one.gamma, one.entropy}),
+                        loses_digits ? 2e-8 : 1e-9)
                   << "isotropic " << static_cast<int>(isotropic) << " kinematic "
                   << static_cast<int>(kinematic) << " n " << n << " eta " << eta << " T " << temperature
                   << " strain " << size << " errors " << one.stress << ' ' << one.dissipation << ' '
