@@ -24,6 +24,8 @@ struct EnergyAudit {
   double stored_heat = 0;  ///< change of sensible and latent heat
   double structural = 0;   ///< change of the structural energy W + M + Θ S
   double contact = 0;      ///< change of the energy in contact penalties
+  double kinetic = 0;      ///< change of the kinetic energy
+  double numerical = 0;    ///< what the time integration of inertia dissipates (its own term of the balance)
   double work = 0;         ///< work of loads and supports on the bodies
   double heat_in = 0;      ///< through boundaries and from sources
   double heat_exchanged =
@@ -32,7 +34,15 @@ struct EnergyAudit {
   double plastic_dissipation = 0;  ///< heat of plastic flow (2.117)
   double plastic_work = 0;         ///< work of the deviator on plastic flow
   double hardening() const { return plastic_work - plastic_dissipation; }  ///< what hardening stores
-  double defect() const { return stored_heat + structural + contact - work - heat_in; }
+  double defect() const { return stored_heat + structural + contact + kinetic + numerical - work - heat_in; }
+};
+
+/// The a-priori stability functional 𝓛 of 2.24 (with contact 3.69) over one step, and what it is made of
+/// [J].
+struct StabilityAudit {
+  double mechanical = 0, thermal = 0;  ///< increments of 𝓛 over the two phases (4.34, 4.39)
+  double entropy = 0;                  ///< change of S^E + S^pc [J/K]
+  double increment() const { return mechanical + thermal; }
 };
 
 struct ContactSummary {
@@ -45,6 +55,7 @@ struct ContactSummary {
 struct StepEffort {
   PhaseEffort heat, mechanics;
   EnergyAudit energy;
+  StabilityAudit stability;
   std::vector<ContactSummary> contacts;
   /// The least and the largest D_mech at any point and zero [W/m³]: the least is zero but for rounding.
   double least_dissipation = 0, largest_dissipation = 0;

@@ -39,6 +39,12 @@ struct PointCurvatures {
 template <class T>
 PointProperties<T> properties_at(const Material& material, const T& temperature,
                                  const T& initial_temperature);
+/// Properties at Θ with the solid fraction and the straining of phase changes of another temperature (4.76a,
+/// 4.81): within a step they are those of Θ_n, whatever temperature the pass of a scheme works at.
+/// @param thermal_strain, solid_fraction  members of properties_at(temperature)
+template <class T>
+void hold_phase(const Material& material, const T& temperature, const T& phase_temperature, T& thermal_strain,
+                T& solid_fraction);
 template <class T>
 PointDerivatives<T> derivatives_at(const Material& material, const T& temperature,
                                    const T& initial_temperature);

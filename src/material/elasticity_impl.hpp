@@ -69,6 +69,17 @@ PointProperties<T> properties_at(const Material& material, const T& temperature,
 }
 
 template <class T>
+void hold_phase(const Material& material, const T& temperature, const T& phase_temperature, T& thermal_strain,
+                T& solid_fraction) {
+  for (const PhaseChange& change : material.phase_changes) {
+    if (change.volume_change == 0 && !change.solidification) continue;
+    const T held = detail::value(change.fraction, phase_temperature);
+    thermal_strain += T(change.volume_change) * (held - detail::value(change.fraction, temperature));
+    if (change.solidification) solid_fraction = held;
+  }
+}
+
+template <class T>
 PointDerivatives<T> derivatives_at(const Material& material, const T& temperature,
                                    const T& /*initial_temperature*/) {
   const auto young = detail::line(material.young_modulus, temperature);

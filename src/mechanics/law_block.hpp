@@ -91,20 +91,24 @@ class LawBlock final : public BlockKernel {
     dt_ = start.dt;
     effective_dt_ = start.effective_dt;
     points_.set_dt(start.dt);
+    const bool iterates = start.pass_temperature.data() != start.temperature.data();
     Lane scale(0.0);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-      [[maybe_unused]] const Vectors old_displacement = gather(start.old_displacement, batch);
+      [[maybe_unused]] const Vectors held_displacement = gather(start.held_displacement, batch);
       Vectors f{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
-        const Lane theta = temperature_at(geometry_, batch, q, start.temperature);
+        const Lane old_theta = temperature_at(geometry_, batch, q, start.temperature);
+        const Lane theta = iterates ? temperature_at(geometry_, batch, q, start.pass_temperature) : old_theta;
         Properties& properties = properties_[index(batch, q)];
         properties =
             law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
+        if (iterates) hold_phase(law_, theta, old_theta, properties);
         if constexpr (HoldsEntropy<Properties>)
-          properties.entropy = law_.entropy(properties, b.strain(old_displacement), old_state(batch, q));
+          properties.entropy =
+              law_.entropy(properties, b.strain(held_displacement), state_of(*start.held_history, batch, q));
         const auto& p = elastic_part(law_, properties);
-        points_.set_temperature(batch, q, theta, p.thermal_strain);
+        points_.set_temperature(batch, q, old_theta, theta, p.thermal_strain);
         for (std::size_t a = 0; a < n_nodes; ++a)
           for (std::size_t i = 0; i < dim; ++i)
             f[a][i] += p.bulk * geometry_.weight_at(batch, q) * abs(b.divergence(a, i));

@@ -102,9 +102,10 @@ material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, double
   return two_step ? material::TimeStep::two_step(dt, old.dt_before) : material::TimeStep::backward_euler(dt);
 }
 
-/// Hands the blocks Θ_n, the state at t_n and the start of the effective step.
-void MechanicalPhase::prepare(const MechanicalState& old, std::span<const double> temperature, double dt) {
-  const material::TimeStep step = time_step(old, dt);
+/// Hands the blocks temperatures, the state at t_n and the start of the effective step.
+void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& pass) {
+  const material::TimeStep step = time_step(old, pass.dt);
+  const MechanicalState& held = pass.iterate != nullptr ? *pass.iterate : old;
   const bool extrapolates = step.before != 0;
   if (extrapolates) {
     start_ = old.history;
@@ -117,13 +118,16 @@ void MechanicalPhase::prepare(const MechanicalState& old, std::span<const double
   }
   double stiffness = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    stiffness += blocks_[b]->prepare({.temperature = temperature,
-                                      .initial_temperature = initial_temperature_,
-                                      .old_displacement = old.displacement,
-                                      .old_history = &old.history[b],
-                                      .start_history = extrapolates ? &start_[b] : &old.history[b],
-                                      .dt = dt,
-                                      .effective_dt = step.dt});
+    stiffness += blocks_[b]->prepare(
+        {.temperature = pass.temperature,
+         .pass_temperature = pass.iterate_temperature.empty() ? pass.temperature : pass.iterate_temperature,
+         .initial_temperature = initial_temperature_,
+         .held_displacement = held.displacement,
+         .held_history = &held.history[b],
+         .old_history = &old.history[b],
+         .start_history = extrapolates ? &start_[b] : &old.history[b],
+         .dt = pass.dt,
+         .effective_dt = step.dt});
   round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
 }
 
@@ -170,15 +174,15 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
 }
 
 PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
-                                   std::span<const double> temperature, double time, double dt) {
-  assert(old.displacement.size() == forces_.size() && old.history.size() == blocks_.size() && dt > 0);
-  loads_->evaluate(time, external_);
-  prepare(old, temperature, dt);
+                                   const MechanicalPass& pass) {
+  assert(old.displacement.size() == forces_.size() && old.history.size() == blocks_.size() && pass.dt > 0);
+  loads_->evaluate(pass.time, external_);
+  prepare(old, pass);
 
   algebra::NewtonOptions newton_options = options_.newton;
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
-  std::vector<double> x = old.displacement;
-  loads_->prescribe(time, x);
+  std::vector<double> x = pass.iterate != nullptr ? pass.iterate->displacement : old.displacement;
+  loads_->prescribe(pass.time, x);
   PhaseReport report;
   report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
   if (!report.newton.converged) {
@@ -205,7 +209,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   next.displacement = std::move(x);
   if (options_.integration == TimeIntegration::two_step) {
     next.before = old.history;
-    next.dt_before = dt;
+    next.dt_before = pass.dt;
   }
   trial = std::move(next);
   return report;

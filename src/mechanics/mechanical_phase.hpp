@@ -89,6 +89,18 @@ struct ElementFields {
   std::vector<double> intermediate_temperature;  ///< Θ̄ [K]; empty in the isothermal mapping
 };
 
+/// What one pass through the mechanical phase goes from and to. The fields of an iterate belong to schemes
+/// that solve the phase several times a step; empty, the pass is the first one.
+struct MechanicalPass {
+  double time = 0, dt = 0;              ///< t_{n+1} and the step [s]
+  std::span<const double> temperature;  ///< Θ_n [K], [local node], ghosts up to date
+  /// Θ of the iterate: held in its place, or the one at which the entropy is held. Solid fraction and
+  /// straining of phase changes stay those of Θ_n (4.81).
+  std::span<const double> iterate_temperature{};
+  /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
+  const MechanicalState* iterate = nullptr;
+};
+
 class MechanicalPhase : private algebra::NonlinearSystem {
  public:
   /// @param materials            one per body of the mesh; kept by reference
@@ -106,13 +118,15 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// Zero displacement, no inelastic strain.
   MechanicalState initial_state() const;
 
-  /// Solves for t_{n+1} = time from the state at time − dt. `trial` is written only on success.
-  /// @param temperature [K], [local node], ghosts up to date: Θ_n, held during the phase or the one at which
-  ///                    the entropy is held
+  /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be the iterate.
   /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the element whose law
   /// found no state, with its inputs, or the node of the largest residual.
+  PhaseReport solve(const MechanicalState& old, MechanicalState& trial, const MechanicalPass& pass);
+  /// The first pass.
   PhaseReport solve(const MechanicalState& old, MechanicalState& trial, std::span<const double> temperature,
-                    double time, double dt);
+                    double time, double dt) {
+    return solve(old, trial, {.time = time, .dt = dt, .temperature = temperature});
+  }
 
   /// Of the last solve; blocks in the order of the mesh.
   std::vector<ElementFields> element_fields() const;
@@ -139,7 +153,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::string law_failure(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;
-  void prepare(const MechanicalState& old, std::span<const double> temperature, double dt);
+  void prepare(const MechanicalState& old, const MechanicalPass& pass);
   MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
 
   const mesh::Mesh& mesh_;

@@ -26,11 +26,12 @@ StructuralPoints::StructuralPoints(const mesh::BlockGeometry& geometry, const ma
   material_.phase_changes.clear();
 }
 
-void StructuralPoints::set_temperature(Index batch, int point, Lane temperature, Lane thermal_strain) {
+void StructuralPoints::set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature,
+                                       Lane thermal_strain) {
   Point& p = at(batch, point);
   p.temperature = temperature;
   const Lane reference(material_.expansion_reference);
-  p.strain_offset = thermal_strain - properties_at(material_, temperature, reference).thermal_strain;
+  p.strain_offset = thermal_strain - properties_at(material_, pass_temperature, reference).thermal_strain;
 }
 
 StructuralPoints::State StructuralPoints::state(const Point& at, const Deformation& deformation,

@@ -21,7 +21,7 @@ struct Deformation {
 class StructuralPoints {
  public:
   struct Point {
-    Lane temperature;  ///< Θ_n [K], at which the mechanical phase was solved
+    Lane temperature;  ///< Θ_n [K]
     Lane strain_offset;  ///< e^θ minus 3 α (Θ − Θ_ref): initial strain and straining of phase changes, held
                          ///< (4.81)
     Deformation now;   ///< at t_{n+1}
@@ -41,9 +41,10 @@ class StructuralPoints {
   /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every
   /// node of an element alike whatever the shape and rule.
   void spread_as_stored(const PackVector<Lane>& weights);
-  /// Fills temperature and strain_offset from the temperature and the thermal strain e^θ of the mechanical
-  /// phase.
-  void set_temperature(Index batch, int point, Lane temperature, Lane thermal_strain);
+  /// Fills temperature and strain_offset.
+  /// @param temperature     Θ_n
+  /// @param thermal_strain  e^θ of the mechanical phase, which works at `pass_temperature`
+  void set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature, Lane thermal_strain);
   /// Fills the old entropy and energy from the deformation at t_n.
   void set_old(Index batch, int point, const Deformation& old);
 

@@ -125,12 +125,32 @@ struct MechanicsSpec {
   algebra::SolverKind solver = algebra::SolverKind::automatic;
 };
 
+/// Numerics of the block-iterative scheme (coupling/block_iterative.hpp).
+struct IterationSpec {
+  enum class Sweep { gauss_seidel, jacobi };
+  enum class Passes { isentropic, isothermal };
+  enum class Loop { nested, single };
+  enum class Relaxation { none, fixed, aitken };
+  Sweep sweep = Sweep::gauss_seidel;
+  Passes passes = Passes::isentropic;
+  Loop loop = Loop::nested;
+  Relaxation relaxation = Relaxation::none;
+  double factor = 0;     ///< of a fixed relaxation, and the first one of Aitken's
+  double tolerance = 0;  ///< of temperatures and displacements between two iterates, relative
+  int max_iterations = 0;
+};
+
 struct CouplingSpec {
-  enum class Scheme { isothermal, isentropic };
-  Scheme scheme = Scheme::isothermal;
+  enum class Scheme { isentropic, isothermal, simultaneous, block_iterative, double_pass };
+  Scheme scheme = Scheme::isentropic;
   /// How deformation enters the heat balance (mechanics/structural_heat.hpp); none: not at all.
-  enum class StructuralHeating { entropy, energy, none };
-  StructuralHeating structural_heating = StructuralHeating::entropy;
+  enum class StructuralHeating { energy, entropy, literal, temperature, none };
+  StructuralHeating structural_heating = StructuralHeating::energy;
+  bool as_printed = false;  ///< the sensible heat in the same form, not as a difference of enthalpies
+  enum class Integration { backward_euler, sdirk2 };
+  Integration integration = Integration::backward_euler;  ///< of the simultaneous scheme
+  std::optional<double> ambient_temperature;              ///< Θ_a of 2.24 [K]; absent: from the conditions
+  IterationSpec iteration;
   SourceLocation where;
 };
 
@@ -174,10 +194,13 @@ struct CaseSpec {
   int dimension() const { return analysis.kind == AnalysisKind::solid ? 3 : 2; }
   bool has_heat() const { return analysis.physics != Physics::mechanics; }
   bool has_mechanics() const { return analysis.physics != Physics::heat; }
+  bool coupled() const { return analysis.physics == Physics::thermomechanical; }
   /// Heat and mechanics with a mechanical phase that holds entropy.
   bool isentropic() const {
-    return analysis.physics == Physics::thermomechanical &&
-           coupling.scheme == CouplingSpec::Scheme::isentropic;
+    using Scheme = CouplingSpec::Scheme;
+    return coupled() && (coupling.scheme == Scheme::isentropic || coupling.scheme == Scheme::double_pass ||
+                         (coupling.scheme == Scheme::block_iterative &&
+                          coupling.iteration.passes == IterationSpec::Passes::isentropic));
   }
 };
 

@@ -10,8 +10,6 @@
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
 #include "base/units.hpp"
-#include "coupling/isentropic.hpp"
-#include "coupling/isothermal.hpp"
 #include "coupling/simulation.hpp"
 #include "material/library.hpp"
 #include "model/advice.hpp"
@@ -22,6 +20,7 @@
 #include "model/mechanics_input.hpp"
 #include "model/mesh_input.hpp"
 #include "model/run_input.hpp"
+#include "model/scheme_input.hpp"
 #include "results/recorder.hpp"
 
 namespace solidus::model {
@@ -90,13 +89,9 @@ void build(const CaseSpec& spec, Assembly& a) {
   a.phases.temperature = nodal_temperature(a.mesh, body_temperature);
   if (spec.has_mechanics()) {
     build_mechanics(spec, a.phases.temperature, a);
-    using Heating = CouplingSpec::StructuralHeating;
-    if (spec.has_heat() && spec.coupling.structural_heating != Heating::none) {
-      const auto form = spec.coupling.structural_heating == Heating::energy
-                            ? mechanics::StructuralForm::energy
-                            : mechanics::StructuralForm::entropy;
+    if (spec.has_heat() && spec.coupling.structural_heating != CouplingSpec::StructuralHeating::none) {
       a.structural = std::make_unique<mechanics::StructuralHeat>(
-          *a.mechanics, form, spec.heat.integration == heat::Integration::closed);
+          *a.mechanics, structural_form(spec), spec.heat.integration == heat::Integration::closed);
       a.phases.structural = a.structural.get();
     }
   }
@@ -231,14 +226,9 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
   return {};
 }
 
-std::unique_ptr<coupling::CouplingScheme> scheme(const CaseSpec& spec, const coupling::Phases& phases) {
-  if (spec.isentropic()) return std::make_unique<coupling::IsentropicSplit>(phases);
-  return std::make_unique<coupling::IsothermalSplit>(phases);
-}
-
 RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
                         const std::optional<results::Checkpoint>& from, results::Recorder& recorder) {
-  coupling::Simulation simulation(scheme(spec, a.phases), time_options(spec));
+  coupling::Simulation simulation(coupling_scheme(spec, a.phases), time_options(spec));
   RangeWatch watch(spec, a);
   DissipationWatch dissipation;
   StopReason why;
