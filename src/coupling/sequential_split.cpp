@@ -71,7 +71,7 @@ void SequentialSplit::thermal_phase(const State& old, State& trial, double time,
     effort.energy.heat_in += condition.heat;
   effort.energy.heat_exchanged = report.balance.exchanged;
   if (phases_.structural != nullptr) {
-    effort.energy.structural = phases_.structural->energy_change(trial.heat.temperature);
+    effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
   } else {
     // Deformation exchanges nothing with heat: the first law is that of the thermal phase alone.
     effort.energy.work = effort.energy.contact = 0;

@@ -13,6 +13,8 @@
 
 namespace solidus::mechanics {
 
+class StructuralPoints;
+
 /// What a phase hands its blocks before a solve.
 struct StepStart {
   std::span<const double> temperature;          ///< Θ_n [K], [local node]
@@ -65,7 +67,8 @@ class BlockKernel {
   /// StructuralHeat: out += its residual, or (tangent) its lumped diagonal; [local node].
   virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                    std::span<double> out) const = 0;
-  virtual double structural_energy_change(std::span<const double> temperature) const = 0;
+  /// What the heat balance and the audit need of the deformation, of the last finish().
+  virtual const StructuralPoints& structural_points() const = 0;
   virtual std::size_t bytes() const = 0;
 };
 

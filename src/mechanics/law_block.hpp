@@ -48,7 +48,7 @@ concept HoldsEntropy = requires(Properties& p) {
 
 /// Law: built from a material; `properties_at`, `update`, `symmetric`, and the overloads of law_parts.hpp.
 template <class Law, int n_nodes, AnalysisKind kind, bool b_bar>
-class LawBlock final : public BlockKernel {
+class LawBlock : public BlockKernel {
  public:
   using Operator = Kinematics<n_nodes, kind, b_bar>;
   using Vectors = typename Operator::Vectors;
@@ -191,6 +191,7 @@ class LawBlock final : public BlockKernel {
 
         const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
         auto& point = points_.at(batch, q);
+        if constexpr (HoldsEntropy<Properties>) point.pass_temperature = response.temperature;
         point.now = deformation(strain, response.state, solid);
         point.dissipation = response.dissipation;
         point.work = dot(response.stress, strain - old_strain);
@@ -272,9 +273,7 @@ class LawBlock final : public BlockKernel {
                            std::span<double> out) const override {
     points_.add_heat(form, temperature, tangent, out);
   }
-  double structural_energy_change(std::span<const double> temperature) const override {
-    return points_.energy_change(temperature);
-  }
+  const StructuralPoints& structural_points() const override { return points_; }
 
   std::size_t bytes() const override {
     return geometry_.bytes() + points_.bytes() + properties_.capacity() * sizeof(properties_[0]) +
@@ -282,7 +281,7 @@ class LawBlock final : public BlockKernel {
            averages_.capacity() * sizeof(averages_[0]);
   }
 
- private:
+ protected:  // for the kernel of the simultaneous scheme (coupled_block.hpp)
   std::size_t index(Index batch, int point) const {
     return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
            static_cast<std::size_t>(point);

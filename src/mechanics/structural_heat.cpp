@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mechanics/block_kernel.hpp"
+#include "mechanics/structural_points.hpp"
 #include "mesh/block_geometry.hpp"
 
 namespace solidus::mechanics {
@@ -29,10 +30,24 @@ void StructuralHeat::add_tangent(std::span<const double> temperature, algebra::B
     *matrix.diagonal_block(node) += work_[static_cast<std::size_t>(node)];
 }
 
-double StructuralHeat::energy_change(std::span<const double> temperature) const {
-  double change = 0;
-  for (const auto& block : phase_.blocks()) change += block->structural_energy_change(temperature);
-  return algebra::global_sum(change);
+StructuralChange StructuralHeat::change(std::span<const double> temperature) const {
+  StructuralChange total;
+  for (const auto& block : phase_.blocks()) {
+    const StructuralChange part = block->structural_points().change(temperature);
+    total.energy += part.energy;
+    total.entropy += part.entropy;
+  }
+  return {algebra::global_sum(total.energy), algebra::global_sum(total.entropy)};
+}
+
+StructuralChange StructuralHeat::mechanical_change() const {
+  StructuralChange total;
+  for (const auto& block : phase_.blocks()) {
+    const StructuralChange part = block->structural_points().mechanical_change();
+    total.energy += part.energy;
+    total.entropy += part.entropy;
+  }
+  return {algebra::global_sum(total.energy), algebra::global_sum(total.entropy)};
 }
 
 }  // namespace solidus::mechanics

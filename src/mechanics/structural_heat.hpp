@@ -26,6 +26,11 @@ namespace solidus::mechanics {
 
 enum class StructuralForm { entropy, energy };
 
+/// Changes of the structural energy [J] and of the structural entropy [J/K].
+struct StructuralChange {
+  double energy = 0, entropy = 0;
+};
+
 /// Adds to the thermal residual in watts (heat stored is positive). The tangent is lumped to the diagonal, so
 /// that the thermal matrix stays symmetric and of non-negative type.
 class StructuralHeat : public algebra::Contribution {
@@ -39,8 +44,10 @@ class StructuralHeat : public algebra::Contribution {
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
   void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
 
-  /// The change of structural energy over the step, with the temperature at its end [J], over all processes.
-  double energy_change(std::span<const double> temperature) const;
+  /// Over the step, with the temperature at its end; over all processes. Collective.
+  StructuralChange change(std::span<const double> temperature) const;
+  /// StructuralPoints::mechanical_change of the last solve of the mechanical phase. Collective.
+  StructuralChange mechanical_change() const;
 
  private:
   const MechanicalPhase& phase_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "material/hardening_heat.hpp"
+#include "material/thermal_potential.hpp"
 
 namespace solidus::mechanics {
 
@@ -30,6 +31,7 @@ void StructuralPoints::set_temperature(Index batch, int point, Lane temperature,
                                        Lane thermal_strain) {
   Point& p = at(batch, point);
   p.temperature = temperature;
+  p.pass_temperature = pass_temperature;
   const Lane reference(material_.expansion_reference);
   p.strain_offset = thermal_strain - properties_at(material_, pass_temperature, reference).thermal_strain;
 }
@@ -118,16 +120,37 @@ void StructuralPoints::add_heat(StructuralForm form, std::span<const double> tem
   }
 }
 
-double StructuralPoints::energy_change(std::span<const double> temperature) const {
-  double total = 0;
+StructuralChange StructuralPoints::change(std::span<const double> temperature) const {
+  StructuralChange total;
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-    Lane change(0.0);
+    Lane energy(0.0), entropy(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
       const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature), Want::state);
-      change += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy);
+      energy += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy);
+      entropy += geometry_.weight_at(batch, q) * (now.entropy - at.old_entropy);
     }
-    total += sum(change * geometry_.counted[static_cast<std::size_t>(batch)]);
+    const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
+    total.energy += sum(energy * counted);
+    total.entropy += sum(entropy * counted);
+  }
+  return total;
+}
+
+StructuralChange StructuralPoints::mechanical_change() const {
+  StructuralChange total;
+  for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+    Lane energy(0.0), entropy(0.0);
+    for (int q = 0; q < geometry_.n_points; ++q) {
+      const Point& at = points_[index(batch, q)];
+      const State now = state(at, at.now, at.pass_temperature, Want::state);
+      const auto sensible = material::sensible_heat(material_, at.temperature, at.pass_temperature);
+      energy += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy + sensible.heat);
+      entropy += geometry_.weight_at(batch, q) * (now.entropy - at.old_entropy + sensible.entropy);
+    }
+    const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
+    total.energy += sum(energy * counted);
+    total.entropy += sum(entropy * counted);
   }
   return total;
 }

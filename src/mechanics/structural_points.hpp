@@ -21,7 +21,8 @@ struct Deformation {
 class StructuralPoints {
  public:
   struct Point {
-    Lane temperature;  ///< Θ_n [K]
+    Lane temperature;       ///< Θ_n [K]
+    Lane pass_temperature;  ///< at the end of the mechanical phase: the one it holds, or Θ̄ [K]
     Lane strain_offset;  ///< e^θ minus 3 α (Θ − Θ_ref): initial strain and straining of phase changes, held
                          ///< (4.81)
     Deformation now;   ///< at t_{n+1}
@@ -41,17 +42,21 @@ class StructuralPoints {
   /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every
   /// node of an element alike whatever the shape and rule.
   void spread_as_stored(const PackVector<Lane>& weights);
-  /// Fills temperature and strain_offset.
+  /// Fills temperature, pass_temperature and strain_offset.
   /// @param temperature     Θ_n
   /// @param thermal_strain  e^θ of the mechanical phase, which works at `pass_temperature`
   void set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature, Lane thermal_strain);
   /// Fills the old entropy and energy from the deformation at t_n.
   void set_old(Index batch, int point, const Deformation& old);
 
-  /// BlockKernel::add_structural_heat and structural_energy_change.
+  /// BlockKernel::add_structural_heat.
   void add_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                 std::span<double> out) const;
-  double energy_change(std::span<const double> temperature) const;
+  /// Over the step, with the nodal temperature at its end; sums over the counted elements.
+  StructuralChange change(std::span<const double> temperature) const;
+  /// Up to the end of the mechanical phase, where points have temperatures of their own: the sensible heat
+  /// between Θ_n and Θ̄ is in it, while that of the nodes stays.
+  StructuralChange mechanical_change() const;
   std::size_t bytes() const { return points_.capacity() * sizeof(Point); }
 
  private:

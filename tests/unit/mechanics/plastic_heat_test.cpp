@@ -102,7 +102,7 @@ TEST(PlasticHeat, TheEnergyFormGivesExactlyEnergyMinusWork) {
     const Solved solved(p.body);
     StructuralHeat heat(*solved.phase, StructuralForm::energy);
     const auto end = p.uniform(325);
-    const double stored = heat.energy_change(end) - solved.report.work.internal_work;  // Δt = 1
+    const double stored = heat.change(end).energy - solved.report.work.internal_work;  // Δt = 1
     EXPECT_NEAR(total(residual(heat, p.body, end)), stored, 1e-11 * solved.report.work.internal_work);
   }
 }
@@ -120,7 +120,7 @@ TEST(PlasticHeat, TheEnergyStoredIsThatOfTheStateReached) {
       p.set_temperature(theta);
       phase->solve(old, state, p.body.temperature, step, 1.0);
       theta += 15;
-      stored += heat.energy_change(p.uniform(theta));
+      stored += heat.change(p.uniform(theta)).energy;
     }
     const material::Viscoplastic law(p.body.materials[0]);
     const auto flow = law.properties_at(320.0 + 2 * 15, 320.0).flow;  // at which the back stress was found

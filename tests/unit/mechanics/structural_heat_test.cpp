@@ -99,7 +99,7 @@ TEST(StructuralHeat, TheEnergyFormGivesExactlyEnergyMinusWork) {
   const Solved solved(s.body);
   StructuralHeat heat(*solved.phase, StructuralForm::energy);
   const auto end = s.warm(5);
-  const double stored = heat.energy_change(end) - solved.report.work.internal_work;  // Δt = 1
+  const double stored = heat.change(end).energy - solved.report.work.internal_work;  // Δt = 1
   EXPECT_NEAR(total(residual(heat, s.body, end)), stored, 1e-9 * std::abs(stored));
 }
 
@@ -153,7 +153,7 @@ TEST(StructuralHeat, NoDeformationNoHeat) {
   for (StructuralForm form : {StructuralForm::entropy, StructuralForm::energy}) {
     StructuralHeat heat(*solved.phase, form);
     for (double r : residual(heat, body, body.temperature)) EXPECT_EQ(r, 0.0);
-    EXPECT_EQ(heat.energy_change(body.temperature), 0.0);
+    EXPECT_EQ(heat.change(body.temperature).energy, 0.0);
   }
 }
 
