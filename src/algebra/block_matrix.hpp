@@ -58,6 +58,10 @@ class BlockMatrix {
   /// The block of a slot: block_size² doubles to add to.
   double* block(Slot s) { return values_.data() + (s + 1) * block_size_ * block_size_; }
   const double* block(Slot s) const { return values_.data() + (s + 1) * block_size_ * block_size_; }
+  /// The pattern: where the slots of each owned row begin and, last, how many there are; the column (a local
+  /// node) of each slot.
+  std::span<const std::int64_t> row_start() const { return row_start_; }
+  std::span<const Index> columns() const { return columns_; }
   double* diagonal_block(Index owned_node) { return block(diagonal_[static_cast<std::size_t>(owned_node)]); }
 
   /// Rows and columns of these degrees of freedom become those of the identity times the mean diagonal;

@@ -175,29 +175,44 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
 
 PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
                                    const MechanicalPass& pass) {
+  begin(old, pass);
+  algebra::NewtonOptions newton_options = options_.newton;
+  newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
+  std::vector<double> x = start(old, pass);
+  PhaseReport report;
+  report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
+  if (!report.newton.converged) reject(report.newton.reason, x);
+  report.work = conclude(old, pass, std::move(x), trial);
+  return report;
+}
+
+void MechanicalPhase::begin(const MechanicalState& old, const MechanicalPass& pass) {
   assert(old.displacement.size() == forces_.size() && old.history.size() == blocks_.size() && pass.dt > 0);
   loads_->evaluate(pass.time, external_);
   prepare(old, pass);
+}
 
-  algebra::NewtonOptions newton_options = options_.newton;
-  newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
+std::vector<double> MechanicalPhase::start(const MechanicalState& old, const MechanicalPass& pass) const {
   std::vector<double> x = pass.iterate != nullptr ? pass.iterate->displacement : old.displacement;
   loads_->prescribe(pass.time, x);
-  PhaseReport report;
-  report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
-  if (!report.newton.converged) {
-    if (const std::string failure = law_failure(x); !failure.empty())
-      throw StepRejected("mechanics: a constitutive law asks for a smaller step", failure);
-    throw StepRejected("mechanics: " + report.newton.reason, worst_place(x));
-  }
+  return x;
+}
 
-  MechanicalState next;
-  next.history.reserve(blocks_.size());
+void MechanicalPhase::reject(const std::string& reason, std::span<const double> x) {
+  if (const std::string failure = law_failure(x); !failure.empty())
+    throw StepRejected("mechanics: a constitutive law asks for a smaller step", failure);
+  throw StepRejected("mechanics: " + reason, worst_place(x));
+}
+
+BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
+                                  std::vector<BlockHistory>& history) {
   BlockWork total;
+  history.resize(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    next.history.push_back({old.history[b].n_components, old.history[b].n_points, {}});
-    next.history.back().values.resize(old.history[b].values.size());
-    const BlockWork work = blocks_[b]->finish(old.displacement, x, next.history.back());
+    history[b].n_components = old.history[b].n_components;
+    history[b].n_points = old.history[b].n_points;
+    history[b].values.resize(old.history[b].values.size());
+    const BlockWork work = blocks_[b]->finish(old.displacement, x, history[b]);
     total.internal_work += work.internal_work;
     total.dissipation += work.dissipation;
     total.plastic_dissipation += work.plastic_dissipation;
@@ -205,14 +220,21 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
     total.least_dissipation = std::min(total.least_dissipation, work.least_dissipation);
     total.largest_dissipation = std::max(total.largest_dissipation, work.largest_dissipation);
   }
-  report.work = measure(old, x, total);
+  return total;
+}
+
+MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
+                                         std::vector<double> x, MechanicalState& trial) {
+  MechanicalState next;
+  const BlockWork total = finish(old, x, next.history);
+  const MechanicalWork work = measure(old, x, total);
   next.displacement = std::move(x);
   if (options_.integration == TimeIntegration::two_step) {
     next.before = old.history;
     next.dt_before = pass.dt;
   }
   trial = std::move(next);
-  return report;
+  return work;
 }
 
 MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,

@@ -35,7 +35,8 @@ enum class TimeIntegration { backward_euler, two_step };
 
 /// What the mechanical phase holds.
 enum class Mapping {
-  isothermal,  ///< Θ = Θ_n
+  isothermal,    ///< Θ = Θ_n
+  simultaneous,  ///< Θ is an unknown as well: only for coupling/simultaneous.hpp
   isentropic  ///< elastic entropy S^E = S^E(ε_n, z_n, Θ_n), at an intermediate temperature Θ̄ (4.72–4.124)
 };
 
@@ -89,6 +90,11 @@ struct ElementFields {
   std::vector<double> intermediate_temperature;  ///< Θ̄ [K]; empty in the isothermal mapping
 };
 
+/// The stress whose product with Δε is the work of a pass. Both passes of a step in two halves work with the
+/// stress in the middle, which is in equilibrium: the first one keeps it, the second one uses it
+/// (coupling/double_pass.hpp).
+enum class StressAtWork { end, end_kept, kept };
+
 /// What one pass through the mechanical phase goes from and to. The fields of an iterate belong to schemes
 /// that solve the phase several times a step; empty, the pass is the first one.
 struct MechanicalPass {
@@ -99,6 +105,7 @@ struct MechanicalPass {
   std::span<const double> iterate_temperature{};
   /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
   const MechanicalState* iterate = nullptr;
+  StressAtWork work = StressAtWork::end;
 };
 
 class MechanicalPhase : private algebra::NonlinearSystem {
@@ -128,6 +135,30 @@ class MechanicalPhase : private algebra::NonlinearSystem {
     return solve(old, trial, {.time = time, .dt = dt, .temperature = temperature});
   }
 
+  /// Hands StructuralHeat a body that does not move: a thermal phase of its own can follow.
+  void rest(const MechanicalState& state, std::span<const double> temperature);
+
+  // The pieces of solve(), for an iteration that has further unknowns (coupling/simultaneous.hpp).
+  /// Loads, state at t_n and properties at the temperature of the pass; `old` must live until conclude().
+  void begin(const MechanicalState& old, const MechanicalPass& pass);
+  /// Newton's start, with the prescribed displacements at the end of the pass.
+  std::vector<double> start(const MechanicalState& old, const MechanicalPass& pass) const;
+  /// The properties at another temperature of the iterate, after begin().
+  void prepare(const MechanicalState& old, const MechanicalPass& pass);
+  /// As algebra::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
+  double residual(std::span<const double> x, std::span<double> r) override;
+  /// At the x of the last residual().
+  algebra::BlockMatrix& tangent() override;
+  /// Hands what happened at x to StructuralHeat and writes the history there.
+  BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
+  /// finish() at the solution, and the state and work that follow from it.
+  MechanicalWork conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
+                          MechanicalState& trial);
+  /// Throws StepRejected on all processes, with the place that says most.
+  [[noreturn]] void reject(const std::string& reason, std::span<const double> x);
+  /// A residual that is rounding [N].
+  double round_off() const { return round_off_; }
+
   /// Of the last solve; blocks in the order of the mesh.
   std::vector<ElementFields> element_fields() const;
   /// True when a material can flow plastically: then there are plastic fields to show.
@@ -146,14 +177,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   double seconds_solver() const { return solver_->seconds_setup() + solver_->seconds_solve(); }
 
  private:
-  double residual(std::span<const double> x, std::span<double> r) override;
-  algebra::BlockMatrix& tangent() override;
   void create_matrix();
   void add_residual_to_balance(std::span<const double> r);
   std::string law_failure(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;
-  void prepare(const MechanicalState& old, const MechanicalPass& pass);
   MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
 
   const mesh::Mesh& mesh_;
