@@ -70,12 +70,13 @@ void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
 }
 
 bool EnthalpyNewton::converged() const {
+  if (tilt_ > 0) return false;
   return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_;
 }
 
 /// J + D; nodes on a plateau are held.
-void EnthalpyNewton::assemble(std::span<const double> temperature) {
-  system_.assemble(temperature, options_.exact_conductivity);
+void EnthalpyNewton::assemble(std::span<const double> temperature, bool exact_conductivity) {
+  system_.assemble(temperature, exact_conductivity);
   double conductance = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) {
     const auto node = static_cast<Index>(i);
@@ -94,15 +95,47 @@ void EnthalpyNewton::assemble(std::span<const double> temperature) {
   conductance_ = algebra::global_sum(conductance);
 }
 
-/// δH from δΘ; step_t_ has its ghosts.
-void EnthalpyNewton::enthalpy_step() {
-  system_.matrix().multiply(step_t_, step_h_);
+void EnthalpyNewton::hold(std::span<double> step_t) const {
+  for (std::size_t i = 0; i < step_t.size(); ++i)
+    if (inverse_[i] == 0.0 || system_.fixed()[i]) step_t[i] = 0.0;
+}
+
+void EnthalpyNewton::enthalpy_step(std::span<const double> step_t, std::span<const double> further) {
+  system_.matrix().multiply(step_t, step_h_);
   for (std::size_t i = 0; i < r_.size(); ++i) {
+    const double change = step_h_[i] + (further.empty() ? 0.0 : further[i]);
     if (system_.fixed()[i])
       step_h_[i] = 0;
     else
-      step_h_[i] = inverse_[i] == 0.0 ? -dt_ * (r_[i] + step_h_[i]) : step_t_[i] / inverse_[i];
+      step_h_[i] = inverse_[i] == 0.0 ? -dt_ * (r_[i] + change) : step_t[i] / inverse_[i];
   }
+}
+
+void EnthalpyNewton::move(std::span<const double> start, double alpha, std::span<double> temperature) {
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    if (system_.fixed()[i]) continue;
+    heat_[i] = start[i] + alpha * step_h_[i];
+    temperature[i] = temperature_of(i, heat_[i]);
+  }
+}
+
+void EnthalpyNewton::adapt_tilt(int iteration, std::span<double> temperature) {
+  if (has_plateaus_ && iteration == k_plain) {
+    set_tilt(k_tilt, temperature);
+    tilted_ = 0;
+  } else if (tilt_ > 0 && (norm_ <= k_tilted_enough * moved_ || ++tilted_ == k_tilted_at_most)) {
+    set_tilt(tilt_ > k_least_tilt ? k_less_tilt * tilt_ : 0.0, temperature);
+    tilted_ = 0;
+  }
+}
+
+void EnthalpyNewton::begin(std::span<const double> old_heat, double dt, std::span<double> heat) {
+  old_heat_ = old_heat;
+  heat_ = heat;
+  dt_ = dt;
+  conductance_ = 0;
+  tilt_ = 0;
+  tilted_ = 0;
 }
 
 /// dE/dα at H + α δH.
@@ -146,14 +179,9 @@ double EnthalpyNewton::search(std::span<const double> temperature) const {
 
 algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, double dt,
                                             std::span<double> temperature, std::span<double> heat) {
-  old_heat_ = old_heat;
-  heat_ = heat;
-  dt_ = dt;
-  conductance_ = 0;
-  tilt_ = 0;
+  begin(old_heat, dt, heat);
   const auto n = r_.size();
   algebra::NewtonReport report;
-  int tilted = 0;  // iterations with the tilt of now
   while (true) {
     evaluate(temperature);
     report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
@@ -161,7 +189,7 @@ algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, do
       report.reason = "the residual is not a number";
       break;
     }
-    if (tilt_ == 0 && converged()) {
+    if (converged()) {
       report.converged = true;
       break;
     }
@@ -169,14 +197,8 @@ algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, do
       report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
       break;
     }
-    if (has_plateaus_ && report.iterations == k_plain) {
-      set_tilt(k_tilt, temperature);
-      tilted = 0;
-    } else if (tilt_ > 0 && (norm_ <= k_tilted_enough * moved_ || ++tilted == k_tilted_at_most)) {
-      set_tilt(tilt_ > k_least_tilt ? k_less_tilt * tilt_ : 0.0, temperature);
-      tilted = 0;
-    }
-    assemble(temperature);
+    adapt_tilt(report.iterations, temperature);
+    assemble(temperature, options_.exact_conductivity);
     const algebra::LinearReport linear = solver_.solve(system_.matrix(), b_, std::span(step_t_).first(n));
     ++report.iterations;
     report.linear_iterations += linear.iterations;
@@ -184,17 +206,13 @@ algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, do
       report.reason = "linear solver: " + linear.reason;
       break;
     }
-    for (std::size_t i = 0; i < n; ++i)
-      if (inverse_[i] == 0.0 || system_.fixed()[i]) step_t_[i] = 0.0;
+    hold(std::span(step_t_).first(n));
     ghosts_.update(step_t_, 1);
-    enthalpy_step();
+    enthalpy_step(step_t_, {});
     const double alpha = report.iterations <= k_full_steps ? 1.0 : search(temperature);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
       balance_[i] = (1 - alpha) * balance_[i] + alpha * (temperature[i] + step_t_[i]);
-      if (system_.fixed()[i]) continue;
-      heat[i] += alpha * step_h_[i];
-      temperature[i] = temperature_of(i, heat[i]);
-    }
+    move(heat, alpha, temperature);
     ghosts_.update(temperature, 1);
   }
   ghosts_.update(heat, 1);

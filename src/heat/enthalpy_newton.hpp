@@ -51,16 +51,33 @@ class EnthalpyNewton {
   /// Collective.
   algebra::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
                               std::span<double> heat);
+  // The pieces of solve(), for an iteration that has further unknowns (thermal_iteration.hpp).
+  /// Starts from `heat`, which is kept and moved on.
+  void begin(std::span<const double> old_heat, double dt, std::span<double> heat);
+  /// F at the temperatures of the heats of now.
+  void evaluate(std::span<const double> temperature);
+  /// Tilts the plateaus, or less, or no more, when it is time; then F is that of now. `iteration` counts from
+  /// zero.
+  void adapt_tilt(int iteration, std::span<double> temperature);
+  bool converged() const;
+  /// D + J in the matrix of the system, nodes on a plateau held, and the right-hand side.
+  void assemble(std::span<const double> temperature, bool exact_conductivity);
+  std::span<const double> right_hand_side() const { return b_; }
+  /// Makes δΘ [owned node] zero where it is none.
+  void hold(std::span<double> step_t) const;
+  /// Sets out along the δH that follows from δΘ with its ghosts.
+  /// @param further  change of F by the further unknowns [W], [owned node]; may be empty
+  void enthalpy_step(std::span<const double> step_t, std::span<const double> further);
+  /// Moves heats and temperatures [owned node] from `start` by α δH; prescribed ones stay.
+  void move(std::span<const double> start, double alpha, std::span<double> temperature);
+  double unbalanced() const { return norm_; }  ///< Σ|F_i| at the last evaluate(), all processes [W]
+
   /// F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the heat that
   /// holds it.
   std::span<const double> residual() const { return r_; }
   double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
 
  private:
-  void evaluate(std::span<const double> temperature);
-  bool converged() const;
-  void assemble(std::span<const double> temperature);
-  void enthalpy_step();
   double slope(double alpha, std::span<const double> temperature) const;
   double tilt(std::size_t i) const { return tilt_ * per_latent_[i]; }
   double temperature_of(std::size_t i, double heat) const;
@@ -81,6 +98,7 @@ class EnthalpyNewton {
   std::vector<double> balance_;         ///< B, [owned node] [K]
   std::vector<double> step_t_;          ///< δΘ, [local node]
   std::vector<double> per_latent_;      ///< 1/latent heat, zero without, [owned node] [1/J]
+  int tilted_ = 0;                      ///< iterations with the tilt of now
   double tilt_ = 0;                     ///< temperature difference over the latent heat now [K]
   bool has_plateaus_ = false;           ///< on any process
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;

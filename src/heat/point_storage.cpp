@@ -32,6 +32,12 @@ class Storage final : public PointStorage {
     for_points(old_temperature, [&](Index, int, std::size_t at, Lane t) { old_[at] = enthalpy(t); });
   }
 
+  void extrapolate(std::span<const double> temperature, double factor) override {
+    for_points(temperature, [&](Index, int, std::size_t at, Lane t) {
+      old_[at] += Lane(factor) * (enthalpy(t) - old_[at]);
+    });
+  }
+
   void add_residual(std::span<const double> temperature, std::span<double> r) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal t = gather<n_nodes>(geometry_, batch, temperature);

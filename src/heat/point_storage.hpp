@@ -27,6 +27,8 @@ class PointStorage {
   virtual void bind(const algebra::BlockMatrix& matrix) = 0;
   /// h(Θ_n) at the points.
   virtual void start(std::span<const double> old_temperature, double dt) = 0;
+  /// From then on heat is counted from h_n + factor (h(Θ) − h_n): the second stage of a two-stage method.
+  virtual void extrapolate(std::span<const double> temperature, double factor) = 0;
   /// r += stored heat per time [W], [local node]; ghost rows are scrap.
   virtual void add_residual(std::span<const double> temperature, std::span<double> r) const = 0;
   virtual void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const = 0;

@@ -29,8 +29,8 @@ double TemperatureSystem::residual(std::span<const double> x, std::span<double> 
   return moved_ / std::sqrt(static_cast<double>(mesh_.n_global_nodes));
 }
 
-algebra::BlockMatrix& TemperatureSystem::tangent() {
-  system_.assemble(x_, exact_);
+algebra::BlockMatrix& TemperatureSystem::tangent(bool exact_conductivity) {
+  system_.assemble(x_, exact_conductivity);
   if (storing_)
     for (const auto& block : points_) block->add_tangent(x_, system_.matrix());
   return system_.matrix();

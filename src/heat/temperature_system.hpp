@@ -22,7 +22,8 @@ class TemperatureSystem final : public algebra::NonlinearSystem {
   /// The sum of the nodal residuals' magnitudes is at most √N times their norm, so ‖r‖ is measured against
   /// the heat moved over √N: the balance then closes to the tolerance.
   double residual(std::span<const double> x, std::span<double> r) override;
-  algebra::BlockMatrix& tangent() override;
+  algebra::BlockMatrix& tangent() override { return tangent(exact_); }
+  algebra::BlockMatrix& tangent(bool exact_conductivity);
   double moved() const { return moved_; }  ///< of the last residual, all processes [W]
   /// Residuals that rounding alone leaves.
   double round_off() const;

@@ -14,6 +14,7 @@
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/point_storage.hpp"
 #include "heat/temperature_system.hpp"
+#include "heat/thermal_iteration.hpp"
 
 namespace solidus::heat {
 
@@ -60,6 +61,10 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 
 ThermalPhase::~ThermalPhase() = default;
 
+std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
+  return std::make_unique<ThermalIteration>(*this);
+}
+
 void ThermalPhase::forget() {
   solver_->forget();
 }
@@ -89,49 +94,62 @@ ThermalState ThermalPhase::initial_state_at_nodes(std::span<const double> temper
   return state;
 }
 
-PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, double time, double dt) {
-  assert(old.temperature.size() == mesh_.x.size() && dt > 0);
+ThermalState ThermalPhase::start(const ThermalState& old, double time) {
   system_->set_time(time);
-  solver_->begin(true);
   ThermalState next{old.temperature, old.enthalpy};
   system_->prescribe(next.temperature);
-  PhaseReport report;
-  if (options_.integration == Integration::open) {
-    for (const auto& block : points_) block->start(old.temperature, dt);
-    temperature_system_->use_storage(true);
-    report.newton = solve_temperature(next.temperature);
-    report.balance = measure(dt);
-    double sums[2] = {0, 0};
-    for (const auto& block : points_) {
-      sums[0] += block->stored(next.temperature);
-      sums[1] += block->latent(old.temperature, next.temperature);
-    }
-    report.balance.stored = algebra::global_sum(sums[0]);
-    report.balance.latent = algebra::global_sum(sums[1]);
-    report.balance.exchanged = temperature_system_->moved() * dt;
-  } else {
+  if (options_.integration == Integration::closed)
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
       if (system_->fixed()[at(i)])
         next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
                                           storage_->upper(i, next.temperature[at(i)]));
-    report.newton = enthalpy_newton_->solve(old.enthalpy, dt, next.temperature, next.enthalpy);
-    require(report.newton, enthalpy_newton_->residual(), next.temperature);
-    keep_reactions(enthalpy_newton_->residual());
-    report.balance = measure(dt);
-    double sums[2] = {0, 0};
+  return next;
+}
+
+PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
+  const double dt = pass.dt;
+  assert(old.temperature.size() == mesh_.x.size() && dt > 0);
+  solver_->begin(true);
+  ThermalState next = start(pass.iterate != nullptr ? *pass.iterate : old, pass.time);
+  PhaseReport report;
+  if (options_.integration == Integration::open) {
+    for (const auto& block : points_) block->start(old.temperature, dt);
+    temperature_system_->use_storage(true);
+    report.newton = solve_temperature(next.temperature, pass.newton_steps);
+    report.balance = balance(old, next, reactions_, temperature_system_->moved(), dt);
+  } else {
+    report.newton =
+        enthalpy_newton_->solve(old.enthalpy, dt, next.temperature, next.enthalpy, pass.newton_steps);
+    require(report.newton, pass.newton_steps, enthalpy_newton_->residual(), next.temperature);
+    report.balance = balance(old, next, enthalpy_newton_->residual(), enthalpy_newton_->moved(), dt);
+  }
+  trial = std::move(next);
+  return report;
+}
+
+HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& next,
+                                  std::span<const double> residual, double moved, double dt) {
+  keep_reactions(residual);
+  HeatBalance balance = measure(dt);
+  double sums[2] = {0, 0};
+  if (options_.integration == Integration::open) {
+    for (const auto& block : points_) {
+      sums[0] += block->stored(next.temperature);
+      sums[1] += block->latent(old.temperature, next.temperature);
+    }
+  } else {
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
       const std::size_t n = at(i);
       sums[0] += next.enthalpy[n] - old.enthalpy[n];
       sums[1] += storage_->latent(i, next.enthalpy[n], next.temperature[n]) -
                  storage_->latent(i, old.enthalpy[n], old.temperature[n]);
     }
-    report.balance.stored = algebra::global_sum(sums[0]);
-    report.balance.latent = algebra::global_sum(sums[1]);
-    report.balance.exchanged = enthalpy_newton_->moved() * dt;
   }
-  report.balance.sensible = report.balance.stored - report.balance.latent;
-  trial = std::move(next);
-  return report;
+  balance.stored = algebra::global_sum(sums[0]);
+  balance.latent = algebra::global_sum(sums[1]);
+  balance.sensible = balance.stored - balance.latent;
+  balance.exchanged = moved * dt;
+  return balance;
 }
 
 PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {

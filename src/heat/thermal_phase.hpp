@@ -27,6 +27,7 @@ class NodalEnthalpy;
 class EnthalpyNewton;
 class TemperatureSystem;
 class PointStorage;
+class ThermalIteration;
 
 enum class Integration {
   closed,  ///< heat content at the nodes, conduction of quads and hexes too: no over- or undershoot
@@ -72,6 +73,9 @@ class ThermalPhase {
   /// hold the temperature of every body (prescribed, film, radiation, contact).
   PhaseReport solve_steady(const ThermalState& start, ThermalState& trial, double time);
 
+  /// The step piece by piece, for an iteration that has further unknowns; refers to this phase.
+  std::unique_ptr<ThermalIteration> iteration();
+
   /// Heat needed to hold prescribed temperatures in the last solve, [owned node] [W], zero elsewhere.
   std::span<const double> reactions() const { return reactions_; }
 
@@ -91,9 +95,15 @@ class ThermalPhase {
   double seconds_solver() const;
 
  private:
+  friend class ThermalIteration;
   algebra::NewtonReport solve_temperature(std::span<double> temperature);
   void keep_reactions(std::span<const double> residual);
   HeatBalance measure(double dt) const;
+  /// Keeps the reactions and measures a solved step.
+  HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,
+                      double moved, double dt);
+  /// The start of a step: prescribed temperatures hold.
+  ThermalState start(const ThermalState& old, double time);
   double heat_at(const ThermalState& state, Index node) const;
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const algebra::NewtonReport& report, std::span<const double> residual,

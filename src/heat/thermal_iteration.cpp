@@ -1,0 +1,120 @@
+#include "heat/thermal_iteration.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "algebra/parallel.hpp"
+#include "base/errors.hpp"
+#include "heat/enthalpy_newton.hpp"
+#include "heat/heat_system.hpp"
+#include "heat/point_storage.hpp"
+#include "heat/temperature_system.hpp"
+
+namespace solidus::heat {
+
+void ThermalIteration::begin(const ThermalState& old, double time, double dt) {
+  begin_stage(old, old, 0.0, time, dt);
+}
+
+void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& stage, double factor,
+                                   double time, double dt) {
+  old_ = &old;
+  dt_ = dt;
+  now_ = phase_.start(stage, time);
+  if (closed()) {
+    stored_from_ = old.enthalpy;
+    for (std::size_t i = 0; i < stored_from_.size(); ++i)
+      stored_from_[i] += factor * (stage.enthalpy[i] - old.enthalpy[i]);
+    phase_.enthalpy_newton_->begin(stored_from_, dt, now_.enthalpy);
+  } else {
+    for (const auto& block : phase_.points_) {
+      block->start(old.temperature, dt);
+      if (factor != 0) block->extrapolate(stage.temperature, factor);
+    }
+    phase_.temperature_system_->use_storage(true);
+    residual_.resize(static_cast<std::size_t>(phase_.mesh_.n_owned_nodes));
+  }
+}
+
+void ThermalIteration::evaluate() {
+  if (closed()) {
+    phase_.enthalpy_newton_->evaluate(now_.temperature);
+    unbalanced_ = phase_.enthalpy_newton_->unbalanced();
+    return;
+  }
+  phase_.temperature_system_->residual(now_.temperature, residual_);
+  double sum = 0;
+  for (std::size_t i = 0; i < residual_.size(); ++i)
+    if (!phase_.system_->fixed()[i]) sum += std::abs(residual_[i]);
+  unbalanced_ = algebra::global_sum(sum);
+}
+
+std::span<const double> ThermalIteration::residual() const {
+  return closed() ? phase_.enthalpy_newton_->residual() : std::span<const double>(residual_);
+}
+
+double ThermalIteration::moved() const {
+  return closed() ? phase_.enthalpy_newton_->moved() : phase_.temperature_system_->moved();
+}
+
+bool ThermalIteration::converged() const {
+  if (closed()) return phase_.enthalpy_newton_->converged();
+  return unbalanced_ <= phase_.options_.tolerance * moved() ||
+         unbalanced_ <= phase_.temperature_system_->round_off();
+}
+
+algebra::BlockMatrix& ThermalIteration::assemble(int iteration) {
+  if (closed()) {
+    phase_.enthalpy_newton_->adapt_tilt(iteration, now_.temperature);
+    phase_.enthalpy_newton_->assemble(now_.temperature, true);
+    return phase_.system_->matrix();
+  }
+  rhs_.resize(residual_.size());
+  for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] = phase_.system_->fixed()[i] ? 0.0 : -residual_[i];
+  return phase_.temperature_system_->tangent(true);
+}
+
+std::span<const double> ThermalIteration::right_hand_side() const {
+  return closed() ? phase_.enthalpy_newton_->right_hand_side() : std::span<const double>(rhs_);
+}
+
+void ThermalIteration::set_direction(std::span<double> step_t, std::span<const double> further) {
+  start_ = now_;
+  if (closed()) {
+    phase_.enthalpy_newton_->hold(step_t.first(residual().size()));
+    phase_.ghosts_.update(step_t, 1);
+    phase_.enthalpy_newton_->enthalpy_step(step_t, further);
+    return;
+  }
+  for (std::size_t i = 0; i < residual_.size(); ++i)
+    if (phase_.system_->fixed()[i]) step_t[i] = 0;
+  phase_.ghosts_.update(step_t, 1);
+  step_.assign(step_t.begin(), step_t.end());
+}
+
+void ThermalIteration::move(double alpha) {
+  if (closed()) {
+    phase_.enthalpy_newton_->move(start_.enthalpy, alpha, now_.temperature);
+    phase_.ghosts_.update(now_.temperature, 1);
+    return;
+  }
+  for (std::size_t i = 0; i < step_.size(); ++i)
+    now_.temperature[i] = start_.temperature[i] + alpha * step_[i];
+}
+
+HeatBalance ThermalIteration::conclude(ThermalState& trial) {
+  if (closed()) phase_.ghosts_.update(now_.enthalpy, 1);
+  const ThermalState from{old_->temperature, stored_from_};
+  const HeatBalance balance = phase_.balance(from, now_, residual(), moved(), dt_);
+  trial = now_;
+  return balance;
+}
+
+void ThermalIteration::reject(const std::string& reason) const {
+  algebra::NewtonReport report;
+  report.reason = reason;
+  phase_.require(report, residual(), now_.temperature);
+  throw StepRejected("heat: " + reason);  // require() has thrown
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,70 @@
+/// One step of the thermal phase piece by piece, for a Newton iteration that has further unknowns: the
+/// displacements of the simultaneous scheme (monograph 4.1).
+///
+///   F_i = (H_i − H*_i)/Δt + r_i(Θ, u) = 0                                              [W]
+///
+/// With the closed rule the nodal enthalpy is the unknown and Θ_i(H) follows: a node on a plateau has δΘ = 0
+/// and takes its δH from its row (enthalpy_newton.hpp). With the open rule the temperature is the unknown.
+/// What depends on the displacements enters r through the contributions of the phase.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "heat/thermal_phase.hpp"
+
+namespace solidus::heat {
+
+class ThermalIteration {
+ public:
+  /// The phase must outlive this object and must not solve between begin() and conclude().
+  explicit ThermalIteration(ThermalPhase& phase) : phase_(phase) {}
+
+  /// To `time` = t_n + dt from `old` at t_n, which is H* and must live until conclude().
+  void begin(const ThermalState& old, double time, double dt);
+  /// The second stage of a two-stage method, from the first one: H* = H_n + factor (H_stage − H_n). Both
+  /// states must live until conclude().
+  void begin_stage(const ThermalState& old, const ThermalState& stage, double factor, double time, double dt);
+
+  /// Θ of now, [local node], ghosts up to date.
+  std::span<const double> temperature() const { return now_.temperature; }
+  /// F at the Θ of now and what the contributions hold. Collective.
+  void evaluate();
+  /// F, [owned node] [W]; where the temperature is prescribed, the heat that holds it.
+  std::span<const double> residual() const;
+  double unbalanced() const { return unbalanced_; }  ///< Σ|F_i| where free, all processes [W]
+  double moved() const;                              ///< heat moved per time at the last evaluate() [W]
+  /// The criterion of the phase, on the last evaluate().
+  bool converged() const;
+  double tolerance() const { return phase_.options_.tolerance; }
+  int max_iterations() const { return phase_.options_.max_iterations; }
+
+  /// ∂F/∂Θ with the exact conductivity and the storage, plateaus held. May move the plateaus (and F) of a
+  /// start that lies far off. `iteration` counts from zero.
+  algebra::BlockMatrix& assemble(int iteration);
+  /// −F, zero where δΘ is none, [owned node].
+  std::span<const double> right_hand_side() const;
+  /// Keeps the unknowns of now and sets out in the direction of δΘ.
+  /// @param step_t   δΘ [local node]; made zero where it is none, and its ghosts brought up to date
+  /// @param further  ∂F/∂u δu [W], [owned node]
+  void set_direction(std::span<double> step_t, std::span<const double> further);
+  /// The unknowns at α of the direction. Collective.
+  void move(double alpha);
+
+  /// The state reached and its heat balance, against H*; latent heat is that between the temperatures at t_n
+  /// and now.
+  HeatBalance conclude(ThermalState& trial);
+  [[noreturn]] void reject(const std::string& reason) const;
+
+ private:
+  bool closed() const { return phase_.options_.integration == Integration::closed; }
+
+  ThermalPhase& phase_;
+  const ThermalState* old_ = nullptr;
+  ThermalState now_, start_;         ///< start_: of the direction
+  std::vector<double> stored_from_;  ///< H*, [local node]; closed rule
+  std::vector<double> residual_, rhs_, step_;
+  double dt_ = 0, unbalanced_ = 0;
+};
+
+}  // namespace solidus::heat
