@@ -15,8 +15,9 @@ namespace {
 constexpr GlobalIndex k_direct_limit_3d = 50000;  ///< degrees of freedom (design.md section 4, measured)
 constexpr double k_refine_above =
     1e-8;  ///< residual of a direct solve relative to b: above it one step of refinement
-constexpr double k_refuse_above = 1e-2;  ///< after refinement: Newton cannot work with such a direction
-constexpr int k_workspace_attempts = 3;  ///< MUMPS runs with more workspace each time
+constexpr double k_refuse_above = 1e-2;     ///< after refinement: Newton cannot work with such a direction
+constexpr int k_field_split_restart = 100;  ///< directions that FGMRES keeps
+constexpr int k_workspace_attempts = 3;     ///< MUMPS runs with more workspace each time
 
 SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components) {
   if (options.kind != SolverKind::automatic) return options.kind;
@@ -50,15 +51,25 @@ struct LinearSolver::Implementation {
   double seconds_setup = 0, seconds_solve = 0;
 
   Implementation(const mesh::Mesh& m, LinearSolverOptions o) : mesh(m), options(std::move(o)) {}
-  void create(Mat a, int components);
+  void create(Mat a);
+  void attach_modes(Mat a) const;
   bool is_direct() const;
   KSPConvergedReason run(Vec rhs, Vec solution, int& iterations);
   bool refine(LinearReport& report);
   void grow_workspace();
 };
 
-void LinearSolver::Implementation::create(Mat a, int components) {
-  kind = automatic_kind(options, mesh, components);
+void LinearSolver::Implementation::attach_modes(Mat a) const {
+  if (!near_null_space) return;
+  Mat of_modes = a;
+  if (kind == SolverKind::field_split) check(MatNestGetSubMat(a, 0, 0, &of_modes), "MatNestGetSubMat");
+  check(MatSetNearNullSpace(of_modes, near_null_space), "MatSetNearNullSpace");
+}
+
+void LinearSolver::Implementation::create(Mat a) {
+  PetscInt components = 0;
+  check(MatGetBlockSize(a, &components), "MatGetBlockSize");
+  kind = automatic_kind(options, mesh, static_cast<int>(components));
   check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
   check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
   check(KSPSetErrorIfNotConverged(ksp, PETSC_FALSE), "KSPSetErrorIfNotConverged");
@@ -69,6 +80,9 @@ void LinearSolver::Implementation::create(Mat a, int components) {
   PC pc = nullptr;
   check(KSPGetPC(ksp, &pc), "KSPGetPC");
   const KSPType krylov = options.symmetric ? KSPCG : KSPGMRES;
+  const auto set_sub_default = [&](const char* key, const char* value) {
+    set_default_option(options.prefix + key, value);
+  };
   switch (kind) {
     case SolverKind::automatic:
     case SolverKind::direct:
@@ -88,8 +102,25 @@ void LinearSolver::Implementation::create(Mat a, int components) {
     case SolverKind::incomplete:
       check(KSPSetType(ksp, krylov), "KSPSetType");
       check(PCSetType(pc, PCBJACOBI), "PCSetType");
-      set_default_option(options.prefix + "sub_pc_type", options.symmetric ? PCICC : PCILU);
+      set_sub_default("sub_pc_type", options.symmetric ? PCICC : PCILU);
       break;
+    case SolverKind::field_split: {
+      IS rows[2] = {nullptr, nullptr};
+      check(MatNestGetISs(a, rows, nullptr), "MatNestGetISs");
+      check(KSPSetType(ksp, KSPFGMRES), "KSPSetType");
+      check(KSPGMRESSetRestart(ksp, k_field_split_restart), "KSPGMRESSetRestart");
+      check(PCSetType(pc, PCFIELDSPLIT), "PCSetType");
+      check(PCFieldSplitSetIS(pc, "u", rows[0]), "PCFieldSplitSetIS");
+      check(PCFieldSplitSetIS(pc, "temperature", rows[1]), "PCFieldSplitSetIS");
+      check(PCFieldSplitSetType(pc, PC_COMPOSITE_MULTIPLICATIVE), "PCFieldSplitSetType");
+      set_sub_default("fieldsplit_u_ksp_type", KSPPREONLY);
+      set_sub_default("fieldsplit_u_pc_type", PCGAMG);
+      set_sub_default("fieldsplit_temperature_ksp_type", KSPPREONLY);
+      set_sub_default("fieldsplit_temperature_pc_type", PCBJACOBI);
+      set_sub_default("fieldsplit_temperature_sub_pc_type", PCILU);
+      reuse_hierarchy = true;
+      break;
+    }
   }
   if (!options.symmetric && kind != SolverKind::direct) check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
   check(KSPSetFromOptions(ksp), "KSPSetFromOptions");
@@ -181,14 +212,17 @@ void LinearSolver::use_rigid_body_modes(const mesh::Mesh& mesh, int components) 
 }
 
 LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x) {
+  return solve(a.matrix(), b, x);
+}
+
+LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::span<double> x) {
   Implementation& my = *implementation_;
-  const Mat matrix = a.matrix();
-  if (!my.ksp) my.create(matrix, a.block_size());
+  if (!my.ksp) my.create(matrix);
   if (my.matrix != matrix) {
     check(MatSetOption(matrix, MAT_SYMMETRIC, my.options.symmetric ? PETSC_TRUE : PETSC_FALSE),
           "MatSetOption");
     check(MatSetOption(matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE), "MatSetOption");
-    if (my.near_null_space) check(MatSetNearNullSpace(matrix, my.near_null_space), "MatSetNearNullSpace");
+    my.attach_modes(matrix);
     my.matrix = matrix;
     my.stale = true;
   }
@@ -237,6 +271,10 @@ void LinearSolver::forget() {
   my.ksp.reset();
   my.matrix = nullptr;
   my.stale = true;
+}
+
+bool LinearSolver::stale() const {
+  return implementation_->stale;
 }
 
 double LinearSolver::seconds_setup() const {

@@ -12,12 +12,13 @@
 namespace solidus::algebra {
 
 enum class SolverKind {
-  automatic,  ///< the default of the phase and size (design.md section 4)
-  direct,     ///< MUMPS, LDLᵀ for symmetric matrices
-  multigrid,  ///< CG + GAMG (GMRES when unsymmetric)
-  jacobi,     ///< CG + Jacobi
-  incomplete  ///< CG + incomplete Cholesky, on each process for itself (GMRES + incomplete LU when
-              ///< unsymmetric)
+  automatic,   ///< the default of the phase and size (design.md section 4)
+  direct,      ///< MUMPS, LDLᵀ for symmetric matrices
+  multigrid,   ///< CG + GAMG (GMRES when unsymmetric)
+  jacobi,      ///< CG + Jacobi
+  incomplete,  ///< CG + incomplete Cholesky, on each process for itself (GMRES + incomplete LU when
+               ///< unsymmetric)
+  field_split  ///< FGMRES, blocks of a MATNEST in turn: GAMG on the first, incomplete LU on the second
 };
 
 struct LinearSolverOptions {
@@ -44,6 +45,10 @@ class LinearSolver {
   /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until
   /// iterations have grown by half) between calls. Collective.
   LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x);
+  /// The same of a PETSc matrix; the rigid-body modes are those of its first block where it is a MATNEST.
+  LinearReport solve(Mat matrix, std::span<const double> b, std::span<double> x);
+  /// The next solve sets the preconditioner up.
+  bool stale() const;
   /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).
   void forget();
   double seconds_setup() const;

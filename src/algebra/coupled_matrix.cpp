@@ -1,0 +1,131 @@
+#include "algebra/coupled_matrix.hpp"
+
+#include <petsc/private/petscimpl.h>
+
+#include <algorithm>
+
+#include "algebra/petsc_handles.hpp"
+
+namespace solidus::algebra {
+
+namespace {
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+}  // namespace
+
+struct CoupledMatrix::Petsc {
+  MatHandle force, heat, nest;
+};
+
+CoupledMatrix::CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, BlockMatrix& temperature)
+    : mesh_(mesh),
+      displacement_(displacement),
+      temperature_(temperature),
+      force_((displacement.columns().size() + 1) * at(displacement.block_size()), 0.0),
+      heat_(force_.size(), 0.0),
+      petsc_(std::make_unique<Petsc>()) {
+  create_rectangles();
+}
+
+CoupledMatrix::~CoupledMatrix() = default;
+
+/// PETSc leaves out entries with a negative number and adds up those of the same place: what is prescribed
+/// and what is tied needs nothing else.
+void CoupledMatrix::create_rectangles() {
+  const int n_components = components();
+  const std::vector<char>&fixed_u = displacement_.fixed(), &fixed_t = temperature_.fixed();
+  const auto displacement_number = [&](Index node, int i) -> PetscInt {
+    const std::int64_t entry = std::int64_t{node} * n_components + i;
+    if (fixed_u[at(entry)]) return -1;
+    const Ties& ties = displacement_.ties();
+    return static_cast<PetscInt>(ties.empty() ? mesh_.global_node[at(node)] * n_components + i
+                                              : ties.unknown(static_cast<Index>(entry)));
+  };
+  const auto temperature_number = [&](Index node) -> PetscInt {
+    return fixed_t[at(node)] ? -1 : static_cast<PetscInt>(mesh_.global_node[at(node)]);
+  };
+  std::vector<PetscInt> force_rows, force_columns, heat_rows, heat_columns;
+  for (auto* list : {&force_rows, &force_columns, &heat_rows, &heat_columns}) list->reserve(force_.size());
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
+    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
+      const Index column = displacement_.columns()[at(s)];
+      for (int i = 0; i < n_components; ++i) {
+        force_rows.push_back(displacement_number(row, i));
+        force_columns.push_back(temperature_number(column));
+        heat_rows.push_back(temperature_number(row));
+        heat_columns.push_back(displacement_number(column, i));
+      }
+    }
+  const auto n_t = static_cast<PetscInt>(mesh_.n_owned_nodes), n_u = n_t * n_components;
+  const auto create = [](MatHandle& a, PetscInt rows, PetscInt columns, std::vector<PetscInt>& i,
+                         std::vector<PetscInt>& j) {
+    check(MatCreate(PETSC_COMM_WORLD, a.out()), "MatCreate");
+    check(MatSetSizes(a, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
+    check(MatSetType(a, MATAIJ), "MatSetType");
+    check(MatSetPreallocationCOO(a, static_cast<PetscCount>(i.size()), i.data(), j.data()),
+          "MatSetPreallocationCOO");
+  };
+  create(petsc_->force, n_u, n_t, force_rows, force_columns);
+  create(petsc_->heat, n_t, n_u, heat_rows, heat_columns);
+}
+
+void CoupledMatrix::set_zero() {
+  std::fill(force_.begin(), force_.end(), 0.0);
+  std::fill(heat_.begin(), heat_.end(), 0.0);
+}
+
+void CoupledMatrix::multiply_heat(std::span<const double> x, std::span<double> y) const {
+  const std::int64_t n = components();
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    double sum = 0;
+    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
+      const double* const a = heat_.data() + (s + 1) * n;
+      const double* const from = x.data() + displacement_.columns()[at(s)] * n;
+      for (std::int64_t i = 0; i < n; ++i) sum += a[i] * from[i];
+    }
+    y[at(row)] = sum;
+  }
+}
+
+void CoupledMatrix::multiply_force(std::span<const double> x, std::span<double> y) const {
+  const std::int64_t n = components();
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    double* const to = y.data() + row * n;
+    std::fill_n(to, n, 0.0);
+    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
+      const double* const a = force_.data() + (s + 1) * n;
+      const double from = x[at(displacement_.columns()[at(s)])];
+      for (std::int64_t i = 0; i < n; ++i) to[i] += a[i] * from;
+    }
+  }
+}
+
+Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {
+  const std::ptrdiff_t scrap = components();
+  check(MatSetValuesCOO(petsc_->force, force_.data() + scrap, INSERT_VALUES), "MatSetValuesCOO");
+  check(MatSetValuesCOO(petsc_->heat, heat_.data() + scrap, INSERT_VALUES), "MatSetValuesCOO");
+  // The values are copies: scaling them leaves those of the phases alone.
+  Mat blocks[4] = {displacement_.matrix(), petsc_->force, petsc_->heat, temperature_.matrix()};
+  for (int i = 0; i < 4; ++i) check(MatScale(blocks[i], i < 2 ? force_scale : heat_scale), "MatScale");
+  if (!petsc_->nest)
+    check(MatCreateNest(PETSC_COMM_WORLD, 2, nullptr, 2, nullptr, blocks, petsc_->nest.out()),
+          "MatCreateNest");
+  check(MatAssemblyBegin(petsc_->nest, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+  check(MatAssemblyEnd(petsc_->nest, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+  check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(static_cast<Mat>(petsc_->nest))),
+        "PetscObjectStateIncrease");
+  return petsc_->nest;
+}
+
+std::size_t CoupledMatrix::bytes() const {
+  std::size_t total = (force_.capacity() + heat_.capacity()) * sizeof(double);
+  for (const MatHandle* a : {&petsc_->force, &petsc_->heat}) {
+    MatInfo info;
+    check(MatGetInfo(*a, MAT_LOCAL, &info), "MatGetInfo");
+    total += static_cast<std::size_t>(info.memory);
+  }
+  return total;
+}
+
+}  // namespace solidus::algebra

@@ -1,0 +1,63 @@
+/// The tangent of two nodal fields at once, displacement and temperature (monograph 4.1):
+///
+///   ⎡ K_uu  K_uΘ ⎤ ⎧δu⎫     ⎧r_u⎫      [N]
+///   ⎣ K_Θu  K_ΘΘ ⎦ ⎩δΘ⎭ = − ⎩r_Θ⎭      [W]
+///
+/// The diagonal blocks are the matrices of the two phases. The rectangular ones have the graph of K_uu, a
+/// block of `components` numbers per pair of nodes, and are added to through its slots. Prescribed degrees of
+/// freedom and ties of either field are eliminated as in BlockMatrix.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+
+namespace solidus::algebra {
+
+class CoupledMatrix {
+ public:
+  using Slot = BlockMatrix::Slot;
+
+  /// @param displacement, temperature  of the same mesh, prescribed degrees of freedom and ties set; must
+  ///                                   outlive this object. Collective.
+  CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, BlockMatrix& temperature);
+  ~CoupledMatrix();
+  CoupledMatrix(const CoupledMatrix&) = delete;
+  CoupledMatrix& operator=(const CoupledMatrix&) = delete;
+
+  BlockMatrix& displacement() { return displacement_; }
+  BlockMatrix& temperature() { return temperature_; }
+  int components() const { return displacement_.block_size(); }
+
+  /// Of the rectangular blocks.
+  void set_zero();
+  /// ∂r_u/∂Θ of a pair (row node, column node), `components` numbers; slots of `displacement`, also the one
+  /// without a row.
+  double* force_by_temperature(Slot s) { return force_.data() + (s + 1) * components(); }
+  /// ∂r_Θ/∂u of a pair (row node, column node), `components` numbers.
+  double* heat_by_displacement(Slot s) { return heat_.data() + (s + 1) * components(); }
+
+  /// y = K_Θu x for local x (ghosts up to date), y on owned nodes; ignores what is prescribed or tied.
+  void multiply_heat(std::span<const double> x, std::span<double> y) const;
+  /// y = K_uΘ x, likewise.
+  void multiply_force(std::span<const double> x, std::span<double> y) const;
+
+  /// Passes all values on, rows times `force_scale` [1/N] and `heat_scale` [1/W], and returns the PETSc
+  /// matrix, of type MATNEST; owned by this object. Collective.
+  Mat matrix(double force_scale, double heat_scale);
+  std::size_t bytes() const;
+
+ private:
+  void create_rectangles();
+
+  const mesh::Mesh& mesh_;
+  BlockMatrix& displacement_;
+  BlockMatrix& temperature_;
+  std::vector<double> force_, heat_;  ///< a scrap block, then a block per slot
+  struct Petsc;
+  std::unique_ptr<Petsc> petsc_;
+};
+
+}  // namespace solidus::algebra

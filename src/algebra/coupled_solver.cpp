@@ -1,0 +1,72 @@
+#include "algebra/coupled_solver.hpp"
+
+#include <algorithm>
+
+#include "algebra/petsc_handles.hpp"
+
+namespace solidus::algebra {
+
+namespace {
+
+/// Degrees of freedom of both fields; above, a factorisation in three dimensions fills up.
+constexpr GlobalIndex k_direct_limit_3d = 20000;
+
+bool is_direct(CoupledSolverKind kind, const mesh::Mesh& mesh, int components) {
+  if (kind != CoupledSolverKind::automatic) return kind == CoupledSolverKind::direct;
+  return mesh.dimension == 2 || mesh.n_global_nodes * (components + 1) < k_direct_limit_3d;
+}
+
+}  // namespace
+
+struct CoupledSolver::Petsc {
+  MatHandle assembled;  ///< the nest as one matrix, for the direct solver
+};
+
+CoupledSolver::CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind,
+                             double relative_tolerance)
+    : mesh_(mesh),
+      direct_(is_direct(kind, mesh, components)),
+      solver_(mesh, {.prefix = "coupled_",
+                     .kind = direct_ ? SolverKind::direct : SolverKind::field_split,
+                     .symmetric = false,
+                     .relative_tolerance = relative_tolerance}),
+      petsc_(std::make_unique<Petsc>()) {
+  if (!direct_) solver_.use_rigid_body_modes(mesh, components);
+}
+
+CoupledSolver::~CoupledSolver() = default;
+
+LinearReport CoupledSolver::solve(CoupledMatrix& a, std::span<const double> force,
+                                  std::span<const double> heat, FieldWeights weights, std::span<double> u,
+                                  std::span<double> temperature) {
+  // A preconditioner that stays must not see the rows change their scale.
+  if (direct_ || solver_.stale()) weights_ = weights;
+  Mat matrix = a.matrix(weights_.force, weights_.heat);
+  if (direct_) {
+    const MatReuse reuse = petsc_->assembled ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
+    Mat assembled = petsc_->assembled;
+    check(MatConvert(matrix, MATAIJ, reuse, reuse == MAT_REUSE_MATRIX ? &assembled : petsc_->assembled.out()),
+          "MatConvert");
+    matrix = petsc_->assembled;
+  }
+  right_.resize(force.size() + heat.size());
+  solution_.resize(right_.size());
+  const auto middle = static_cast<std::ptrdiff_t>(force.size());
+  std::transform(force.begin(), force.end(), right_.begin(), [&](double r) { return weights_.force * r; });
+  std::transform(heat.begin(), heat.end(), right_.begin() + middle,
+                 [&](double r) { return weights_.heat * r; });
+  const LinearReport report = solver_.solve(matrix, right_, solution_);
+  std::copy(solution_.begin(), solution_.begin() + middle, u.begin());
+  std::copy(solution_.begin() + middle, solution_.end(), temperature.begin());
+  return report;
+}
+
+void CoupledSolver::forget() {
+  solver_.forget();
+}
+
+double CoupledSolver::seconds() const {
+  return solver_.seconds_setup() + solver_.seconds_solve();
+}
+
+}  // namespace solidus::algebra
