@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "coupling/rates.hpp"
 #include "coupling/step_control.hpp"
 
 namespace solidus::coupling {
@@ -12,6 +13,7 @@ struct Continuation {
   StepOptions options;  ///< that the step control worked with
   double size = 0;      ///< the step it wants next [s]
   std::string reason;   ///< why
+  Rates rates;          ///< of the last step, where adaptive steps predict from them
 };
 
 /// Why a run ended before its end time.

@@ -27,6 +27,7 @@ struct EnergyAudit {
   double kinetic = 0;      ///< change of the kinetic energy
   double numerical = 0;    ///< what the time integration of inertia dissipates (its own term of the balance)
   double work = 0;         ///< work of loads and supports on the bodies
+  double unbalanced = 0;   ///< work of the forces that Newton's iteration left, a part of the defect
   double heat_in = 0;      ///< through boundaries and from sources
   double heat_exchanged =
       0;  ///< what the defect is measured against: the sum of magnitudes of heat moved in the step
@@ -35,6 +36,8 @@ struct EnergyAudit {
   double plastic_work = 0;         ///< work of the deviator on plastic flow
   double hardening() const { return plastic_work - plastic_dissipation; }  ///< what hardening stores
   double defect() const { return stored_heat + structural + contact + kinetic + numerical - work - heat_in; }
+  /// The same of two steps in a row.
+  EnergyAudit& operator+=(const EnergyAudit& next);
 };
 
 /// The a-priori stability functional 𝓛 of 2.24 (with contact 3.69) over one step, and what it is made of
@@ -42,7 +45,9 @@ struct EnergyAudit {
 struct StabilityAudit {
   double mechanical = 0, thermal = 0;  ///< increments of 𝓛 over the two phases (4.34, 4.39)
   double entropy = 0;                  ///< change of S^E + S^pc [J/K]
+  double tolerance = 0;                ///< growth that residuals and rounding explain
   double increment() const { return mechanical + thermal; }
+  StabilityAudit& operator+=(const StabilityAudit& next);
 };
 
 struct ContactSummary {
@@ -61,6 +66,8 @@ struct StepEffort {
   double least_dissipation = 0, largest_dissipation = 0;
   double solid_fraction = 1;                        ///< of the bodies that can melt, by volume
   double min_temperature = 0, max_temperature = 0;  ///< [K]
+  /// The effort of two steps in a row as that of one: the harder iteration, sums, and the end of the second.
+  StepEffort& operator+=(const StepEffort& next);
 };
 
 /// A step as it was taken, for steps.csv, the progress line and the audit.
@@ -71,6 +78,8 @@ struct StepRecord : StepEffort {
   int rejected = 0;         ///< how many tries failed before
   std::string rejection;    ///< the last try's reason
   bool output = false;      ///< the time is an output time
+  /// Local errors as estimated, zero where nothing estimates them [K], [m].
+  double temperature_error = 0, displacement_error = 0;
 };
 
 class Observer {

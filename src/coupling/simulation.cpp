@@ -1,87 +1,162 @@
 #include "coupling/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
+#include "base/log.hpp"
 
 namespace solidus::coupling {
 
-Simulation::Simulation(std::unique_ptr<CouplingScheme> scheme, TimeOptions options)
-    : scheme_(std::move(scheme)), options_(std::move(options)) {}
+struct Simulation::Progress {
+  StepControl control;
+  MeasuredStep step;
+  State committed, trial;
+  StepRecord record;  ///< of the step last committed; its rejections are those since
+  double solid_fraction = 1;
+  int saved = -1;       ///< the step whose checkpoint is written
+  bool warned = false;  ///< of a limit that the smallest step exceeds
+  Stop stop;
+};
+
+Simulation::Simulation(std::unique_ptr<CouplingScheme> scheme, TimeOptions options,
+                       std::optional<ErrorEstimate> estimate)
+    : scheme_(std::move(scheme)), options_(std::move(options)), estimate_(std::move(estimate)) {
+  if (measures_error() && !estimate_)
+    throw std::invalid_argument("adaptive steps need an estimate of their error");
+}
+
+bool Simulation::measures_error() const {
+  return options_.step.adaptive && options_.step.limits.control != ErrorControl::none;
+}
 
 bool Simulation::checkpoint_due(const StepRecord& record) const {
   return record.output || (options_.checkpoint_every > 0 && record.number % options_.checkpoint_every == 0);
 }
 
-void Simulation::write_checkpoint(const Continuation& continuation, const State& state) {
-  scheme_->forget();
-  for (Observer* o : observers_) o->checkpoint(continuation, state);
+bool Simulation::stop_asked() const {
+  return stop_asked_ && algebra::any_process(stop_asked_());
 }
 
-Outcome Simulation::run(State initial, const std::optional<Continuation>& from) {
+void Simulation::save(Progress& p, double size, const std::string& reason) {
+  scheme_->forget();
+  const Continuation continuation{p.record.number, options_.step, size, reason, p.step.rates()};
+  for (Observer* o : observers_) o->checkpoint(continuation, p.committed);
+  p.saved = p.record.number;
+}
+
+MeasuredStep Simulation::measured_step(const std::optional<Continuation>& from) {
+  if (!measures_error()) return MeasuredStep(*scheme_);
+  return {*scheme_, options_.step.limits.control, *estimate_, from ? from->rates : Rates{}};
+}
+
+Outcome Simulation::run(State initial, double solid_fraction, const std::optional<Continuation>& from) {
   std::vector<double> landings = options_.output_times;
   std::erase_if(landings, [this](double t) { return t >= options_.end; });
   landings.push_back(options_.end);
-  StepControl control(options_.step, initial.time, std::move(landings));
-  if (from && from->options == options_.step) control.resume(from->size, from->reason);
+  State trial = initial;
+  const double start = initial.time;
+  Progress p{.control = StepControl(options_.step, start, std::move(landings)),
+             .step = measured_step(from),
+             .committed = std::move(initial),
+             .trial = std::move(trial),
+             .record = {},
+             .solid_fraction = solid_fraction,
+             .saved = from ? from->steps : -1,
+             .warned = false,
+             .stop = {}};
+  p.record.number = from ? from->steps : 0;
+  if (from && from->options == options_.step) p.control.resume(from->size, from->reason);
+  scheme_->synchronise(p.committed);
+  for (Observer* o : observers_) o->begin(p.committed);
 
-  State committed = std::move(initial);
-  State trial = committed;
-  scheme_->synchronise(committed);
-  for (Observer* o : observers_) o->begin(committed);
-
-  StepRecord record;
-  record.number = from ? from->steps : 0;
-  int saved = from ? from->steps : -1;  // the step whose checkpoint is written
-  const auto save = [&](double size, const std::string& reason) {
-    write_checkpoint({record.number, options_.step, size, reason}, committed);
-    saved = record.number;
+  const auto stopped = [&](const Stop& why, Outcome outcome) {
+    for (Observer* o : observers_) o->stopped(why, p.committed);
+    return outcome;
   };
-  const auto stop = [&](const Stop& why) {
-    for (Observer* o : observers_) o->stopped(why, committed);
-  };
-  while (!control.finished(committed.time)) {
-    if (stop_asked_ && algebra::any_process(stop_asked_())) {
-      if (saved != record.number || record.rejected > 0)
-        save(control.present_size(), control.present_reason());
+  while (!p.control.finished(p.committed.time)) {
+    if (stop_asked()) {
+      if (p.saved != p.record.number || p.record.rejected > 0)
+        save(p, p.control.present_size(), p.control.present_reason());
       Stop asked;
       asked.asked = true;
-      stop(asked);
-      return Outcome::interrupted;
+      return stopped(asked, Outcome::interrupted);
     }
-    const PlannedStep step = control.plan(committed.time);
-    try {
-      static_cast<StepEffort&>(record) = scheme_->advance(committed, trial, step.time, step.dt);
-    } catch (const StepRejected& rejection) {
-      ++record.rejected;
-      record.rejection = rejection.reason();
-      if (!control.rejected(step)) {
+    switch (try_step(p)) {
+      case Try::committed:
+        if (checkpoint_due(p.record)) save(p, p.control.present_size(), p.control.present_reason());
+        break;
+      case Try::repeat:
+        scheme_->synchronise(p.committed);
+        break;
+      case Try::stuck:
         // Whoever continues has changed something: with the step asked for, not with the one that failed.
-        save(options_.step.step, "as asked");
-        stop({false, rejection.reason(), rejection.where(), record.rejected, step.dt});
-        return Outcome::stuck;
-      }
-      scheme_->synchronise(committed);
-      continue;
+        save(p, options_.step.step, "as asked");
+        return stopped(p.stop, Outcome::stuck);
     }
-    trial.time = step.time;
-    std::swap(committed, trial);
-    control.accepted(std::max(record.heat.iterations, record.mechanics.iterations));
-
-    ++record.number;
-    record.time = step.time;
-    record.dt = step.dt;
-    record.reason = step.reason;
-    record.output = control.is_landing(step.time);
-    for (Observer* o : observers_) o->step(record, committed);
-    record.rejected = 0;
-    record.rejection.clear();
-    if (checkpoint_due(record)) save(control.present_size(), control.present_reason());
   }
-  for (Observer* o : observers_) o->end(committed);
+  for (Observer* o : observers_) o->end(p.committed);
   return Outcome::finished;
+}
+
+// The committed state is not touched before the step is known to be good: a step that is repeated starts from
+// the same bits.
+Simulation::Try Simulation::try_step(Progress& p) {
+  const PlannedStep step = p.control.plan(p.committed.time);
+  StepMeasure measure;
+  try {
+    const MeasuredStep::Taken taken = p.step.take(p.committed, p.trial, step.time, step.dt);
+    measure = {std::max(taken.effort.heat.iterations, taken.effort.mechanics.iterations),
+               taken.error.temperature, taken.error.displacement,
+               std::abs(taken.effort.solid_fraction - p.solid_fraction)};
+    if (p.control.too_long(step, measure)) {
+      ++p.record.rejected;
+      p.record.rejection = strictest(options_.step.limits, measure).excess;
+      p.control.shortened(step, measure);
+      return Try::repeat;
+    }
+    static_cast<StepEffort&>(p.record) = taken.effort;
+  } catch (const StepRejected& rejection) {
+    ++p.record.rejected;
+    p.record.rejection = rejection.reason();
+    if (p.control.rejected(step, rejection.reason())) return Try::repeat;
+    p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt};
+    return Try::stuck;
+  }
+  warn_of_limit(p, step, measure);
+  commit(p, step, measure);
+  return Try::committed;
+}
+
+void Simulation::warn_of_limit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
+  if (p.warned || !options_.step.adaptive) return;
+  const Strictest limit = strictest(options_.step.limits, measure);
+  if (!limit.exceeded) return;
+  logging::warn("t = {:g} s: {} in the smallest step, {:g} s; the run goes on", step.time, limit.excess,
+                step.dt);
+  p.warned = true;
+}
+
+void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
+  p.trial.time = step.time;
+  std::swap(p.committed, p.trial);
+  p.step.commit();
+  p.control.accepted(step, measure);
+  p.solid_fraction = p.record.solid_fraction;
+
+  ++p.record.number;
+  p.record.time = step.time;
+  p.record.dt = step.dt;
+  p.record.reason = step.reason;
+  p.record.temperature_error = measure.temperature_error;
+  p.record.displacement_error = measure.displacement_error;
+  p.record.output = p.control.is_landing(step.time);
+  for (Observer* o : observers_) o->step(p.record, p.committed);
+  p.record.rejected = 0;
+  p.record.rejection.clear();
 }
 
 }  // namespace solidus::coupling

@@ -10,6 +10,8 @@ namespace {
 
 // Two times closer than this share of the step are the same: sums of steps carry rounding errors.
 constexpr double k_same_time = 1e-9;
+// An estimate that is far off must not cost more than this at once.
+constexpr double k_deepest_cut = 0.1;
 
 }  // namespace
 
@@ -23,6 +25,9 @@ StepControl::StepControl(const StepOptions& options, double start, std::vector<d
     throw std::invalid_argument("min_step <= step <= max_step must hold");
   if (!(options_.growth > 1) || !(options_.cut > 0 && options_.cut < 1))
     throw std::invalid_argument("growth must exceed one and cut lie between zero and one");
+  const StepLimits& limits = options_.limits;
+  if (!(limits.temperature > 0) || !(limits.displacement > 0) || !(limits.solid_fraction > 0))
+    throw std::invalid_argument("the limits of a step must be positive");
   std::sort(landings_.begin(), landings_.end());
   std::erase_if(landings_, [start](double t) { return t <= start; });
   if (landings_.empty()) throw std::invalid_argument("the end time must lie after the start");
@@ -42,28 +47,54 @@ PlannedStep StepControl::plan(double time) const {
   return {time + size_, size_, reason_};
 }
 
-void StepControl::accepted(int iterations) {
-  if (size_ >= options_.max_step) {
-    reason_ = options_.adaptive ? "largest allowed" : "as asked";
-    return;
+void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) {
+  if (!options_.adaptive) return recover();
+  const bool full = step.dt >= size_ * (1 - k_same_time);
+  // A step that was shortened to land says little of one much longer.
+  double size = full ? size_ * options_.growth : std::max(size_, step.dt * options_.growth);
+  std::string reason = size > size_ ? "growth limit" : "as before the output time";
+  const auto at_most = [&](double limit, const std::string& why) {
+    if (limit >= size) return;
+    size = limit;
+    reason = why;
+  };
+  at_most(options_.max_step, "largest allowed");
+  if (measure.iterations > options_.easy_iterations) {
+    // Iterations that stay many whatever the step must not drive it to nothing: never below what was asked.
+    const double wanted = std::min(1.0, 2.0 * options_.easy_iterations / measure.iterations) * size_;
+    at_most(std::max(wanted, std::min(options_.step, size)), "newton effort");
   }
-  // After a cut the size comes back to what was asked even when steps are not easy: one hard moment must not
-  // slow the rest.
-  const bool easy = iterations <= options_.easy_iterations;
-  if (!easy && size_ >= options_.step) {
-    reason_ = "kept: many iterations";
-    return;
-  }
-  const double ceiling = easy ? options_.max_step : options_.step;
-  size_ = std::min(size_ * options_.growth, ceiling);
-  reason_ = size_ == options_.step ? "as asked"
-                                   : (size_ < options_.step ? "growing after a cut" : "growing: easy steps");
+  const Strictest limit = strictest(options_.limits, measure);
+  at_most(step.dt * limit.factor, limit.name);
+  resize(size, reason);
 }
 
-bool StepControl::rejected(const PlannedStep& step) {
+void StepControl::recover() {
+  // After a cut the size comes back to what was asked, also when steps are not easy: one hard moment must not
+  // slow the rest.
+  const double size = std::min(size_ * options_.growth, options_.step);
+  resize(size, size == options_.step ? "as asked" : "growing after a cut");
+}
+
+bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
   size_ = step.dt * options_.cut;
-  reason_ = "cut after a rejected step";
+  reason_ = "rejected: " + why;
   return size_ >= options_.min_step * (1 - k_same_time);
+}
+
+bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) const {
+  return options_.adaptive && step.dt > options_.min_step * (1 + k_same_time) &&
+         strictest(options_.limits, measure).exceeded;
+}
+
+void StepControl::shortened(const PlannedStep& step, const StepMeasure& measure) {
+  const Strictest limit = strictest(options_.limits, measure);
+  resize(step.dt * std::max(limit.factor, k_deepest_cut), "rejected: " + limit.name);
+}
+
+void StepControl::resize(double size, const std::string& reason) {
+  size_ = std::max(size, options_.min_step);
+  reason_ = size_ > size ? "smallest allowed" : reason;
 }
 
 bool StepControl::is_landing(double time) const {

@@ -1,20 +1,24 @@
-/// The size of the next step: lands on output times, cuts after a rejection, grows when steps are easy.
+/// The size of the next step: lands on output times, cuts after a rejection, and where it is adaptive grows
+/// and shrinks with what the step limits and the effort of the iteration say.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "coupling/step_limits.hpp"
+
 namespace solidus::coupling {
 
 struct StepOptions {
-  double step = 1;          ///< the step asked for [s]
-  bool adaptive = false;    ///< may grow beyond `step`, up to max_step
+  double step = 1;          ///< the step asked for; where adaptive, the first one [s]
+  bool adaptive = false;    ///< sizes follow `limits`, between min_step and max_step
   double min_step = 0;      ///< [s]; zero: step / 1024
   double max_step = 0;      ///< [s]; zero: 10 × step when adaptive, else step
-  double growth = 1.5;      ///< factor after an easy step
-  double cut = 0.5;         ///< factor after a rejection
+  double growth = 1.5;      ///< largest factor from one step to the next
+  double cut = 0.5;         ///< factor after a step that did not go through
   int easy_iterations = 6;  ///< a step whose phases all took at most this many Newton iterations is easy
+  StepLimits limits;        ///< of adaptive steps
 
   bool operator==(const StepOptions&) const = default;
 };
@@ -36,10 +40,15 @@ class StepControl {
   bool finished(double time) const { return time >= end_; }
   double end() const { return end_; }
   PlannedStep plan(double time) const;
-  /// The step went through; `iterations` is the largest Newton count of its phases.
-  void accepted(int iterations);
-  /// The step did not go through. False when the next one would fall below the smallest step allowed.
-  bool rejected(const PlannedStep& step);
+  /// The step is committed.
+  void accepted(const PlannedStep& step, const StepMeasure& measure);
+  /// The step did not go through, `why`. False when the next one would fall below the smallest step allowed.
+  bool rejected(const PlannedStep& step, const std::string& why);
+  /// Whether a step that went through is to be repeated with a smaller one: it exceeds a limit and is not yet
+  /// the smallest.
+  bool too_long(const PlannedStep& step, const StepMeasure& measure) const;
+  /// The step that went through was too long.
+  void shortened(const PlannedStep& step, const StepMeasure& measure);
   bool is_landing(double time) const;
 
   /// What a checkpoint keeps.
@@ -51,6 +60,10 @@ class StepControl {
   }
 
  private:
+  void resize(double size, const std::string& reason);
+  /// Without limits: back to the step asked for, after a cut.
+  void recover();
+
   StepOptions options_;
   std::vector<double> landings_;  ///< rising
   double end_ = 0;

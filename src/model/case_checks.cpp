@@ -9,6 +9,7 @@
 #include "model/field_list.hpp"
 #include "model/run_input.hpp"
 
+#include "model/time_input.hpp"
 namespace solidus::model {
 
 namespace {
@@ -109,21 +110,6 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
                          fmt::format("{} lengths and {} divisions for each block", dimension, dimension));
     check_element_count(m, product(t.lower_divisions) + product(t.upper_divisions));
   }
-}
-
-void check_time(const TimeSpec& t) {
-  if (t.steady) return;
-  if (!t.end || !t.step)
-    throw InputError(t.where, fmt::format("the key '{}' is missing in [time]", t.end ? "step" : "end"),
-                     "end and step, or steady = true");
-  if (*t.step > *t.end) throw InputError(t.where, "the time step is longer than the whole time");
-  if (t.min_step && *t.min_step > *t.step) throw InputError(t.where, "'min_step' is above 'step'");
-  if (t.max_step && *t.max_step < *t.step) throw InputError(t.where, "'max_step' is below 'step'");
-  if (t.max_step && !t.adaptive)
-    throw InputError(t.where, "'max_step' means nothing without adaptive = true",
-                     "adaptive = true, or no max_step");
-  if (*t.end / *t.step > 1e8)
-    throw InputError(t.where, fmt::format("{:.3g} steps would be needed", *t.end / *t.step), "at most 1e8");
 }
 
 void check_displacement(const MechanicalConditionSpec& c, AnalysisKind kind) {
@@ -238,7 +224,7 @@ void check_coupling(const CaseSpec& spec) {
 void check_case(const CaseSpec& spec) {
   check_analysis(spec.analysis, static_cast<std::size_t>(spec.dimension()));
   check_mesh(spec.mesh, spec.analysis);
-  check_time(spec.time);
+  check_time(spec);
   if (spec.bodies.empty())
     throw InputError(spec.mesh.where, "the case has no body", "at least one [[body]] section");
   check_names(spec.bodies, "[[body]]");

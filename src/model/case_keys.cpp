@@ -26,40 +26,6 @@ Section<AnalysisSpec> analysis_keys() {
   return s;
 }
 
-Section<TimeSpec> time_keys() {
-  Section<TimeSpec> s("time", "The time that is simulated and the size of its steps.");
-  s.key("steady", &TimeSpec::steady)
-      .initially(false)
-      .doc("Solve for the final equilibrium at once, without time.");
-  s.quantity("end", &TimeSpec::end, "s")
-      .positive()
-      .doc("The run goes from zero to this time; required unless steady.");
-  s.quantity("step", &TimeSpec::step, "s").positive().doc("The step asked for; required unless steady.");
-  s.key("adaptive", &TimeSpec::adaptive)
-      .initially(false)
-      .doc("Let easy steps grow beyond `step`, up to `max_step`.");
-  s.quantity("min_step", &TimeSpec::min_step, "s")
-      .positive()
-      .doc("The run stops when a step of this size is rejected; without it step / 1024.");
-  s.quantity("max_step", &TimeSpec::max_step, "s")
-      .positive()
-      .doc("Largest adaptive step; without it ten times `step`.");
-  s.key("growth", &TimeSpec::growth)
-      .initially(1.5)
-      .range(1.0001, 10)
-      .doc("Factor of the step after an easy step.");
-  s.key("cut", &TimeSpec::cut)
-      .initially(0.5)
-      .range(0.01, 0.99)
-      .doc("Factor of the step after a rejected step.");
-  s.key("easy_iterations", &TimeSpec::easy_iterations)
-      .initially(6)
-      .range(1, 1000)
-      .doc("A step is easy when no phase took more Newton iterations than this.");
-  s.place(&TimeSpec::where);
-  return s;
-}
-
 Section<BodySpec> body_keys() {
   Section<BodySpec> s("body", "A body: a named group of the mesh, its material and initial temperature.");
   s.key("name", &BodySpec::name).doc("A name of your choice; messages and results use it.");

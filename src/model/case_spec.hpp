@@ -10,6 +10,7 @@
 #include "base/keys.hpp"
 #include "base/types.hpp"
 #include "contact/spec.hpp"
+#include "coupling/step_limits.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mechanics/mechanical_phase.hpp"
 
@@ -68,6 +69,9 @@ struct TimeSpec {
   std::optional<double> min_step, max_step;  ///< [s]
   double growth = 0, cut = 0;
   int easy_iterations = 0;
+  coupling::ErrorControl error_control = coupling::ErrorControl::predictor;
+  std::optional<double> temperature_error, displacement_error;  ///< local, of a step [K], [m]
+  std::optional<double> solid_fraction_change;                  ///< in a step
   SourceLocation where;
 };
 

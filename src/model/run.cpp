@@ -21,6 +21,7 @@
 #include "model/mesh_input.hpp"
 #include "model/run_input.hpp"
 #include "model/scheme_input.hpp"
+#include "model/time_input.hpp"
 #include "results/recorder.hpp"
 
 namespace solidus::model {
@@ -228,7 +229,14 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
 
 RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
                         const std::optional<results::Checkpoint>& from, results::Recorder& recorder) {
-  coupling::Simulation simulation(coupling_scheme(spec, a.phases), time_options(spec));
+  coupling::TimeOptions times = time_options(spec);
+  std::optional<coupling::ErrorEstimate> estimate;
+  if (times.step.adaptive) {
+    coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
+    times.step.limits.displacement = displacement_error(spec.time, norm.diagonal());
+    estimate.emplace(std::move(norm));
+  }
+  coupling::Simulation simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
   RangeWatch watch(spec, a);
   DissipationWatch dissipation;
   StopReason why;
@@ -237,8 +245,11 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   simulation.add(recorder);
   simulation.add(why);
   simulation.stop_when(options.stop_asked);
+  const coupling::State& start = from ? from->state : a.initial;
+  coupling::StepEffort at_start;
+  coupling::summarise(a.phases, start, at_start);
   const coupling::Outcome outcome =
-      from ? simulation.run(from->state, from->continuation) : simulation.run(a.initial);
+      simulation.run(start, at_start.solid_fraction, from ? std::optional(from->continuation) : std::nullopt);
   if (outcome == coupling::Outcome::finished) return {};
   return {false, stop_text(why.stop, spec, why.time,
                            results::CheckpointFolder(options.folder).latest().lexically_normal().string())};

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace solidus::model {
@@ -49,27 +48,6 @@ results::PointProbe point_probe(const CaseSpec& spec, const ProbeSpec& probe) {
 }
 
 }  // namespace
-
-coupling::TimeOptions time_options(const CaseSpec& spec) {
-  const TimeSpec& t = spec.time;
-  coupling::TimeOptions options;
-  options.end = *t.end;
-  options.step.step = *t.step;
-  options.step.adaptive = t.adaptive;
-  options.step.min_step = t.min_step.value_or(0);
-  options.step.max_step = t.max_step.value_or(0);
-  options.step.growth = t.growth;
-  options.step.cut = t.cut;
-  options.step.easy_iterations = t.easy_iterations;
-  options.output_times = spec.output.times;
-  options.checkpoint_every = spec.output.checkpoint_every.value_or(0);
-  if (spec.output.every) {
-    const double every = *spec.output.every;
-    const auto n = static_cast<long>(std::floor(options.end / every * (1 + 1e-12)));
-    for (long i = 1; i <= n; ++i) options.output_times.push_back(static_cast<double>(i) * every);
-  }
-  return options;
-}
 
 std::vector<results::Probe> probes(const CaseSpec& spec) {
   std::vector<results::Probe> result;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <type_traits>
 #include <unordered_map>
 
 #include "algebra/parallel.hpp"
@@ -18,50 +19,38 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 2";
+constexpr const char* k_format = "Solidus checkpoint 3";
+constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
   return fmt::format("history/block_{}_{}", b, mesh::name(mesh.blocks[b].shape));
 }
 
-// Everything that is not a field, in a fixed order.
-std::vector<double> numbers_of(const Checkpoint& c) {
-  const coupling::Continuation& k = c.continuation;
-  const coupling::StepOptions& o = k.options;
-  const coupling::EnergyAudit& e = c.energy;
-  return {c.state.time,
-          static_cast<double>(k.steps),
-          k.size,
-          static_cast<double>(c.rejected),
-          o.step,
-          o.adaptive ? 1.0 : 0.0,
-          o.min_step,
-          o.max_step,
-          o.growth,
-          o.cut,
-          static_cast<double>(o.easy_iterations),
-          e.stored_heat,
-          e.structural,
-          e.contact,
-          e.work,
-          e.heat_in,
-          e.heat_exchanged,
-          e.viscous_dissipation,
-          e.plastic_dissipation,
-          e.plastic_work,
-          c.state.mechanics.dt_before};
+// Everything that is neither field nor text, in a fixed order: written and read by the same list.
+template <class C, class Visit>
+void each_number(C& c, const Visit& visit) {
+  auto& k = c.continuation;
+  auto& o = k.options;
+  auto& e = c.energy;
+  const auto all = [&visit](auto&... n) { (visit(n), ...); };
+  all(c.state.time, k.steps, k.size, c.rejected, c.state.mechanics.dt_before);
+  all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
+  all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction);
+  all(e.stored_heat, e.structural, e.contact, e.kinetic, e.numerical, e.work, e.heat_in, e.heat_exchanged,
+      e.viscous_dissipation, e.plastic_dissipation, e.plastic_work);
 }
 
-constexpr std::size_t k_numbers = 21;
+std::vector<double> numbers_of(const Checkpoint& c) {
+  std::vector<double> numbers;
+  each_number(c, [&](const auto& n) { numbers.push_back(static_cast<double>(n)); });
+  return numbers;
+}
 
-void set_numbers(const std::vector<double>& n, Checkpoint& c) {
-  c.state.time = n[0];
-  c.continuation.steps = static_cast<int>(n[1]);
-  c.continuation.size = n[2];
-  c.rejected = static_cast<int>(n[3]);
-  c.continuation.options = {n[4], n[5] != 0.0, n[6], n[7], n[8], n[9], static_cast<int>(n[10])};
-  c.energy = {n[11], n[12], n[13], n[14], n[15], n[16], n[17], n[18], n[19]};
-  c.state.mechanics.dt_before = n[20];
+// Takes them from the file, which must hold as many.
+void set_numbers(TableReader& in, Checkpoint& c) {
+  const std::vector<double> numbers = in.numbers("numbers", numbers_of(c).size());
+  std::size_t i = 0;
+  each_number(c, [&](auto& n) { n = static_cast<std::decay_t<decltype(n)>>(numbers[i++]); });
 }
 
 // History of the elements this process counts, [element][point][component].
@@ -134,12 +123,19 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   compare(path, in, fingerprint);
   Checkpoint c;
   c.state = layout;
-  set_numbers(in.numbers("numbers", k_numbers), c);
+  set_numbers(in, c);
   c.continuation.reason = in.text("reason");
   const Places nodes = places_of(mesh.input_node);
   take_nodes(in, "temperature", nodes, c.state.heat.temperature);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
   take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
+  if (in.text("rates") == k_known) {
+    coupling::Rates& rates = c.continuation.rates;
+    rates.temperature.resize(c.state.heat.temperature.size());
+    rates.displacement.resize(c.state.mechanics.displacement.size());
+    take_nodes(in, "temperature_rate", nodes, rates.temperature);
+    take_nodes(in, "displacement_rate", nodes, rates.displacement);
+  }
   mechanics::MechanicalState& mechanics = c.state.mechanics;
   // A run that went on with backward Euler left no history before the last: the next step is one too.
   if (mechanics.before.empty()) mechanics.dt_before = 0;
@@ -191,6 +187,12 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   nodal("temperature", c.state.heat.temperature);
   nodal("enthalpy", c.state.heat.enthalpy);
   nodal("displacement", c.state.mechanics.displacement);
+  const coupling::Rates& rates = c.continuation.rates;
+  out.text("rates", rates.known() ? k_known : "unknown");
+  if (rates.known()) {
+    nodal("temperature_rate", rates.temperature);
+    nodal("displacement_rate", rates.displacement);
+  }
   for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b) {
     const mesh::Block& block = mesh.blocks[b];
     const mechanics::BlockHistory& history = c.state.mechanics.history[b];

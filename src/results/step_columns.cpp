@@ -30,6 +30,8 @@ std::vector<Column> step_columns() {
           {"reason", ""},
           {"rejected", "1"},
           {"rejection", ""},
+          {"temperature_error", "K"},
+          {"displacement_error", "m"},
           {"output", "1"},
           {"heat_iterations", "1"},
           {"heat_linear_iterations", "1"},
@@ -65,6 +67,8 @@ std::vector<Cell> step_row(const coupling::StepRecord& r) {
           r.reason,
           whole(r.rejected),
           r.rejection,
+          r.temperature_error,
+          r.displacement_error,
           whole(r.output ? 1 : 0),
           whole(r.heat.iterations),
           whole(r.heat.linear_iterations),
@@ -140,15 +144,7 @@ void GlobalHistory::start(const coupling::StepEffort& initial, const coupling::E
 
 void GlobalHistory::add(const coupling::StepEffort& step) {
   last_ = step;
-  sum_.stored_heat += step.energy.stored_heat;
-  sum_.structural += step.energy.structural;
-  sum_.contact += step.energy.contact;
-  sum_.work += step.energy.work;
-  sum_.heat_in += step.energy.heat_in;
-  sum_.heat_exchanged += step.energy.heat_exchanged;
-  sum_.viscous_dissipation += step.energy.viscous_dissipation;
-  sum_.plastic_dissipation += step.energy.plastic_dissipation;
-  sum_.plastic_work += step.energy.plastic_work;
+  sum_ += step.energy;
 }
 
 std::vector<double> GlobalHistory::values() const {

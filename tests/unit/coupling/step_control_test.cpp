@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+using solidus::coupling::ErrorControl;
 using solidus::coupling::PlannedStep;
 using solidus::coupling::StepControl;
+using solidus::coupling::StepMeasure;
 using solidus::coupling::StepOptions;
 
 namespace {
@@ -14,13 +19,27 @@ StepOptions step_of(double step) {
   return options;
 }
 
+StepOptions adaptive(double step, double max_step) {
+  StepOptions options = step_of(step);
+  options.adaptive = true;
+  options.max_step = max_step;
+  return options;
+}
+
+StepMeasure iterations(int n) {
+  StepMeasure measure;
+  measure.iterations = n;
+  return measure;
+}
+
 TEST(StepControl, FixedStepsMeetTheEndExactly) {
   StepControl control(step_of(0.1), 0, {1.0});
   double time = 0;
   int n = 0;
   while (!control.finished(time)) {
-    time = control.plan(time).time;
-    control.accepted(3);
+    const PlannedStep step = control.plan(time);
+    time = step.time;
+    control.accepted(step, iterations(3));
     ++n;
   }
   EXPECT_EQ(time, 1.0);  // the very bits, although 0.1 has none
@@ -41,43 +60,103 @@ TEST(StepControl, OutputTimesAreMetExactly) {
 TEST(StepControl, ARejectedStepIsHalvedAndGrowsBackToWhatWasAsked) {
   StepControl control(step_of(1), 0, {100});
   PlannedStep step = control.plan(0);
-  ASSERT_TRUE(control.rejected(step));
+  ASSERT_TRUE(control.rejected(step, "mechanics: no convergence in 25 iterations"));
   step = control.plan(0);
   EXPECT_DOUBLE_EQ(step.dt, 0.5);
-  EXPECT_EQ(step.reason, "cut after a rejected step");
-  control.accepted(3);
-  EXPECT_DOUBLE_EQ(control.plan(0.5).dt, 0.75);
-  control.accepted(20);  // hard, yet it comes back
+  EXPECT_EQ(step.reason, "rejected: mechanics: no convergence in 25 iterations");
+  control.accepted(step, iterations(3));
+  step = control.plan(0.5);
+  EXPECT_DOUBLE_EQ(step.dt, 0.75);
+  EXPECT_EQ(step.reason, "growing after a cut");
+  control.accepted(step, iterations(20));  // hard, yet it comes back
   EXPECT_DOUBLE_EQ(control.plan(1.25).dt, 1.0);
+  EXPECT_EQ(control.plan(1.25).reason, "as asked");
 }
 
 TEST(StepControl, CutsEndAtTheSmallestStep) {
   StepOptions options = step_of(1);
   options.min_step = 0.25;
   StepControl control(options, 0, {100});
-  EXPECT_TRUE(control.rejected(control.plan(0)));
-  EXPECT_TRUE(control.rejected(control.plan(0)));
-  EXPECT_FALSE(control.rejected(control.plan(0)));
+  EXPECT_TRUE(control.rejected(control.plan(0), "physics"));
+  EXPECT_TRUE(control.rejected(control.plan(0), "physics"));
+  EXPECT_FALSE(control.rejected(control.plan(0), "physics"));
 }
 
 TEST(StepControl, AdaptiveStepsGrowWhenEasyAndStayBelowTheLargest) {
-  StepOptions options = step_of(1);
-  options.adaptive = true;
-  options.max_step = 2;
-  StepControl control(options, 0, {100});
-  control.accepted(3);
+  StepControl control(adaptive(1, 2), 0, {100});
+  EXPECT_EQ(control.plan(0).reason, "as asked");
+  control.accepted(control.plan(0), iterations(3));
   EXPECT_DOUBLE_EQ(control.plan(1).dt, 1.5);
-  control.accepted(20);
+  EXPECT_EQ(control.plan(1).reason, "growth limit");
+  control.accepted(control.plan(1), iterations(10));
   EXPECT_DOUBLE_EQ(control.plan(2.5).dt, 1.5);
-  control.accepted(3);
+  EXPECT_EQ(control.plan(2.5).reason, "newton effort");
+  control.accepted(control.plan(2.5), iterations(3));
   EXPECT_DOUBLE_EQ(control.plan(4).dt, 2.0);
+  EXPECT_EQ(control.plan(4).reason, "largest allowed");
+}
+
+TEST(StepControl, ManyIterationsShrinkTheStepButNotBelowWhatWasAsked) {
+  StepControl control(adaptive(1, 10), 0, {100});
+  for (int i = 0; i < 4; ++i) control.accepted(control.plan(0), iterations(3));
+  ASSERT_DOUBLE_EQ(control.plan(0).dt, std::pow(1.5, 4));
+  control.accepted(control.plan(0), iterations(24));  // four times as many as are easy
+  EXPECT_DOUBLE_EQ(control.plan(0).dt, std::pow(1.5, 4) / 2);
+  control.accepted(control.plan(0), iterations(1000));
+  EXPECT_DOUBLE_EQ(control.plan(0).dt, 1);
+  control.accepted(control.plan(0), iterations(1000));
+  EXPECT_DOUBLE_EQ(control.plan(0).dt, 1);
 }
 
 TEST(StepControl, AdaptiveStepsLeaveNoSliverBeforeALanding) {
-  StepOptions options = step_of(1);
-  options.adaptive = true;
-  StepControl control(options, 0, {1.2});
+  StepControl control(adaptive(1, 10), 0, {1.2});
   EXPECT_DOUBLE_EQ(control.plan(0).dt, 0.6);
+}
+
+TEST(StepControl, AStepShortenedToLandDoesNotShortenThoseBehindIt) {
+  StepControl control(adaptive(1, 10), 0, {0.1, 100});
+  const PlannedStep step = control.plan(0);
+  EXPECT_EQ(step.reason, "output time");
+  EXPECT_EQ(step.time, 0.1);
+  control.accepted(step, iterations(1));
+  EXPECT_DOUBLE_EQ(control.plan(0.1).dt, 1);
+}
+
+TEST(StepControl, TheStrictestLimitSetsTheStepAndGivesTheReason) {
+  StepOptions options = adaptive(1, 10);
+  options.limits = {ErrorControl::predictor, 2.0, 1e-6, 0.1};
+  const auto next = [&](const StepMeasure& measure) {
+    StepControl control(options, 0, {100});
+    control.accepted(control.plan(0), measure);
+    return control.plan(0);
+  };
+  // Errors go with the square of the step, changes with the step; a fifth is kept back.
+  PlannedStep step = next({1, 2.5, 1e-7, 0.01});
+  EXPECT_DOUBLE_EQ(step.dt, 0.8 * std::sqrt(2.0 / 2.5));
+  EXPECT_EQ(step.reason, "temperature error");
+  step = next({1, 0.1, 1.2e-6, 0.01});
+  EXPECT_DOUBLE_EQ(step.dt, 0.8 * std::sqrt(1 / 1.2));
+  EXPECT_EQ(step.reason, "displacement error");
+  step = next({1, 0.1, 1e-7, 0.12});
+  EXPECT_DOUBLE_EQ(step.dt, 0.8 * 0.1 / 0.12);
+  EXPECT_EQ(step.reason, "solid fraction");
+}
+
+TEST(StepControl, AStepFarBeyondALimitIsRepeatedUnlessItIsTheSmallest) {
+  StepOptions options = adaptive(1, 10);
+  options.min_step = 0.5;
+  options.limits = {ErrorControl::predictor, 1.0, 1e-6, 0.1};
+  StepControl control(options, 0, {100});
+  const StepMeasure good{1, 1.4, 0, 0}, bad{1, 1.6, 0, 0}, awful{1, 1e4, 0, 0};
+  EXPECT_FALSE(control.too_long(control.plan(0), good));
+  EXPECT_TRUE(control.too_long(control.plan(0), bad));
+  control.shortened(control.plan(0), bad);
+  EXPECT_DOUBLE_EQ(control.plan(0).dt, 0.8 / std::sqrt(1.6));
+  EXPECT_EQ(control.plan(0).reason, "rejected: temperature error");
+  control.shortened(control.plan(0), awful);
+  EXPECT_DOUBLE_EQ(control.plan(0).dt, 0.5);
+  EXPECT_EQ(control.plan(0).reason, "smallest allowed");
+  EXPECT_FALSE(control.too_long(control.plan(0), awful));
 }
 
 TEST(StepControl, ContradictorySizesAreRefused) {

@@ -1,0 +1,36 @@
+/// The size of a nodal field: its root mean square over the volume of a body, in the body where it is
+/// largest.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::coupling {
+
+class BodyNorm {
+ public:
+  BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind);
+
+  /// max_b sqrt(Σ_i w_ib |v_i|² / Σ_i w_ib) with the closed rule's nodal weights w_ib of body b
+  /// (mesh::nodal_weights); |v_i| is the length of the node's vector. Collective; the same bits on every
+  /// process.
+  /// @param values [local node][component]; empty: zero
+  double operator()(std::span<const double> values) const;
+  /// Extent of the mesh, corner to corner [m].
+  double diagonal() const { return diagonal_; }
+
+ private:
+  struct Share {
+    Index node;  ///< owned
+    int body;
+    double weight;  ///< share of the body's volume
+  };
+  std::vector<Share> shares_;
+  std::size_t n_bodies_ = 0, n_nodes_ = 0;
+  double diagonal_ = 0;
+};
+
+}  // namespace solidus::coupling

@@ -1,0 +1,45 @@
+/// The local error of a step in temperature and displacement, without knowing the exact solution.
+///
+/// Backward Euler commits the local error ½ Δt² ÿ. Two ways to measure it:
+///
+/// predictor   the solution less its extrapolation y_n + Δt ẏ_n, where ẏ_n = (y_n − y_{n−1})/Δt_n is what
+///             backward Euler took for the rate at t_n. Their difference is Δt ẏ_{n+1} − Δt ẏ_n = Δt² ÿ
+///             whatever the two steps are, hence ε = ½ |y_{n+1} − y_n − Δt ẏ_n| (the pair forward/backward
+///             Euler of Gresho, Lee and Sani 1980). Costs two nodal fields and no solve. It sees how curved
+///             the solution is in time, not what a split adds by solving the phases one after the other.
+/// doubling    the same step again in two halves: the whole commits e Δt², the halves together ½ e Δt², so
+///             ε = |y_whole − y_halves| is the error of the halves, which are kept. Sees the whole scheme,
+///             and costs three steps for one.
+///
+/// A first step has no step before: it is measured by doubling in any case.
+#pragma once
+
+#include "coupling/body_norm.hpp"
+#include "coupling/rates.hpp"
+#include "coupling/state.hpp"
+
+namespace solidus::coupling {
+
+struct LocalError {
+  double temperature = 0;   ///< [K]
+  double displacement = 0;  ///< [m]
+};
+
+/// Sizes are those of BodyNorm. All calls are collective.
+class ErrorEstimate {
+ public:
+  explicit ErrorEstimate(BodyNorm norm) : norm_(std::move(norm)) {}
+
+  /// Of the step from `old` to `now` by its extrapolation from `rates`, which must be known.
+  LocalError predictor(const State& old, const State& now, double dt, const Rates& rates) const;
+  /// Of `halves`, by the `whole` step.
+  LocalError doubling(const State& whole, const State& halves) const;
+
+ private:
+  BodyNorm norm_;
+};
+
+/// The rates of the step from `old` to `now`.
+Rates rates_of(const State& old, const State& now, double dt);
+
+}  // namespace solidus::coupling

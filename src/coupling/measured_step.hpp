@@ -1,0 +1,44 @@
+/// One step by a coupling scheme, and how large its local error is.
+#pragma once
+
+#include <optional>
+
+#include "coupling/error_estimate.hpp"
+#include "coupling/observer.hpp"
+#include "coupling/scheme.hpp"
+#include "coupling/step_limits.hpp"
+
+namespace solidus::coupling {
+
+/// Takes steps with a scheme and measures them; sits above CouplingScheme::advance and works with any scheme.
+class MeasuredStep {
+ public:
+  /// Measures nothing.
+  explicit MeasuredStep(CouplingScheme& scheme) : scheme_(scheme) {}
+  /// @param rates  of the step before the first one, where it is known
+  MeasuredStep(CouplingScheme& scheme, ErrorControl control, ErrorEstimate estimate, Rates rates)
+      : scheme_(scheme), control_(control), estimate_(std::move(estimate)), rates_(std::move(rates)) {}
+
+  struct Taken {
+    StepEffort effort;  ///< of the halves together where the step was doubled
+    LocalError error;
+  };
+  /// From `old` (t_n) to `trial` (t_n + dt). Collective. Throws StepRejected as CouplingScheme::advance does.
+  /// Nothing that later steps see changes before commit().
+  Taken take(const State& old, State& trial, double time, double dt);
+  /// The last step taken is committed.
+  void commit() { rates_ = std::move(next_rates_); }
+
+  /// Of the last step committed; what a checkpoint keeps.
+  const Rates& rates() const { return rates_; }
+
+ private:
+  Taken doubled(const State& old, State& trial, double time, double dt);
+
+  CouplingScheme& scheme_;
+  ErrorControl control_ = ErrorControl::none;
+  std::optional<ErrorEstimate> estimate_;
+  Rates rates_, next_rates_;
+};
+
+}  // namespace solidus::coupling

@@ -1,0 +1,40 @@
+#include "coupling/step_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace solidus::coupling {
+
+namespace {
+
+// Steps are planned this much shorter than the limit allows, so that few of them have to be repeated.
+constexpr double k_safety = 0.8;
+// Estimates are no sharper than this: a step is repeated only where it is above its limit by this factor.
+constexpr double k_tolerated = 1.5;
+
+}  // namespace
+
+Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
+  Strictest result;
+  result.factor = std::numeric_limits<double>::infinity();
+  const auto look = [&](const char* name, const char* unit, double value, double allowed, double order) {
+    if (!(value > 0)) return;
+    const double ratio = value / allowed;
+    result.exceeded = result.exceeded || ratio > k_tolerated;
+    const double factor = k_safety * std::pow(ratio, -1 / order);
+    if (factor >= result.factor) return;
+    result.factor = factor;
+    result.name = name;
+    result.excess = fmt::format("{} {:.3g}{}, allowed {:g}{}", name, value, unit, allowed, unit);
+  };
+  if (limits.control != ErrorControl::none) {
+    look("temperature error", " K", measure.temperature_error, limits.temperature, 2);
+    look("displacement error", " m", measure.displacement_error, limits.displacement, 2);
+  }
+  look("solid fraction", "", measure.solid_fraction_change, limits.solid_fraction, 1);
+  return result;
+}
+
+}  // namespace solidus::coupling

@@ -1,0 +1,39 @@
+/// What a step may commit in error and change at most, and which of these bounds its size.
+#pragma once
+
+#include <string>
+
+namespace solidus::coupling {
+
+/// How the local error is measured (coupling/error_estimate.hpp).
+enum class ErrorControl { none, predictor, doubling };
+
+struct StepLimits {
+  ErrorControl control = ErrorControl::none;
+  double temperature = 1;       ///< local error per step [K]
+  double displacement = 1e-6;   ///< local error per step [m]
+  double solid_fraction = 0.1;  ///< change per step of the solid share of all bodies that can melt [1]
+
+  bool operator==(const StepLimits&) const = default;
+};
+
+/// What a step that went through shows.
+struct StepMeasure {
+  int iterations = 0;                                    ///< the largest Newton count of its phases
+  double temperature_error = 0, displacement_error = 0;  ///< [K], [m]; zero where nothing measures them
+  double solid_fraction_change = 0;
+};
+
+/// The limit that wants the smallest step.
+struct Strictest {
+  /// By which the step should have been multiplied; errors go with its square, changes with itself. Aims a
+  /// fifth of the step below the limit. Infinite where nothing was committed.
+  double factor = 0;
+  std::string name;       ///< "temperature error"
+  std::string excess;     ///< "temperature error 3.2 K, allowed 1 K"
+  bool exceeded = false;  ///< a limit is exceeded so far that the step is to be repeated
+};
+
+Strictest strictest(const StepLimits& limits, const StepMeasure& measure);
+
+}  // namespace solidus::coupling

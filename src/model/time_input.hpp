@@ -1,0 +1,20 @@
+/// From the section [time] to the options of the simulation, and what its keys must agree in.
+#pragma once
+
+#include "coupling/simulation.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// Throws InputError for keys that are missing or contradict each other or the analysis.
+void check_time(const CaseSpec& spec);
+
+/// End, step sizes and limits, and all output times of a transient run; the limit of the displacement error
+/// is that of displacement_error().
+coupling::TimeOptions time_options(const CaseSpec& spec);
+
+/// The error of the displacement that a step may commit [m].
+/// @param diagonal  of the mesh, corner to corner [m]
+double displacement_error(const TimeSpec& t, double diagonal);
+
+}  // namespace solidus::model
