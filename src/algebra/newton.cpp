@@ -137,6 +137,7 @@ NewtonReport Iteration::run() {
       return report;
     }
     if (report.iterations == options_.max_iterations) {
+      report.out_of_iterations = true;
       report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
       return report;
     }

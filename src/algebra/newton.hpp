@@ -21,6 +21,7 @@ struct NewtonOptions {
 
 struct NewtonReport {
   bool converged = false;
+  bool out_of_iterations = false;  ///< stopped by max_iterations alone: x is a good iterate
   int iterations = 0;  ///< linear solves
   int linear_iterations = 0;
   std::vector<double> residuals;  ///< ‖r‖/reference before each solve and at the end

@@ -178,9 +178,11 @@ double EnthalpyNewton::search(std::span<const double> temperature) const {
 }
 
 algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, double dt,
-                                            std::span<double> temperature, std::span<double> heat) {
+                                            std::span<double> temperature, std::span<double> heat,
+                                            int newton_steps) {
   begin(old_heat, dt, heat);
   const auto n = r_.size();
+  const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
   algebra::NewtonReport report;
   while (true) {
     evaluate(temperature);
@@ -193,8 +195,9 @@ algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, do
       report.converged = true;
       break;
     }
-    if (report.iterations == options_.max_iterations) {
-      report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
+    if (report.iterations == most) {
+      report.out_of_iterations = true;
+      report.reason = "no convergence in " + std::to_string(most) + " iterations";
       break;
     }
     adapt_tilt(report.iterations, temperature);

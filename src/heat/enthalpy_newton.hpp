@@ -49,8 +49,9 @@ class EnthalpyNewton {
   /// From the start values in `temperature` and `heat` ([local node]); `old_heat` is H^n. Where the
   /// temperature is prescribed, `temperature` already holds it and `heat` a value of the node's graph.
   /// Collective.
+  /// @param newton_steps  at most so many; zero: the limit of the options
   algebra::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
-                              std::span<double> heat);
+                              std::span<double> heat, int newton_steps = 0);
   // The pieces of solve(), for an iteration that has further unknowns (thermal_iteration.hpp).
   /// Starts from `heat`, which is kept and moved on.
   void begin(std::span<const double> old_heat, double dt, std::span<double> heat);

@@ -178,10 +178,12 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   begin(old, pass);
   algebra::NewtonOptions newton_options = options_.newton;
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
+  if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
   std::vector<double> x = start(old, pass);
   PhaseReport report;
   report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
-  if (!report.newton.converged) reject(report.newton.reason, x);
+  const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
+  if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
   report.work = conclude(old, pass, std::move(x), trial);
   return report;
 }

@@ -105,6 +105,7 @@ struct MechanicalPass {
   std::span<const double> iterate_temperature{};
   /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
   const MechanicalState* iterate = nullptr;
+  int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
   StressAtWork work = StressAtWork::end;
 };
 
