@@ -8,6 +8,14 @@
 
 namespace solidus::algebra {
 
+/// One stage of a step of the thermal phase (heat/thermal_phase.hpp): a term that stores heat stores it over
+/// `dt`, from E* = E_n + carried (E(x) − E_n) with the x of the stage before.
+struct Stage {
+  double dt = 0;       ///< [s]
+  double share = 1;    ///< of the step, and so of what is spread over it
+  double carried = 0;  ///< zero in the first stage
+};
+
 /// An extra term of a system in one nodal field (temperature: 1 component, displacement: 2 or 3). It adds
 /// only to rows of owned nodes. `x` is local (ghosts up to date), [node][component]; `r` on owned nodes.
 class Contribution {
@@ -22,6 +30,8 @@ class Contribution {
   virtual void add_residual(std::span<const double> x, std::span<double> r) = 0;
   /// matrix += ∂(term)/∂x at x.
   virtual void add_tangent(std::span<const double> x, BlockMatrix& matrix) = 0;
+  /// For terms that store.
+  virtual void begin_stage(const Stage& /*stage*/, std::span<const double> /*x*/) {}
 };
 
 }  // namespace solidus::algebra

@@ -149,6 +149,16 @@ double NodalEnthalpy::latent(Index node, double heat, double temperature) const 
   return latent;
 }
 
+double NodalEnthalpy::entropy(Index node, double heat, double temperature) const {
+  const double share = plateau_share(node, heat, temperature);
+  double entropy = 0;
+  for (const Share& s : shares(node)) {
+    const double low = curve(s).lower_entropy(temperature);
+    entropy += s.weight * (share > 0 ? low + share * (curve(s).upper_entropy(temperature) - low) : low);
+  }
+  return entropy;
+}
+
 bool NodalEnthalpy::has_plateaus() const {
   return std::any_of(curves_.begin(), curves_.end(), [](const auto& c) { return !c.jumps().empty(); });
 }

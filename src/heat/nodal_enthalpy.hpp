@@ -33,6 +33,8 @@ class NodalEnthalpy {
   double solid_fraction(Index node, double heat, double temperature) const;
   /// True when a material has an isothermal change.
   bool has_plateaus() const;
+  /// ∫ dH/Θ of sensible and latent heat up to a constant, temperatures above zero [J/K].
+  double entropy(Index node, double heat, double temperature) const;
   /// The heat of all phase changes together [J].
   double latent_capacity(Index node) const;
   /// The part of the heat that is latent [J].
@@ -45,6 +47,14 @@ class NodalEnthalpy {
   double solid_volume(Index node, int body, double heat, double temperature) const;
   bool can_melt(int body) const {
     return materials_[static_cast<std::size_t>(body)].solidification() != nullptr;
+  }
+  /// Σ_m w_im of something that the materials around the node have per volume.
+  template <class PerVolume>
+  double sum(Index node, const PerVolume& per_volume) const {
+    double total = 0;
+    for (const Share& s : shares(node))
+      total += s.weight * per_volume(materials_[static_cast<std::size_t>(s.body)]);
+    return total;
   }
   /// ∂H/∂Θ at the node without jumps [J/K].
   double capacity(Index node, double temperature) const;

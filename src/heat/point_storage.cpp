@@ -16,11 +16,12 @@ template <int n_nodes>
 class Storage final : public PointStorage {
  public:
   Storage(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
-          const material::Material& material, int degree)
+          const material::Material& material, SensibleForm form, int degree)
       : geometry_(mesh, block, kind,
                   mesh::gauss_rule(block.shape, degree > 0 ? degree : default_degree(block.shape))),
         material_(material),
         curve_(material.enthalpy()),
+        form_(form),
         old_(geometry_.weight.size()) {}
 
   void bind(const algebra::BlockMatrix& matrix) override {
@@ -29,7 +30,11 @@ class Storage final : public PointStorage {
 
   void start(std::span<const double> old_temperature, double dt) override {
     dt_ = dt;
-    for_points(old_temperature, [&](Index, int, std::size_t at, Lane t) { old_[at] = enthalpy(t); });
+    if (form_ != SensibleForm::enthalpy) old_temperature_.resize(old_.size());
+    for_points(old_temperature, [&](Index, int, std::size_t at, Lane t) {
+      old_[at] = enthalpy(t);
+      if (form_ != SensibleForm::enthalpy) old_temperature_[at] = t;
+    });
   }
 
   void extrapolate(std::span<const double> temperature, double factor) override {
@@ -44,8 +49,10 @@ class Storage final : public PointStorage {
       Nodal sum{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const double* n = values(q);
-        const Lane rate = (enthalpy(at_point(t, n)) - old_[point(batch, q)]) * geometry_.weight_at(batch, q) *
-                          Lane(1.0 / dt_);
+        const std::size_t at = point(batch, q);
+        const Lane theta = at_point(t, n);
+        const Lane stored = enthalpy(theta) - old_[at] + printed(at, theta, &PrintedExcess::heat);
+        const Lane rate = stored * geometry_.weight_at(batch, q) * Lane(1.0 / dt_);
         for (std::size_t a = 0; a < n_nodes; ++a) sum[a] += Lane(n[a]) * rate;
       }
       scatter<n_nodes>(geometry_, batch, sum, r);
@@ -58,8 +65,10 @@ class Storage final : public PointStorage {
       ElementMatrix<n_nodes> m{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const double* n = values(q);
-        const Lane c = for_each_lane(at_point(t, n), [this](double x) { return curve_.capacity(x); }) *
-                       geometry_.weight_at(batch, q) * Lane(1.0 / dt_);
+        const Lane theta = at_point(t, n);
+        const Lane capacity = for_each_lane(theta, [this](double x) { return curve_.capacity(x); }) +
+                              printed(point(batch, q), theta, &PrintedExcess::slope);
+        const Lane c = capacity * geometry_.weight_at(batch, q) * Lane(1.0 / dt_);
         for (std::size_t a = 0; a < n_nodes; ++a)
           for (std::size_t b = 0; b < n_nodes; ++b) m[a][b] += Lane(n[a] * n[b]) * c;
       }
@@ -93,6 +102,21 @@ class Storage final : public PointStorage {
     return total;
   }
 
+  EntropyChange entropy_change(std::span<const double> from, std::span<const double> to) const override {
+    Lane change(0.0), magnitude(0.0);
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Nodal t0 = gather<n_nodes>(geometry_, batch, from), t1 = gather<n_nodes>(geometry_, batch, to);
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Lane weight =
+            geometry_.weight_at(batch, q) * geometry_.counted[static_cast<std::size_t>(batch)];
+        const Lane before = entropy(at_point(t0, values(q))), after = entropy(at_point(t1, values(q)));
+        change += weight * (after - before);
+        magnitude += weight * abs(before);
+      }
+    }
+    return {sum(change), sum(magnitude)};
+  }
+
   std::size_t bytes() const override {
     return geometry_.bytes() + slots_.capacity() * sizeof slots_[0] + old_.capacity() * sizeof old_[0];
   }
@@ -112,6 +136,17 @@ class Storage final : public PointStorage {
   Lane enthalpy(Lane t) const {
     return for_each_lane(t, [this](double x) { return curve_.upper(x); });
   }
+  /// What the printed form has more than the difference of enthalpies.
+  Lane printed(std::size_t at, Lane t, double PrintedExcess::*part) const {
+    Lane excess(0.0);
+    if (form_ == SensibleForm::enthalpy) return excess;
+    for (int lane = 0; lane < k_lanes; ++lane)
+      excess.set(lane, printed_excess(material_, form_, old_temperature_[at][lane], t[lane]).*part);
+    return excess;
+  }
+  Lane entropy(Lane t) const {
+    return for_each_lane(t, [this](double x) { return curve_.upper_entropy(x); });
+  }
   template <class Visit>
   void for_points(std::span<const double> temperature, const Visit& visit) const {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
@@ -123,7 +158,9 @@ class Storage final : public PointStorage {
   mesh::BlockGeometry geometry_;
   const material::Material& material_;
   material::EnthalpyCurve curve_;
-  PackVector<Lane> old_;  ///< h(Θ_n), [batch][point] [J/m³]
+  SensibleForm form_;
+  PackVector<Lane> old_;              ///< h(Θ_n), [batch][point] [J/m³]
+  PackVector<Lane> old_temperature_;  ///< Θ_n, with a printed form only [K]
   std::vector<algebra::BlockMatrix::Slot> slots_;
   double dt_ = 1;
 };
@@ -146,10 +183,10 @@ material::Material spread_isothermal(material::Material material, double width) 
 
 std::unique_ptr<PointStorage> make_point_storage(const mesh::Mesh& mesh, const mesh::Block& block,
                                                  AnalysisKind kind, const material::Material& material,
-                                                 int degree) {
+                                                 SensibleForm form, int degree) {
   return for_shape(block.shape, [&]<int n, int dim>() -> std::unique_ptr<PointStorage> {
     static_assert(dim == 2 || dim == 3);
-    return std::make_unique<Storage<n>>(mesh, block, kind, material, degree);
+    return std::make_unique<Storage<n>>(mesh, block, kind, material, form, degree);
   });
 }
 

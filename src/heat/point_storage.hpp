@@ -11,6 +11,8 @@
 #include <span>
 
 #include "algebra/block_matrix.hpp"
+#include "heat/sensible_form.hpp"
+#include "heat/thermal_state.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -25,7 +27,7 @@ class PointStorage {
  public:
   virtual ~PointStorage() = default;
   virtual void bind(const algebra::BlockMatrix& matrix) = 0;
-  /// h(Θ_n) at the points.
+  /// h(Θ_n) at the points; with a printed form Θ_n itself.
   virtual void start(std::span<const double> old_temperature, double dt) = 0;
   /// From then on heat is counted from h_n + factor (h(Θ) − h_n): the second stage of a two-stage method.
   virtual void extrapolate(std::span<const double> temperature, double factor) = 0;
@@ -36,14 +38,17 @@ class PointStorage {
   virtual double stored(std::span<const double> temperature) const = 0;
   virtual double latent(std::span<const double> old_temperature,
                         std::span<const double> temperature) const = 0;
+  /// Of ∫ dH/Θ, counted elements.
+  virtual EntropyChange entropy_change(std::span<const double> from, std::span<const double> to) const = 0;
   virtual std::size_t bytes() const = 0;
 };
 
 /// @param material kept by reference, isothermal changes already spread
+/// @param form     of the sensible heat
 /// @param degree   polynomial degree that the rule integrates; 0: 3 for linear shapes, 4 for quadratic
 /// simplices, 5 for others
 std::unique_ptr<PointStorage> make_point_storage(const mesh::Mesh& mesh, const mesh::Block& block,
                                                  AnalysisKind kind, const material::Material& material,
-                                                 int degree);
+                                                 SensibleForm form, int degree);
 
 }  // namespace solidus::heat

@@ -8,6 +8,7 @@
 #include "heat/enthalpy_newton.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/point_storage.hpp"
+#include "heat/printed_heat.hpp"
 #include "heat/temperature_system.hpp"
 
 namespace solidus::heat {
@@ -20,6 +21,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
                                    double time, double dt) {
   old_ = &old;
   dt_ = dt;
+  if (phase_.printed_) phase_.printed_->begin_stage({dt, 1, factor}, old.temperature);
   now_ = phase_.start(stage, time);
   if (closed()) {
     stored_from_ = old.enthalpy;
@@ -63,6 +65,10 @@ bool ThermalIteration::converged() const {
          unbalanced_ <= phase_.temperature_system_->round_off();
 }
 
+algebra::BlockMatrix& ThermalIteration::matrix() {
+  return phase_.system_->matrix();
+}
+
 algebra::BlockMatrix& ThermalIteration::assemble(int iteration) {
   if (closed()) {
     phase_.enthalpy_newton_->adapt_tilt(iteration, now_.temperature);
@@ -103,6 +109,7 @@ void ThermalIteration::move(double alpha) {
 }
 
 HeatBalance ThermalIteration::conclude(ThermalState& trial) {
+  phase_.require_positive(now_.temperature);
   if (closed()) phase_.ghosts_.update(now_.enthalpy, 1);
   const ThermalState from{old_->temperature, stored_from_};
   const HeatBalance balance = phase_.balance(from, now_, residual(), moved(), dt_);

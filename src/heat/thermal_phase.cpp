@@ -13,6 +13,7 @@
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/point_storage.hpp"
+#include "heat/printed_heat.hpp"
 #include "heat/temperature_system.hpp"
 #include "heat/thermal_iteration.hpp"
 
@@ -22,6 +23,59 @@ namespace {
 
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
+}
+
+/// A pass of so many Newton steps has taken them.
+bool may_end(const algebra::NewtonReport& report, int newton_steps) {
+  return newton_steps > 0 && report.out_of_iterations;
+}
+
+/// The node where something is largest or not a number, over all processes.
+struct WorstNode {
+  double size = -HUGE_VAL;
+  std::size_t node = 0;
+
+  void look(std::size_t i, double value) {
+    if (std::isnan(value)) value = HUGE_VAL;
+    if (value <= size) return;
+    size = value;
+    node = i;
+  }
+  /// Its place and values, for a message; collective.
+  std::string text(const mesh::Mesh& mesh, std::span<const double> temperature,
+                   std::span<const double> residual) const {
+    struct {
+      double value;
+      int rank;
+    } mine{size, 0}, winner{};
+    MPI_Comm_rank(PETSC_COMM_WORLD, &mine.rank);
+    MPI_Allreduce(&mine, &winner, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
+    char words[200] = {};
+    if (winner.rank == mine.rank && mesh.n_owned_nodes > 0) {
+      const mesh::Point& p = mesh.x[node];
+      std::string place = fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: {:.6g} K",
+                                      mesh.input_node[node], p[0], p[1], p[2], temperature[node]);
+      if (!residual.empty()) place += fmt::format(", unbalanced heat {:.4g} W", residual[node]);
+      place.copy(words, sizeof words - 1);
+    }
+    MPI_Bcast(words, sizeof words, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
+    return words;
+  }
+};
+
+/// Adds the last stage: total = last + carried × first, of all that counts in joules.
+void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
+  HeatBalance& first = report.balance;
+  HeatBalance& sum = last.balance;
+  sum.stored += carried * first.stored;
+  sum.exchanged += carried * first.exchanged;
+  for (std::size_t i = 0; i < sum.conditions.size(); ++i)
+    sum.conditions[i].heat += carried * first.conditions[i].heat;
+  for (std::size_t i = 0; i < sum.contributions.size(); ++i)
+    sum.contributions[i] += carried * first.contributions[i];
+  last.newton.iterations += report.newton.iterations;
+  last.newton.linear_iterations += report.newton.linear_iterations;
+  report = std::move(last);
 }
 
 }  // namespace
@@ -35,10 +89,17 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       contributions_(std::move(contributions)),
       ghosts_(mesh) {
   assert(materials.size() == mesh.bodies.size());
+  assert(
+      (options.stepping == ThermalStepping::backward_euler || options.sensible == SensibleForm::enthalpy) &&
+      "printed forms have a single stage");
   const bool closed = options_.integration == Integration::closed;
   if (!closed)
     for (material::Material& m : materials_) m = spread_isothermal(std::move(m));
   storage_ = std::make_unique<NodalEnthalpy>(mesh, kind, materials_);
+  if (closed && options_.sensible != SensibleForm::enthalpy) {
+    printed_ = std::make_unique<PrintedHeat>(*storage_, options_.sensible);
+    contributions_.push_back(printed_.get());
+  }
   system_ =
       std::make_unique<HeatSystem>(mesh, kind, materials_, std::move(conditions), closed, contributions_);
   solver_ = std::make_unique<HeatSolver>(
@@ -49,8 +110,8 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
         EnthalpyNewtonOptions{options_.tolerance, options_.max_iterations, options_.exact_conductivity});
   } else {
     for (const mesh::Block& block : mesh.blocks) {
-      points_.push_back(
-          make_point_storage(mesh, block, kind, materials_[at(block.body)], options_.open_degree));
+      points_.push_back(make_point_storage(mesh, block, kind, materials_[at(block.body)], options_.sensible,
+                                           options_.open_degree));
       points_.back()->bind(system_->matrix());
     }
   }
@@ -107,49 +168,88 @@ ThermalState ThermalPhase::start(const ThermalState& old, double time) {
 }
 
 PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
-  const double dt = pass.dt;
-  assert(old.temperature.size() == mesh_.x.size() && dt > 0);
+  assert(old.temperature.size() == mesh_.x.size() && pass.dt > 0);
   solver_->begin(true);
-  ThermalState next = start(pass.iterate != nullptr ? *pass.iterate : old, pass.time);
+  ThermalState next;
   PhaseReport report;
-  if (options_.integration == Integration::open) {
-    for (const auto& block : points_) block->start(old.temperature, dt);
-    temperature_system_->use_storage(true);
-    report.newton = solve_temperature(next.temperature, pass.newton_steps);
-    report.balance = balance(old, next, reactions_, temperature_system_->moved(), dt);
+  if (options_.stepping == ThermalStepping::sdirk2) {
+    const double first_dt = k_sdirk_share * pass.dt, carried = (1 - k_sdirk_share) / k_sdirk_share;
+    ThermalState middle;
+    const ThermalPass to_middle{pass.time - pass.dt + first_dt, pass.dt, pass.iterate, pass.newton_steps};
+    report = solve_stage(old, old, {first_dt, k_sdirk_share, 0}, to_middle, middle);
+    const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
+    PhaseReport last = solve_stage(old, middle, {first_dt, k_sdirk_share, carried}, to_end, next);
+    add_stage(report, carried, last);
+    set_latent(report.balance, old, next);
   } else {
-    report.newton =
-        enthalpy_newton_->solve(old.enthalpy, dt, next.temperature, next.enthalpy, pass.newton_steps);
-    require(report.newton, pass.newton_steps, enthalpy_newton_->residual(), next.temperature);
-    report.balance = balance(old, next, enthalpy_newton_->residual(), enthalpy_newton_->moved(), dt);
+    report = solve_stage(old, old, {pass.dt}, pass, next);
   }
   trial = std::move(next);
   return report;
+}
+
+/// From H* = H_n + carried (H − H_n) with the H of `before`, which is the state at t_n in the first stage.
+PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalState& before,
+                                      const algebra::Stage& stage, const ThermalPass& pass,
+                                      ThermalState& next) {
+  begin_stage(stage, before.temperature);
+  next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.time);
+  PhaseReport report;
+  if (options_.integration == Integration::open) {
+    for (const auto& block : points_) {
+      block->start(old.temperature, stage.dt);
+      if (stage.carried != 0) block->extrapolate(before.temperature, stage.carried);
+    }
+    temperature_system_->use_storage(true);
+    report.newton = solve_temperature(next.temperature, pass.newton_steps);
+    report.balance = balance(old, next, reactions_, temperature_system_->moved(), stage.dt);
+    return report;
+  }
+  ThermalState from = old;
+  if (stage.carried != 0)
+    for (std::size_t i = 0; i < from.enthalpy.size(); ++i)
+      from.enthalpy[i] += stage.carried * (before.enthalpy[i] - old.enthalpy[i]);
+  report.newton =
+      enthalpy_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, pass.newton_steps);
+  require_positive(next.temperature);
+  if (!may_end(report.newton, pass.newton_steps))
+    require(report.newton, enthalpy_newton_->residual(), next.temperature);
+  report.balance = balance(from, next, enthalpy_newton_->residual(), enthalpy_newton_->moved(), stage.dt);
+  return report;
+}
+
+void ThermalPhase::begin_stage(const algebra::Stage& stage, std::span<const double> before) {
+  for (algebra::Contribution* contribution : contributions_) contribution->begin_stage(stage, before);
 }
 
 HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& next,
                                   std::span<const double> residual, double moved, double dt) {
   keep_reactions(residual);
   HeatBalance balance = measure(dt);
-  double sums[2] = {0, 0};
+  double stored = 0;
   if (options_.integration == Integration::open) {
-    for (const auto& block : points_) {
-      sums[0] += block->stored(next.temperature);
-      sums[1] += block->latent(old.temperature, next.temperature);
-    }
+    for (const auto& block : points_) stored += block->stored(next.temperature);
   } else {
-    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-      const std::size_t n = at(i);
-      sums[0] += next.enthalpy[n] - old.enthalpy[n];
-      sums[1] += storage_->latent(i, next.enthalpy[n], next.temperature[n]) -
-                 storage_->latent(i, old.enthalpy[n], old.temperature[n]);
-    }
+    for (std::size_t i = 0; i < reactions_.size(); ++i) stored += next.enthalpy[i] - old.enthalpy[i];
   }
-  balance.stored = algebra::global_sum(sums[0]);
-  balance.latent = algebra::global_sum(sums[1]);
-  balance.sensible = balance.stored - balance.latent;
+  balance.stored = algebra::global_sum(stored);
+  set_latent(balance, old, next);
   balance.exchanged = moved * dt;
   return balance;
+}
+
+/// Splits what is stored.
+void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const {
+  double latent = 0;
+  if (options_.integration == Integration::open) {
+    for (const auto& block : points_) latent += block->latent(old.temperature, next.temperature);
+  } else {
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+      latent += storage_->latent(i, next.enthalpy[at(i)], next.temperature[at(i)]) -
+                storage_->latent(i, old.enthalpy[at(i)], old.temperature[at(i)]);
+  }
+  balance.latent = algebra::global_sum(latent);
+  balance.sensible = balance.stored - balance.latent;
 }
 
 PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
@@ -167,18 +267,19 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   return report;
 }
 
-algebra::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature) {
+algebra::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature, int newton_steps) {
   std::vector<double> r(reactions_.size());
   temperature_system_->residual(temperature, r);
   temperature_system_->tangent();
   algebra::NewtonOptions newton;
   newton.tolerance = options_.tolerance;
   newton.absolute_tolerance = temperature_system_->round_off();
-  newton.max_iterations = options_.max_iterations;
+  newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;
   const algebra::NewtonReport report =
       algebra::newton(*temperature_system_, solver_->strong(), ghosts_, 1, temperature, newton);
   temperature_system_->residual(temperature, r);
-  require(report, r, temperature);
+  require_positive(temperature);
+  if (!may_end(report, newton_steps)) require(report, r, temperature);
   keep_reactions(r);
   return report;
 }
@@ -194,35 +295,27 @@ HeatBalance ThermalPhase::measure(double dt) const {
     balance.conditions.push_back({name, power * dt});
   for (const auto& [name, power] : system_->powers()) balance.conditions.push_back({name, power * dt});
   for (double power : system_->contribution_powers()) balance.contributions.push_back(power * dt);
+  if (printed_) balance.contributions.pop_back();  // no heat, but what a printed form loses
   return balance;
 }
 
 void ThermalPhase::require(const algebra::NewtonReport& report, std::span<const double> residual,
                            std::span<const double> temperature) const {
   if (report.converged) return;
-  struct {
-    double value;
-    int rank;
-  } worst{-1.0, 0}, winner{};
-  MPI_Comm_rank(PETSC_COMM_WORLD, &worst.rank);
-  std::size_t node = 0;
-  for (std::size_t i = 0; i < residual.size(); ++i) {
-    const double size = std::isfinite(residual[i]) ? std::abs(residual[i]) : HUGE_VAL;
-    if (system_->fixed()[i] || size <= worst.value) continue;
-    worst.value = size;
-    node = i;
-  }
-  MPI_Allreduce(&worst, &winner, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
-  char text[200] = {};
-  if (winner.rank == worst.rank && !residual.empty()) {
-    const mesh::Point& p = mesh_.x[node];
-    const auto end = fmt::format_to_n(
-        text, sizeof text - 1, "node {} at ({:.6g}, {:.6g}, {:.6g}) m: {:.6g} K, unbalanced heat {:.4g} W",
-        mesh_.input_node[node], p[0], p[1], p[2], temperature[node], residual[node]);
-    *end.out = '\0';
-  }
-  MPI_Bcast(text, sizeof text, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
-  throw StepRejected("heat: " + report.reason, text);
+  WorstNode worst;
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    if (!system_->fixed()[i]) worst.look(i, std::abs(residual[i]));
+  throw StepRejected("heat: " + report.reason, worst.text(mesh_, temperature, residual));
+}
+
+void ThermalPhase::require_positive(std::span<const double> temperature) const {
+  WorstNode coldest;
+  for (std::size_t i = 0; i < reactions_.size(); ++i) coldest.look(i, -temperature[i]);
+  const double lowest = -algebra::global_max(coldest.size);
+  if (lowest > 0) return;
+  throw StepRejected(std::isfinite(lowest) ? fmt::format("heat: the temperature falls to {:.4g} K", lowest)
+                                           : "heat: the temperature is not a number",
+                     coldest.text(mesh_, temperature, {}));
 }
 
 double ThermalPhase::heat_at(const ThermalState& state, Index node) const {
@@ -260,6 +353,24 @@ double ThermalPhase::mean_solid_fraction(const ThermalState& state) const {
   volume = algebra::global_sum(volume);
   solid = algebra::global_sum(solid);
   return volume > 0 ? solid / volume : 1.0;
+}
+
+EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const ThermalState& to) const {
+  EntropyChange sum;
+  const auto add = [&sum](const EntropyChange& part) {
+    sum.change += part.change;
+    sum.magnitude += part.magnitude;
+  };
+  if (options_.integration == Integration::open) {
+    for (const auto& block : points_) add(block->entropy_change(from.temperature, to.temperature));
+  } else {
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+      const double before = storage_->entropy(i, from.enthalpy[at(i)], from.temperature[at(i)]);
+      const double after = storage_->entropy(i, to.enthalpy[at(i)], to.temperature[at(i)]);
+      add({after - before, std::abs(before)});
+    }
+  }
+  return {algebra::global_sum(sum.change), algebra::global_sum(sum.magnitude)};
 }
 
 double ThermalPhase::mean_temperature(const ThermalState& state, int body) const {

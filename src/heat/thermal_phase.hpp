@@ -3,8 +3,15 @@
 ///
 ///   (H(Θ_{n+1}) − H(Θ_n))/Δt + conduction − surfaces − sources + contributions = 0
 ///
-/// Backward Euler in time. Heat is stored as an exact enthalpy difference, so the residual at convergence is
-/// the only defect of the heat balance.
+/// Heat is stored as an exact enthalpy difference, so the residual at convergence is the only defect of the
+/// heat balance. In time backward Euler, or SDIRK2 of Alexander (1977), of second order and L-stable: two
+/// such solves over γ Δt,
+///
+///   H¹ = H_n + γ Δt f(t_n + γ Δt, H¹),   H_{n+1} = H* + γ Δt f(t_{n+1}, H_{n+1}),   γ = 1 − 1/√2
+///   H* = H_n + (1 − γ)/γ (H¹ − H_n) = H_n + (1 − γ) Δt f(t_n + γ Δt, H¹)
+///
+/// so plateaus and both rules are as with backward Euler, and the heat of the step is
+/// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by algebra::Stage.
 #pragma once
 
 #include <memory>
@@ -15,6 +22,7 @@
 #include "algebra/contribution.hpp"
 #include "base/types.hpp"
 #include "heat/conditions.hpp"
+#include "heat/sensible_form.hpp"
 #include "heat/thermal_state.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
@@ -27,12 +35,18 @@ class NodalEnthalpy;
 class EnthalpyNewton;
 class TemperatureSystem;
 class PointStorage;
+class PrintedHeat;
 class ThermalIteration;
 
 enum class Integration {
   closed,  ///< heat content at the nodes, conduction of quads and hexes too: no over- or undershoot
   open     ///< heat content at Gauss points
 };
+
+enum class ThermalStepping { backward_euler, sdirk2 };
+
+/// γ of SDIRK2.
+inline constexpr double k_sdirk_share = 0.29289321881345248;
 
 struct HeatOptions {
   Integration integration = Integration::closed;
@@ -45,6 +59,17 @@ struct HeatOptions {
   /// The slope of the conductivity enters the tangent: quadratic convergence, unsymmetric matrix.
   bool exact_conductivity = false;
   bool symmetric = true;  ///< false when a contribution's tangent is not
+  ThermalStepping stepping = ThermalStepping::backward_euler;
+  /// Anything but enthalpy loses heat and needs backward Euler; what is lost is in the balance as its defect.
+  SensibleForm sensible = SensibleForm::enthalpy;
+};
+
+/// What one pass through the thermal phase goes to. The further fields belong to schemes that solve the phase
+/// several times a step; empty, the pass is the first one.
+struct ThermalPass {
+  double time = 0, dt = 0;                ///< t_{n+1} and the step [s]
+  const ThermalState* iterate = nullptr;  ///< Newton's start; absent: the state at t_n
+  int newton_steps = 0;  ///< at most; the pass may end with them before its tolerance. Zero: until then
 };
 
 class ThermalPhase {
@@ -64,11 +89,16 @@ class ThermalPhase {
   /// From nodal temperatures [K], [local node], ghosts up to date.
   ThermalState initial_state_at_nodes(std::span<const double> temperature) const;
 
-  /// Solves for t_{n+1} = time from the state at time − dt. `trial` is written only on success; it may be
-  /// `old`. Prescribed temperatures hold at t_{n+1}; at the temperature of an isothermal change such a node
+  /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be `old` or the
+  /// iterate. Prescribed temperatures hold at t_{n+1}; at the temperature of an isothermal change such a node
   /// keeps as much of its old heat as that temperature allows. Throws StepRejected (on all processes) when
-  /// the iteration fails; the place is the node of the largest residual.
-  PhaseReport solve(const ThermalState& old, ThermalState& trial, double time, double dt);
+  /// the iteration fails; the place is the node of the largest residual. The same where a temperature is not
+  /// above 0 K; the place is the coldest node.
+  PhaseReport solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass);
+  /// The first pass.
+  PhaseReport solve(const ThermalState& old, ThermalState& trial, double time, double dt) {
+    return solve(old, trial, {.time = time, .dt = dt});
+  }
   /// The steady state for the conditions at `time`, started from `start`; balance in watts. Something must
   /// hold the temperature of every body (prescribed, film, radiation, contact).
   PhaseReport solve_steady(const ThermalState& start, ThermalState& trial, double time);
@@ -85,6 +115,9 @@ class ThermalPhase {
   double mean_solid_fraction(const ThermalState& state, int body) const;
   /// Mean over the volume of all bodies that can melt, 1 if none can.
   double mean_solid_fraction(const ThermalState& state) const;
+  /// Change of the entropy of sensible and latent heat, ∫ dH/Θ over all bodies [J/K]. Temperatures above
+  /// zero. Collective.
+  EntropyChange entropy_change(const ThermalState& from, const ThermalState& to) const;
   /// Mean temperature of a body over its volume [K].
   double mean_temperature(const ThermalState& state, int body) const;
 
@@ -96,9 +129,15 @@ class ThermalPhase {
 
  private:
   friend class ThermalIteration;
-  algebra::NewtonReport solve_temperature(std::span<double> temperature);
+  /// Throws StepRejected like require() unless `newton_steps` limits the iteration.
+  algebra::NewtonReport solve_temperature(std::span<double> temperature, int newton_steps = 0);
   void keep_reactions(std::span<const double> residual);
   HeatBalance measure(double dt) const;
+  PhaseReport solve_stage(const ThermalState& old, const ThermalState& before, const algebra::Stage& stage,
+                          const ThermalPass& pass, ThermalState& next);
+  /// Tells the contributions that store.
+  void begin_stage(const algebra::Stage& stage, std::span<const double> before);
+  void set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const;
   /// Keeps the reactions and measures a solved step.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,
                       double moved, double dt);
@@ -108,6 +147,8 @@ class ThermalPhase {
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const algebra::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;
+  /// Throws StepRejected on all processes where a temperature is not above zero.
+  void require_positive(std::span<const double> temperature) const;
 
   const mesh::Mesh& mesh_;
   HeatOptions options_;
@@ -115,6 +156,7 @@ class ThermalPhase {
   std::vector<algebra::Contribution*> contributions_;
   algebra::GhostExchange ghosts_;
   std::unique_ptr<NodalEnthalpy> storage_;
+  std::unique_ptr<PrintedHeat> printed_;  ///< closed rule with a printed form; the last contribution
   std::unique_ptr<HeatSystem> system_;
   std::vector<std::unique_ptr<PointStorage>> points_;  ///< open rule only
   std::unique_ptr<HeatSolver> solver_;

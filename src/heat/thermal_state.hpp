@@ -41,6 +41,12 @@ struct HeatBalance {
   double defect() const { return stored - heat_in(); }
 };
 
+/// Of the entropy of sensible and latent heat [J/K].
+struct EntropyChange {
+  double change = 0;
+  double magnitude = 0;  ///< sum of what was subtracted from each other: the scale of rounding
+};
+
 struct PhaseReport {
   algebra::NewtonReport newton;
   HeatBalance balance;

@@ -75,6 +75,11 @@ EnthalpyCurve::EnthalpyCurve(double density, const Table& specific_heat,
     if (jump > 0) jumps_.push_back({t0, jump});
     sensible += (t1 - t0) * (c0 + 0.5 * c1 * (t1 - t0));
   }
+  entropy_.assign(pieces_.size(), 0.0);
+  for (std::size_t i = 1; i < pieces_.size(); ++i) {  // continuous but for the jumps
+    const double at = pieces_[i].t0;
+    entropy_[i] = entropy(i - 1, at) + jump_[i] / at - entropy(i, at);
+  }
 }
 
 std::size_t EnthalpyCurve::piece_of_temperature(double temperature) const {
@@ -99,6 +104,21 @@ double EnthalpyCurve::lower(double temperature) const {
   const std::size_t i = piece_of_temperature(temperature);
   const double h = value(pieces_[i], temperature);
   return temperature == pieces_[i].t0 ? h - jump_[i] : h;
+}
+
+double EnthalpyCurve::entropy(std::size_t piece, double temperature) const {
+  const Piece& p = pieces_[piece];
+  return entropy_[piece] + (p.c0 - p.c1 * p.t0) * std::log(temperature) + p.c1 * temperature;
+}
+
+double EnthalpyCurve::upper_entropy(double temperature) const {
+  return entropy(piece_of_temperature(temperature), temperature);
+}
+
+double EnthalpyCurve::lower_entropy(double temperature) const {
+  const std::size_t i = piece_of_temperature(temperature);
+  const double s = entropy(i, temperature);
+  return temperature == pieces_[i].t0 && jump_[i] > 0 ? s - jump_[i] / temperature : s;
 }
 
 double EnthalpyCurve::capacity(double temperature) const {

@@ -4,7 +4,8 @@
 /// beyond its points as a constant; with Extrapolation::linear it follows its line first, for one more width
 /// of its table (never below half its end value). With piecewise-linear C and f it is piecewise quadratic
 /// with upward jumps (isothermal changes), so the value and the inverse are closed forms. Heat is always
-/// stored as a difference of h: exact for every step (4.149).
+/// stored as a difference of h: exact for every step (4.149). The entropy s(Θ) = ∫ dh/Θ is a closed form too,
+/// with jumps of (height)/Θ.
 #pragma once
 
 #include <span>
@@ -26,6 +27,9 @@ class EnthalpyCurve {
   /// h(Θ) [J/m³]; at a jump the lower and the upper value.
   double lower(double temperature) const;
   double upper(double temperature) const;
+  /// s(Θ) [J/(m³ K)] up to a constant, Θ > 0; at a jump the lower and the upper value.
+  double lower_entropy(double temperature) const;
+  double upper_entropy(double temperature) const;
   /// dh/dΘ [J/(m³ K)] of the piece to the right of Θ, without jumps.
   double capacity(double temperature) const;
   /// Θ(h): the continuous inverse, constant over a jump [K].
@@ -50,9 +54,12 @@ class EnthalpyCurve {
   std::size_t piece_of_temperature(double temperature) const;
   std::size_t piece_of_enthalpy(double enthalpy) const;
   double value(const Piece& piece, double temperature) const;
+  /// The entropy of a piece, which is a line in h'(Θ): constant beyond the first and the last.
+  double entropy(std::size_t piece, double temperature) const;
   std::vector<Piece> pieces_;
   std::vector<double> start_temperature_, start_enthalpy_;  ///< t0 and h0 of the pieces, for the search
-  std::vector<double> jump_;  ///< height of the jump at t0 of each piece, mostly zero
+  std::vector<double> jump_;     ///< height of the jump at t0 of each piece, mostly zero
+  std::vector<double> entropy_;  ///< of each piece the constant k in s = k + (c0 − c1 Θ0) ln Θ + c1 Θ
   std::vector<Jump> jumps_;
 };
 

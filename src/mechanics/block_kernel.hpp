@@ -26,6 +26,12 @@ struct StepStart {
   const BlockHistory* start_history;            ///< z*, from which the effective step sets out
   double dt;                                    ///< t_{n+1} − t_n [s]
   double effective_dt;                          ///< of the law [s] (material/time_integration.hpp)
+  /// Stress at the points at t_n and, written by finish(), at t_{n+1}: of a step whose work is that of a mean
+  /// stress (motion.hpp). Null: the work is that of σ_{n+1}.
+  const BlockHistory* old_stress = nullptr;
+  BlockHistory* new_stress = nullptr;
+  double stress_share = 1;  ///< of t_{n+1} in the mean
+  StressAtWork work = StressAtWork::end;
 };
 
 /// Sums over the counted elements of a block.
@@ -55,6 +61,8 @@ class BlockKernel {
   virtual void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) = 0;
   /// Writes the new history, keeps stresses and what the thermal phase needs.
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
+  /// As prepare() and finish() of a body that stays at the held displacement and history.
+  virtual void rest(const StepStart& start) = 0;
   /// The first element whose law finds no state at u, with its inputs; empty if there is none.
   virtual std::string failure(std::span<const double> u) const = 0;
   /// Averages over the elements, of the last finish().
@@ -67,6 +75,7 @@ class BlockKernel {
   /// StructuralHeat: out += its residual, or (tangent) its lumped diagonal; [local node].
   virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                    std::span<double> out) const = 0;
+  virtual void begin_heat_stage(const algebra::Stage& stage, std::span<const double> temperature) = 0;
   /// What the heat balance and the audit need of the deformation, of the last finish().
   virtual const StructuralPoints& structural_points() const = 0;
   virtual std::size_t bytes() const = 0;

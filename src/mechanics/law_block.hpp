@@ -89,6 +89,10 @@ class LawBlock : public BlockKernel {
     old_history_ = start.old_history;
     start_history_ = start.start_history;
     dt_ = start.dt;
+    old_stress_ = start.old_stress;
+    new_stress_ = start.new_stress;
+    stress_share_ = start.stress_share;
+    work_ = start.work;
     effective_dt_ = start.effective_dt;
     points_.set_dt(start.dt);
     const bool iterates = start.pass_temperature.data() != start.temperature.data();
@@ -192,10 +196,13 @@ class LawBlock : public BlockKernel {
         const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
         auto& point = points_.at(batch, q);
         if constexpr (HoldsEntropy<Properties>) point.pass_temperature = response.temperature;
+        const State old = old_state(batch, q);
         point.now = deformation(strain, response.state, solid);
-        point.dissipation = response.dissipation;
-        point.work = dot(response.stress, strain - old_strain);
-        points_.set_old(batch, q, deformation(old_strain, old_state(batch, q), solid));
+        point.change = change(strain, response.state, old_strain, old, solid);
+        point.dissipated = Lane(dt_) * response.dissipation;
+        point.work =
+            dot(stress_at_work(batch, q, mean_stress(batch, q, response.stress)), strain - old_strain);
+        points_.set_old(batch, q, deformation(old_strain, old, solid));
 
         const PlasticPower power = plastic_power(law_, response);
         internal_work += counted * w * point.work;
@@ -220,6 +227,18 @@ class LawBlock : public BlockKernel {
       work.largest_dissipation = std::max(work.largest_dissipation, largest[lane]);
     }
     return work;
+  }
+
+  void rest(const StepStart& start) override {
+    prepare(start);
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Vectors displacement = gather(start.held_displacement, batch);
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const LaneMask solid = elastic_part(law_, properties_[index(batch, q)]).solid_fraction >= Lane(1.0);
+        points_.rest(batch, q,
+                     deformation(at_point(batch, q).strain(displacement), old_state(batch, q), solid));
+      }
+    }
   }
 
   std::string failure(std::span<const double> u) const override {
@@ -273,12 +292,15 @@ class LawBlock : public BlockKernel {
                            std::span<double> out) const override {
     points_.add_heat(form, temperature, tangent, out);
   }
+  void begin_heat_stage(const algebra::Stage& stage, std::span<const double> temperature) override {
+    points_.begin_stage(stage, temperature);
+  }
   const StructuralPoints& structural_points() const override { return points_; }
 
   std::size_t bytes() const override {
     return geometry_.bytes() + points_.bytes() + properties_.capacity() * sizeof(properties_[0]) +
            means_.capacity() * sizeof(Lane) + slots_.capacity() * sizeof(slots_[0]) +
-           averages_.capacity() * sizeof(averages_[0]);
+           averages_.capacity() * sizeof(averages_[0]) + kept_stress_.capacity() * sizeof(Sym<Lane>);
   }
 
  protected:  // for the kernel of the simultaneous scheme (coupled_block.hpp)
@@ -311,6 +333,36 @@ class LawBlock : public BlockKernel {
     const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
     const auto [hardening, back_squared] = hardening_of(state);
     return {trace(strain), select(solid, dot(elastic, elastic), Lane(0.0)), hardening, back_squared};
+  }
+
+  /// Now : Δ since the old state.
+  static Deformation change(const Sym<Lane>& strain, const State& state, const Sym<Lane>& old_strain,
+                            const State& old, const LaneMask& solid) {
+    const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
+    const Sym<Lane> old_elastic = dev(old_strain - inelastic_strain(old));
+    const auto [hardening, back] = hardening_change(state, old);
+    return {trace(strain - old_strain), select(solid, dot(elastic, elastic - old_elastic), Lane(0.0)),
+            hardening, back};
+  }
+
+  /// The mean of the stresses at both ends of a dynamic step; leaves that of its end for the next one.
+  Sym<Lane> mean_stress(Index batch, int point, const Sym<Lane>& stress) const {
+    if (new_stress_ == nullptr) return stress;
+    constexpr std::size_t n = sizeof(Sym<Lane>) / sizeof(Lane);
+    Sym<Lane> old;
+    std::memcpy(static_cast<void*>(&old), old_stress_->values.data() + index(batch, point) * n, sizeof old);
+    std::memcpy(static_cast<void*>(new_stress_->values.data() + index(batch, point) * n), &stress,
+                sizeof stress);
+    return Lane(stress_share_) * stress + Lane(1.0 - stress_share_) * old;
+  }
+
+  /// The stress whose work the step does; keeps the one of its end where that is asked for.
+  const Sym<Lane>& stress_at_work(Index batch, int point, const Sym<Lane>& stress) {
+    if (work_ == StressAtWork::end) return stress;
+    kept_stress_.resize(properties_.size());
+    Sym<Lane>& kept = kept_stress_[index(batch, point)];
+    if (work_ == StressAtWork::end_kept) kept = stress;
+    return kept;
   }
 
   /// factor left ⊗ right; without a skew part left = share right.
@@ -374,7 +426,12 @@ class LawBlock : public BlockKernel {
   PackVector<Values> averages_;                    ///< [batch]
   const BlockHistory* old_history_ = nullptr;
   const BlockHistory* start_history_ = nullptr;
+  const BlockHistory* old_stress_ = nullptr;
+  BlockHistory* new_stress_ = nullptr;
+  double stress_share_ = 1;
   double dt_ = 0, effective_dt_ = 0;
+  StressAtWork work_ = StressAtWork::end;
+  PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where nobody asked for it
 };
 
 }  // namespace solidus::mechanics

@@ -66,6 +66,18 @@ std::array<T, 2> hardening_of(const material::Viscoplastic::State<T>& state) {
   return {state.hardening, dot(state.back_strain, state.back_strain)};
 }
 
+/// How that changed since `old`: Δξ and ζ : Δζ.
+template <class T>
+std::array<T, 2> hardening_change(const material::Viscoelastic::State<T>&,
+                                  const material::Viscoelastic::State<T>&) {
+  return {T(0.0), T(0.0)};
+}
+template <class T>
+std::array<T, 2> hardening_change(const material::Viscoplastic::State<T>& state,
+                                  const material::Viscoplastic::State<T>& old) {
+  return {state.hardening - old.hardening, dot(state.back_strain, state.back_strain - old.back_strain)};
+}
+
 /// s : ε̇^vp and the plastic part of D_mech [W/m³].
 struct PlasticPower {
   Lane power{}, dissipation{};

@@ -24,10 +24,15 @@ void StructuralHeat::add_residual(std::span<const double> temperature, std::span
 }
 
 void StructuralHeat::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) {
+  if (!has_tangent_) return;
   work_.assign(temperature.size(), 0.0);
   for (const auto& block : phase_.blocks()) block->add_structural_heat(form_, temperature, true, work_);
   for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node)
     *matrix.diagonal_block(node) += work_[static_cast<std::size_t>(node)];
+}
+
+void StructuralHeat::begin_stage(const algebra::Stage& stage, std::span<const double> temperature) {
+  for (const auto& block : phase_.blocks()) block->begin_heat_stage(stage, temperature);
 }
 
 StructuralChange StructuralHeat::change(std::span<const double> temperature) const {

@@ -8,6 +8,15 @@
 ///   entropy form:  Θ_{n+1} [S(ε_{n+1}, Θ_{n+1}) − S(ε_n, Θ_n)]/Δt − D_mech          (4.43a, 4.48a)
 ///   energy form:   [E(ε_{n+1}, Θ_{n+1}) − E(ε_n, Θ_n) − σ_{n+1} : Δε]/Δt
 ///
+/// and, after an isothermal mechanical phase only,
+///
+///   literal:       {Θ_{n+1} [S(ε_{n+1}, Θ_{n+1}) − S̄] + H^ep Δt}/Δt − D_mech,  S̄ = S(ε_{n+1}, Θ_n)
+///   (4.48a, 4.50) temperature:   {(C − C_v) (Θ_{n+1} − Θ_n) + H^ep Δt}/Δt − D_mech,  C − C_v at t_{n+1}
+///   (4.53a) H^ep Δt = Θ_{n+1} (∂S/∂ε^E : Δε^E + ∂S/∂ξ Δξ + ∂S/∂ζ : Δζ) at t_{n+1} (2.127b)
+///
+/// H^ep is first order: what it heats is second order away from the difference of entropies. 4.53a does not
+/// see the jump of S where a table of the moduli or of the expansion bends.
+///
 /// σ, D_mech and the internal variables being those of the mechanical phase, isothermal or isentropic;
 /// both including the capacity products of 2.127a. They differ at second order in the step; the energy form
 /// closes the first law to the residuals. Solid fraction and straining of phase changes are held at their
@@ -24,7 +33,7 @@
 
 namespace solidus::mechanics {
 
-enum class StructuralForm { entropy, energy };
+enum class StructuralForm { entropy, energy, literal, temperature };
 
 /// Changes of the structural energy [J] and of the structural entropy [J/K].
 struct StructuralChange {
@@ -43,6 +52,10 @@ class StructuralHeat : public algebra::Contribution {
   void bind(const algebra::BlockMatrix&) override {}
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
   void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
+  void begin_stage(const algebra::Stage& stage, std::span<const double> temperature) override;
+  /// The tangent is another's affair: the simultaneous scheme has the exact one (coupled_kernel.hpp).
+  void leave_tangent() { has_tangent_ = false; }
+  StructuralForm form() const { return form_; }
 
   /// Over the step, with the temperature at its end; over all processes. Collective.
   StructuralChange change(std::span<const double> temperature) const;
@@ -52,6 +65,7 @@ class StructuralHeat : public algebra::Contribution {
  private:
   const MechanicalPhase& phase_;
   StructuralForm form_;
+  bool has_tangent_ = true;
   std::vector<double> work_;  ///< [local node]; ghost rows are scrap
 };
 

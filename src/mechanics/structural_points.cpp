@@ -63,6 +63,98 @@ void StructuralPoints::set_old(Index batch, int point, const Deformation& deform
   p.old_energy = old.internal_energy;
 }
 
+void StructuralPoints::rest(Index batch, int point, const Deformation& deformation) {
+  Point& p = at(batch, point);
+  p.now = deformation;
+  p.change = {Lane(0.0), Lane(0.0), Lane(0.0), Lane(0.0)};
+  p.dissipated = p.work = Lane(0.0);
+  set_old(batch, point, deformation);
+}
+
+void StructuralPoints::begin_stage(const algebra::Stage& stage, std::span<const double> temperature) {
+  stage_ = stage;
+  if (stage.carried == 0) {
+    carried_.clear();
+    return;
+  }
+  carried_.resize(points_.size());
+  const Lane carried(stage.carried);
+  for (Index batch = 0; batch < geometry_.n_batches; ++batch)
+    for (int q = 0; q < geometry_.n_points; ++q) {
+      const std::size_t i = index(batch, q);
+      const Point& at = points_[i];
+      const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature), Want::state);
+      carried_[i] = {at.old_entropy + carried * (now.entropy - at.old_entropy),
+                     at.old_energy + carried * (now.internal_energy - at.old_energy)};
+    }
+}
+
+/// H^ep Δt at t_{n+1} [J/m³] (2.127b). Tables are piecewise linear, so only products remain in the slope.
+StructuralPoints::Sloped StructuralPoints::structural_heating(const Point& at, Lane temperature) const {
+  const Lane two(2.0);
+  auto p = properties_at(material_, temperature, Lane(material_.expansion_reference));
+  p.thermal_strain += at.strain_offset;
+  const auto d = derivatives_at(material_, temperature, temperature);
+  const auto c = curvatures_at(material_, temperature);
+  // ∂σ/∂Θ : Δε^E and its derivative.
+  Lane stress_theta = (d.bulk * at.now.strain_trace - d.bulk * p.thermal_strain - p.bulk * d.thermal_strain) *
+                          at.change.strain_trace +
+                      two * d.shear * at.change.elastic_squared;
+  Lane stress_theta2 = (c.bulk * at.now.strain_trace - c.bulk * p.thermal_strain -
+                        two * d.bulk * d.thermal_strain - p.bulk * c.thermal_strain) *
+                           at.change.strain_trace +
+                       two * c.shear * at.change.elastic_squared;
+  if (material_.flow) {  // −∂q/∂Θ of both hardening forces
+    using J = Jet<Lane>;
+    const material::Flow& flow = *material_.flow;
+    const auto f = flow_properties_at(flow, J::variable(temperature));
+    if (flow.isotropic != material::IsotropicHardening::none) {
+      const J k = hardening_stress<J>(flow.isotropic, flow.curves, f, J(at.now.hardening)).stress;
+      stress_theta += k.d * at.change.hardening;
+      stress_theta2 += k.dd * at.change.hardening;
+    }
+    if (flow.kinematic != material::KinematicHardening::none)
+      stress_theta += Lane(2.0 / 3.0) * f.kinematic_modulus.d * at.change.back_squared;
+  }
+  return {-temperature * stress_theta, -stress_theta - temperature * stress_theta2};
+}
+
+/// What the stage stores at a point [J/m³]; the slope only if wanted, without third derivatives.
+StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t point, Lane temperature,
+                                                Want want) const {
+  const Point& at = points_[point];
+  const Start start = carried_.empty() ? Start{at.old_entropy, at.old_energy} : carried_[point];
+  const Lane share(stage_.share), dissipated = share * at.dissipated;
+  if (form == StructuralForm::temperature) {
+    const Lane capacity = state(at, at.now, temperature, Want::state_and_capacity).capacity;
+    const Lane warmed = temperature - at.temperature;
+    const Sloped h = structural_heating(at, temperature);
+    return {capacity * warmed + h.value - dissipated,
+            capacity * (Lane(1.0) + warmed / temperature) + h.slope};
+  }
+  const State now = state(at, at.now, temperature, want);
+  switch (form) {
+    case StructuralForm::energy:
+      return {now.internal_energy - start.energy - share * at.work, now.capacity};
+    case StructuralForm::literal: {
+      const Lane gained = now.entropy - state(at, at.now, at.temperature, Want::state).entropy;
+      const Sloped h = structural_heating(at, temperature);
+      return {temperature * gained + h.value - dissipated, now.capacity + gained + h.slope};
+    }
+    case StructuralForm::entropy:
+    case StructuralForm::temperature:
+      break;
+  }
+  const Lane gained = now.entropy - start.entropy;
+  return {temperature * gained - dissipated, now.capacity + gained};
+}
+
+StructuralDensities StructuralPoints::densities(Index batch, int point, Lane temperature) const {
+  const Point& p = at(batch, point);
+  const State now = state(p, p.now, temperature, Want::state);
+  return {now.entropy, now.internal_energy};
+}
+
 void StructuralPoints::spread_as_stored(const PackVector<Lane>& weights) {
   const auto n_nodes = static_cast<std::size_t>(geometry_.n_nodes);
   correction_ = weights;
@@ -87,24 +179,16 @@ void StructuralPoints::spread_as_stored(const PackVector<Lane>& weights) {
 
 void StructuralPoints::add_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                 std::span<double> out) const {
-  const Lane rate(1.0 / dt_);
+  const Lane rate(1.0 / stage_.dt);
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
     const Index* nodes =
         geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes * k_lanes;
     Lane total(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
-      const Point& at = points_[index(batch, q)];
       const Lane theta = temperature_at(geometry_, batch, q, temperature);
-      const State now = state(at, at.now, theta, tangent ? Want::state_and_capacity : Want::state);
-      Lane density;
-      if (tangent) {
-        density = rate * now.capacity;
-        if (form == StructuralForm::entropy) density += rate * (now.entropy - at.old_entropy);
-      } else if (form == StructuralForm::entropy) {
-        density = rate * theta * (now.entropy - at.old_entropy) - at.dissipation;
-      } else {
-        density = rate * (now.internal_energy - at.old_energy - at.work);
-      }
+      const Sloped stored =
+          heat(form, index(batch, q), theta, tangent ? Want::state_and_capacity : Want::state);
+      Lane density = rate * (tangent ? stored.slope : stored.value);
       density *= geometry_.weight_at(batch, q);
       total += density;
       const double* values = geometry_.values.data() + q * geometry_.n_nodes;
@@ -112,8 +196,8 @@ void StructuralPoints::add_heat(StructuralForm form, std::span<const double> tem
         for (int lane = 0; lane < k_lanes; ++lane)
           out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values[a] * density[lane];
     }
-    if (correction_.empty()) continue;
-    const Lane* correction = correction_.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes;
+    const Lane* correction = spread(batch);
+    if (correction == nullptr) continue;
     for (int a = 0; a < geometry_.n_nodes; ++a)
       for (int lane = 0; lane < k_lanes; ++lane)
         out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += correction[a][lane] * total[lane];

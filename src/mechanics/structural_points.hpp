@@ -18,6 +18,12 @@ struct Deformation {
   Lane back_squared;     ///< ζ : ζ
 };
 
+/// Of deformation and hardening.
+struct StructuralDensities {
+  Lane entropy;  ///< S [J/(m³ K)]
+  Lane energy;   ///< E [J/m³]
+};
+
 class StructuralPoints {
  public:
   struct Point {
@@ -25,11 +31,12 @@ class StructuralPoints {
     Lane pass_temperature;  ///< at the end of the mechanical phase: the one it holds, or Θ̄ [K]
     Lane strain_offset;  ///< e^θ minus 3 α (Θ − Θ_ref): initial strain and straining of phase changes, held
                          ///< (4.81)
-    Deformation now;   ///< at t_{n+1}
-    Lane old_entropy;  ///< S of the deformation at t_n and Θ_n [J/(m³ K)]
-    Lane old_energy;   ///< E of the deformation at t_n and Θ_n [J/m³]
-    Lane dissipation;  ///< D_mech [W/m³]
-    Lane work;         ///< σ_{n+1} : Δε [J/m³]
+    Deformation now;     ///< at t_{n+1}
+    Deformation change;  ///< now : Δ, of every part (tr: Δ tr ε, ξ: Δξ)
+    Lane old_entropy;    ///< S of the deformation at t_n and Θ_n [J/(m³ K)]
+    Lane old_energy;     ///< E of the deformation at t_n and Θ_n [J/m³]
+    Lane dissipated;     ///< D_mech Δt [J/m³]
+    Lane work;           ///< σ_{n+1} : Δε [J/m³]
   };
 
   /// Keeps a reference to the geometry.
@@ -37,7 +44,13 @@ class StructuralPoints {
 
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }
   const Point& at(Index batch, int point) const { return points_[index(batch, point)]; }
-  void set_dt(double dt) { dt_ = dt; }
+  /// A step of one stage begins.
+  void set_dt(double dt) {
+    stage_ = {dt};
+    carried_.clear();
+  }
+  /// StructuralHeat::begin_stage.
+  void begin_stage(const algebra::Stage& stage, std::span<const double> temperature);
   /// Heat of the points is spread over the nodes by the basis functions; its mean over an element by these
   /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every
   /// node of an element alike whatever the shape and rule.
@@ -48,6 +61,16 @@ class StructuralPoints {
   void set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature, Lane thermal_strain);
   /// Fills the old entropy and energy from the deformation at t_n.
   void set_old(Index batch, int point, const Deformation& old);
+  /// Fills all but the temperatures of a point that does not move.
+  void rest(Index batch, int point, const Deformation& deformation);
+
+  /// At a temperature and the deformation at t_{n+1}.
+  StructuralDensities densities(Index batch, int point, Lane temperature) const;
+  /// What spread_as_stored adds to the basis functions, [node]; null: nothing.
+  const Lane* spread(Index batch) const {
+    return correction_.empty() ? nullptr
+                               : correction_.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes;
+  }
 
   /// BlockKernel::add_structural_heat.
   void add_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
@@ -57,7 +80,9 @@ class StructuralPoints {
   /// Up to the end of the mechanical phase, where points have temperatures of their own: the sensible heat
   /// between Θ_n and Θ̄ is in it, while that of the nodes stays.
   StructuralChange mechanical_change() const;
-  std::size_t bytes() const { return points_.capacity() * sizeof(Point); }
+  std::size_t bytes() const {
+    return points_.capacity() * sizeof(Point) + carried_.capacity() * sizeof(Start);
+  }
 
  private:
   std::size_t index(Index batch, int point) const {
@@ -70,12 +95,22 @@ class StructuralPoints {
   };
   enum class Want { state, state_and_capacity };
   State state(const Point& at, const Deformation& deformation, Lane temperature, Want want) const;
+  /// A quantity and its derivative with respect to temperature.
+  struct Sloped {
+    Lane value, slope;
+  };
+  Sloped structural_heating(const Point& at, Lane temperature) const;
+  Sloped heat(StructuralForm form, std::size_t point, Lane temperature, Want want) const;
 
   const mesh::BlockGeometry& geometry_;
   material::Material material_;  ///< without phase changes: their fraction and straining are held
   PackVector<Point> points_;
   PackVector<Lane> correction_;  ///< share of a node less what the points give it, [batch][node]; empty: none
-  double dt_ = 0;
+  algebra::Stage stage_;
+  struct Start {
+    Lane entropy, energy;
+  };
+  PackVector<Start> carried_;  ///< S*, E* of the second stage, [batch][point]; empty: S and E at t_n
 };
 
 /// The temperature at a point of a batch from nodal values.

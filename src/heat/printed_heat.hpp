@@ -1,0 +1,36 @@
+/// The closed rule's sensible heat in a printed form (sensible_form.hpp): what it is more than the difference
+/// of enthalpies, node by node.
+///
+///   r_i += Σ_m w_im (printed form − (h_1 − h_n))/Δt
+#pragma once
+
+#include <vector>
+
+#include "algebra/contribution.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "heat/sensible_form.hpp"
+
+namespace solidus::heat {
+
+class PrintedHeat final : public algebra::Contribution {
+ public:
+  /// Keeps a reference to the storage.
+  PrintedHeat(const NodalEnthalpy& storage, SensibleForm form) : storage_(storage), form_(form) {}
+
+  void add_to_graph(algebra::NodeGraph&) const override {}
+  void bind(const algebra::BlockMatrix&) override {}
+  void add_residual(std::span<const double> temperature, std::span<double> r) override;
+  void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
+  /// @param old_temperature Θ_n [K], [local node]. A single stage only.
+  void begin_stage(const algebra::Stage& stage, std::span<const double> old_temperature) override;
+
+ private:
+  double sum(Index node, double temperature, double PrintedExcess::*part) const;
+
+  const NodalEnthalpy& storage_;
+  SensibleForm form_;
+  std::vector<double> old_temperature_;  ///< [owned node]
+  double dt_ = 1;
+};
+
+}  // namespace solidus::heat
