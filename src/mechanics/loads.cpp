@@ -187,4 +187,11 @@ void Loads::prescribe(double time, std::span<double> displacement) const {
   }
 }
 
+void Loads::prescribe_rate(double time, std::span<double> velocity) const {
+  for (const Support& support : supports_) {
+    const double rate = support.value.derivative(time);
+    for (Index entry : support.entries) velocity[static_cast<std::size_t>(entry)] = rate;
+  }
+}
+
 }  // namespace solidus::mechanics

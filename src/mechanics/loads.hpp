@@ -27,6 +27,8 @@ class Loads {
   const std::vector<char>& supported() const { return supported_; }
   /// Writes the prescribed values of a time into a displacement, [local node][component].
   void prescribe(double time, std::span<double> displacement) const;
+  /// The same for velocities: the slopes of the tables from that time on.
+  void prescribe_rate(double time, std::span<double> velocity) const;
   /// The degrees of freedom of each plane face, ghosts included, for BlockMatrix::tie.
   const std::vector<std::vector<Index>>& ties() const { return ties_; }
   const Conditions& conditions() const { return conditions_; }

@@ -17,6 +17,17 @@ namespace {
 
 /// Forces that a strain of this size would cause count as round-off: the criterion of a body without load.
 constexpr double k_round_off_strain = 1e-13;
+/// Of the linear solver: Newmark's first step takes a_0 for exact.
+constexpr double k_initial_acceleration = 1e-13;
+
+/// At the points of a block with this history.
+BlockHistory no_stress(const BlockHistory& history) {
+  constexpr int k_components = 6;
+  BlockHistory stress{k_components, history.n_points, {}};
+  const std::size_t n_points = history.values.size() / static_cast<std::size_t>(history.n_components);
+  stress.values.assign(n_points * k_components, Lane(0.0));
+  return stress;
+}
 
 /// Adds the time that it lives to a counter.
 class Stopwatch {
@@ -47,18 +58,26 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       balance_(mesh, components_),
       initial_temperature_(initial_temperature.begin(), initial_temperature.end()) {
   assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
+  const auto n = static_cast<std::size_t>(components_);
   const auto& gravity = loads_->conditions().gravity;
-  std::vector<double> mass(mesh.x.size(), 0.0),
-      weight(mesh.x.size() * static_cast<std::size_t>(components_), 0.0);
+  std::vector<double> mass(mesh.x.size(), 0.0), weight(mesh.x.size() * n, 0.0);
   for (const mesh::Block& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     plastic_ = plastic_ || material.flow.has_value();
     blocks_.push_back(make_block_kernel(mesh, block, kind, material, options_.mapping, options_.b_bar));
     blocks_.back()->add_nodal_volume(material.density, mass);
   }
+  if (options_.dynamics) {
+    std::vector<double> density;
+    for (const material::Material& material : materials) density.push_back(material.density);
+    inertia_ = std::make_unique<InertialForces>(mesh, kind, components_, density, *options_.dynamics);
+    inertial_.resize(static_cast<std::size_t>(mesh.n_owned_nodes) * n);
+    // The weight of the very same masses: a free body falls as one.
+    const std::vector<double> ones(mesh.x.size(), 1.0);
+    inertia_->mass().multiply(ones, 1, std::span(mass).first(static_cast<std::size_t>(mesh.n_owned_nodes)));
+  }
   for (std::size_t node = 0; node < mass.size(); ++node)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(components_); ++i)
-      weight[node * static_cast<std::size_t>(components_) + i] = mass[node] * gravity[i];
+    for (std::size_t i = 0; i < n; ++i) weight[node * n + i] = mass[node] * gravity[i];
   loads_->add_constant(weight);
 
   for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
@@ -84,15 +103,57 @@ void MechanicalPhase::create_matrix() {
   matrix_->set_fixed(loads_->fixed());
   matrix_->tie(loads_->ties());
   for (const auto& block : blocks_) block->bind(*matrix_);
+  if (inertia_) inertia_->bind(*matrix_);
   for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
 }
 
-MechanicalState MechanicalPhase::initial_state() const {
+MechanicalState MechanicalPhase::initial_state() {
   MechanicalState state;
   state.displacement.assign(forces_.size(), 0.0);
   for (const auto& block : blocks_) state.history.push_back(block->initial_history());
   if (options_.integration == TimeIntegration::two_step) state.before = state.history;
+  if (inertia_) set_in_motion(state);
   return state;
+}
+
+/// M a_0 = f_ext(0) − f_int(0): without displacement, at Θ_0, there is no stress.
+void MechanicalPhase::set_in_motion(MechanicalState& state) {
+  state.velocity = inertia_->initial_velocity();
+  loads_->prescribe_rate(0, state.velocity);
+  matrix_->ties().share(std::span(state.velocity).first(external_.size()));
+  ghosts_.update(state.velocity, components_);
+
+  loads_->evaluate(0, external_);
+  std::vector<double> net(external_.size(), 0.0);
+  for (algebra::Contribution* contribution : contributions_)
+    contribution->add_residual(state.displacement, net);
+  std::vector<double> free(net.size());
+  for (std::size_t i = 0; i < net.size(); ++i) {
+    net[i] -= external_[i];
+    free[i] = loads_->fixed()[i] != 0 ? 0.0 : -net[i];
+  }
+  matrix_->ties().sum(free);
+  matrix_->set_zero();
+  inertia_->mass().add_to(*matrix_, 1.0);
+  // Scaled by its diagonal a mass matrix is well conditioned on every mesh (Wathen 1987).
+  algebra::LinearSolver solver(
+      mesh_,
+      {.prefix = "mass_", .kind = algebra::SolverKind::jacobi, .relative_tolerance = k_initial_acceleration});
+  state.acceleration.assign(forces_.size(), 0.0);
+  const std::span<double> owned = std::span(state.acceleration).first(net.size());
+  const algebra::LinearReport report = solver.solve(*matrix_, free, owned);
+  if (!report.converged) throw StepRejected("mechanics: no initial acceleration, " + report.reason);
+  for (std::size_t i = 0; i < owned.size(); ++i)
+    if (loads_->fixed()[i] != 0) owned[i] = 0;
+  matrix_->ties().share(owned);
+  ghosts_.update(state.acceleration, components_);
+
+  if (!inertia_->motion().remembers()) return;
+  state.net_force.assign(forces_.size(), 0.0);
+  state.load.assign(forces_.size(), 0.0);
+  std::copy(net.begin(), net.end(), state.net_force.begin());
+  std::copy(external_.begin(), external_.end(), state.load.begin());
+  for (const BlockHistory& history : state.history) state.stress.push_back(no_stress(history));
 }
 
 /// The first step, and one that grows beyond what the two-step method stands, are backward Euler steps.
@@ -116,6 +177,8 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
         start[i] = Lane(step.now) * start[i] + Lane(step.before) * before[i];
     }
   }
+  const bool remembers = inertia_ && inertia_->motion().remembers();
+  if (remembers) stress_ = old.stress;  // of the right size
   double stiffness = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     stiffness += blocks_[b]->prepare(
@@ -127,8 +190,13 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .old_history = &old.history[b],
          .start_history = extrapolates ? &start_[b] : &old.history[b],
          .dt = pass.dt,
-         .effective_dt = step.dt});
+         .effective_dt = step.dt,
+         .old_stress = remembers ? &old.stress[b] : nullptr,
+         .new_stress = remembers ? &stress_[b] : nullptr,
+         .stress_share = remembers ? inertia_->motion().work_share : 1,
+         .work = pass.work});
   round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
+  if (inertia_) round_off_ += inertia_->round_off();
 }
 
 double MechanicalPhase::residual(std::span<const double> x, std::span<double> r) {
@@ -143,6 +211,11 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   balance_.add_exchanged(r);
   balance_.add_exchanged(external_);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += forces_[i] - external_[i];
+  if (inertia_) {
+    inertia_->force(x, inertial_);
+    balance_.add_exchanged(inertial_);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] += inertial_[i];
+  }
   add_residual_to_balance(r);
   return balance_.reference();
 }
@@ -169,6 +242,7 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
   const Stopwatch watch(seconds_assembly_);
   matrix_->set_zero();
   for (const auto& block : blocks_) block->add_tangent(x_, *matrix_);
+  if (inertia_) inertia_->add_tangent(*matrix_);
   for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(x_, *matrix_);
   return *matrix_;
 }
@@ -191,6 +265,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
 void MechanicalPhase::begin(const MechanicalState& old, const MechanicalPass& pass) {
   assert(old.displacement.size() == forces_.size() && old.history.size() == blocks_.size() && pass.dt > 0);
   loads_->evaluate(pass.time, external_);
+  if (inertia_) inertia_->begin(old, pass.dt);
   prepare(old, pass);
 }
 
@@ -198,6 +273,19 @@ std::vector<double> MechanicalPhase::start(const MechanicalState& old, const Mec
   std::vector<double> x = pass.iterate != nullptr ? pass.iterate->displacement : old.displacement;
   loads_->prescribe(pass.time, x);
   return x;
+}
+
+void MechanicalPhase::rest(const MechanicalState& state, std::span<const double> temperature) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    blocks_[b]->rest({.temperature = temperature,
+                      .pass_temperature = temperature,
+                      .initial_temperature = initial_temperature_,
+                      .held_displacement = state.displacement,
+                      .held_history = &state.history[b],
+                      .old_history = &state.history[b],
+                      .start_history = &state.history[b],
+                      .dt = 1,
+                      .effective_dt = 1});
 }
 
 void MechanicalPhase::reject(const std::string& reason, std::span<const double> x) {
@@ -229,8 +317,9 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
                                          std::vector<double> x, MechanicalState& trial) {
   MechanicalState next;
   const BlockWork total = finish(old, x, next.history);
-  const MechanicalWork work = measure(old, x, total);
+  const MechanicalWork work = measure(old, x, total, next);
   next.displacement = std::move(x);
+  next.stress = std::move(stress_);
   if (options_.integration == TimeIntegration::two_step) {
     next.before = old.history;
     next.dt_before = pass.dt;
@@ -239,28 +328,42 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
   return work;
 }
 
+/// Works and energies at the solution; with inertia also the motion of the next state.
 MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
-                                        const BlockWork& sums) {
-  // The residual at the solution: internal + contributions − loads, which is the support force where fixed.
+                                        const BlockWork& sums, MechanicalState& next) {
+  // The residual at the solution: internal + contributions + inertia − loads, the support force where fixed.
   std::vector<double> r(external_.size());
   residual(x, r);
-  double local[6] = {0, 0, sums.internal_work, sums.dissipation, sums.plastic_dissipation, sums.plastic_work};
+  double local[9] = {
+      0, 0, 0, sums.internal_work, sums.dissipation, sums.plastic_dissipation, sums.plastic_work, 0, 0};
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double increment = x[i] - old.displacement[i];
     reactions_[i] = loads_->fixed()[i] ? r[i] : 0.0;
     local[0] += external_[i] * increment;
     local[1] += reactions_[i] * increment;
+    local[2] += (r[i] - reactions_[i]) * increment;
   }
-  double all[6];
-  MPI_Allreduce(local, all, 6, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  if (inertia_) {
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= inertial_[i];
+    const MotionWork motion = inertia_->conclude(x, r, external_, loads_->fixed(), next);
+    local[0] = motion.external;
+    local[1] = motion.support;
+    local[7] = motion.kinetic;
+    local[8] = motion.numerical;
+  }
+  double all[9];
+  MPI_Allreduce(local, all, 9, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   return {.external_work = all[0],
           .support_work = all[1],
-          .internal_work = all[2],
-          .dissipation = all[3],
-          .plastic_dissipation = all[4],
-          .plastic_work = all[5],
+          .residual_work = all[2],
+          .internal_work = all[3],
+          .dissipation = all[4],
+          .plastic_dissipation = all[5],
+          .plastic_work = all[6],
           .least_dissipation = algebra::global_min(sums.least_dissipation),
-          .largest_dissipation = algebra::global_max(sums.largest_dissipation)};
+          .largest_dissipation = algebra::global_max(sums.largest_dissipation),
+          .kinetic = all[7],
+          .numerical = all[8]};
 }
 
 std::string MechanicalPhase::worst_place(std::span<const double> x) {
@@ -326,6 +429,7 @@ std::size_t MechanicalPhase::bytes() const {
   std::size_t total =
       matrix_->bytes() + (forces_.capacity() + x_.capacity() + external_.capacity()) * sizeof(double);
   for (const auto& block : blocks_) total += block->bytes();
+  if (inertia_) total += inertia_->bytes();
   return total;
 }
 

@@ -1,16 +1,17 @@
-/// The quasi-static mechanical phase: equilibrium at t_{n+1} with the temperature held
+/// The mechanical phase: equilibrium, or the balance of momentum, at t_{n+1} with the temperature held
 /// (monograph 4.46, 6.25), or with the entropy of every quadrature point held (4.40).
 ///
-///   r(u) = ∫ B̄ᵀ σ dV − f(t) + contributions = 0
+///   r(u) = ∫ B̄ᵀ σ dV − f(t) + contributions + inertia = 0
 ///
 /// Newton's criterion measures the residual against the forces that the bodies exchange with the world
-/// (loads, supports, contact), or a millionth of the internal forces where there are none. In
+/// (loads, supports, contact, inertia), or a millionth of the internal forces where there are none. In
 /// time backward Euler, or the two-step method (material/time_integration.hpp). The strain is small, so
 /// geometry, sparsity and the map from element entries to matrix slots are computed once, in the constructor.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "material/time_integration.hpp"
 #include "mechanics/balance.hpp"
 #include "mechanics/conditions.hpp"
+#include "mechanics/inertial_forces.hpp"
 #include "mechanics/mechanical_state.hpp"
 #include "mesh/mesh.hpp"
 
@@ -52,14 +54,17 @@ struct MechanicsOptions {
   /// False when a contribution's tangent is not symmetric (friction); a law's is found by itself
   /// (Armstrong–Frederick).
   bool symmetric = true;
+  std::optional<DynamicsOptions> dynamics;  ///< absent: no inertia
 };
 
 /// Work and heat of a solved step over all processes [J] (axisymmetric: of the whole revolution; plane
 /// strain: per metre of thickness). Forces are those at t_{n+1}, times the displacement increment, so that by
 /// equilibrium internal_work = external_work + support_work + the work of contributions, to the residual.
+/// With inertia they are means over the step (Motion::work_share), and kinetic + numerical stand on the left.
 struct MechanicalWork {
   double external_work = 0;        ///< of pressures, tractions and gravity
   double support_work = 0;         ///< of the reactions at prescribed displacements
+  double residual_work = 0;        ///< of the forces that Newton's iteration left unbalanced
   double internal_work = 0;        ///< ∫ σ_{n+1} : Δε dV
   double dissipation = 0;          ///< Δt ∫ D_mech dV, viscous and plastic (2.113)
   double plastic_dissipation = 0;  ///< the plastic part of it (2.117)
@@ -67,6 +72,8 @@ struct MechanicalWork {
   /// The least and the largest D_mech at any point and zero [W/m³]; the least is negative by rounding at
   /// most.
   double least_dissipation = 0, largest_dissipation = 0;
+  double kinetic = 0;    ///< change of the kinetic energy
+  double numerical = 0;  ///< what the time integration of inertia takes out of it
 };
 
 struct PhaseReport {
@@ -123,8 +130,12 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   int components() const { return components_; }
   AnalysisKind kind() const { return kind_; }
   Mapping mapping() const { return options_.mapping; }
-  /// Zero displacement, no inelastic strain.
-  MechanicalState initial_state() const;
+  const MechanicsOptions& options() const { return options_; }
+  /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
+  /// prescribed displacements, and the accelerations that the loads of that time cause. Collective.
+  MechanicalState initial_state();
+  /// Whether the bodies have inertia.
+  bool dynamic() const { return inertia_ != nullptr; }
 
   /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be the iterate.
   /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the element whose law
@@ -150,6 +161,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   double residual(std::span<const double> x, std::span<double> r) override;
   /// At the x of the last residual().
   algebra::BlockMatrix& tangent() override;
+  /// Of the tangent: what is prescribed and what is tied.
+  algebra::BlockMatrix& matrix() { return *matrix_; }
   /// Hands what happened at x to StructuralHeat and writes the history there.
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
   /// finish() at the solution, and the state and work that follow from it.
@@ -179,11 +192,13 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
  private:
   void create_matrix();
+  void set_in_motion(MechanicalState& state);
   void add_residual_to_balance(std::span<const double> r);
   std::string law_failure(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;
-  MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums);
+  MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums,
+                         MechanicalState& next);
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
@@ -195,14 +210,17 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::unique_ptr<Loads> loads_;
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::unique_ptr<algebra::LinearSolver> solver_;
+  std::unique_ptr<InertialForces> inertia_;  ///< null in quasi-statics
   algebra::GhostExchange ghosts_;
   BodyBalance balance_;
   std::vector<double> initial_temperature_;
-  std::vector<BlockHistory> start_;  ///< z* of the two-step method, one per block
-  double round_off_ = 0;             ///< residual that is rounding [N]
-  std::vector<double> x_;            ///< of the last residual
-  std::vector<double> forces_;       ///< internal forces, [local node][component]; ghost rows are scrap
-  std::vector<double> external_;     ///< loads at t_{n+1}, [owned node][component]
+  std::vector<BlockHistory> start_;   ///< z* of the two-step method, one per block
+  double round_off_ = 0;              ///< residual that is rounding [N]
+  std::vector<double> x_;             ///< of the last residual
+  std::vector<double> forces_;        ///< internal forces, [local node][component]; ghost rows are scrap
+  std::vector<double> external_;      ///< loads at t_{n+1}, [owned node][component]
+  std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia
+  std::vector<BlockHistory> stress_;  ///< of the last finish(), where the next step needs it
   std::vector<double> reactions_;
   double seconds_assembly_ = 0, seconds_residual_ = 0;
 };

@@ -22,6 +22,14 @@ struct MechanicalState {
   /// with backward Euler.
   std::vector<BlockHistory> before;
   double dt_before = 0;
+  // With inertia, else empty (mechanics/motion.hpp); [local node][component], prescribed ones included.
+  std::vector<double> velocity;      ///< [m/s]
+  std::vector<double> acceleration;  ///< [m/s²]
+  // And of methods that remember t_n: forces on owned nodes, stress at the points as
+  // [batch][point][component].
+  std::vector<double> net_force;     ///< internal and contact forces less loads [N]
+  std::vector<double> load;          ///< of pressures, tractions and gravity [N]
+  std::vector<BlockHistory> stress;  ///< of the mechanical phase, order of Sym [Pa]; one per block
 };
 
 }  // namespace solidus::mechanics
