@@ -42,6 +42,13 @@ struct Derivatives {
   Sym<T> strain;    ///< d/dε: the change is strain : dε
 };
 
+/// A function of the state and its partial derivatives: f(Θ, tr ε, a:a, ξ, ζ:ζ).
+template <class T>
+struct StatePartials {
+  T value{};
+  T temperature{}, strain_trace{}, elastic_squared{}, hardening{}, back_squared{};
+};
+
 template <class T>
 struct ThermalDerivatives {
   Sym<T> stress;                  ///< dσ/dΘ at fixed strain [Pa/K]

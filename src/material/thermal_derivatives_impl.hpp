@@ -23,7 +23,8 @@ Viscoplastic::Properties<Jet<T>> thermal_properties(const Viscoplastic& law, con
   return p;
 }
 
-/// The update at its solution, with its derivatives in Θ and, through covectors, in ε.
+/// The update at its solution, with its derivatives in Θ and, through covectors, in ε. All temperature
+/// derivatives are those of the properties it is given.
 template <class T>
 class Variation {
  public:
@@ -85,6 +86,24 @@ class Variation {
     if (in_strain)
       for (int i = 0; i < 3; ++i) s.strain[i] -= volumetric;
     return s;
+  }
+
+  /// Any function of the state.
+  [[gnu::always_inline]] Derivatives<T> along(const StatePartials<T>& f) const {
+    const T two(2.0);
+    const Sym<T> by_elastic = T(two * f.elastic_squared) * elastic_;
+    Derivatives<T> r;
+    r.value = f.value;
+    r.temperature = f.temperature + dot(by_elastic, elastic_theta_);
+    if (!law_.material().flow) {
+      r.strain = by_elastic;
+    } else {
+      const Sym<T> by_zeta = T(two * f.back_squared) * zeta_;
+      r.temperature += f.hardening * xi_theta_ + dot(by_zeta, zeta_theta_);
+      r.strain = along_strain(by_elastic, by_zeta, f.hardening * radius().v);
+    }
+    for (int i = 0; i < 3; ++i) r.strain[i] += f.strain_trace;
+    return r;
   }
 
   Derivatives<T> dissipation() const {

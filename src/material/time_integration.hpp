@@ -29,6 +29,11 @@ struct TimeStep {
   }
 };
 
+/// Alexander's method of two stages, of second order and L-stable: each a backward Euler step over γ Δt, the
+/// second from y* = y_n + (1−γ)/γ (Y_1 − y_n). R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
+inline constexpr double k_sdirk_share = 0.29289321881345248;   ///< γ = 1 − 1/√2
+inline constexpr double k_sdirk_carried = 2.4142135623730951;  ///< (1−γ)/γ = 1 + √2
+
 /// z*, of the history of a viscoplastic point (any struct with these members) at t_n and t_{n−1}.
 template <class State>
 State start_state(const TimeStep& step, const State& now, const State& before) {

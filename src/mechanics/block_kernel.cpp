@@ -1,6 +1,7 @@
 #include "mechanics/block_kernel.hpp"
 
 #include "mechanics/block_makers.hpp"
+#include "mechanics/coupled_kernel.hpp"
 
 namespace solidus::mechanics {
 
@@ -26,6 +27,16 @@ std::unique_ptr<BlockKernel> make_block_of_law(const mesh::Mesh& mesh, const mes
 std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, bool b_bar) {
+  if (mapping == Mapping::simultaneous) {
+    switch (kind) {
+      case AnalysisKind::plane_strain:
+        return make_coupled_block<AnalysisKind::plane_strain>(mesh, block, material, b_bar);
+      case AnalysisKind::axisymmetric:
+        return make_coupled_block<AnalysisKind::axisymmetric>(mesh, block, material, b_bar);
+      case AnalysisKind::solid:
+        return make_coupled_block<AnalysisKind::solid>(mesh, block, material, b_bar);
+    }
+  }
   if (mapping == Mapping::isentropic)
     return make_block_of_law<material::Isentropic>(mesh, block, kind, material, b_bar);
   // The Maxwell element alone has a shorter history and an isotropic tangent.

@@ -1,0 +1,11 @@
+#include "mechanics/coupled_shapes.hpp"
+
+namespace solidus::mechanics {
+
+template <>
+std::unique_ptr<BlockKernel> make_coupled_block<AnalysisKind::axisymmetric>(
+    const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material, bool b_bar) {
+  return make_coupled_plane_block<AnalysisKind::axisymmetric>(mesh, block, material, b_bar);
+}
+
+}  // namespace solidus::mechanics

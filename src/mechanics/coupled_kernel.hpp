@@ -1,0 +1,45 @@
+/// What the simultaneous scheme asks of a mesh block beside BlockKernel: how stress moves with temperature
+/// and structural heat with both fields.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "algebra/coupled_matrix.hpp"
+#include "mechanics/block_kernel.hpp"
+
+namespace solidus::mechanics {
+
+class CoupledKernel {
+ public:
+  virtual ~CoupledKernel() = default;
+  /// Looks up slots of the thermal matrix.
+  virtual void bind_heat(const algebra::BlockMatrix& matrix) = 0;
+  /// Adds the derivatives of the forces with respect to the temperature, and of structural heat (its form
+  /// being energy or entropy) with respect to both, consistent with the quadrature of StructuralHeat, at the
+  /// displacement and temperature of the last prepare() and finish(). Fields are [local node][component].
+  /// @param old_u  from which the strain increment counts
+  virtual void add_coupling(StructuralForm form, std::span<const double> old_u, std::span<const double> u,
+                            std::span<const double> temperature, algebra::CoupledMatrix& matrix) = 0;
+  /// The second stage of a two-stage method begins: until drop_carried() structural heat counts from
+  /// S* = S_n + factor (S − S_n), E* likewise, S and E being those of the last finish() at `temperature`.
+  virtual void carry(double factor, std::span<const double> temperature) = 0;
+  /// From now on it counts from S_n and E_n again: over the whole step.
+  virtual void drop_carried() = 0;
+};
+
+/// One maker per analysis kind, each in its own translation unit.
+/// Throws std::invalid_argument for a shape that the kind does not have.
+template <AnalysisKind kind>
+std::unique_ptr<BlockKernel> make_coupled_block(const mesh::Mesh& mesh, const mesh::Block& block,
+                                                const material::Material& material, bool b_bar);
+using CoupledMaker = std::unique_ptr<BlockKernel>(const mesh::Mesh&, const mesh::Block&,
+                                                  const material::Material&, bool);
+template <>
+CoupledMaker make_coupled_block<AnalysisKind::plane_strain>;
+template <>
+CoupledMaker make_coupled_block<AnalysisKind::axisymmetric>;
+template <>
+CoupledMaker make_coupled_block<AnalysisKind::solid>;
+
+}  // namespace solidus::mechanics
