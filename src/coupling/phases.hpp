@@ -1,6 +1,7 @@
 /// The phases that a scheme drives, owned by whoever built them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "contact/pair.hpp"
@@ -17,7 +18,11 @@ struct Phases {
   mechanics::MechanicalPhase* mechanics = nullptr;  ///< null: heat alone
   mechanics::StructuralHeat* structural = nullptr;  ///< null: deformation does no heat
   std::vector<contact::ContactPair*> contacts;
-  std::vector<double> temperature;  ///< [K], [local node]: of a mechanical phase alone
+  std::vector<double> temperature;            ///< [K], [local node]: of a mechanical phase alone
+  std::optional<double> ambient_temperature;  ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
+
+  /// Heat and deformation exchange energy and Θ_a is known: then 𝓛 is a column.
+  bool audits_stability() const { return heat && structural && ambient_temperature; }
 };
 
 /// What every scheme reports of the state it reached: temperatures, solid fraction, contact.

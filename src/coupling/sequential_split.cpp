@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "coupling/stability_audit.hpp"
+
 namespace solidus::coupling {
 
 namespace {
@@ -34,6 +36,7 @@ StepEffort SequentialSplit::advance(const State& old, State& trial, double time,
   StepEffort effort;
   if (phases_.mechanics != nullptr) mechanical_phase(old, trial, time, dt, effort);
   if (phases_.heat != nullptr) thermal_phase(old, trial, time, dt, effort);
+  effort.stability = stability_audit(phases_, old, trial, effort);
   summarise(phases_, trial, effort);
   return effort;
 }
@@ -51,7 +54,10 @@ void SequentialSplit::mechanical_phase(const State& old, State& trial, double ti
   for (contact::ContactPair* pair : phases_.contacts) pair->update(trial.mechanics.displacement);
 
   effort.energy.contact = contact_energy(phases_) - spring_energy;
+  effort.energy.kinetic = report.work.kinetic;
+  effort.energy.numerical = report.work.numerical;
   effort.energy.work = report.work.external_work + report.work.support_work;
+  effort.energy.unbalanced = report.work.residual_work;
   effort.energy.viscous_dissipation = report.work.dissipation - report.work.plastic_dissipation;
   effort.energy.plastic_dissipation = report.work.plastic_dissipation;
   effort.energy.plastic_work = report.work.plastic_work;
@@ -74,7 +80,7 @@ void SequentialSplit::thermal_phase(const State& old, State& trial, double time,
     effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
   } else {
     // Deformation exchanges nothing with heat: the first law is that of the thermal phase alone.
-    effort.energy.work = effort.energy.contact = 0;
+    effort.energy.work = effort.energy.contact = effort.energy.kinetic = effort.energy.numerical = 0;
   }
   effort.heat = effort_of(report.newton, MPI_Wtime() - start);
 }

@@ -1,0 +1,36 @@
+#include "coupling/stability_audit.hpp"
+
+#include <algorithm>
+
+namespace solidus::coupling {
+
+StabilityAudit stability_audit(const Phases& phases, const State& old, const State& trial,
+                               const StepEffort& effort, Booking booking) {
+  StabilityAudit r;
+  if (!phases.audits_stability()) return r;
+  const EnergyAudit& energy = effort.energy;
+  const double ambient = *phases.ambient_temperature;
+  const heat::EntropyChange stored = phases.heat->entropy_change(old.heat, trial.heat);
+  const mechanics::StructuralChange structural = phases.structural->change(trial.heat.temperature);
+  r.entropy = stored.change + structural.entropy;
+
+  const double outside =
+      energy.kinetic + energy.contact - energy.work;  // changes in the mechanical phase only
+  const double whole = energy.stored_heat + energy.structural + outside - ambient * r.entropy;
+  if (booking == Booking::by_phase) {
+    const mechanics::StructuralChange phase = phases.structural->mechanical_change();
+    r.mechanical = phase.energy - ambient * phase.entropy + outside;
+    r.thermal = whole - r.mechanical;
+  } else {
+    r.mechanical = whole;
+  }
+
+  // In both inequalities residuals stand on the right (theory, 2 and 3); that of heat is weighted with
+  // 1 − Θ_a/Θ, of magnitude below one.
+  constexpr double k_rounding = 1e-14;  // of each entropy that is a difference
+  r.tolerance = std::max(0.0, energy.unbalanced) + effort.heat.residual * energy.heat_exchanged +
+                k_rounding * ambient * stored.magnitude;
+  return r;
+}
+
+}  // namespace solidus::coupling
