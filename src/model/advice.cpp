@@ -20,7 +20,9 @@ bool something_is_held(const CaseSpec& spec) {
 
 std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
   std::vector<std::string> advice;
-  if (!something_is_held(spec))
+  if (spec.dynamics)
+    advice.emplace_back("a smaller step: with inertia a short one is an easy one");
+  else if (!something_is_held(spec))
     advice.emplace_back(
         "no displacement is prescribed at all: hold the bodies with [[mechanical_condition]]");
   else if (says(stop, "linear solver") || says(stop, "not a number"))

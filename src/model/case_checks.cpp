@@ -6,6 +6,7 @@
 
 #include "base/units.hpp"
 #include "model/case_file.hpp"
+#include "model/dynamics_input.hpp"
 #include "model/field_list.hpp"
 #include "model/run_input.hpp"
 
@@ -231,6 +232,7 @@ void check_case(const CaseSpec& spec) {
   check_conditions(spec);
   check_contacts(spec);
   check_coupling(spec);
+  check_dynamics(spec);
   check_probes(spec);
   probes(spec);  // components that their fields do not have
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)

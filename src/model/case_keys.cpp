@@ -36,6 +36,11 @@ Section<BodySpec> body_keys() {
   s.quantity("initial_temperature", &BodySpec::initial_temperature, "K")
       .positive()
       .doc("Uniform at the start; the body is free of thermal strain there.");
+  s.quantity("initial_velocity", &BodySpec::initial_velocity, "m/s")
+      .initially(Value::list())
+      .doc(
+          "One component a direction, with [dynamics] only; empty: at rest. Prescribed displacements go "
+          "first.");
   s.place(&BodySpec::where);
   return s;
 }
@@ -55,6 +60,7 @@ const Section<CaseSpec>& case_keys() {
     s.sections("contact", &CaseSpec::contacts, contact_keys());
     s.section("heat", &CaseSpec::heat, heat_keys());
     s.section("mechanics", &CaseSpec::mechanics, mechanics_keys());
+    s.section("dynamics", &CaseSpec::dynamics, dynamics_keys());
     s.section("coupling", &CaseSpec::coupling, coupling_keys());
     s.sections("probe", &CaseSpec::probes, probe_keys());
     s.section("output", &CaseSpec::output, output_keys());

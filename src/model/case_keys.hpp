@@ -19,6 +19,7 @@ Section<MechanicalConditionSpec> mechanical_condition_keys();
 Section<ContactSpec> contact_keys();
 Section<heat::HeatOptions> heat_keys();
 Section<MechanicsSpec> mechanics_keys();
+Section<DynamicsSpec> dynamics_keys();
 Section<CouplingSpec> coupling_keys();
 Section<ProbeSpec> probe_keys();
 Section<OutputSpec> output_keys();

@@ -77,9 +77,10 @@ struct TimeSpec {
 
 struct BodySpec {
   std::string name;
-  std::optional<std::string> group;  ///< of the mesh; absent: as `name`
-  std::string material;              ///< name in the library, or a file
-  double initial_temperature = 0;    ///< [K]
+  std::optional<std::string> group;      ///< of the mesh; absent: as `name`
+  std::string material;                  ///< name in the library, or a file
+  double initial_temperature = 0;        ///< [K]
+  std::vector<double> initial_velocity;  ///< [m/s]; empty: at rest
   SourceLocation where;
   const std::string& mesh_group() const { return group ? *group : name; }
 };
@@ -127,6 +128,16 @@ struct MechanicsSpec {
   bool b_bar = true;
   mechanics::TimeIntegration integration = mechanics::TimeIntegration::backward_euler;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
+};
+
+/// Inertia (mechanics/motion.hpp, model/dynamics_input.hpp).
+struct DynamicsSpec {
+  enum class Method { backward_euler, newmark, trapezoidal, generalised_alpha };
+  mechanics::MassKind mass = mechanics::MassKind::consistent;
+  Method method = Method::backward_euler;
+  double gamma = 0, beta = 0;  ///< of Newmark's method
+  double spectral_radius = 0;  ///< of generalised-alpha
+  SourceLocation where;
 };
 
 /// Numerics of the block-iterative scheme (coupling/block_iterative.hpp).
@@ -191,6 +202,7 @@ struct CaseSpec {
   std::vector<ContactSpec> contacts;
   heat::HeatOptions heat;
   MechanicsSpec mechanics;
+  std::optional<DynamicsSpec> dynamics;  ///< absent: no inertia
   CouplingSpec coupling;
   std::vector<ProbeSpec> probes;
   OutputSpec output;

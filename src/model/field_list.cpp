@@ -14,6 +14,8 @@ constexpr auto k_vector = FieldInfo::Rank::vector, k_tensor = FieldInfo::Rank::t
 constexpr FieldInfo k_fields[] = {{"temperature", "K"},
                                   {"solid_fraction", "1"},
                                   {"displacement", "m", k_vector},
+                                  {"velocity", "m/s", k_vector},
+                                  {"acceleration", "m/s2", k_vector},
                                   {"stress", "Pa", k_tensor},
                                   {"von_mises", "Pa"},
                                   {"pressure", "Pa"},

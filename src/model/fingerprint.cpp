@@ -9,6 +9,7 @@
 #include <string>
 
 #include "algebra/parallel.hpp"
+#include "model/dynamics_input.hpp"
 #include "results/summary.hpp"
 
 namespace solidus::model {
@@ -18,10 +19,11 @@ namespace {
 std::string analysis_text(const CaseSpec& spec) {
   constexpr std::array<const char*, 3> k_physics = {"heat", "mechanics", "thermomechanical"};
   constexpr std::array<const char*, 3> k_kinds = {"plane strain", "axisymmetric", "3D"};
-  return fmt::format("{}, {}, {} rule{}", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
+  return fmt::format("{}, {}, {} rule{}{}", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
                      k_physics.at(static_cast<std::size_t>(spec.analysis.physics)),
                      spec.heat.integration == heat::Integration::closed ? "closed" : "open",
-                     spec.isentropic() ? ", isentropic" : "");
+                     spec.isentropic() ? ", isentropic" : (spec.simultaneous() ? ", simultaneous" : ""),
+                     spec.dynamics ? ", with inertia by " + method_name(*spec.dynamics) : "");
 }
 
 std::string mesh_text(const mesh::Mesh& mesh) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "model/dynamics_input.hpp"
+
 namespace solidus::model {
 
 std::array<double, 3> gravity(const AnalysisSpec& analysis) {
@@ -57,8 +59,11 @@ mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   options.newton.line_search = spec.mechanics.line_search;
   options.b_bar = spec.mechanics.b_bar;
   options.integration = spec.mechanics.integration;
-  options.mapping = spec.isentropic() ? mechanics::Mapping::isentropic : mechanics::Mapping::isothermal;
+  options.mapping = spec.isentropic()     ? mechanics::Mapping::isentropic
+                    : spec.simultaneous() ? mechanics::Mapping::simultaneous
+                                          : mechanics::Mapping::isothermal;
   options.solver = spec.mechanics.solver;
+  options.dynamics = dynamics_options(spec);
   return options;
 }
 

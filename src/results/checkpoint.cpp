@@ -129,6 +129,10 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   take_nodes(in, "temperature", nodes, c.state.heat.temperature);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
   take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
+  take_nodes(in, "velocity", nodes, c.state.mechanics.velocity);
+  take_nodes(in, "acceleration", nodes, c.state.mechanics.acceleration);
+  take_nodes(in, "net_force", nodes, c.state.mechanics.net_force);
+  take_nodes(in, "load", nodes, c.state.mechanics.load);
   if (in.text("rates") == k_known) {
     coupling::Rates& rates = c.continuation.rates;
     rates.temperature.resize(c.state.heat.temperature.size());
@@ -144,6 +148,8 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     take_history(in, name, name + "/values", mesh.blocks[b], mechanics.history[b]);
     if (mechanics.dt_before > 0)
       take_history(in, name, name + "/before", mesh.blocks[b], mechanics.before[b]);
+    if (!mechanics.stress.empty())
+      take_history(in, name, name + "/stress", mesh.blocks[b], mechanics.stress[b]);
   }
   return c;
 }
@@ -187,6 +193,10 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   nodal("temperature", c.state.heat.temperature);
   nodal("enthalpy", c.state.heat.enthalpy);
   nodal("displacement", c.state.mechanics.displacement);
+  nodal("velocity", c.state.mechanics.velocity);
+  nodal("acceleration", c.state.mechanics.acceleration);
+  nodal("net_force", c.state.mechanics.net_force);
+  nodal("load", c.state.mechanics.load);
   const coupling::Rates& rates = c.continuation.rates;
   out.text("rates", rates.known() ? k_known : "unknown");
   if (rates.known()) {
@@ -203,6 +213,10 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     out.rows<double>(name + "/values", width, pack_history(block, history));
     if (c.state.mechanics.dt_before > 0)
       out.rows<double>(name + "/before", width, pack_history(block, c.state.mechanics.before[b]));
+    if (!c.state.mechanics.stress.empty()) {
+      const mechanics::BlockHistory& stress = c.state.mechanics.stress[b];
+      out.rows<double>(name + "/stress", stress.n_points * stress.n_components, pack_history(block, stress));
+    }
   }
   out.finish([&] {
     std::error_code error;

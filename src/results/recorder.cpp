@@ -9,13 +9,18 @@ namespace solidus::results {
 
 namespace {
 
+bool dynamic(const coupling::Phases& phases) {
+  return phases.mechanics != nullptr && phases.mechanics->dynamic();
+}
+
 GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
                                       const Probes& probes) {
   return {.melting = phases.heat != nullptr && options.melting,
           .contact = !phases.contacts.empty(),
           .mechanics = phases.mechanics != nullptr,
           .taken = probes.columns(),
-          .plastic = phases.mechanics != nullptr && phases.mechanics->plastic()};
+          .plastic = phases.mechanics != nullptr && phases.mechanics->plastic(),
+          .dynamics = dynamic(phases)};
 }
 
 int process() {
@@ -48,10 +53,10 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
     if (options_.continue_from) {
       const double time = options_.continue_from->state.time;
       history_.emplace(folder.history(), columns, time);
-      steps_.emplace(folder.steps(), step_columns(), time);
+      steps_.emplace(folder.steps(), step_columns(dynamic(phases)), time);
     } else {
       history_.emplace(folder.history(), columns);
-      steps_.emplace(folder.steps(), step_columns());
+      steps_.emplace(folder.steps(), step_columns(dynamic(phases)));
     }
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
@@ -79,7 +84,7 @@ void Recorder::step(const coupling::StepRecord& record, const coupling::State& s
   const double start = MPI_Wtime();
   globals_.add(record);
   fields_.update(state);
-  on_first_process([&] { steps_->add(step_row(record)); });
+  on_first_process([&] { steps_->add(step_row(record, dynamic(phases_))); });
   add_history_row(state.time);
   if (record.output) write_fields(state);
   if (progress_) progress_->step(record);

@@ -27,6 +27,10 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
   }
   if (phases.mechanics != nullptr) {
     add("displacement", "m", phases.mechanics->components(), Place::node);
+    if (phases.mechanics->dynamic()) {
+      add("velocity", "m/s", phases.mechanics->components(), Place::node);
+      add("acceleration", "m/s2", phases.mechanics->components(), Place::node);
+    }
     add("stress", "Pa", 6, Place::cell);
     add("von_mises", "Pa", 1, Place::cell);
     add("pressure", "Pa", 1, Place::cell);
@@ -72,6 +76,12 @@ void StateFields::update(const coupling::State& state) {
   if (phases_.mechanics != nullptr) {
     std::copy(state.mechanics.displacement.begin(), state.mechanics.displacement.end(),
               by_name_["displacement"]->begin());
+    if (phases_.mechanics->dynamic()) {
+      std::copy(state.mechanics.velocity.begin(), state.mechanics.velocity.end(),
+                by_name_["velocity"]->begin());
+      std::copy(state.mechanics.acceleration.begin(), state.mechanics.acceleration.end(),
+                by_name_["acceleration"]->begin());
+    }
     update_elements();
   }
   if (!phases_.contacts.empty()) update_contacts();

@@ -11,10 +11,11 @@
 
 namespace solidus::results {
 
-/// temperature [K], solid_fraction, displacement [m] at nodes; stress, von_mises, pressure [Pa],
-/// viscous_strain, dissipation [W/m³] in elements, where a material flows plastically also plastic_strain,
-/// equivalent_plastic_strain, back_stress, flow_stress [Pa]; and on contact surfaces gap [m],
-/// contact_pressure [Pa], conductance [W/(m² K)]. Those exist that the analysis has.
+/// temperature [K], solid_fraction, displacement [m], with inertia velocity [m/s] and acceleration [m/s²] at
+/// nodes; stress, von_mises, pressure [Pa], viscous_strain, dissipation [W/m³] in elements, where a material
+/// flows plastically also plastic_strain, equivalent_plastic_strain, back_stress, flow_stress [Pa]; and on
+/// contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)]. Those exist that the analysis
+/// has.
 class StateFields {
  public:
   StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases);

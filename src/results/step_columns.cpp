@@ -23,76 +23,80 @@ coupling::ContactSummary total(const std::vector<coupling::ContactSummary>& cont
 
 }  // namespace
 
-std::vector<Column> step_columns() {
-  return {{"time", "s"},
-          {"step", "1"},
-          {"dt", "s"},
-          {"reason", ""},
-          {"rejected", "1"},
-          {"rejection", ""},
-          {"temperature_error", "K"},
-          {"displacement_error", "m"},
-          {"output", "1"},
-          {"heat_iterations", "1"},
-          {"heat_linear_iterations", "1"},
-          {"heat_residual", "1"},
-          {"heat_seconds", "s"},
-          {"mechanics_iterations", "1"},
-          {"mechanics_linear_iterations", "1"},
-          {"mechanics_residual", "1"},
-          {"mechanics_seconds", "s"},
-          {"closed_points", "1"},
-          {"contact_points", "1"},
-          {"solid_fraction", "1"},
-          {"T_min", "degC"},
-          {"T_max", "degC"},
-          {"stored_heat", "J"},
-          {"structural_energy", "J"},
-          {"contact_energy", "J"},
-          {"work", "J"},
-          {"heat_in", "J"},
-          {"heat_exchanged", "J"},
-          {"viscous_dissipation", "J"},
-          {"plastic_dissipation", "J"},
-          {"plastic_work", "J"},
-          {"energy_defect", "J"}};
+std::vector<Column> step_columns(bool dynamics) {
+  std::vector<Column> columns = {{"time", "s"},
+                                 {"step", "1"},
+                                 {"dt", "s"},
+                                 {"reason", ""},
+                                 {"rejected", "1"},
+                                 {"rejection", ""},
+                                 {"temperature_error", "K"},
+                                 {"displacement_error", "m"},
+                                 {"output", "1"},
+                                 {"heat_iterations", "1"},
+                                 {"heat_linear_iterations", "1"},
+                                 {"heat_residual", "1"},
+                                 {"heat_seconds", "s"},
+                                 {"mechanics_iterations", "1"},
+                                 {"mechanics_linear_iterations", "1"},
+                                 {"mechanics_residual", "1"},
+                                 {"mechanics_seconds", "s"},
+                                 {"closed_points", "1"},
+                                 {"contact_points", "1"},
+                                 {"solid_fraction", "1"},
+                                 {"T_min", "degC"},
+                                 {"T_max", "degC"},
+                                 {"stored_heat", "J"},
+                                 {"structural_energy", "J"},
+                                 {"contact_energy", "J"},
+                                 {"work", "J"},
+                                 {"heat_in", "J"},
+                                 {"heat_exchanged", "J"},
+                                 {"viscous_dissipation", "J"},
+                                 {"plastic_dissipation", "J"},
+                                 {"plastic_work", "J"},
+                                 {"energy_defect", "J"}};
+  if (dynamics) columns.insert(columns.end(), {{"kinetic_energy", "J"}, {"numerical_dissipation", "J"}});
+  return columns;
 }
 
-std::vector<Cell> step_row(const coupling::StepRecord& r) {
+std::vector<Cell> step_row(const coupling::StepRecord& r, bool dynamics) {
   const auto whole = [](int value) { return static_cast<std::int64_t>(value); };
   const coupling::ContactSummary contact = total(r.contacts);
-  return {r.time,
-          whole(r.number),
-          r.dt,
-          r.reason,
-          whole(r.rejected),
-          r.rejection,
-          r.temperature_error,
-          r.displacement_error,
-          whole(r.output ? 1 : 0),
-          whole(r.heat.iterations),
-          whole(r.heat.linear_iterations),
-          r.heat.residual,
-          r.heat.seconds,
-          whole(r.mechanics.iterations),
-          whole(r.mechanics.linear_iterations),
-          r.mechanics.residual,
-          r.mechanics.seconds,
-          whole(contact.closed_points),
-          whole(contact.points),
-          r.solid_fraction,
-          r.min_temperature - k_zero_celsius,
-          r.max_temperature - k_zero_celsius,
-          r.energy.stored_heat,
-          r.energy.structural,
-          r.energy.contact,
-          r.energy.work,
-          r.energy.heat_in,
-          r.energy.heat_exchanged,
-          r.energy.viscous_dissipation,
-          r.energy.plastic_dissipation,
-          r.energy.plastic_work,
-          r.energy.defect()};
+  std::vector<Cell> cells = {r.time,
+                             whole(r.number),
+                             r.dt,
+                             r.reason,
+                             whole(r.rejected),
+                             r.rejection,
+                             r.temperature_error,
+                             r.displacement_error,
+                             whole(r.output ? 1 : 0),
+                             whole(r.heat.iterations),
+                             whole(r.heat.linear_iterations),
+                             r.heat.residual,
+                             r.heat.seconds,
+                             whole(r.mechanics.iterations),
+                             whole(r.mechanics.linear_iterations),
+                             r.mechanics.residual,
+                             r.mechanics.seconds,
+                             whole(contact.closed_points),
+                             whole(contact.points),
+                             r.solid_fraction,
+                             r.min_temperature - k_zero_celsius,
+                             r.max_temperature - k_zero_celsius,
+                             r.energy.stored_heat,
+                             r.energy.structural,
+                             r.energy.contact,
+                             r.energy.work,
+                             r.energy.heat_in,
+                             r.energy.heat_exchanged,
+                             r.energy.viscous_dissipation,
+                             r.energy.plastic_dissipation,
+                             r.energy.plastic_work,
+                             r.energy.defect()};
+  if (dynamics) cells.insert(cells.end(), {r.energy.kinetic, r.energy.numerical});
+  return cells;
 }
 
 std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
@@ -116,6 +120,10 @@ std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
     add("work", "J", sum_.work);
   }
   if (options_.mechanics && options_.contact) add("contact_energy", "J", sum_.contact);
+  if (options_.dynamics) {
+    add("kinetic_energy", "J", sum_.kinetic);
+    add("numerical_dissipation", "J", sum_.numerical);
+  }
   if (options_.mechanics) add("viscous_dissipation", "J", sum_.viscous_dissipation);
   if (options_.plastic) {
     add("plastic_dissipation", "J", sum_.plastic_dissipation);

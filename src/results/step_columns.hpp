@@ -10,8 +10,9 @@
 namespace solidus::results {
 
 /// steps.csv: one row a step, all that StepRecord holds; energies are those of the step.
-std::vector<Column> step_columns();
-std::vector<Cell> step_row(const coupling::StepRecord& record);
+/// @param dynamics bodies have inertia: two columns more
+std::vector<Column> step_columns(bool dynamics = false);
+std::vector<Cell> step_row(const coupling::StepRecord& record, bool dynamics = false);
 
 /// The columns of history.csv that concern the whole model: temperatures, solid fraction, contact, and the
 /// first law and dissipation summed over the steps since the start. Which of them exist follows from the
@@ -22,7 +23,8 @@ class GlobalHistory {
     bool melting = true, contact = true, mechanics = true;
     /// Columns that probes of the same header give already; they are left out here.
     std::vector<Column> taken = {};
-    bool plastic = false;  ///< a material can flow plastically
+    bool plastic = false;   ///< a material can flow plastically
+    bool dynamics = false;  ///< bodies have inertia
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 

@@ -1,0 +1,21 @@
+/// From the case to inertia and its integrator.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mechanics/inertial_forces.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// Nothing without [dynamics].
+std::optional<mechanics::DynamicsOptions> dynamics_options(const CaseSpec& spec);
+
+/// "newmark", for messages; the trapezoidal rule is one of Newmark's methods.
+std::string method_name(const DynamicsSpec& dynamics);
+
+/// Throws InputError for what does not fit together.
+void check_dynamics(const CaseSpec& spec);
+
+}  // namespace solidus::model
