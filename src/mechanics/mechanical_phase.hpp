@@ -131,7 +131,6 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   AnalysisKind kind() const { return kind_; }
   Mapping mapping() const { return options_.mapping; }
   const MechanicsOptions& options() const { return options_; }
-  const MechanicsOptions& options() const { return options_; }
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
   /// prescribed displacements, and the accelerations that the loads of that time cause. Collective.
   MechanicalState initial_state();
@@ -162,8 +161,6 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   double residual(std::span<const double> x, std::span<double> r) override;
   /// At the x of the last residual().
   algebra::BlockMatrix& tangent() override;
-  /// Of the tangent: what is prescribed and what is tied.
-  algebra::BlockMatrix& matrix() { return *matrix_; }
   /// Of the tangent: what is prescribed and what is tied.
   algebra::BlockMatrix& matrix() { return *matrix_; }
   /// Hands what happened at x to StructuralHeat and writes the history there.
