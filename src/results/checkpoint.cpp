@@ -32,12 +32,14 @@ void each_number(C& c, const Visit& visit) {
   auto& k = c.continuation;
   auto& o = k.options;
   auto& e = c.energy;
+  auto& l = c.stability;
   const auto all = [&visit](auto&... n) { (visit(n), ...); };
   all(c.state.time, k.steps, k.size, c.rejected, c.state.mechanics.dt_before);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction);
   all(e.stored_heat, e.structural, e.contact, e.kinetic, e.numerical, e.work, e.heat_in, e.heat_exchanged,
       e.viscous_dissipation, e.plastic_dissipation, e.plastic_work);
+  all(l.mechanical, l.thermal, l.entropy);
 }
 
 std::vector<double> numbers_of(const Checkpoint& c) {

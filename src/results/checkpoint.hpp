@@ -21,8 +21,9 @@ using Fingerprint = std::vector<std::pair<std::string, std::string>>;
 struct Checkpoint {
   coupling::State state;
   coupling::Continuation continuation;
-  coupling::EnergyAudit energy;  ///< summed over the steps so far
-  int rejected = 0;              ///< steps so far
+  coupling::EnergyAudit energy;             ///< summed over the steps so far
+  int rejected = 0;                         ///< steps so far
+  coupling::StabilityAudit stability = {};  ///< summed likewise
 };
 
 /// The two latest checkpoints of a run: checkpoint/state.h5 and checkpoint/previous.h5.

@@ -13,6 +13,10 @@ bool dynamic(const coupling::Phases& phases) {
   return phases.mechanics != nullptr && phases.mechanics->dynamic();
 }
 
+StepTable step_table(const coupling::Phases& phases) {
+  return {.dynamics = dynamic(phases), .stability = phases.audits_stability()};
+}
+
 GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
                                       const Probes& probes) {
   return {.melting = phases.heat != nullptr && options.melting,
@@ -20,7 +24,8 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
           .mechanics = phases.mechanics != nullptr,
           .taken = probes.columns(),
           .plastic = phases.mechanics != nullptr && phases.mechanics->plastic(),
-          .dynamics = dynamic(phases)};
+          .dynamics = dynamic(phases),
+          .stability = phases.audits_stability()};
 }
 
 int process() {
@@ -53,10 +58,10 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
     if (options_.continue_from) {
       const double time = options_.continue_from->state.time;
       history_.emplace(folder.history(), columns, time);
-      steps_.emplace(folder.steps(), step_columns(dynamic(phases)), time);
+      steps_.emplace(folder.steps(), step_columns(step_table(phases)), time);
     } else {
       history_.emplace(folder.history(), columns);
-      steps_.emplace(folder.steps(), step_columns(dynamic(phases)));
+      steps_.emplace(folder.steps(), step_columns(step_table(phases)));
     }
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
@@ -69,7 +74,7 @@ void Recorder::begin(const coupling::State& state) {
   fields_.update(state);
   if (options_.continue_from) {
     // Rows and fields of this state were written before; stresses follow with the first step.
-    globals_.start(initial, options_.continue_from->energy);
+    globals_.start(initial, options_.continue_from->energy, options_.continue_from->stability);
     options_.summary.steps = options_.continue_from->continuation.steps;
     options_.summary.rejected = options_.continue_from->rejected;
     last_row_ = history_row(state.time);
@@ -84,7 +89,7 @@ void Recorder::step(const coupling::StepRecord& record, const coupling::State& s
   const double start = MPI_Wtime();
   globals_.add(record);
   fields_.update(state);
-  on_first_process([&] { steps_->add(step_row(record, dynamic(phases_))); });
+  on_first_process([&] { steps_->add(step_row(record, step_table(phases_))); });
   add_history_row(state.time);
   if (record.output) write_fields(state);
   if (progress_) progress_->step(record);
@@ -97,8 +102,9 @@ void Recorder::step(const coupling::StepRecord& record, const coupling::State& s
 
 void Recorder::checkpoint(const coupling::Continuation& continuation, const coupling::State& state) {
   const double start = MPI_Wtime();
-  checkpoints_.write(mesh_, options_.fingerprint,
-                     {state, continuation, globals_.energy(), options_.summary.rejected});
+  checkpoints_.write(
+      mesh_, options_.fingerprint,
+      {state, continuation, globals_.energy(), options_.summary.rejected, globals_.stability()});
   seconds_output_ += MPI_Wtime() - start;
 }
 

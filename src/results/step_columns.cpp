@@ -23,7 +23,7 @@ coupling::ContactSummary total(const std::vector<coupling::ContactSummary>& cont
 
 }  // namespace
 
-std::vector<Column> step_columns(bool dynamics) {
+std::vector<Column> step_columns(StepTable table) {
   std::vector<Column> columns = {{"time", "s"},
                                  {"step", "1"},
                                  {"dt", "s"},
@@ -56,11 +56,15 @@ std::vector<Column> step_columns(bool dynamics) {
                                  {"plastic_dissipation", "J"},
                                  {"plastic_work", "J"},
                                  {"energy_defect", "J"}};
-  if (dynamics) columns.insert(columns.end(), {{"kinetic_energy", "J"}, {"numerical_dissipation", "J"}});
+  if (table.dynamics)
+    columns.insert(columns.end(), {{"kinetic_energy", "J"}, {"numerical_dissipation", "J"}});
+  if (table.stability)
+    columns.insert(columns.end(),
+                   {{"lyapunov_mechanical", "J"}, {"lyapunov_thermal", "J"}, {"entropy", "J/K"}});
   return columns;
 }
 
-std::vector<Cell> step_row(const coupling::StepRecord& r, bool dynamics) {
+std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
   const auto whole = [](int value) { return static_cast<std::int64_t>(value); };
   const coupling::ContactSummary contact = total(r.contacts);
   std::vector<Cell> cells = {r.time,
@@ -95,7 +99,9 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, bool dynamics) {
                              r.energy.plastic_dissipation,
                              r.energy.plastic_work,
                              r.energy.defect()};
-  if (dynamics) cells.insert(cells.end(), {r.energy.kinetic, r.energy.numerical});
+  if (table.dynamics) cells.insert(cells.end(), {r.energy.kinetic, r.energy.numerical});
+  if (table.stability)
+    cells.insert(cells.end(), {r.stability.mechanical, r.stability.thermal, r.stability.entropy});
   return cells;
 }
 
@@ -130,6 +136,12 @@ std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
     add("plastic_work", "J", sum_.plastic_work);
     add("hardening_energy", "J", sum_.hardening());
   }
+  if (options_.stability) {
+    add("lyapunov", "J", stability_.increment());
+    add("lyapunov_mechanical", "J", last_.stability.mechanical);
+    add("lyapunov_thermal", "J", last_.stability.thermal);
+    add("entropy", "J/K", stability_.entropy);
+  }
   add("heat_exchanged", "J", sum_.heat_exchanged);
   add("energy_defect", "J", sum_.defect());
   std::erase_if(all, [this](const auto& entry) {
@@ -145,14 +157,17 @@ std::vector<Column> GlobalHistory::columns() const {
   return columns;
 }
 
-void GlobalHistory::start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy) {
+void GlobalHistory::start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy,
+                          const coupling::StabilityAudit& stability) {
   last_ = initial;
   sum_ = energy;
+  stability_ = stability;
 }
 
 void GlobalHistory::add(const coupling::StepEffort& step) {
   last_ = step;
   sum_ += step.energy;
+  stability_ += step.stability;
 }
 
 std::vector<double> GlobalHistory::values() const {

@@ -10,9 +10,12 @@
 namespace solidus::results {
 
 /// steps.csv: one row a step, all that StepRecord holds; energies are those of the step.
-/// @param dynamics bodies have inertia: two columns more
-std::vector<Column> step_columns(bool dynamics = false);
-std::vector<Cell> step_row(const coupling::StepRecord& record, bool dynamics = false);
+struct StepTable {
+  bool dynamics = false;   ///< bodies have inertia: two columns more
+  bool stability = false;  ///< 𝓛 is followed: three more
+};
+std::vector<Column> step_columns(StepTable table = {});
+std::vector<Cell> step_row(const coupling::StepRecord& record, StepTable table = {});
 
 /// The columns of history.csv that concern the whole model: temperatures, solid fraction, contact, and the
 /// first law and dissipation summed over the steps since the start. Which of them exist follows from the
@@ -23,19 +26,22 @@ class GlobalHistory {
     bool melting = true, contact = true, mechanics = true;
     /// Columns that probes of the same header give already; they are left out here.
     std::vector<Column> taken = {};
-    bool plastic = false;   ///< a material can flow plastically
-    bool dynamics = false;  ///< bodies have inertia
+    bool plastic = false;    ///< a material can flow plastically
+    bool dynamics = false;   ///< bodies have inertia
+    bool stability = false;  ///< 𝓛 is followed
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 
   std::vector<Column> columns() const;
   /// The state before the first step; energies begin at zero.
-  /// @param energy  sums of the steps before, where a run goes on
-  void start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy = {});
+  /// @param energy, stability  sums of the steps before, where a run goes on
+  void start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy = {},
+             const coupling::StabilityAudit& stability = {});
   void add(const coupling::StepEffort& step);
   /// In the order of columns().
   std::vector<double> values() const;
   const coupling::EnergyAudit& energy() const { return sum_; }
+  const coupling::StabilityAudit& stability() const { return stability_; }
   /// |sum of defects| / sum of heat exchanged; zero when no heat moved.
   double relative_defect() const;
 
@@ -46,6 +52,7 @@ class GlobalHistory {
   Options options_;
   coupling::StepEffort last_;
   coupling::EnergyAudit sum_;
+  coupling::StabilityAudit stability_;  ///< summed
 };
 
 }  // namespace solidus::results
