@@ -8,18 +8,32 @@ from solidus_plots.history import Table
 from solidus_plots.vtu import ResultError
 
 
-def _axes(title, y_label):
+class Clock:
+    """The unit in which the times of a run are readable."""
+
+    def __init__(self, seconds):
+        last = seconds.max(initial=0.0)
+        self.unit, self.factor = (("s", 1.0) if last > 0.5 or last <= 0 else ("ms", 1e3) if last > 1e-3 else
+                                  ("µs", 1e6))
+        self.label = f"Time [{self.unit}]"
+
+    def __call__(self, seconds):
+        return self.factor * seconds
+
+
+def _axes(title, clock, y_label):
     figure, axes = plt.subplots(figsize=(5.6, 3.6))
-    axes.set(xlabel="Time [s]", ylabel=y_label)
+    axes.set(xlabel=clock.label, ylabel=y_label)
     axes.set_title(title, loc="left")
     return figure, axes
 
 
+# A legend too long to stand among the lines.
+BESIDE = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0), "borderaxespad": 0}
+
+
 def _legend(axes, count):
-    if count > 5:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0)
-    else:
-        axes.legend(loc="best")
+    axes.legend(**(BESIDE if count > 5 else {"loc": "best"}))
 
 
 def _by_size(history, headers):
@@ -32,7 +46,7 @@ def _by_size(history, headers):
 
 def unit_groups(history, folder):
     """Every column of history.csv, one picture per unit."""
-    files = []
+    files, clock = [], Clock(history["time[s]"])
     for unit, headers in history.by_unit().items():
         quantity = style.QUANTITY.get(unit, "Value")
         panels = _by_size(history, headers)
@@ -40,21 +54,44 @@ def unit_groups(history, folder):
                                     squeeze=False)
         for panel, members in zip(axes[:, 0], panels):
             for header in members:
-                panel.plot(history["time[s]"], history[header], label=Table.name(header).replace("_", " "),
+                panel.plot(clock(history["time[s]"]), history[header], label=Table.name(header).replace("_", " "),
                            **style.line_style(headers.index(header)))
             panel.set_ylabel(style.axis_label(quantity, unit))
             panel.margins(x=0)
             _legend(panel, len(headers))
         axes[0, 0].set_title(f"History: {quantity.lower()}", loc="left")
-        axes[-1, 0].set_xlabel("Time [s]")
+        axes[-1, 0].set_xlabel(clock.label)
         figure.align_ylabels()
         name = "".join(c if c.isalnum() else "_" for c in unit if c != "1") or "shares"
         files += style.save(figure, folder, f"history_{name}", vector=True)
     return files
 
 
+def _lay_over(axes, spec, clock, others):
+    """The lines of other variants, thin over the pale ones of this variant, which set the limits of the axes:
+    what leaves their height by more than half is cut off, a run that blew up for one."""
+    left, right = axes.get_xlim()
+    own = np.concatenate([line.get_ydata() for line in axes.get_lines()])
+    low, high = own.min(), own.max()
+    for line in axes.get_lines():
+        line.set(linewidth=3.5, alpha=0.4)
+    key = [plt.Line2D([], [], color="#404040", linewidth=3.5, alpha=0.4, label=spec.get("name", "this run"))]
+    for dash, (name, other) in enumerate(others.items()):
+        look = {"linewidth": 1.2, "linestyle": style.DASHES[1 + dash % 3]}
+        for index, line in enumerate(spec["lines"]):
+            if line["column"] in other:
+                axes.plot(clock(other["time[s]"]), other[line["column"]], **look,
+                          color=style.line_style(line.get("colour", index))["color"])
+        key.append(plt.Line2D([], [], color="#404040", label=name, **look))
+    bottom, top = axes.get_ylim()
+    room = 0.5 * (high - low) or 1.0
+    axes.set_xlim(left, right)
+    axes.set_ylim(max(bottom, low - room), min(top, high + room))
+    return key
+
+
 def chosen(spec, history, others, folder):
-    """One [[curves]] of plots.toml. `others` are the histories of variants to lay over, by their name."""
+    """One [[curves]] of plots.toml. `others` are the histories of variants to lay over, by their label."""
     headers = [line["column"] for line in spec["lines"]]
     missing = [header for header in headers if header not in history]
     if missing:
@@ -65,27 +102,26 @@ def chosen(spec, history, others, folder):
     if len(units) > 1:
         raise ResultError(f"plots.toml: curves '{spec['file']}': columns of different units "
                           f"({', '.join(sorted(units))})")
+    clock = Clock(history["time[s]"])
     label = style.axis_label(spec.get("quantity", "Value"), units.pop())
-    figure, axes = _axes(spec.get("title", ""), label)
+    figure, axes = _axes(spec.get("title", ""), clock, label)
     for index, line in enumerate(spec["lines"]):
-        look = style.line_style(line.get("colour", index))
-        label = line.get("label", line["column"])
-        axes.plot(history["time[s]"], history[line["column"]], label=label, **look)
-        for dash, (name, other) in enumerate(others.items()):
-            if line["column"] in other:
-                axes.plot(other["time[s]"], other[line["column"]], color=look["color"], linewidth=1.0,
-                          linestyle=style.DASHES[1 + dash % 3], label=f"{label}, {name}")
+        axes.plot(clock(history["time[s]"]), history[line["column"]], label=line.get("label", line["column"]),
+                  **style.line_style(line.get("colour", index)))
     axes.margins(x=0)
+    key = _lay_over(axes, spec, clock, others) if others else []
     for mark in spec.get("levels", []):
         axes.axhline(mark["value"], color="#7f7f7f", linewidth=0.8, linestyle=(0, (5, 3)), zorder=0)
         axes.annotate(mark["label"], (1, mark["value"]), xycoords=("axes fraction", "data"), xytext=(0, 2),
                       textcoords="offset points", ha="right", va="bottom", **style.REMARK)
     for mark in spec.get("moments", []):
-        axes.axvline(mark["value"], color="#7f7f7f", linewidth=0.8, linestyle=(0, (5, 3)), zorder=0)
-        axes.annotate(mark["label"], (mark["value"], 1), xycoords=("data", "axes fraction"), xytext=(3, -2),
+        moment = clock(mark["value"])
+        axes.axvline(moment, color="#7f7f7f", linewidth=0.8, linestyle=(0, (5, 3)), zorder=0)
+        axes.annotate(mark["label"], (moment, 1), xycoords=("data", "axes fraction"), xytext=(3, -2),
                       textcoords="offset points", ha="left", va="top", **style.REMARK)
     if len(spec["lines"]) > 1 or others:
-        _legend(axes, len(spec["lines"]) * (1 + len(others)))
+        handles = axes.get_legend_handles_labels()[0] + key
+        axes.legend(handles=handles, **({"loc": "best"} if len(handles) <= 5 else BESIDE))
     return style.save(figure, folder, spec["file"], vector=True)
 
 
@@ -93,22 +129,24 @@ def steps(table, folder):
     """The size of the steps and the work they took."""
     phases = [(name, f"{name}_iterations[1]") for name in ("heat", "mechanics")]
     phases = [(name, header) for name, header in phases if table[header].any()]
+    clock = Clock(table["time[s]"])
+    time = clock(table["time[s]"])
     figure, (sizes, work) = plt.subplots(2, 1, figsize=(5.6, 4.4), sharex=True)
-    sizes.step(table["time[s]"], table["dt[s]"], where="pre", color=style.COLOURS[0])
-    sizes.set(ylabel="Step [s]")
+    sizes.step(time, clock(table["dt[s]"]), where="pre", color=style.COLOURS[0])
+    sizes.set(ylabel=f"Step [{clock.unit}]")
     sizes.set_title("Steps", loc="left")
     sizes.set_ylim(bottom=0)
     cut = table["rejected[1]"] > 0
     if cut.any():
-        sizes.plot(table["time[s]"][cut], table["dt[s]"][cut], "v", color=style.COLOURS[1], markersize=5,
+        sizes.plot(time[cut], clock(table["dt[s]"])[cut], "v", color=style.COLOURS[1], markersize=5,
                    label="after a cut")
         sizes.legend()
     for index, (name, header) in enumerate(phases):
-        work.plot(table["time[s]"], table[header], marker=".", markersize=3, label=name,
+        work.plot(time, table[header], marker=".", markersize=3, label=name,
                   **style.line_style(index))
-    work.set(ylabel="Newton iterations", xlabel="Time [s]")
+    work.set(ylabel="Newton iterations", xlabel=clock.label)
     work.set_ylim(bottom=0)
-    work.set_xlim(0, table["time[s]"].max(initial=0.0) or None)
+    work.set_xlim(0, time.max(initial=0.0) or None)
     if phases:
         work.legend()
     figure.align_ylabels()

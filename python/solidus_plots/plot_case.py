@@ -15,7 +15,8 @@ from solidus_plots.history import read_table
 from solidus_plots.vtu import ResultError, read_collection
 
 # What plots.toml may say; anything else is a typo.
-KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "compare"},
+KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
+                   "compare"},
         "maps": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "mirror",
                  "magnification", "bodies", "contours", "range"},
         "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"}}
@@ -50,6 +51,30 @@ def read_spec(path):
     return spec
 
 
+def star(patterns, variant):
+    """What '*' stands for in the first pattern that fits a variant's name ('' where it has no '*'); None where
+    none fits."""
+    for pattern in patterns:
+        head, wild, tail = pattern.partition("*")
+        if pattern == variant:
+            return ""
+        if wild and len(variant) >= len(head + tail) and variant.startswith(head) and variant.endswith(tail):
+            return variant[len(head):len(variant) - len(tail)]
+    return None
+
+
+def histories(compare, part, results):
+    """The histories to lay over those of `results`, where they are there, by their labels."""
+    found = {}
+    for entry in compare:
+        entry = entry if isinstance(entry, dict) else {"variant": entry}
+        variant = entry["variant"].replace("*", part)
+        file = results.resolve().parent / variant / "history.csv"
+        if variant != results.resolve().name and file.exists():
+            found[entry.get("label", variant)] = read_table(file)
+    return found
+
+
 def draw(results, spec_file=None):
     """Draws everything; returns the files written and what could not be drawn."""
     style.setup()
@@ -60,7 +85,8 @@ def draw(results, spec_file=None):
     spec_file = spec_file or find_spec(results, summary)
     spec = read_spec(spec_file) if spec_file else {}
     variant = summary.get("variant") or results.resolve().name
-    spec = {section: [picture for picture in pictures if variant in picture.get("only", [variant])]
+    spec = {section: [picture for picture in pictures
+                      if star(picture.get("only", [variant]), variant) is not None]
             for section, pictures in spec.items()}
     folder = results / "plots"
     folder.mkdir(exist_ok=True)
@@ -77,12 +103,8 @@ def draw(results, spec_file=None):
             problems.append(str(error))
 
     for picture in spec.get("curves", []):
-        others = {}
-        for variant in picture.get("compare", []):
-            other = results.resolve().parent / variant / "history.csv"
-            if variant != results.resolve().name and other.exists():
-                others[variant] = read_table(other)
-        attempt(curves.chosen, picture, history, others)
+        part = star(picture.get("only", [variant]), variant)
+        attempt(curves.chosen, picture, history, histories(picture.get("compare", []), part, results))
     if "maps" in spec or "deformed" in spec:
         times, moments = read_collection(results / "fields.pvd")
         section = maps.Section(times, moments, list(summary.get("mesh", {}).get("bodies", {})))

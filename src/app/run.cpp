@@ -55,11 +55,11 @@ ExitCode run(const CaseArguments& arguments) {
   options.stop_asked = [] { return stop_asked != 0; };
   listen_to_signals();
   const model::RunResult result = model::run_case(c, options);
+  note_folder(options.folder);  // a run that stopped is drawn as far as it came
   if (!result.finished) {
     if (rank == 0) std::cerr << "solidus: " << result.reason << std::endl;
     return k_cannot_go_on;
   }
-  note_folder(options.folder);
   print("Results in " + options.folder.lexically_normal().string() + "\n");
   return k_done;
 }

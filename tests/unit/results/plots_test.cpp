@@ -121,6 +121,38 @@ TEST_F(Plots, AreDrawnAndWhatIsMissingIsNamed) {
   });
 }
 
+TEST_F(Plots, LayOverTheVariantsThatWereRunAndCutOffWhatBlewUp) {
+  test::on_first([&] {
+    const fs::path other = folder.path.string() + "_blown_up";
+    fs::create_directories(other);
+    {
+      CsvTable history((other / "history.csv").string(), {{"time", "s"}, {"T_wall", "degC"}});
+      for (int i = 1; i <= 3; ++i) history.add(std::vector<double>{1.0 * i, std::pow(-1e3, i)});
+    }
+    draw(R"(
+[[curves]]
+file = "wall"
+only = ["nothing_like_this", "*"]
+lines = [{ column = "T_wall[degC]", label = "wall" }]
+name = "stable"
+compare = [{ variant = "*_blown_up", label = "blown up" }, "*_never_run"]
+
+[[curves]]
+file = "of_others"
+only = ["*_of_others"]
+lines = [{ column = "T_wall[degC]" }]
+)");
+    fs::remove_all(other);
+    EXPECT_EQ(code, 0) << said;
+    const std::string picture = test::read_text(folder.path / "plots" / "wall.svg");
+    for (const char* text : {">stable<", ">blown up<", ">wall<", ">18.0<"})
+      EXPECT_NE(picture.find(text), std::string::npos) << text;
+    EXPECT_EQ(picture.find(">never_run"), std::string::npos);
+    EXPECT_EQ(picture.find("000<"), std::string::npos);  // the axis is that of 17 to 19 degC
+    EXPECT_FALSE(fs::exists(folder.path / "plots" / "of_others.svg"));
+  });
+}
+
 TEST_F(Plots, SaysWhichKeyItDoesNotKnow) {
   test::on_first([&] {
     draw("[[maps]]\nfile = \"a\"\nfeld = \"temperature\"\n");
