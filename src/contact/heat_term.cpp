@@ -104,6 +104,39 @@ void HeatTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matr
   }
 }
 
+void HeatTerm::add_gap_tangent(std::span<const double> slope, std::span<const double> temperature,
+                               std::span<const algebra::BlockMatrix::Slot> slots,
+                               algebra::CoupledMatrix& matrix) const {
+  const int components = matrix.components();
+  std::vector<double> exchanged;  // ∂r/∂g_N of each node
+  for (std::size_t k = 0; k < points_.pairings.size(); ++k) {
+    const Pairing& pairing = points_.pairings[k];
+    const auto n = static_cast<std::size_t>(pairing.n_nodes());
+    const Index* nodes = points_.nodes.data() + pairing.first_node;
+    const algebra::BlockMatrix::Slot* of_pairing = slots.data() + first_entry_[k];
+    const double* b = points_.shape.data() + pairing.first_shape;
+    for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p, b += n) {
+      const auto point = static_cast<std::size_t>(p);
+      const double f = points_.weight[point] * slope[point];
+      if (f == 0) continue;
+      exchanged.assign(n, 0.0);
+      for_pairs(pairing, [&](int i, int j, std::size_t) {
+        const double difference =
+            temperature[static_cast<std::size_t>(nodes[i])] - temperature[static_cast<std::size_t>(nodes[j])];
+        const double q = -f * b[i] * b[j] * difference;
+        exchanged[static_cast<std::size_t>(i)] += q;
+        exchanged[static_cast<std::size_t>(j)] -= q;
+      });
+      for (std::size_t row = 0; row < n; ++row)
+        for (std::size_t a = 0; a < n; ++a) {
+          double* const to = matrix.heat_by_displacement(of_pairing[row * n + a]);
+          for (int i = 0; i < components; ++i)
+            to[i] += exchanged[row] * b[a] * points_.normal[point][static_cast<std::size_t>(i)];
+        }
+    }
+  }
+}
+
 double HeatTerm::counted_heat(std::span<const double> temperature) const {
   double sum = 0;
   for (std::size_t k = 0; k < points_.pairings.size(); ++k) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "algebra/contribution.hpp"
+#include "algebra/coupled_matrix.hpp"
 #include "contact/integration.hpp"
 
 namespace solidus::contact {
@@ -31,6 +32,12 @@ class HeatTerm : public algebra::Contribution {
   void bind(const algebra::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
   void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
+  /// Adds ∂r/∂u through the conductance of every point, the gap being g_N = g_N⁰ + Σ_a B_a u_a·n.
+  /// @param slope  ∂h/∂g_N, [point] [W/(m³ K)]
+  /// @param slots  of the displacement's matrix, [pairing][a][b]
+  void add_gap_tangent(std::span<const double> slope, std::span<const double> temperature,
+                       std::span<const algebra::BlockMatrix::Slot> slots,
+                       algebra::CoupledMatrix& matrix) const;
   /// From slave to master through the pairings that this process counts [W].
   double counted_heat(std::span<const double> temperature) const;
   std::size_t bytes() const {

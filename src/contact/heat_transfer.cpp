@@ -54,6 +54,24 @@ double HeatTransferLaw::open(double gap) const {
   return open_conductance_;
 }
 
+double HeatTransferLaw::slope(double opening, double pressure, double penalty) const {
+  using GapLaw = HeatTransferSpec::GapLaw;
+  if (opening <= 0) {
+    if (spec_.exponent == 0 || !(pressure > 0)) return 0;
+    return -penalty * spec_.exponent * (closed(pressure) - at_contact_) / pressure;
+  }
+  const double h = open(opening);
+  switch (spec_.gap_law) {
+    case GapLaw::table:
+      return h > 0 ? spec_.gap_table.derivative(opening) : 0.0;
+    case GapLaw::gas:
+      return -h * h / spec_.gas_conductivity;
+    case GapLaw::constant:
+      break;
+  }
+  return 0;
+}
+
 double HeatTransferLaw::closed(double pressure) const {
   if (spec_.exponent == 0) return spec_.conductance;
   return at_contact_ +

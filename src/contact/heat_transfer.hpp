@@ -54,6 +54,10 @@ class HeatTransferLaw {
   double conductance(double opening, double pressure) const {
     return opening > 0 ? open(opening) : closed(pressure);
   }
+  /// ∂h/∂g of the opening [W/(m³ K)], where closed through t_N = −ε_N g; of the branch, at a bend of a table
+  /// of the piece on its right. With 0 < ε < 1 it is without bound where contact begins, and zero at t_N = 0.
+  /// @param penalty ε_N [Pa/m]
+  double slope(double opening, double pressure, double penalty) const;
   double open(double gap) const;
   double closed(double pressure) const;
   /// σ_r F [W/(m² K⁴)], zero without radiation.

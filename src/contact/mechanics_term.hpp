@@ -24,6 +24,8 @@ class MechanicsTerm : public algebra::Contribution {
 
   /// g_N of point `p` of a pairing at the displacement [m].
   double penetration(const Pairing& pairing, Index p, std::span<const double> displacement) const;
+  /// Of the matrix it is bound to, [pairing][a][b].
+  std::span<const algebra::BlockMatrix::Slot> slots() const { return slots_; }
   std::size_t bytes() const { return slots_.capacity() * sizeof(algebra::BlockMatrix::Slot); }
 
  private:

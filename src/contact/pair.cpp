@@ -95,6 +95,14 @@ void ContactPair::update(std::span<const double> displacement) {
   if (heat_) heat_->set_conductance(conductance_);
 }
 
+void ContactPair::add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const {
+  if (!heat_) return;
+  std::vector<double> slope(pressure_.size());
+  for (std::size_t i = 0; i < slope.size(); ++i)
+    slope[i] = -heat_law_->slope(-state_.penetration[i], pressure_[i], law_.penalty);
+  heat_->add_gap_tangent(slope, temperature, mechanics_->slots(), matrix);
+}
+
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
   double points = 0, closed = 0, area = 0, force = 0, energy = 0;
   for (const Pairing& pairing : points_.pairings) {

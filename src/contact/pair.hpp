@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/contribution.hpp"
+#include "algebra/coupled_matrix.hpp"
 #include "contact/integration.hpp"
 #include "contact/normal.hpp"
 #include "contact/spec.hpp"
@@ -54,6 +55,10 @@ class ContactPair {
   /// Gap, pressure and conductance of every point for a displacement: [local node][component], ghosts up to
   /// date [m]. Local, no communication.
   void update(std::span<const double> displacement);
+
+  /// Adds the derivative of the heat with respect to the displacement, through the conductances of the last
+  /// update(); nothing without a heat law. The mechanical term must be bound to the displacement's matrix.
+  void add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const;
 
   /// Sums at the last update(); `temperature` [local node] or empty (heat = 0). Collective.
   ContactSums sums(std::span<const double> temperature) const;

@@ -6,8 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "coupling/block_iterative.hpp"
 #include "coupling/isentropic.hpp"
 #include "coupling/isothermal.hpp"
+#include "coupling/simultaneous.hpp"
 #include "mechanics_bodies.hpp"
 
 namespace solidus::verification {
@@ -24,6 +26,12 @@ struct Coupled {
   std::optional<mechanics::StructuralForm> form;
   mechanics::Mapping mapping = mechanics::Mapping::isothermal;  ///< which makes the split
   heat::Integration integration = heat::Integration::closed;
+  std::optional<mechanics::DynamicsOptions> dynamics;  ///< absent: no inertia
+  double mechanics_tolerance = 1e-11;  ///< of Newton's method
+  heat::SensibleForm sensible = heat::SensibleForm::enthalpy;
+  coupling::SimultaneousOptions simultaneous;  ///< with Mapping::simultaneous
+  /// Present: passes of `mapping` in turn until they agree.
+  std::optional<coupling::IterationOptions> iteration;
 
   /// Every node of a group at rest in a direction, or as the table says.
   void hold(const std::string& group, int component, Table value = 0.0) {
@@ -33,6 +41,7 @@ struct Coupled {
 
 struct CoupledRun {
   std::vector<coupling::EnergyAudit> steps;
+  std::vector<int> iterations;  ///< between the phases, of every step
   coupling::State end;
 
   double exchanged() const {
@@ -74,7 +83,9 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps,
 
   mechanics::MechanicsOptions mechanics_options = test::strict();
   mechanics_options.newton.max_iterations = 60;
+  mechanics_options.newton.tolerance = c.mechanics_tolerance;
   mechanics_options.mapping = c.mapping;
+  mechanics_options.dynamics = c.dynamics;
   mechanics::MechanicalPhase mechanics(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options,
                                        mechanical);
   std::optional<mechanics::StructuralHeat> structural;
@@ -83,6 +94,7 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps,
 
   heat::HeatOptions heat_options;
   heat_options.integration = c.integration;
+  heat_options.sensible = c.sensible;
   heat_options.tolerance = 1e-12;
   heat_options.solver = algebra::SolverKind::direct;
   heat::ThermalPhase heat(c.mesh, c.kind, c.materials, c.thermal, heat_options, thermal);
@@ -93,8 +105,12 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps,
   phases.structural = structural ? &*structural : nullptr;
   if (pair) phases.contacts = {&*pair};
   std::unique_ptr<coupling::CouplingScheme> split;
-  if (c.mapping == mechanics::Mapping::isentropic)
+  if (c.iteration)
+    split = std::make_unique<coupling::BlockIterative>(phases, *c.iteration);
+  else if (c.mapping == mechanics::Mapping::isentropic)
     split = std::make_unique<coupling::IsentropicSplit>(phases);
+  else if (c.mapping == mechanics::Mapping::simultaneous)
+    split = std::make_unique<coupling::SimultaneousScheme>(phases, c.simultaneous);
   else
     split = std::make_unique<coupling::IsothermalSplit>(phases);
 
@@ -105,7 +121,9 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps,
   for (int n = 1; n <= n_steps; ++n) {
     coupling::State trial = run.end;
     trial.time = end * n / n_steps;
-    run.steps.push_back(split->advance(run.end, trial, trial.time, end / n_steps).energy);
+    const coupling::StepEffort effort = split->advance(run.end, trial, trial.time, end / n_steps);
+    run.steps.push_back(effort.energy);
+    run.iterations.push_back(effort.coupling_iterations);
     run.end = std::move(trial);
     if (watch) watch(run.end);
   }

@@ -1,0 +1,174 @@
+#include "coupling/coupled_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+
+namespace solidus::coupling {
+
+namespace {
+
+constexpr std::size_t k_remembered = 5;  ///< residuals that a step may rise to
+constexpr int k_halvings = 8;
+constexpr double k_far_off = 1e6;  ///< a residual that rises so much even after halving ends the iteration
+
+}  // namespace
+
+double CoupledResidual::size() const {
+  return std::hypot(force, heat);
+}
+
+CoupledNewton::CoupledNewton(const Phases& phases, algebra::CoupledSolverKind solver)
+    : phases_(phases),
+      mechanics_(*phases.mechanics),
+      thermal_(phases.heat->iteration()),
+      matrix_(mechanics_.mesh(), mechanics_.matrix(), thermal_->matrix()),
+      solver_(mechanics_.mesh(), mechanics_.components(), solver, mechanics_.options().linear_tolerance),
+      ghosts_(mechanics_.mesh()) {
+  for (const auto& block : mechanics_.blocks()) {
+    auto& kernel = dynamic_cast<mechanics::CoupledKernel&>(*block);
+    kernel.bind_heat(thermal_->matrix());
+    kernels_.push_back(&kernel);
+  }
+  const mesh::Mesh& mesh = mechanics_.mesh();
+  const auto n_components = static_cast<std::size_t>(mechanics_.components());
+  const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+  force_.resize(n_owned * n_components);
+  step_u_.resize(mesh.x.size() * n_components);
+  step_t_.resize(mesh.x.size());
+  further_.resize(n_owned);
+}
+
+CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
+                                        const mechanics::MechanicalPass& pass, std::span<const double> x) {
+  mechanics_.prepare(old, pass);
+  for (contact::ContactPair* pair : phases_.contacts) pair->update(x);
+  reference_ = mechanics_.residual(x, force_);
+  const std::vector<char>& fixed = mechanics_.matrix().fixed();
+  for (std::size_t i = 0; i < force_.size(); ++i)
+    if (fixed[i]) force_[i] = 0;
+  mechanics_.matrix().ties().sum(force_);
+  double squares = 0;
+  for (const double r : force_) squares += r * r;
+  norm_ = std::sqrt(algebra::global_sum(squares));
+
+  mechanics_.finish(old, x, history_);
+  thermal_->evaluate();
+  return present();
+}
+
+CoupledResidual CoupledNewton::present() const {
+  const auto ratio = [](double norm, double reference) { return reference > 0 ? norm / reference : norm; };
+  return {ratio(norm_, reference_), ratio(thermal_->unbalanced(), thermal_->moved())};
+}
+
+bool CoupledNewton::converged() const {
+  const algebra::NewtonOptions& options = mechanics_.options().newton;
+  const double noise = std::max(options.absolute_tolerance, mechanics_.round_off());
+  return (norm_ <= options.tolerance * reference_ || norm_ <= noise) && thermal_->converged();
+}
+
+algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState& old,
+                                                std::span<const double> x, int iteration) {
+  mechanics_.tangent();
+  matrix_.set_zero();
+  thermal_->assemble(iteration);
+  for (mechanics::CoupledKernel* kernel : kernels_)
+    kernel->add_coupling(phases_.structural->form(), old.displacement, x, thermal_->temperature(), matrix_);
+  for (const contact::ContactPair* pair : phases_.contacts)
+    pair->add_coupling(thermal_->temperature(), matrix_);
+  return matrix_;
+}
+
+bool CoupledNewton::find_direction(CoupledReport& report, std::string& failure) {
+  const auto weight = [](double tolerance, double reference) {
+    return tolerance * reference > 0 ? 1.0 / (tolerance * reference) : 1.0;
+  };
+  const algebra::FieldWeights weights{weight(mechanics_.options().newton.tolerance, reference_),
+                                      weight(thermal_->tolerance(), thermal_->moved())};
+  for (double& r : force_) r = -r;
+  const auto n_u = force_.size(), n_t = further_.size();
+  const std::span<double> owned_u = std::span(step_u_).first(n_u);
+  const algebra::LinearReport linear = solver_.solve(matrix_, force_, thermal_->right_hand_side(), weights,
+                                                     owned_u, std::span(step_t_).first(n_t));
+  for (double& r : force_) r = -r;
+  report.linear_iterations += linear.iterations;
+  if (!linear.converged) {
+    failure = linear.reason;
+    return false;
+  }
+  const std::vector<char>& fixed = mechanics_.matrix().fixed();
+  for (std::size_t i = 0; i < n_u; ++i)
+    if (fixed[i]) owned_u[i] = 0;
+  mechanics_.matrix().ties().share(owned_u);
+  ghosts_.update(step_u_, mechanics_.components());
+  matrix_.multiply_heat(step_u_, further_);
+  thermal_->set_direction(step_t_, further_);
+  return true;
+}
+
+CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::MechanicalState& old,
+                                           const mechanics::MechanicalPass& pass, std::vector<double>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = start_u_[i] + alpha * step_u_[i];
+  thermal_->move(alpha);
+  const auto& temperature = thermal_->temperature();
+  const double coldest =
+      temperature.empty() ? 1.0 : *std::min_element(temperature.begin(), temperature.end());
+  if (!(algebra::global_min(coldest) > 0)) {
+    constexpr double k_none = std::numeric_limits<double>::infinity();
+    return {k_none, k_none};
+  }
+  return evaluate(old, pass, x);
+}
+
+double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
+                           std::vector<double>& x, const CoupledReport& report) {
+  start_u_ = x;
+  double highest = 0;
+  const std::size_t n = report.residuals.size();
+  for (std::size_t i = n > k_remembered ? n - k_remembered : 0; i < n; ++i)
+    highest = std::max(highest, report.residuals[i].size());
+  double alpha = 1, best = 1, least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= k_halvings; ++k, alpha *= 0.5) {
+    const double size = evaluate_at(alpha, old, pass, x).size();
+    if (std::isfinite(size) && (size <= highest || converged())) return alpha;
+    if (std::isfinite(size) && size < least) {
+      least = size;
+      best = alpha;
+    }
+  }
+  if (!(least <= k_far_off * highest)) return 0;
+  evaluate_at(best, old, pass, x);
+  return best;
+}
+
+CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechanics::MechanicalPass& pass,
+                                   std::vector<double>& x) {
+  const int max_iterations = std::max(mechanics_.options().newton.max_iterations, thermal_->max_iterations());
+  pass.iterate_temperature = thermal_->temperature();
+  CoupledReport report;
+  CoupledResidual residual = evaluate(old, pass, x);
+  while (true) {
+    report.residuals.push_back(residual);
+    if (!std::isfinite(residual.size())) mechanics_.reject("the residual is not a number", x);
+    if (converged()) return report;
+    if (report.iterations == max_iterations) {
+      const std::string reason = "no convergence in " + std::to_string(max_iterations) + " iterations";
+      if (!thermal_->converged()) thermal_->reject(reason);
+      mechanics_.reject(reason, x);
+    }
+    assemble(old, x, report.iterations);
+    std::string failure;
+    const bool found = find_direction(report, failure);
+    ++report.iterations;
+    if (!found) mechanics_.reject("linear solver: " + failure, x);
+    const double alpha = move(old, pass, x, report);
+    if (alpha == 0) mechanics_.reject("no step along Newton's direction lowers the residual", x);
+    report.shortest_step = std::min(report.shortest_step, alpha);
+    residual = present();
+  }
+}
+
+}  // namespace solidus::coupling

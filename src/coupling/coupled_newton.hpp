@@ -1,0 +1,95 @@
+/// Newton's method for displacement and temperature at once: one implicit stage of the simultaneous scheme
+/// (monograph 4.1.1).
+///
+///   r_u(u, Θ) = ∫ B̄ᵀ σ(ε(u), Θ) dV − f + contact + inertia = 0                               [N]
+///   r_Θ(u, Θ) = (H(Θ) − H_n)/Δt + conduction − sources + contact(u) + structural heat(u, Θ) = 0  [W]
+///
+/// Both residuals are those of the phases, evaluated at the iterate: properties at Θ, with solid fraction and
+/// straining of phase changes held at Θ_n (4.81); the conductance of contacts at the gap of u. The tangent is
+/// exact, the slope of the conductivity and that of the conductance in the gap included; only radiation
+/// across a gap has the symmetric slope of HeatTerm.
+///
+/// A step that leads far off is halved: nonmonotone, against the largest of the last residuals (Grippo,
+/// Lampariello, Lucidi 1986), because yield, contact and plateaus raise it for an iteration.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algebra/coupled_solver.hpp"
+#include "algebra/parallel.hpp"
+#include "coupling/phases.hpp"
+#include "heat/thermal_iteration.hpp"
+#include "mechanics/coupled_kernel.hpp"
+
+namespace solidus::coupling {
+
+/// Both norms against what their phases measure them by.
+struct CoupledResidual {
+  double force = 0;  ///< ‖r_u‖ over its reference
+  double heat = 0;   ///< Σ|r_Θ| over the heat moved
+  double size() const;
+};
+
+struct CoupledReport {
+  int iterations = 0, linear_iterations = 0;
+  double shortest_step = 1;                ///< of the line search
+  std::vector<CoupledResidual> residuals;  ///< before each iteration and at the end
+};
+
+class CoupledNewton {
+ public:
+  /// Both phases must outlive this object; the mechanical one is built for Mapping::simultaneous. Collective.
+  CoupledNewton(const Phases& phases, algebra::CoupledSolverKind solver);
+
+  /// Solves one stage. Thermal start and unknowns are those of `thermal`, which has begun; `x` is the
+  /// displacement of the start and, at the end, of the solution, [local node][component].
+  /// @param old   t_n of the mechanical phase, or u*, z* of a second stage
+  /// @param pass  time, step and Θ_n
+  /// Throws StepRejected on all processes.
+  CoupledReport solve(const mechanics::MechanicalState& old, mechanics::MechanicalPass& pass,
+                      std::vector<double>& x);
+
+  heat::ThermalIteration& thermal() { return *thermal_; }
+  std::span<mechanics::CoupledKernel* const> kernels() const { return kernels_; }
+  void forget() { solver_.forget(); }
+  double seconds_solver() const { return solver_.seconds(); }
+
+  // The parts of the iteration, for tests of the tangent.
+  /// Residuals at x and the temperature of thermal(), [owned node][component] [N], [owned node] [W]; the
+  /// force is zero where prescribed and summed where tied.
+  CoupledResidual evaluate(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
+                           std::span<const double> x);
+  std::span<const double> force() const { return force_; }
+  /// The tangent there.
+  algebra::CoupledMatrix& assemble(const mechanics::MechanicalState& old, std::span<const double> x,
+                                   int iteration);
+
+ private:
+  /// Of the last evaluation.
+  CoupledResidual present() const;
+  bool converged() const;
+  /// δu and δΘ from the tangent; false when the linear solver fails, which `failure` names.
+  bool find_direction(CoupledReport& report, std::string& failure);
+  /// Moves along the direction as far as it is any good.
+  double move(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
+              std::vector<double>& x, const CoupledReport& report);
+  CoupledResidual evaluate_at(double alpha, const mechanics::MechanicalState& old,
+                              const mechanics::MechanicalPass& pass, std::vector<double>& x);
+
+  Phases phases_;
+  mechanics::MechanicalPhase& mechanics_;
+  std::unique_ptr<heat::ThermalIteration> thermal_;
+  std::vector<mechanics::CoupledKernel*> kernels_;
+  algebra::CoupledMatrix matrix_;
+  algebra::CoupledSolver solver_;
+  algebra::GhostExchange ghosts_;
+  std::vector<mechanics::BlockHistory> history_;  ///< of the last residual
+  std::vector<double> force_;                     ///< r_u, [owned node][component]
+  std::vector<double> step_u_, start_u_;          ///< [local node][component]
+  std::vector<double> step_t_, further_;          ///< [local node], [owned node]
+  double norm_ = 0, reference_ = 0;               ///< of r_u
+};
+
+}  // namespace solidus::coupling

@@ -1,0 +1,143 @@
+#include "coupling/simultaneous.hpp"
+
+#include <mpi.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "coupling/stability_audit.hpp"
+#include "material/time_integration.hpp"
+
+namespace solidus::coupling {
+
+namespace {
+
+const Phases& checked(const Phases& phases, const SimultaneousOptions& options) {
+  if (phases.heat == nullptr || phases.mechanics == nullptr || phases.structural == nullptr)
+    throw std::invalid_argument("the simultaneous scheme needs both phases and structural heat");
+  if (phases.mechanics->mapping() != mechanics::Mapping::simultaneous)
+    throw std::invalid_argument("the mechanical phase was built for a split");
+  const mechanics::StructuralForm form = phases.structural->form();
+  if (form != mechanics::StructuralForm::energy && form != mechanics::StructuralForm::entropy)
+    throw std::invalid_argument("the simultaneous scheme has the energy and the entropy form only");
+  const bool one_stage = phases.mechanics->dynamic() || phases.mechanics->options().integration !=
+                                                            mechanics::TimeIntegration::backward_euler;
+  if (one_stage && options.integration == SimultaneousOptions::Integration::sdirk2)
+    throw std::invalid_argument("two stages are for quasi-statics with backward Euler");
+  return phases;
+}
+
+/// y_n + carried (Y_1 − y_n).
+mechanics::MechanicalState second_start(const mechanics::MechanicalState& old,
+                                        const mechanics::MechanicalState& stage, double carried) {
+  mechanics::MechanicalState start = old;
+  for (std::size_t i = 0; i < start.displacement.size(); ++i)
+    start.displacement[i] += carried * (stage.displacement[i] - old.displacement[i]);
+  for (std::size_t b = 0; b < start.history.size(); ++b) {
+    PackVector<Lane>& values = start.history[b].values;
+    const PackVector<Lane>& end = stage.history[b].values;
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += Lane(carried) * (end[i] - values[i]);
+  }
+  return start;
+}
+
+/// Energies of a step from those of its stages.
+void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried) {
+  for (double EnergyAudit::*part :
+       {&EnergyAudit::stored_heat, &EnergyAudit::work, &EnergyAudit::unbalanced, &EnergyAudit::heat_in,
+        &EnergyAudit::heat_exchanged, &EnergyAudit::viscous_dissipation, &EnergyAudit::plastic_dissipation,
+        &EnergyAudit::plastic_work})
+    sum.*part += carried * first.*part;
+}
+
+}  // namespace
+
+SimultaneousScheme::SimultaneousScheme(Phases phases, SimultaneousOptions options)
+    : phases_(checked(phases, options)), options_(options), newton_(phases_, options.solver) {
+  phases_.structural->leave_tangent();
+}
+
+void SimultaneousScheme::synchronise(const State& state) {
+  for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
+}
+
+void SimultaneousScheme::drop_carried() {
+  for (mechanics::CoupledKernel* kernel : newton_.kernels()) kernel->drop_carried();
+}
+
+StepEffort SimultaneousScheme::advance(const State& old, State& trial, double time, double dt) {
+  drop_carried();  // of a step that failed
+  const double springs = contact_energy(phases_);
+  StepEffort effort = options_.integration == SimultaneousOptions::Integration::sdirk2
+                          ? two_stages(old, trial, time, dt)
+                          : backward_euler(old, trial, time, dt);
+  effort.energy.contact = contact_energy(phases_) - springs;
+  effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
+  effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
+  summarise(phases_, trial, effort);
+  return effort;
+}
+
+StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt) {
+  newton_.thermal().begin(old.heat, time, dt);
+  return stage(old.mechanics, {.time = time, .dt = dt, .temperature = old.heat.temperature}, trial);
+}
+
+StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double time, double dt) {
+  const double share = material::k_sdirk_share * dt, carried = material::k_sdirk_carried;
+  const double middle = time - dt + share;
+  State first;
+  newton_.thermal().begin(old.heat, middle, share);
+  const StepEffort of_first =
+      stage(old.mechanics, {.time = middle, .dt = share, .temperature = old.heat.temperature}, first);
+
+  for (mechanics::CoupledKernel* kernel : newton_.kernels()) kernel->carry(carried, first.heat.temperature);
+  const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
+  newton_.thermal().begin_stage(old.heat, first.heat, carried, time, share);
+  StepEffort effort = stage(
+      start, {.time = time, .dt = share, .temperature = old.heat.temperature, .iterate = &first.mechanics},
+      trial);
+  drop_carried();
+  add_first_stage(effort.energy, of_first.energy, carried);
+  effort.mechanics.iterations += of_first.mechanics.iterations;
+  effort.mechanics.linear_iterations += of_first.mechanics.linear_iterations;
+  effort.mechanics.seconds += of_first.mechanics.seconds;
+  effort.heat.iterations = effort.mechanics.iterations;
+  effort.least_dissipation = std::min(effort.least_dissipation, of_first.least_dissipation);
+  effort.largest_dissipation = std::max(effort.largest_dissipation, of_first.largest_dissipation);
+  return effort;
+}
+
+StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
+                                     State& trial) {
+  const double start = MPI_Wtime();
+  pass.iterate_temperature = newton_.thermal().temperature();
+  phases_.mechanics->begin(old, pass);
+  std::vector<double> x = phases_.mechanics->start(old, pass);
+  report_ = newton_.solve(old, pass, x);
+  const mechanics::MechanicalWork work =
+      phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
+  const heat::HeatBalance balance = newton_.thermal().conclude(trial.heat);
+
+  StepEffort effort;
+  EnergyAudit& energy = effort.energy;
+  energy.kinetic = work.kinetic;
+  energy.numerical = work.numerical;
+  energy.work = work.external_work + work.support_work;
+  energy.unbalanced = work.residual_work;
+  energy.viscous_dissipation = work.dissipation - work.plastic_dissipation;
+  energy.plastic_dissipation = work.plastic_dissipation;
+  energy.plastic_work = work.plastic_work;
+  energy.stored_heat = balance.stored;
+  for (const heat::ConditionHeat& condition : balance.conditions) energy.heat_in += condition.heat;
+  energy.heat_exchanged = balance.exchanged;
+  effort.least_dissipation = work.least_dissipation;
+  effort.largest_dissipation = work.largest_dissipation;
+  const CoupledResidual& end = report_.residuals.back();
+  // One iteration for both fields, booked with the mechanical phase.
+  effort.mechanics = {report_.iterations, report_.linear_iterations, end.force, MPI_Wtime() - start};
+  effort.heat = {report_.iterations, 0, end.heat, 0.0};
+  return effort;
+}
+
+}  // namespace solidus::coupling

@@ -1,0 +1,53 @@
+/// The simultaneous scheme (monograph 4.1.1): displacement and temperature at t_{n+1} by one Newton iteration
+/// with the exact unsymmetric tangent (coupled_newton.hpp). Backward Euler, or the two stages of Alexander's
+/// method of second order,
+///
+///   Y_1 = y_n + γ Δt f(t_n + γ Δt, Y_1),   y_{n+1} = y* + γ Δt f(t_{n+1}, y_{n+1}),   γ = 1 − 1/√2,
+///   y* = y_n + (1−γ)/γ (Y_1 − y_n),
+///
+/// each a backward Euler step over γ Δt; y holds displacement, history, heat content and, at the quadrature
+/// points, structural entropy and energy. Work and heat of a step are (1−γ)/γ times those of the first stage
+/// plus those of the second, so the energy form closes the first law in both. The phase fractions that the
+/// mechanics sees stay those of Θ_n in both stages: through a phase change the method is of first order.
+/// R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
+#pragma once
+
+#include "coupling/coupled_newton.hpp"
+#include "coupling/scheme.hpp"
+
+namespace solidus::coupling {
+
+struct SimultaneousOptions {
+  enum class Integration { backward_euler, sdirk2 };
+  Integration integration = Integration::backward_euler;
+  algebra::CoupledSolverKind solver = algebra::CoupledSolverKind::automatic;
+};
+
+class SimultaneousScheme final : public CouplingScheme {
+ public:
+  /// The phases must outlive the scheme. Throws std::invalid_argument unless both are there and exchange
+  /// heat in the energy or the entropy form, the mechanical one built for Mapping::simultaneous and, with two
+  /// stages, quasi-static with backward Euler.
+  SimultaneousScheme(Phases phases, SimultaneousOptions options = {});
+
+  void synchronise(const State& state) override;
+  void forget() override { newton_.forget(); }
+  StepEffort advance(const State& old, State& trial, double time, double dt) override;
+
+  /// Of the last stage.
+  const CoupledReport& report() const { return report_; }
+
+ private:
+  StepEffort backward_euler(const State& old, State& trial, double time, double dt);
+  StepEffort two_stages(const State& old, State& trial, double time, double dt);
+  /// Mechanics from `old`, heat as thermal() has begun.
+  StepEffort stage(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass, State& trial);
+  void drop_carried();
+
+  Phases phases_;
+  SimultaneousOptions options_;
+  CoupledNewton newton_;
+  CoupledReport report_;
+};
+
+}  // namespace solidus::coupling
