@@ -11,9 +11,8 @@ namespace solidus::coupling {
 struct Continuation {
   int steps = 0;        ///< taken so far
   StepOptions options;  ///< that the step control worked with
-  double size = 0;      ///< the step it wants next [s]
-  std::string reason;   ///< why
-  Rates rates;          ///< of the last step, where adaptive steps predict from them
+  ControlState control;
+  Rates rates;  ///< of the last step, where adaptive steps predict from them
 };
 
 /// Why a run ended before its end time.

@@ -11,7 +11,7 @@
 ///             ε = |y_whole − y_halves| is the error of the halves, which are kept. Sees the whole scheme,
 ///             and costs three steps for one.
 ///
-/// A first step has no step before: it is measured by doubling in any case.
+/// A first step has no step before, and one after a jump none that tells: they are measured by doubling.
 #pragma once
 
 #include "coupling/body_norm.hpp"

@@ -28,6 +28,8 @@ class MeasuredStep {
   Taken take(const State& old, State& trial, double time, double dt);
   /// The last step taken is committed.
   void commit() { rates_ = std::move(next_rates_); }
+  /// The last step committed does not say how it goes on: the next one is measured as a first step.
+  void forget() { rates_ = {}; }
 
   /// Of the last step committed; what a checkpoint keeps.
   const Rates& rates() const { return rates_; }

@@ -41,9 +41,9 @@ bool Simulation::stop_asked() const {
   return stop_asked_ && algebra::any_process(stop_asked_());
 }
 
-void Simulation::save(Progress& p, double size, const std::string& reason) {
+void Simulation::save(Progress& p, const ControlState& control) {
   scheme_->forget();
-  const Continuation continuation{p.record.number, options_.step, size, reason, p.step.rates()};
+  const Continuation continuation{p.record.number, options_.step, control, p.step.rates()};
   for (Observer* o : observers_) o->checkpoint(continuation, p.committed);
   p.saved = p.record.number;
 }
@@ -69,7 +69,7 @@ Outcome Simulation::run(State initial, double solid_fraction, const std::optiona
              .warned = false,
              .stop = {}};
   p.record.number = from ? from->steps : 0;
-  if (from && from->options == options_.step) p.control.resume(from->size, from->reason);
+  if (from && from->options == options_.step) p.control.resume(from->control);
   scheme_->synchronise(p.committed);
   for (Observer* o : observers_) o->begin(p.committed);
 
@@ -79,22 +79,21 @@ Outcome Simulation::run(State initial, double solid_fraction, const std::optiona
   };
   while (!p.control.finished(p.committed.time)) {
     if (stop_asked()) {
-      if (p.saved != p.record.number || p.record.rejected > 0)
-        save(p, p.control.present_size(), p.control.present_reason());
+      if (p.saved != p.record.number || p.record.rejected > 0) save(p, p.control.state());
       Stop asked;
       asked.asked = true;
       return stopped(asked, Outcome::interrupted);
     }
     switch (try_step(p)) {
       case Try::committed:
-        if (checkpoint_due(p.record)) save(p, p.control.present_size(), p.control.present_reason());
+        if (checkpoint_due(p.record)) save(p, p.control.state());
         break;
       case Try::repeat:
         scheme_->synchronise(p.committed);
         break;
       case Try::stuck:
         // Whoever continues has changed something: with the step asked for, not with the one that failed.
-        save(p, options_.step.step, "as asked");
+        save(p, {.size = options_.step.step});
         return stopped(p.stop, Outcome::stuck);
     }
   }
@@ -126,17 +125,19 @@ Simulation::Try Simulation::try_step(Progress& p) {
     p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt};
     return Try::stuck;
   }
-  warn_of_limit(p, step, measure);
   commit(p, step, measure);
   return Try::committed;
 }
 
-void Simulation::warn_of_limit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
-  if (p.warned || !options_.step.adaptive) return;
+// A step that is committed beyond a limit holds a jump, or is the smallest: its rates predict nothing.
+void Simulation::look_at_excess(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
+  if (!options_.step.adaptive) return;
   const Strictest limit = strictest(options_.step.limits, measure);
   if (!limit.exceeded) return;
-  logging::warn("t = {:g} s: {} in the smallest step, {:g} s; the run goes on", step.time, limit.excess,
-                step.dt);
+  p.step.forget();
+  if (p.warned) return;
+  logging::warn("t = {:g} s: {}, which steps down to {:g} s do not bring down; the run goes on", step.time,
+                limit.excess, step.dt);
   p.warned = true;
 }
 
@@ -144,6 +145,7 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
   p.trial.time = step.time;
   std::swap(p.committed, p.trial);
   p.step.commit();
+  look_at_excess(p, step, measure);
   p.control.accepted(step, measure);
   p.solid_fraction = p.record.solid_fraction;
 

@@ -51,12 +51,12 @@ class Simulation {
   enum class Try { committed, repeat, stuck };
   Try try_step(Progress& p);
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
-  void warn_of_limit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
+  void look_at_excess(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   bool measures_error() const;
   bool stop_asked() const;
   bool checkpoint_due(const StepRecord& record) const;
-  /// Writes a checkpoint of the committed state, from which a run goes on with this step size.
-  void save(Progress& p, double size, const std::string& reason);
+  /// Writes a checkpoint of the committed state, from which a run goes on with this step control.
+  void save(Progress& p, const ControlState& control);
   MeasuredStep measured_step(const std::optional<Continuation>& from);
 
   std::unique_ptr<CouplingScheme> scheme_;

@@ -32,39 +32,44 @@ StepControl::StepControl(const StepOptions& options, double start, std::vector<d
   std::erase_if(landings_, [start](double t) { return t <= start; });
   if (landings_.empty()) throw std::invalid_argument("the end time must lie after the start");
   end_ = landings_.back();
-  size_ = options_.step;
+  state_.size = options_.step;
 }
 
 PlannedStep StepControl::plan(double time) const {
-  const double tolerance = k_same_time * size_;
+  const double tolerance = k_same_time * state_.size;
   const auto next = std::upper_bound(landings_.begin(), landings_.end(), time + tolerance);
   const double landing = next == landings_.end() ? end_ : *next;
   const double rest = landing - time;
-  if (rest <= size_ + tolerance)
-    return {landing, rest, rest < size_ - tolerance ? (landing == end_ ? "end" : "output time") : reason_};
+  if (rest <= state_.size + tolerance)
+    return {landing, rest,
+            rest < state_.size - tolerance ? (landing == end_ ? "end" : "output time") : state_.reason};
   // Two halves rather than a full step and a sliver, where the size is ours to choose.
-  if (options_.adaptive && rest < 1.5 * size_) return {time + rest / 2, rest / 2, "output time ahead"};
-  return {time + size_, size_, reason_};
+  if (options_.adaptive && rest < 1.5 * state_.size) return {time + rest / 2, rest / 2, "output time ahead"};
+  return {time + state_.size, state_.size, state_.reason};
 }
 
 void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) {
   if (!options_.adaptive) return recover();
-  const bool full = step.dt >= size_ * (1 - k_same_time);
+  const Strictest limit = strictest(options_.limits, measure);
+  const bool jump = is_jump(step, limit);
+  const double before = state_.before_refusal;
+  state_.refused = state_.refused_ratio = state_.before_refusal = 0;
+  if (limit.exceeded && jump) return resize(before, "after a jump");
+  const bool full = step.dt >= state_.size * (1 - k_same_time);
   // A step that was shortened to land says little of one much longer.
-  double size = full ? size_ * options_.growth : std::max(size_, step.dt * options_.growth);
-  std::string reason = size > size_ ? "growth limit" : "as before the output time";
-  const auto at_most = [&](double limit, const std::string& why) {
-    if (limit >= size) return;
-    size = limit;
+  double size = full ? state_.size * options_.growth : std::max(state_.size, step.dt * options_.growth);
+  std::string reason = size > state_.size ? "growth limit" : "as before the output time";
+  const auto at_most = [&](double bound, const std::string& why) {
+    if (bound >= size) return;
+    size = bound;
     reason = why;
   };
   at_most(options_.max_step, "largest allowed");
   if (measure.iterations > options_.easy_iterations) {
     // Iterations that stay many whatever the step must not drive it to nothing: never below what was asked.
-    const double wanted = std::min(1.0, 2.0 * options_.easy_iterations / measure.iterations) * size_;
+    const double wanted = std::min(1.0, 2.0 * options_.easy_iterations / measure.iterations) * state_.size;
     at_most(std::max(wanted, std::min(options_.step, size)), "newton effort");
   }
-  const Strictest limit = strictest(options_.limits, measure);
   at_most(step.dt * limit.factor, limit.name);
   resize(size, reason);
 }
@@ -72,29 +77,38 @@ void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) 
 void StepControl::recover() {
   // After a cut the size comes back to what was asked, also when steps are not easy: one hard moment must not
   // slow the rest.
-  const double size = std::min(size_ * options_.growth, options_.step);
+  const double size = std::min(state_.size * options_.growth, options_.step);
   resize(size, size == options_.step ? "as asked" : "growing after a cut");
 }
 
 bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
-  size_ = step.dt * options_.cut;
-  reason_ = "rejected: " + why;
-  return size_ >= options_.min_step * (1 - k_same_time);
+  state_.size = step.dt * options_.cut;
+  state_.reason = "rejected: " + why;
+  return state_.size >= options_.min_step * (1 - k_same_time);
+}
+
+// Errors at a kink of the solution fall as Δt, in a shock as √Δt; a jump stays.
+bool StepControl::is_jump(const PlannedStep& step, const Strictest& limit) const {
+  return state_.refused > 0 && limit.ratio > state_.refused_ratio * std::pow(step.dt / state_.refused, 0.25);
 }
 
 bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) const {
-  return options_.adaptive && step.dt > options_.min_step * (1 + k_same_time) &&
-         strictest(options_.limits, measure).exceeded;
+  if (!options_.adaptive || step.dt <= options_.min_step * (1 + k_same_time)) return false;
+  const Strictest limit = strictest(options_.limits, measure);
+  return limit.exceeded && !is_jump(step, limit);
 }
 
 void StepControl::shortened(const PlannedStep& step, const StepMeasure& measure) {
   const Strictest limit = strictest(options_.limits, measure);
+  if (state_.refused == 0) state_.before_refusal = state_.size;
+  state_.refused = step.dt;
+  state_.refused_ratio = limit.ratio;
   resize(step.dt * std::max(limit.factor, k_deepest_cut), "rejected: " + limit.name);
 }
 
 void StepControl::resize(double size, const std::string& reason) {
-  size_ = std::max(size, options_.min_step);
-  reason_ = size_ > size ? "smallest allowed" : reason;
+  state_.size = std::max(size, options_.min_step);
+  state_.reason = state_.size > size ? "smallest allowed" : reason;
 }
 
 bool StepControl::is_landing(double time) const {

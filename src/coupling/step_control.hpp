@@ -30,6 +30,14 @@ struct PlannedStep {
   std::string reason;  ///< why this size, for steps.csv
 };
 
+/// What the control carries from step to step, for checkpoints.
+struct ControlState {
+  double size = 0;                  ///< the step wanted next, before landing [s]
+  std::string reason = "as asked";  ///< why
+  /// Of the last step from here that exceeded a limit, and the size wanted before the first; zero: none did.
+  double refused = 0, refused_ratio = 0, before_refusal = 0;
+};
+
 class StepControl {
  public:
   /// @param landings times that must be met exactly (output times, the end), any order; those before `start`
@@ -44,31 +52,27 @@ class StepControl {
   void accepted(const PlannedStep& step, const StepMeasure& measure);
   /// The step did not go through, `why`. False when the next one would fall below the smallest step allowed.
   bool rejected(const PlannedStep& step, const std::string& why);
-  /// Whether a step that went through is to be repeated with a smaller one: it exceeds a limit and is not yet
-  /// the smallest.
+  /// Whether a step that went through exceeds a limit and is to be repeated with a smaller one. Not if it is
+  /// the smallest, and not if it is a jump: what does not get smaller with the step (a body that snaps into
+  /// another contact, a load that is put on at once) no step resolves.
   bool too_long(const PlannedStep& step, const StepMeasure& measure) const;
   /// The step that went through was too long.
   void shortened(const PlannedStep& step, const StepMeasure& measure);
   bool is_landing(double time) const;
 
-  /// What a checkpoint keeps.
-  double present_size() const { return size_; }
-  const std::string& present_reason() const { return reason_; }
-  void resume(double size, std::string reason) {
-    size_ = size;
-    reason_ = std::move(reason);
-  }
+  const ControlState& state() const { return state_; }
+  void resume(ControlState state) { state_ = std::move(state); }
 
  private:
   void resize(double size, const std::string& reason);
+  bool is_jump(const PlannedStep& step, const Strictest& limit) const;
   /// Without limits: back to the step asked for, after a cut.
   void recover();
 
   StepOptions options_;
   std::vector<double> landings_;  ///< rising
   double end_ = 0;
-  double size_ = 0;  ///< the size wanted, before landing
-  std::string reason_ = "as asked";
+  ControlState state_;
 };
 
 }  // namespace solidus::coupling

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,7 +23,7 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
   const auto look = [&](const char* name, const char* unit, double value, double allowed, double order) {
     if (!(value > 0)) return;
     const double ratio = value / allowed;
-    result.exceeded = result.exceeded || ratio > k_tolerated;
+    result.ratio = std::max(result.ratio, ratio);
     const double factor = k_safety * std::pow(ratio, -1 / order);
     if (factor >= result.factor) return;
     result.factor = factor;
@@ -34,6 +35,7 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
     look("displacement error", " m", measure.displacement_error, limits.displacement, 2);
   }
   look("solid fraction", "", measure.solid_fraction_change, limits.solid_fraction, 1);
+  result.exceeded = result.ratio > k_tolerated;
   return result;
 }
 

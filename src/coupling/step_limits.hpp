@@ -31,7 +31,8 @@ struct Strictest {
   double factor = 0;
   std::string name;       ///< "temperature error"
   std::string excess;     ///< "temperature error 3.2 K, allowed 1 K"
-  bool exceeded = false;  ///< a limit is exceeded so far that the step is to be repeated
+  double ratio = 0;       ///< of what is to what is allowed, of the limit exceeded most
+  bool exceeded = false;  ///< so far that the step is to be repeated
 };
 
 Strictest strictest(const StepLimits& limits, const StepMeasure& measure);

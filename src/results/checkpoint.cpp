@@ -34,7 +34,8 @@ void each_number(C& c, const Visit& visit) {
   auto& e = c.energy;
   auto& l = c.stability;
   const auto all = [&visit](auto&... n) { (visit(n), ...); };
-  all(c.state.time, k.steps, k.size, c.rejected, c.state.mechanics.dt_before);
+  all(c.state.time, k.steps, c.rejected, c.state.mechanics.dt_before);
+  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction);
   all(e.stored_heat, e.structural, e.contact, e.kinetic, e.numerical, e.work, e.heat_in, e.heat_exchanged,
@@ -126,7 +127,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   Checkpoint c;
   c.state = layout;
   set_numbers(in, c);
-  c.continuation.reason = in.text("reason");
+  c.continuation.control.reason = in.text("reason");
   const Places nodes = places_of(mesh.input_node);
   take_nodes(in, "temperature", nodes, c.state.heat.temperature);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
@@ -183,7 +184,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   TableWriter out(part);
   out.text("format", k_format);
   for (const auto& [name, text] : fingerprint) out.text("case/" + name, text);
-  out.text("reason", c.continuation.reason);
+  out.text("reason", c.continuation.control.reason);
   out.numbers("numbers", numbers_of(c));
 
   const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);

@@ -68,13 +68,14 @@ bool is_field_file(std::string_view name) {
          (name == "fields" || (name.starts_with("surface_") && name.size() > 8));
 }
 
+// Checkpoints first: a run that is killed in between must not seem to have one.
 void remove_old(const fs::path& root) {
+  for (const char* name : {"state.h5", "previous.h5", "state.h5.part"})
+    fs::remove(root / "checkpoint" / name);
   for (const char* name : k_files) {
     if (!fs::is_symlink(root / name)) fs::remove(root / name);
     fs::remove(root / (std::string(name) + ".part"));
   }
-  for (const char* name : {"state.h5", "previous.h5", "state.h5.part"})
-    fs::remove(root / "checkpoint" / name);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(root / "fields"))
     if (is_field_file(entry.path().filename().string())) old.push_back(entry.path());

@@ -1,0 +1,118 @@
+#include "model/admissible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/units.hpp"
+#include "model/dynamics_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+bool steady(const Function& f) {
+  return f.table.min_value() == f.table.max_value();
+}
+bool zero(const Function& f) {
+  return steady(f) && f.table.min_value() == 0;
+}
+bool moves(const std::optional<Function>& f) {
+  return f && !zero(*f);
+}
+
+/// The temperature that a condition surrounds its surface with; none for fluxes and sources.
+const Function* surroundings(const ThermalConditionSpec& c) {
+  using Kind = ThermalConditionSpec::Kind;
+  switch (c.kind) {
+    case Kind::temperature:
+      return &c.temperature;
+    case Kind::film:
+    case Kind::radiation:
+      return &c.ambient;
+    case Kind::flux:
+    case Kind::source:
+      break;
+  }
+  return nullptr;
+}
+
+constexpr double k_same = 1e-6;  // [K]: rounding of units
+
+std::optional<double> common_ambient(const CaseSpec& spec) {
+  std::optional<double> common;
+  for (const auto& c : spec.thermal_conditions) {
+    const Function* around = surroundings(c);
+    if (around == nullptr) continue;
+    const double here = around->table.min_value();
+    if (!steady(*around) || std::abs(here - common.value_or(here)) > k_same) return {};
+    common = here;
+  }
+  return common;
+}
+
+double coldest(const CaseSpec& spec) {
+  double low = spec.bodies.front().initial_temperature;
+  for (const BodySpec& body : spec.bodies) low = std::min(low, body.initial_temperature);
+  return low;
+}
+
+void check_heat(const CaseSpec& spec, Admissibility& a) {
+  using Kind = ThermalConditionSpec::Kind;
+  for (const auto& c : spec.thermal_conditions) {
+    if (c.kind == Kind::flux && !zero(c.flux))
+      a.violations.push_back(fmt::format("'{}' is a flux", c.name));
+    else if (c.kind == Kind::source && !zero(c.power))
+      a.violations.push_back(fmt::format("'{}' is a source", c.name));
+    else if (const Function* around = surroundings(c); around != nullptr) {
+      if (!steady(*around))
+        a.violations.push_back(fmt::format("the temperature of '{}' varies", c.name));
+      else if (std::abs(around->table.min_value() - a.ambient_temperature) > k_same)
+        a.violations.push_back(fmt::format("the temperature of '{}' is not the ambient one, {:.6g} degC",
+                                           c.name, a.ambient_temperature - k_zero_celsius));
+    }
+  }
+}
+
+void check_mechanics(const CaseSpec& spec, Admissibility& a) {
+  using Kind = MechanicalConditionSpec::Kind;
+  for (const auto& c : spec.mechanical_conditions) {
+    if (c.kind == Kind::displacement && (moves(c.ux) || moves(c.uy) || moves(c.uz) || moves(c.ur)))
+      a.violations.push_back(fmt::format("the support '{}' moves", c.name));
+    const bool varies =
+        c.kind == Kind::pressure
+            ? !steady(c.pressure)
+            : c.kind == Kind::traction && !std::all_of(c.traction.begin(), c.traction.end(), steady);
+    if (varies) a.violations.push_back(fmt::format("the load '{}' varies", c.name));
+  }
+}
+
+void check_integration(const CaseSpec& spec, Admissibility& a) {
+  const CouplingSpec& c = spec.coupling;
+  const bool second_order = c.scheme == CouplingSpec::Scheme::double_pass ||
+                            (c.scheme == CouplingSpec::Scheme::simultaneous &&
+                             c.integration == CouplingSpec::Integration::sdirk2) ||
+                            spec.mechanics.integration == mechanics::TimeIntegration::two_step;
+  if (second_order) a.violations.push_back("nothing is proved for a time integration of second order");
+  if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler)
+    a.violations.push_back(
+        fmt::format("nothing is proved for the integration of inertia by {}", method_name(*spec.dynamics)));
+}
+
+}  // namespace
+
+Admissibility admissibility(const CaseSpec& spec) {
+  Admissibility a;
+  if (spec.coupling.ambient_temperature)
+    a.ambient_temperature = *spec.coupling.ambient_temperature;
+  else
+    a.ambient_temperature = common_ambient(spec).value_or(coldest(spec));
+  check_heat(spec, a);
+  check_mechanics(spec, a);
+  check_integration(spec, a);
+  return a;
+}
+
+}  // namespace solidus::model

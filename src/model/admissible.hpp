@@ -1,0 +1,24 @@
+/// The ambient temperature of a case, and whether its conditions are those under which the functional 𝓛 of
+/// 2.24 cannot grow (monograph 2.26; docs/theory/coupling_stability.md, 2).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+struct Admissibility {
+  /// Θ_a [K]: as given, else the constant one that films, radiation and prescribed temperatures share, else
+  /// the lowest initial temperature.
+  double ambient_temperature = 0;
+  std::vector<std::string> violations;  ///< in words; empty: in the quasi-static limit 𝓛 must fall
+  bool holds() const { return violations.empty(); }
+};
+
+/// Of a thermo-mechanical case. Admissible: dead loads, supports that do not move, no source and no flux,
+/// surroundings at Θ_a, and a time integration for which the decay is proved (backward Euler).
+Admissibility admissibility(const CaseSpec& spec);
+
+}  // namespace solidus::model

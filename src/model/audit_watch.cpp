@@ -1,0 +1,52 @@
+#include "model/audit_watch.hpp"
+
+#include <cmath>
+
+#include "base/log.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// The scheme closes the first law to its residuals.
+bool closes_first_law(const CaseSpec& spec) {
+  return !spec.coupled() || (spec.coupling.structural_heating == CouplingSpec::StructuralHeating::energy &&
+                             !spec.coupling.as_printed && spec.contacts.empty());
+}
+
+}  // namespace
+
+void StabilityWatch::step(const coupling::StepRecord& record, const coupling::State&) {
+  const coupling::StabilityAudit& l = record.stability;
+  if (warned_ || !admissibility_.holds() || !(l.increment() > l.tolerance)) return;
+  const bool isothermal = spec_.coupling.scheme == CouplingSpec::Scheme::isothermal;
+  logging::warn(
+      "t = {:g} s, step {}: the functional L of stability grew by {:.3g} J ({:+.3g} in the mechanical, "
+      "{:+.3g} in "
+      "the thermal phase; {:.1g} J are residuals and rounding), though nothing feeds it; {}",
+      record.time, record.number, l.increment(), l.mechanical, l.thermal, l.tolerance,
+      isothermal ? "the isothermal split is unstable here: scheme = \"isentropic\" in [coupling]"
+                 : "try smaller steps, a smaller mechanics.tolerance, smoother property tables");
+  warned_ = true;
+}
+
+void FirstLawWatch::step(const coupling::StepRecord& record, const coupling::State&) {
+  sum_ += record.energy;
+  unsolved_ += std::abs(record.energy.unbalanced) + record.heat.residual * record.energy.heat_exchanged;
+}
+
+void FirstLawWatch::report() const {
+  constexpr double k_rounding = 1e-9, k_seen = 1e-3;  // of the heat exchanged
+  const double defect = std::abs(sum_.defect()), exchanged = sum_.heat_exchanged;
+  const bool closes = closes_first_law(spec_);
+  if (!(defect > unsolved_ + (closes ? k_rounding : k_seen) * exchanged)) return;
+  const bool printed =
+      spec_.coupled() && (spec_.coupling.structural_heating != CouplingSpec::StructuralHeating::energy ||
+                          spec_.coupling.as_printed);
+  logging::warn("the first law is violated by {:.2g} of the heat exchanged, {:.3g} J; {}",
+                exchanged > 0 ? defect / exchanged : 0.0, sum_.defect(),
+                printed ? "structural_heating = \"energy\" in [coupling] closes it, smaller steps lose less"
+                        : "smaller steps lose less");
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,46 @@
+/// Observers that compare what every step reports with the laws it has to obey, and say so once.
+#pragma once
+
+#include "coupling/observer.hpp"
+#include "model/admissible.hpp"
+
+namespace solidus::model {
+
+/// Warns when the functional 𝓛 of 2.24 grows over a step, by more than residuals and rounding explain,
+/// although the conditions are admissible.
+class StabilityWatch : public coupling::Observer {
+ public:
+  /// @param spec kept by reference; thermo-mechanical
+  explicit StabilityWatch(const CaseSpec& spec) : spec_(spec), admissibility_(admissibility(spec)) {}
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override {}
+  void end(const coupling::State&) override {}
+
+ private:
+  const CaseSpec& spec_;
+  Admissibility admissibility_;
+  bool warned_ = false;
+};
+
+/// Warns at the end of a run, whole or stopped, whose steps together violate the first law: by more than
+/// residuals explain where the scheme closes it, by a thousandth of the heat exchanged where it does not
+/// (printed forms; penalty contact, whose springs lose work at second order in the step).
+class FirstLawWatch : public coupling::Observer {
+ public:
+  /// @param spec kept by reference
+  explicit FirstLawWatch(const CaseSpec& spec) : spec_(spec) {}
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
+  void end(const coupling::State&) override { report(); }
+
+ private:
+  void report() const;
+
+  const CaseSpec& spec_;
+  coupling::EnergyAudit sum_;
+  double unsolved_ = 0;  ///< what residuals explain, summed [J]
+};
+
+}  // namespace solidus::model

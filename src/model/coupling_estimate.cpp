@@ -1,0 +1,111 @@
+#include "model/coupling_estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "algebra/parallel.hpp"
+#include "base/log.hpp"
+#include "model/dynamics_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+struct Range {
+  double low, high;  ///< [K]
+};
+
+Range temperatures(const CaseSpec& spec) {
+  Range r{spec.bodies.front().initial_temperature, spec.bodies.front().initial_temperature};
+  const auto add = [&r](double low, double high) { r = {std::min(r.low, low), std::max(r.high, high)}; };
+  for (const BodySpec& body : spec.bodies) add(body.initial_temperature, body.initial_temperature);
+  using Kind = ThermalConditionSpec::Kind;
+  for (const auto& c : spec.thermal_conditions) {
+    if (c.kind == Kind::temperature) add(c.temperature.table.min_value(), c.temperature.table.max_value());
+    if (c.kind == Kind::film || c.kind == Kind::radiation)
+      add(c.ambient.table.min_value(), c.ambient.table.max_value());
+  }
+  return r;
+}
+
+/// Supports hold every node in the axial direction.
+bool axially_held(const CaseSpec& spec, const mesh::Mesh& mesh) {
+  std::vector<char> held(mesh.x.size(), 0);
+  for (const auto& c : spec.mechanical_conditions) {
+    const bool axial = c.kind == MechanicalConditionSpec::Kind::displacement && (c.uy || c.uz);
+    const auto nodes = mesh.node_sets.find(c.group);
+    if (!axial || nodes == mesh.node_sets.end()) continue;
+    for (const Index node : nodes->second) held[static_cast<std::size_t>(node)] = 1;
+  }
+  const auto owned = held.begin() + mesh.n_owned_nodes;
+  return !algebra::any_process(std::find(held.begin(), owned, 0) != owned);
+}
+
+bool takes_isothermal_passes(const CouplingSpec& c) {
+  using Scheme = CouplingSpec::Scheme;
+  return c.scheme == Scheme::isothermal ||
+         (c.scheme == Scheme::block_iterative && c.iteration.passes == IterationSpec::Passes::isothermal);
+}
+
+}  // namespace
+
+std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
+                                                 const std::vector<material::Material>& materials,
+                                                 const mesh::Mesh& mesh) {
+  const auto [low, high] = temperatures(spec);
+  const bool plane = spec.analysis.kind == AnalysisKind::plane_strain ||
+                     (spec.analysis.kind == AnalysisKind::axisymmetric && axially_held(spec, mesh));
+  std::vector<CouplingEstimate> estimates;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    CouplingEstimate e;
+    e.body = spec.bodies[b].name;
+    e.plane = plane;
+    e.initial = spec.bodies[b].initial_temperature;
+    e.worst = material::strongest_coupling(materials[b], low, high);
+    e.at_initial = material::coupling_number(materials[b], e.initial);
+    e.at_worst = material::coupling_number(materials[b], e.worst);
+    estimates.push_back(std::move(e));
+  }
+  return estimates;
+}
+
+std::string text(const CouplingEstimate& e) {
+  return fmt::format(
+      "{}: delta = {:.4f} at {:.6g} degC and at most {:.4f}, at {:.6g} degC; isothermal split "
+      "quasi-statically "
+      "{}: {} = {:.4f}",
+      e.body, e.at_initial.uniaxial, e.initial - k_zero_celsius, e.at_worst.uniaxial,
+      e.worst - k_zero_celsius,
+      e.decisive() < 1 ? "stable" : (e.plane ? "unstable" : "unstable in the worst case"),
+      e.plane ? "2 (1 - nu) delta" : "3 (1 - nu)/(1 + nu) delta", e.decisive());
+}
+
+void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates) {
+  if (!takes_isothermal_passes(spec.coupling) || estimates.empty()) return;
+  const CouplingEstimate& worst = *std::max_element(
+      estimates.begin(), estimates.end(),
+      [](const CouplingEstimate& a, const CouplingEstimate& b) { return a.decisive() < b.decisive(); });
+  const char* advice = "scheme = \"isentropic\" in [coupling] has no such limit";
+  if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler) {
+    logging::warn(
+        "isothermal passes with inertia by {}: no strength of coupling is known to be stable, and high "
+        "frequencies grow in a weak one too ({}); {}",
+        method_name(*spec.dynamics), text(worst), advice);
+  } else if (worst.decisive() < 1) {
+    logging::info("isothermal passes: the coupling is weak enough for every step; {}", text(worst));
+  } else if (spec.dynamics) {
+    logging::warn(
+        "isothermal passes with inertia: stable only for steps dt with delta_K < 1 + 4/(omega dt)^2, omega "
+        "the "
+        "frequency of a mode, in the quasi-static limit delta_K < 1; {}; {}",
+        text(worst), advice);
+  } else {
+    logging::warn(
+        "isothermal passes: {}; temperatures and displacements will oscillate and grow in every "
+        "step that conduction does not damp; {}",
+        text(worst), advice);
+  }
+}
+
+}  // namespace solidus::model
