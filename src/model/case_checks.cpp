@@ -9,8 +9,8 @@
 #include "model/dynamics_input.hpp"
 #include "model/field_list.hpp"
 #include "model/run_input.hpp"
-
 #include "model/time_input.hpp"
+
 namespace solidus::model {
 
 namespace {
@@ -213,11 +213,51 @@ void check_probes(const CaseSpec& spec) {
   }
 }
 
+void check_simultaneous(const CaseSpec& spec) {
+  const CouplingSpec& c = spec.coupling;
+  const bool two_stages = c.integration == CouplingSpec::Integration::sdirk2;
+  if (!spec.simultaneous()) {
+    if (two_stages || c.solver != algebra::CoupledSolverKind::automatic)
+      throw InputError(c.where,
+                       "coupling.integration and coupling.solver are those of the simultaneous scheme",
+                       "scheme = \"simultaneous\", or neither key");
+    return;
+  }
+  if (c.structural_heating == CouplingSpec::StructuralHeating::none)
+    throw InputError(c.where, "without structural heat there is nothing to solve simultaneously",
+                     "structural_heating \"energy\" or \"entropy\", or scheme = \"isothermal\"");
+  if (two_stages && spec.dynamics)
+    throw InputError(c.where, "integration = \"sdirk2\" is for quasi-statics",
+                     "integration = \"backward_euler\", which leaves inertia to its own integrator");
+  if (two_stages && spec.mechanics.integration != mechanics::TimeIntegration::backward_euler)
+    throw InputError(c.where, "two integrators of second order in one step",
+                     "coupling.integration = \"sdirk2\" or mechanics.integration = \"bdf2\"");
+}
+
 void check_coupling(const CaseSpec& spec) {
-  if (spec.isentropic() && spec.coupling.structural_heating == CouplingSpec::StructuralHeating::none)
-    throw InputError(spec.coupling.where,
-                     "the isentropic split holds entropy, which structural_heating = \"none\" loses",
+  if (!spec.coupled()) return;
+  using Scheme = CouplingSpec::Scheme;
+  using Heating = CouplingSpec::StructuralHeating;
+  const CouplingSpec& c = spec.coupling;
+  const Heating form = c.structural_heating;
+  if (spec.isentropic() && form == Heating::none)
+    throw InputError(c.where, "the isentropic split holds entropy, which structural_heating = \"none\" loses",
                      "structural_heating \"entropy\" or \"energy\", or scheme = \"isothermal\"");
+  if ((form == Heating::literal || form == Heating::temperature) && c.scheme != Scheme::isothermal)
+    throw InputError(c.where,
+                     fmt::format("structural_heating = \"{}\" counts from the end of a mechanical phase at "
+                                 "the temperature of the step's start",
+                                 form == Heating::literal ? "literal" : "temperature"),
+                     "scheme = \"isothermal\", or structural_heating \"entropy\" or \"energy\"");
+  check_simultaneous(spec);
+  if (!c.as_printed) return;
+  if (form == Heating::energy || form == Heating::none)
+    throw InputError(c.where, "as_printed has no meaning without a printed form of structural heat",
+                     "structural_heating \"entropy\", \"literal\" or \"temperature\", or as_printed = false");
+  if (c.scheme == Scheme::double_pass ||
+      (c.scheme == Scheme::simultaneous && c.integration == CouplingSpec::Integration::sdirk2))
+    throw InputError(c.where, "printed forms of sensible heat go with backward Euler",
+                     "as_printed = false, or a scheme of first order");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "algebra/coupled_solver.hpp"
 #include "algebra/linear_solver.hpp"
 #include "base/keys.hpp"
 #include "base/types.hpp"
@@ -164,6 +165,7 @@ struct CouplingSpec {
   bool as_printed = false;  ///< the sensible heat in the same form, not as a difference of enthalpies
   enum class Integration { backward_euler, sdirk2 };
   Integration integration = Integration::backward_euler;  ///< of the simultaneous scheme
+  algebra::CoupledSolverKind solver = algebra::CoupledSolverKind::automatic;  ///< of the same
   std::optional<double> ambient_temperature;              ///< Θ_a of 2.24 [K]; absent: from the conditions
   IterationSpec iteration;
   SourceLocation where;
@@ -211,6 +213,8 @@ struct CaseSpec {
   bool has_heat() const { return analysis.physics != Physics::mechanics; }
   bool has_mechanics() const { return analysis.physics != Physics::heat; }
   bool coupled() const { return analysis.physics == Physics::thermomechanical; }
+  /// Both fields by one iteration.
+  bool simultaneous() const { return coupled() && coupling.scheme == CouplingSpec::Scheme::simultaneous; }
   /// Heat and mechanics with a mechanical phase that holds entropy.
   bool isentropic() const {
     using Scheme = CouplingSpec::Scheme;

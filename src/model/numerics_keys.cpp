@@ -161,6 +161,15 @@ Section<CouplingSpec> coupling_keys() {
              "two implicit stages, second order, L-stable (Alexander 1977)"}})
       .initially("backward_euler")
       .doc("Integration in time of the simultaneous scheme.");
+  using Solver = algebra::CoupledSolverKind;
+  s.choice("solver", &CouplingSpec::solver,
+           {{"automatic", Solver::automatic,
+             "direct in two dimensions and below 20 000 unknowns, field_split above"},
+            {"direct", Solver::direct, "MUMPS, LU"},
+            {"field_split", Solver::field_split,
+             "GMRES; multigrid on the displacements, incomplete LU on the temperatures"}})
+      .initially("automatic")
+      .doc("Linear solver of the simultaneous scheme.");
   s.quantity("ambient_temperature", &CouplingSpec::ambient_temperature, "K")
       .positive()
       .doc(
