@@ -12,9 +12,12 @@
 #include "base/units.hpp"
 #include "coupling/simulation.hpp"
 #include "material/library.hpp"
+#include "model/admissible.hpp"
 #include "model/advice.hpp"
+#include "model/audit_watch.hpp"
 #include "model/case_materials.hpp"
 #include "model/contact_input.hpp"
+#include "model/coupling_estimate.hpp"
 #include "model/fingerprint.hpp"
 #include "model/heat_input.hpp"
 #include "model/mechanics_input.hpp"
@@ -78,7 +81,7 @@ void build_heat(const CaseSpec& spec, const std::vector<double>& body_temperatur
     if (pair->heat() != nullptr) contributions.push_back(pair->heat());
   if (a.structural) contributions.push_back(a.structural.get());
   a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
-                                                thermal_conditions(spec), spec.heat, contributions);
+                                                thermal_conditions(spec), heat_options(spec), contributions);
   a.phases.heat = a.heat.get();
   a.initial.heat = a.heat->initial_state(body_temperature);
 }
@@ -97,6 +100,7 @@ void build(const CaseSpec& spec, Assembly& a) {
     }
   }
   if (spec.has_heat()) build_heat(spec, body_temperature, a);
+  if (spec.coupled()) a.phases.ambient_temperature = admissibility(spec).ambient_temperature;
 }
 
 // Watches the temperatures of each body and warns once when a property is used outside the range of its
@@ -239,9 +243,13 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   coupling::Simulation simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
   RangeWatch watch(spec, a);
   DissipationWatch dissipation;
+  StabilityWatch stability(spec);
+  FirstLawWatch first_law(spec);
   StopReason why;
   simulation.add(watch);
   simulation.add(dissipation);
+  if (a.phases.audits_stability()) simulation.add(stability);
+  if (spec.has_heat()) simulation.add(first_law);
   simulation.add(recorder);
   simulation.add(why);
   simulation.stop_when(options.stop_asked);
@@ -279,7 +287,7 @@ void check_restart(const CaseSpec& spec, const RunOptions& options) {
 
 }  // namespace
 
-results::MeshCounts check_run(const Case& c) {
+CheckedRun check_run(const Case& c) {
   Assembly a;
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
@@ -287,7 +295,9 @@ results::MeshCounts check_run(const Case& c) {
   const results::StateFields fields(a.mesh, a.phases);
   const results::Probes found(a.mesh, c.spec.analysis.kind, probes(c.spec), fields.bodies());
   fields.bodies().select(c.spec.output.fields);
-  return results::count(a.mesh);
+  CheckedRun checked{results::count(a.mesh), {}};
+  if (a.phases.audits_stability()) checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh);
+  return checked;
 }
 
 RunResult run_case(const Case& c, const RunOptions& options) {
@@ -298,6 +308,8 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   a.mesh = load_mesh(c.spec);
   const double loaded = MPI_Wtime();
   build(c.spec, a);
+  if (a.phases.audits_stability())
+    announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh));
 
   results::RecorderOptions r = recorder_options(c, options, a);
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials);
