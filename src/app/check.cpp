@@ -38,7 +38,8 @@ const char* text(model::Physics physics) {
 ExitCode check(const CaseArguments& arguments) {
   const model::Case c = model::load_case(arguments.path, arguments.set);
   const model::CaseSpec& spec = c.spec;
-  const results::MeshCounts counts = model::check_run(c);
+  const model::CheckedRun checked = model::check_run(c);
+  const results::MeshCounts& counts = checked.mesh;
 
   std::string out = fmt::format("{}\n  analysis    {}, {}\n  mesh        {} nodes", spec.title,
                                 text(spec.analysis.kind), text(spec.analysis.physics), counts.nodes);
@@ -54,6 +55,8 @@ ExitCode check(const CaseArguments& arguments) {
     out += fmt::format("\n  mechanics   {} on {}", m.name, m.group);
   for (const auto& k : spec.contacts)
     out += fmt::format("\n  contact     {}: {} on {}", k.name, k.slave, k.master);
+  for (const model::CouplingEstimate& estimate : checked.couplings)
+    out += "\n  coupling    " + model::text(estimate);
   out += spec.time.steady
              ? "\n  time        steady"
              : fmt::format("\n  time        {:.6g} s in steps of {:.6g} s", *spec.time.end, *spec.time.step);

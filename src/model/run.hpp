@@ -5,8 +5,10 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "model/case_file.hpp"
+#include "model/coupling_estimate.hpp"
 #include "results/summary.hpp"
 
 namespace solidus::model {
@@ -29,9 +31,14 @@ struct RunResult {
 /// known.
 RunResult run_case(const Case& c, const RunOptions& options);
 
+/// What a look at a case shows.
+struct CheckedRun {
+  results::MeshCounts mesh;
+  std::vector<CouplingEstimate> couplings;  ///< one per body where heat and deformation are coupled
+};
+
 /// Everything that run_case does before it computes, but for the results folder. Collective. Throws
 /// InputError.
-/// @return sizes of the mesh, to show
-results::MeshCounts check_run(const Case& c);
+CheckedRun check_run(const Case& c);
 
 }  // namespace solidus::model

@@ -59,8 +59,10 @@ std::vector<Column> step_columns(StepTable table) {
   if (table.dynamics)
     columns.insert(columns.end(), {{"kinetic_energy", "J"}, {"numerical_dissipation", "J"}});
   if (table.stability)
-    columns.insert(columns.end(),
-                   {{"lyapunov_mechanical", "J"}, {"lyapunov_thermal", "J"}, {"entropy", "J/K"}});
+    columns.insert(columns.end(), {{"lyapunov_mechanical", "J"},
+                                   {"lyapunov_thermal", "J"},
+                                   {"lyapunov_tolerance", "J"},
+                                   {"entropy", "J/K"}});
   return columns;
 }
 
@@ -101,7 +103,8 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
                              r.energy.defect()};
   if (table.dynamics) cells.insert(cells.end(), {r.energy.kinetic, r.energy.numerical});
   if (table.stability)
-    cells.insert(cells.end(), {r.stability.mechanical, r.stability.thermal, r.stability.entropy});
+    cells.insert(cells.end(),
+                 {r.stability.mechanical, r.stability.thermal, r.stability.tolerance, r.stability.entropy});
   return cells;
 }
 

@@ -56,6 +56,19 @@ TEST(NodalEnthalpy, HasTheSlopeOfItsInverse) {
   }
 }
 
+TEST(NodalEnthalpy, HasAnEntropyWhoseSlopeInHeatIsOneOverTemperature) {
+  const heat::NodalEnthalpy h(two_bodies(), AnalysisKind::plane_strain, materials(false));
+  for (Index node = 0; node < 4; ++node) {
+    const double low = h.lower(node, 200), high = h.upper(node, 1500), step = 1e-5 * (high - low);
+    for (int i = 1; i < 500; ++i) {
+      const double heat = low + (high - low) * (i + 0.37) / 501;
+      const auto entropy = [&](double at) { return h.entropy(node, at, h.temperature(node, at)); };
+      EXPECT_NEAR((entropy(heat + step) - entropy(heat - step)) / (2 * step) * h.temperature(node, heat), 1,
+                  1e-5);
+    }
+  }
+}
+
 TEST(NodalEnthalpy, SharesAPlateauBetweenTheMaterialsThatMeltThere) {
   const heat::NodalEnthalpy h(two_bodies(), AnalysisKind::plane_strain, materials(true));
   const double low = h.lower(1, 800), high = h.upper(1, 800), third = low + (high - low) / 3;

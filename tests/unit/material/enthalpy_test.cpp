@@ -58,6 +58,36 @@ TEST(EnthalpyCurve, HoldsTheWholeLatentHeatWhateverTheFractions) {
   EXPECT_NEAR(difference / latent, 1, 1e-14);
 }
 
+// ds = dh/Θ with h itself: Simpson's rule on pieces of 0.1 K, whose error is 1e-9 even where the curve is
+// steepest.
+TEST(EnthalpyCurve, EntropyIsTheIntegralOfHeatOverTemperature) {
+  const EnthalpyCurve curve(k_density, k_capacity, many_changes());
+  double integral = 0;
+  const double start = curve.upper_entropy(420);
+  for (int i = 0; i < 8000; ++i) {
+    const double a = 420 + 0.1 * i, b = 420 + 0.1 * (i + 1), m = 0.5 * (a + b);
+    // by parts: ∫dh/Θ = [h/Θ] + ∫h/Θ² dΘ, which knows nothing of capacities
+    const auto f = [&](double t, double h) { return h / (t * t); };
+    integral += curve.lower(b) / b - curve.upper(a) / a +
+                (b - a) / 6 * (f(a, curve.upper(a)) + 4 * f(m, curve.upper(m)) + f(b, curve.lower(b)));
+    integral += (curve.upper(b) - curve.lower(b)) / b;  // a jump
+    ASSERT_NEAR(curve.upper_entropy(b) - start, integral, 1e-6 * std::abs(integral)) << b;
+  }
+}
+
+TEST(EnthalpyCurve, EntropyJumpsByHeatOverTemperature) {
+  const EnthalpyCurve curve(k_density, k_capacity, many_changes());
+  for (const auto& jump : curve.jumps())
+    EXPECT_NEAR(curve.upper_entropy(jump.temperature) - curve.lower_entropy(jump.temperature),
+                jump.height / jump.temperature, 1e-9 * jump.height);
+  EXPECT_EQ(curve.upper_entropy(777), curve.lower_entropy(777));
+}
+
+TEST(EnthalpyCurve, EntropyOfAConstantCapacityIsALogarithm) {
+  const EnthalpyCurve curve(k_density, 900.0, {});
+  EXPECT_NEAR(curve.upper_entropy(600) - curve.upper_entropy(300), k_density * 900 * std::log(2.0), 1e-6);
+}
+
 TEST(EnthalpyCurve, InverseReturnsTheTemperatureItCameFrom) {
   const EnthalpyCurve curve(k_density, k_capacity, many_changes());
   for (double t = 400; t < 1300; t += 0.173) {

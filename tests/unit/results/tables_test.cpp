@@ -205,6 +205,40 @@ TEST(StepColumns, FitTheRow) {
   EXPECT_DOUBLE_EQ(std::get<double>(cells.back()), -1.5);
 }
 
+TEST(StepColumns, GiveTheIncrementsOfTheFunctionalWhereItIsFollowed) {
+  coupling::StepRecord step = sample_step();
+  step.stability = {.mechanical = -2, .thermal = 0.5, .entropy = 7, .tolerance = 1e-3};
+  const auto columns = step_columns({.stability = true});
+  const auto cells = step_row(step, {.stability = true});
+  ASSERT_EQ(columns.size(), cells.size());
+  std::map<std::string, double> by_header;
+  for (std::size_t i = columns.size() - 4; i < columns.size(); ++i)
+    by_header[columns[i].header()] = std::get<double>(cells[i]);
+  const std::map<std::string, double> expected = {{"lyapunov_mechanical[J]", -2},
+                                                  {"lyapunov_thermal[J]", 0.5},
+                                                  {"lyapunov_tolerance[J]", 1e-3},
+                                                  {"entropy[J/K]", 7}};
+  EXPECT_EQ(by_header, expected);
+}
+
+TEST(GlobalHistory, SumsTheFunctionalAndGivesItsLastIncrements) {
+  GlobalHistory history({.stability = true});
+  coupling::StepRecord step = sample_step();
+  step.stability = {.mechanical = -2, .thermal = 0.5, .entropy = 7};
+  history.start({}, {}, {.mechanical = -10, .thermal = 1, .entropy = 3});  // a run that goes on
+  history.add(step);
+  history.add(step);
+  const auto columns = history.columns();
+  const auto values = history.values();
+  std::map<std::string, double> by_header;
+  for (std::size_t i = 0; i < columns.size(); ++i) by_header[columns[i].header()] = values[i];
+  EXPECT_DOUBLE_EQ(by_header.at("lyapunov[J]"), -12.0);
+  EXPECT_DOUBLE_EQ(by_header.at("lyapunov_mechanical[J]"), -2.0);
+  EXPECT_DOUBLE_EQ(by_header.at("lyapunov_thermal[J]"), 0.5);
+  EXPECT_DOUBLE_EQ(by_header.at("entropy[J/K]"), 17.0);
+  EXPECT_EQ(history.columns().size(), GlobalHistory({}).columns().size() + 4);
+}
+
 TEST(GlobalHistory, SumsTheFirstLawOverTheSteps) {
   GlobalHistory history({true, true, true});
   history.start({});
