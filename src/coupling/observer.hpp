@@ -59,6 +59,7 @@ struct ContactSummary {
 /// What a scheme reports of a step it took.
 struct StepEffort {
   PhaseEffort heat, mechanics;
+  int coupling_iterations = 1;  ///< turns that the phases took until they agreed
   EnergyAudit energy;
   StabilityAudit stability;
   std::vector<ContactSummary> contacts;

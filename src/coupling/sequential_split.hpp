@@ -22,7 +22,6 @@ class SequentialSplit : public CouplingScheme {
 
  private:
   void mechanical_phase(const State& old, State& trial, double time, double dt, StepEffort& effort);
-  void thermal_phase(const State& old, State& trial, double time, double dt, StepEffort& effort);
 
   Phases phases_;
 };

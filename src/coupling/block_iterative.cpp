@@ -1,0 +1,194 @@
+#include "coupling/block_iterative.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "algebra/parallel.hpp"
+#include "base/errors.hpp"
+#include "coupling/passes.hpp"
+#include "coupling/stability_audit.hpp"
+
+namespace solidus::coupling {
+
+namespace {
+
+/// Changes below this part of the values themselves are rounding.
+constexpr double k_rounding = 1e-13;
+/// A change of temperature so many times the first one says that the iteration diverges.
+constexpr double k_diverged = 100;
+
+double largest(std::span<const double> a) {
+  double size = 0;
+  for (const double v : a) size = std::max(size, std::abs(v));
+  return algebra::global_max(size);
+}
+
+double largest_difference(std::span<const double> a, std::span<const double> b) {
+  double size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) size = std::max(size, std::abs(a[i] - b[i]));
+  return algebra::global_max(size);
+}
+
+}  // namespace
+
+/// A step on its way.
+struct BlockIterative::Iterate {
+  double time = 0, dt = 0;
+  int number = 0;  ///< of the iteration
+  State now;       ///< what the last passes found
+  /// Θ⁽ⁱ⁾ that the mechanical pass sees, and Θ⁽ⁱ⁻¹⁾ [K], [local node].
+  std::vector<double> temperature, before;
+  bool solved = false;  ///< both passes reached the tolerances of their phases
+  StepEffort effort;
+};
+
+BlockIterative::BlockIterative(Phases phases, IterationOptions options)
+    : phases_(std::move(phases)),
+      options_(options),
+      relaxation_{Relaxation(options.relaxation), Relaxation(options.relaxation)} {
+  if (phases_.heat == nullptr || phases_.mechanics == nullptr)
+    throw std::invalid_argument("the block-iterative scheme needs both phases");
+  using mechanics::Mapping;
+  const Mapping mapping = phases_.mechanics->mapping();
+  if (mapping == Mapping::simultaneous)
+    throw std::invalid_argument("the mechanical phase was built for another scheme");
+  if (mapping == Mapping::isentropic && phases_.structural == nullptr)
+    throw std::invalid_argument("isentropic passes need structural heat");
+  if (mapping == Mapping::isentropic && options_.relaxation.kind == RelaxationOptions::Kind::aitken)
+    throw std::invalid_argument("Aitken's relaxation is for isothermal passes");
+  using mechanics::StructuralForm;
+  if (phases_.structural != nullptr && phases_.structural->form() != StructuralForm::energy &&
+      phases_.structural->form() != StructuralForm::entropy)
+    throw std::invalid_argument("the block-iterative scheme has the energy and the entropy form only");
+}
+
+void BlockIterative::synchronise(const State& state) {
+  for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
+}
+
+void BlockIterative::forget() {
+  phases_.mechanics->forget();
+  phases_.heat->forget();
+}
+
+StepEffort BlockIterative::advance(const State& old, State& trial, double time, double dt) {
+  const double spring_energy = contact_energy(phases_);
+  Iterate it;
+  it.time = time;
+  it.dt = dt;
+  it.now = old;
+  it.temperature = old.heat.temperature;
+  for (Relaxation& relaxation : relaxation_) relaxation.begin();
+  changes_.clear();
+  while (true) {
+    ++it.number;
+    iterate(old, it);
+    if (agrees(old, it)) break;
+    require_progress(it);
+    relax(it);
+  }
+  if (options_.sweep == IterationOptions::Sweep::jacobi) thermal(old, it, 0);
+
+  StepEffort effort = std::move(it.effort);
+  effort.coupling_iterations = it.number;
+  if (phases_.structural != nullptr) effort.energy.contact = contact_energy(phases_) - spring_energy;
+  trial.heat = std::move(it.now.heat);
+  trial.mechanics = std::move(it.now.mechanics);
+  effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
+  summarise(phases_, trial, effort);
+  return effort;
+}
+
+bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps) const {
+  mechanics::MechanicalPass pass{.time = it.time, .dt = it.dt, .temperature = old.heat.temperature};
+  pass.newton_steps = newton_steps;
+  if (it.number > 1) {
+    pass.iterate_temperature = it.temperature;
+    pass.iterate = &it.now.mechanics;
+  }
+  return mechanical_pass(phases_, old, it.now, pass, it.effort);
+}
+
+bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {
+  const heat::ThermalPass pass{
+      .time = it.time, .dt = it.dt, .iterate = &it.now.heat, .newton_steps = newton_steps};
+  return thermal_pass(phases_, old, it.now, pass, it.effort);
+}
+
+// A pass of each phase (4.2, 4.3), and how much they changed.
+void BlockIterative::iterate(const State& old, Iterate& it) {
+  const std::vector<double> displacement = it.now.mechanics.displacement;
+  const int newton_steps = options_.loop == IterationOptions::Loop::single ? 1 : 0;
+  try {
+    if (alternates(it)) {
+      it.solved = thermal(old, it, newton_steps);
+      it.solved = mechanical(old, it, newton_steps) && it.solved;
+    } else {
+      it.solved = mechanical(old, it, newton_steps);
+      it.solved = thermal(old, it, newton_steps) && it.solved;
+    }
+  } catch (const StepRejected& rejected) {
+    const bool grew = changes_.size() > 1 && changes_.back().temperature > changes_.front().temperature;
+    if (!grew) throw;
+    diverged(it, rejected.reason());
+  }
+  changes_.push_back({largest_difference(it.now.heat.temperature, answered(it)),
+                      largest_difference(it.now.mechanics.displacement, displacement)});
+}
+
+/// Whether the thermal pass works at the configuration of the iteration before.
+bool BlockIterative::alternates(const Iterate& it) const {
+  return options_.sweep == IterationOptions::Sweep::jacobi && it.number > 1;
+}
+
+/// The temperature that the displacements answer at which the thermal pass works.
+const std::vector<double>& BlockIterative::answered(const Iterate& it) const {
+  return alternates(it) ? it.before : it.temperature;
+}
+
+bool BlockIterative::agrees(const State& old, const Iterate& it) const {
+  const auto small = [this](double change, std::span<const double> now, std::span<const double> before) {
+    return change <= options_.tolerance * largest_difference(now, before) ||
+           change <= k_rounding * largest(now);
+  };
+  return it.solved && small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature) &&
+         small(changes_.back().displacement, it.now.mechanics.displacement, old.mechanics.displacement);
+}
+
+void BlockIterative::require_progress(const Iterate& it) const {
+  const std::vector<double>& now = it.now.heat.temperature;
+  const bool cold = std::any_of(now.begin(), now.end(), [](double t) { return !(t > 0); });
+  if (algebra::any_process(cold)) diverged(it, "a temperature fell below 0 K");
+  if (changes_.back().temperature > k_diverged * changes_.front().temperature)
+    diverged(it, "the phases drive each other away");
+  if (it.number < options_.max_iterations) return;
+  throw StepRejected(fmt::format("coupling: no convergence in {} iterations", it.number),
+                     fmt::format("the last iteration changed temperatures by {:.3g} K and displacements by "
+                                 "{:.3g} m",
+                                 changes_.back().temperature, changes_.back().displacement));
+}
+
+void BlockIterative::diverged(const Iterate& it, const std::string& how) const {
+  throw StepRejected(fmt::format("coupling: the iteration between the phases diverges ({})", how),
+                     fmt::format("the change of temperature grew from {:.3g} K to {:.3g} K in {} iterations",
+                                 changes_.front().temperature, changes_.back().temperature, it.number));
+}
+
+// The mechanical pass that follows sees a relaxed temperature; the thermal one knows its own.
+void BlockIterative::relax(Iterate& it) {
+  const std::vector<double>& from = answered(it);
+  const auto n_owned = static_cast<std::size_t>(phases_.heat->mesh().n_owned_nodes);
+  std::vector<double> change(from.size());
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] = it.now.heat.temperature[i] - from[i];
+  const std::size_t which = options_.sweep == IterationOptions::Sweep::jacobi ? it.number % 2 : 0;
+  const double factor = relaxation_[which].factor(std::span(change).first(n_owned));
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] = from[i] + factor * change[i];
+  it.before = std::exchange(it.temperature, std::move(change));
+}
+
+}  // namespace solidus::coupling

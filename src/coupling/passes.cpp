@@ -1,0 +1,58 @@
+#include "coupling/passes.hpp"
+
+#include <mpi.h>
+
+namespace solidus::coupling {
+
+namespace {
+
+void add(const algebra::NewtonReport& newton, double seconds, PhaseEffort& effort) {
+  effort.iterations += newton.iterations;
+  effort.linear_iterations += newton.linear_iterations;
+  effort.residual = newton.residuals.empty() ? 0.0 : newton.residuals.back();
+  effort.seconds += seconds;
+}
+
+}  // namespace
+
+bool mechanical_pass(const Phases& phases, const State& old, State& trial,
+                     const mechanics::MechanicalPass& pass, StepEffort& effort) {
+  const double start = MPI_Wtime();
+  const mechanics::PhaseReport report = phases.mechanics->solve(old.mechanics, trial.mechanics, pass);
+  for (contact::ContactPair* pair : phases.contacts) pair->update(trial.mechanics.displacement);
+
+  effort.energy.kinetic = report.work.kinetic;
+  effort.energy.numerical = report.work.numerical;
+  effort.energy.work = report.work.external_work + report.work.support_work;
+  effort.energy.unbalanced = report.work.residual_work;
+  effort.energy.viscous_dissipation = report.work.dissipation - report.work.plastic_dissipation;
+  effort.energy.plastic_dissipation = report.work.plastic_dissipation;
+  effort.energy.plastic_work = report.work.plastic_work;
+  effort.least_dissipation = report.work.least_dissipation;
+  effort.largest_dissipation = report.work.largest_dissipation;
+  add(report.newton, MPI_Wtime() - start, effort.mechanics);
+  return report.newton.converged;
+}
+
+// Γ stays as the mechanical phase left it.
+bool thermal_pass(const Phases& phases, const State& old, State& trial, const heat::ThermalPass& pass,
+                  StepEffort& effort) {
+  const double start = MPI_Wtime();
+  const heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
+
+  effort.energy.stored_heat = report.balance.stored;
+  effort.energy.heat_in = 0;
+  for (const heat::ConditionHeat& condition : report.balance.conditions)
+    effort.energy.heat_in += condition.heat;
+  effort.energy.heat_exchanged = report.balance.exchanged;
+  if (phases.structural != nullptr) {
+    effort.energy.structural = phases.structural->change(trial.heat.temperature).energy;
+  } else {
+    // Deformation exchanges nothing with heat: the first law is that of the thermal phase alone.
+    effort.energy.work = effort.energy.contact = effort.energy.kinetic = effort.energy.numerical = 0;
+  }
+  add(report.newton, MPI_Wtime() - start, effort.heat);
+  return report.newton.converged;
+}
+
+}  // namespace solidus::coupling

@@ -1,0 +1,20 @@
+/// One pass through a phase, and what it adds to the report of the step: shared by the schemes that solve the
+/// phases one after the other, once a step or many times.
+#pragma once
+
+#include "coupling/phases.hpp"
+
+namespace solidus::coupling {
+
+/// Equilibrium, then gaps and conductances of the configuration found. Efforts add up over the passes of a
+/// step, energies are those of the last pass; the energy in contact penalties is left to the caller. Returns
+/// whether Newton's iteration reached its tolerance, which it may miss only where the pass limits its steps.
+/// @param pass  its iterate may be `trial`
+bool mechanical_pass(const Phases& phases, const State& old, State& trial,
+                     const mechanics::MechanicalPass& pass, StepEffort& effort);
+
+/// The balance of energy at the configuration of the last mechanical pass (4.43, 4.53); otherwise the same.
+bool thermal_pass(const Phases& phases, const State& old, State& trial, const heat::ThermalPass& pass,
+                  StepEffort& effort);
+
+}  // namespace solidus::coupling

@@ -1,0 +1,35 @@
+#include "coupling/relaxation.hpp"
+
+#include <algorithm>
+
+#include "algebra/parallel.hpp"
+
+namespace solidus::coupling {
+
+void Relaxation::begin() {
+  first_ = true;
+  last_.clear();
+}
+
+double Relaxation::factor(std::span<const double> change) {
+  using Kind = RelaxationOptions::Kind;
+  if (options_.kind == Kind::none) return 1;
+  if (options_.kind == Kind::fixed) return options_.factor;
+
+  double sums[2] = {0, 0};  // r_old · Δr, |Δr|²
+  for (std::size_t i = 0; i < last_.size(); ++i) {
+    const double difference = change[i] - last_[i];
+    sums[0] += last_[i] * difference;
+    sums[1] += difference * difference;
+  }
+  const double along = algebra::global_sum(sums[0]), square = algebra::global_sum(sums[1]);
+  if (first_)
+    factor_ = options_.factor;
+  else if (square > 0)
+    factor_ = std::clamp(-factor_ * along / square, k_least, k_largest);
+  first_ = false;
+  last_.assign(change.begin(), change.end());
+  return factor_;
+}
+
+}  // namespace solidus::coupling
