@@ -30,6 +30,8 @@ class Contribution {
   virtual void add_residual(std::span<const double> x, std::span<double> r) = 0;
   /// matrix += ∂(term)/∂x at x.
   virtual void add_tangent(std::span<const double> x, BlockMatrix& matrix) = 0;
+  /// Whether the term stores what it takes, rather than passing it on.
+  virtual bool stores() const { return false; }
   /// For terms that store.
   virtual void begin_stage(const Stage& /*stage*/, std::span<const double> /*x*/) {}
 };

@@ -134,9 +134,30 @@ void HeatSystem::update_conductivity(std::span<const double> temperature, bool s
 }
 
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
-  update_conductivity(temperature, false);
   double moved = 0;
   std::fill(local_.begin(), local_.end(), 0.0);
+  std::fill(surface_power_.begin(), surface_power_.end(), 0.0);
+  std::fill(source_power_.begin(), source_power_.end(), 0.0);
+  if (exchange_) moved += add_flows(temperature);
+  std::copy_n(local_.begin(), r.size(), r.begin());
+  for (std::size_t c = 0; c < contributions_.size(); ++c) {
+    contribution_power_[c] = 0;
+    if (!exchange_ && !contributions_[c]->stores()) continue;
+    std::fill(contributed_.begin(), contributed_.end(), 0.0);
+    contributions_[c]->add_residual(temperature, contributed_);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      r[i] += contributed_[i];
+      contribution_power_[c] -= contributed_[i];
+      moved += std::abs(contributed_[i]);
+    }
+  }
+  return moved;
+}
+
+/// Conduction, surfaces and sources, in local_. Returns the magnitudes of the last two.
+double HeatSystem::add_flows(std::span<const double> temperature) {
+  update_conductivity(temperature, false);
+  double moved = 0;
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     const NodalTable& k = conductivity_[static_cast<std::size_t>(mesh_.blocks[b].body)];
     conduction_[b]->add_heat(temperature, {k.value, k.slope}, local_);
@@ -147,36 +168,26 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   }
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const Volume& source = sources_[s];
-    source_power_[s] = 0;
     for (std::size_t i = 0; i < source.weight.size(); ++i) {
       local_[i] -= source.now * source.weight[i];
       source_power_[s] += source.now * source.weight[i];
     }
     moved += std::abs(source_power_[s]);
   }
-  std::copy_n(local_.begin(), r.size(), r.begin());
-  for (std::size_t c = 0; c < contributions_.size(); ++c) {
-    std::fill(contributed_.begin(), contributed_.end(), 0.0);
-    contributions_[c]->add_residual(temperature, contributed_);
-    contribution_power_[c] = 0;
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      r[i] += contributed_[i];
-      contribution_power_[c] -= contributed_[i];
-      moved += std::abs(contributed_[i]);
-    }
-  }
   return moved;
 }
 
 void HeatSystem::assemble(std::span<const double> temperature, bool exact) {
-  update_conductivity(temperature, exact);
   matrix_->set_zero();
+  for (algebra::Contribution* contribution : contributions_)
+    if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);
+  if (!exchange_) return;
+  update_conductivity(temperature, exact);
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     const NodalTable& k = conductivity_[static_cast<std::size_t>(mesh_.blocks[b].body)];
     conduction_[b]->add_tangent(temperature, {k.value, k.slope}, exact, *matrix_);
   }
   for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
-  for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(temperature, *matrix_);
 }
 
 std::vector<HeatSystem::Power> HeatSystem::powers() const {

@@ -28,6 +28,8 @@ class HeatSystem {
   ~HeatSystem();
 
   void set_time(double time);
+  /// Off: nothing flows, only the contributions that store are terms.
+  void exchange(bool on) { exchange_ = on; }
   /// Writes the prescribed temperatures of the time set, ghosts too.
   void prescribe(std::span<double> temperature) const;
   /// [local node]: one where the temperature is prescribed.
@@ -73,6 +75,7 @@ class HeatSystem {
   void add_prescribed(const std::vector<PrescribedTemperature>& conditions);
   void add_sources(AnalysisKind kind, const std::vector<Source>& sources, bool closed);
   void add_conduction(AnalysisKind kind, const std::vector<material::Material>& materials, bool closed);
+  double add_flows(std::span<const double> temperature);
   void update_conductivity(std::span<const double> temperature, bool slopes);
 
   const mesh::Mesh& mesh_;
@@ -83,6 +86,7 @@ class HeatSystem {
   std::vector<Volume> sources_;
   std::vector<Prescribed> prescribed_;
   std::vector<char> fixed_;
+  bool exchange_ = true;
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::vector<double> local_;                                              ///< work, [local node]
   std::vector<double> contributed_;                                        ///< work, [owned node]

@@ -21,6 +21,7 @@ class PrintedHeat final : public algebra::Contribution {
   void bind(const algebra::BlockMatrix&) override {}
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
   void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
+  bool stores() const override { return true; }
   /// @param old_temperature Θ_n [K], [local node]. A single stage only.
   void begin_stage(const algebra::Stage& stage, std::span<const double> old_temperature) override;
 

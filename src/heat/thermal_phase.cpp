@@ -89,9 +89,6 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       contributions_(std::move(contributions)),
       ghosts_(mesh) {
   assert(materials.size() == mesh.bodies.size());
-  assert(
-      (options.stepping == ThermalStepping::backward_euler || options.sensible == SensibleForm::enthalpy) &&
-      "printed forms have a single stage");
   const bool closed = options_.integration == Integration::closed;
   if (!closed)
     for (material::Material& m : materials_) m = spread_isothermal(std::move(m));
@@ -170,9 +167,10 @@ ThermalState ThermalPhase::start(const ThermalState& old, double time) {
 PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
   assert(old.temperature.size() == mesh_.x.size() && pass.dt > 0);
   solver_->begin(true);
+  system_->exchange(!pass.adiabatic);
   ThermalState next;
   PhaseReport report;
-  if (options_.stepping == ThermalStepping::sdirk2) {
+  if (pass.stepping == ThermalStepping::sdirk2) {
     const double first_dt = k_sdirk_share * pass.dt, carried = (1 - k_sdirk_share) / k_sdirk_share;
     ThermalState middle;
     const ThermalPass to_middle{pass.time - pass.dt + first_dt, pass.dt, pass.iterate, pass.newton_steps};
@@ -255,6 +253,7 @@ void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, con
 PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
   assert(start.temperature.size() == mesh_.x.size());
   system_->set_time(time);
+  system_->exchange(true);
   solver_->begin(false);
   std::vector<double> temperature = start.temperature;
   system_->prescribe(temperature);

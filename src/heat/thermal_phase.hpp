@@ -59,7 +59,6 @@ struct HeatOptions {
   /// The slope of the conductivity enters the tangent: quadratic convergence, unsymmetric matrix.
   bool exact_conductivity = false;
   bool symmetric = true;  ///< false when a contribution's tangent is not
-  ThermalStepping stepping = ThermalStepping::backward_euler;
   /// Anything but enthalpy loses heat and needs backward Euler; what is lost is in the balance as its defect.
   SensibleForm sensible = SensibleForm::enthalpy;
 };
@@ -70,6 +69,9 @@ struct ThermalPass {
   double time = 0, dt = 0;                ///< t_{n+1} and the step [s]
   const ThermalState* iterate = nullptr;  ///< Newton's start; absent: the state at t_n
   int newton_steps = 0;  ///< at most; the pass may end with them before its tolerance. Zero: until then
+  ThermalStepping stepping = ThermalStepping::backward_euler;
+  /// Nothing flows: temperatures follow what the contributions that store take up (coupling/double_pass.hpp).
+  bool adiabatic = false;
 };
 
 class ThermalPhase {

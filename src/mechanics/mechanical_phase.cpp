@@ -195,6 +195,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .new_stress = remembers ? &stress_[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .work = pass.work});
+  stress_at_work_ = pass.work;
   round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
   if (inertia_) round_off_ += inertia_->round_off();
 }
@@ -336,16 +337,20 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
   residual(x, r);
   double local[9] = {
       0, 0, 0, sums.internal_work, sums.dissipation, sums.plastic_dissipation, sums.plastic_work, 0, 0};
+  if (stress_at_work_ != StressAtWork::kept) kept_ = {external_, r};
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double increment = x[i] - old.displacement[i];
     reactions_[i] = loads_->fixed()[i] ? r[i] : 0.0;
-    local[0] += external_[i] * increment;
-    local[1] += reactions_[i] * increment;
-    local[2] += (r[i] - reactions_[i]) * increment;
+    local[0] += kept_.external[i] * increment;
+    local[loads_->fixed()[i] ? 1 : 2] += kept_.residual[i] * increment;
   }
   if (inertia_) {
     for (std::size_t i = 0; i < r.size(); ++i) r[i] -= inertial_[i];
     const MotionWork motion = inertia_->conclude(x, r, external_, loads_->fixed(), next);
+    // The support force of t_{n+1}, not the method's mean over the step.
+    inertia_->mass().multiply(next.acceleration, components_, inertial_);
+    for (std::size_t i = 0; i < r.size(); ++i)
+      if (loads_->fixed()[i] != 0) reactions_[i] = r[i] + inertial_[i];
     local[0] = motion.external;
     local[1] = motion.support;
     local[7] = motion.kinetic;

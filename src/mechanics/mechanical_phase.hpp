@@ -222,6 +222,10 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia
   std::vector<BlockHistory> stress_;  ///< of the last finish(), where the next step needs it
   std::vector<double> reactions_;
+  StressAtWork stress_at_work_ = StressAtWork::end;
+  struct {
+    std::vector<double> external, residual;
+  } kept_;  ///< of the stress at work, [owned node][component]
   double seconds_assembly_ = 0, seconds_residual_ = 0;
 };
 

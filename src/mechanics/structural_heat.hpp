@@ -52,6 +52,7 @@ class StructuralHeat : public algebra::Contribution {
   void bind(const algebra::BlockMatrix&) override {}
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
   void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
+  bool stores() const override { return true; }
   void begin_stage(const algebra::Stage& stage, std::span<const double> temperature) override;
   /// The tangent is another's affair: the simultaneous scheme has the exact one (coupled_kernel.hpp).
   void leave_tangent() { has_tangent_ = false; }

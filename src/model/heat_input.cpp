@@ -38,8 +38,6 @@ heat::Conditions thermal_conditions(const CaseSpec& spec) {
 heat::HeatOptions heat_options(const CaseSpec& spec) {
   heat::HeatOptions options = spec.heat;
   if (!spec.coupled()) return options;
-  if (spec.coupling.scheme == CouplingSpec::Scheme::double_pass)
-    options.stepping = heat::ThermalStepping::sdirk2;
   if (spec.coupling.as_printed)
     options.sensible = spec.coupling.structural_heating == CouplingSpec::StructuralHeating::temperature
                            ? heat::SensibleForm::temperature

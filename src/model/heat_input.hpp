@@ -7,7 +7,7 @@
 namespace solidus::model {
 
 heat::Conditions thermal_conditions(const CaseSpec& spec);
-/// With what the coupling asks of the thermal phase: the form of sensible heat, the integration in time.
+/// With what the coupling asks of the thermal phase: the form of sensible heat.
 heat::HeatOptions heat_options(const CaseSpec& spec);
 
 }  // namespace solidus::model

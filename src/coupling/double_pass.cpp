@@ -1,0 +1,71 @@
+#include "coupling/double_pass.hpp"
+
+#include <stdexcept>
+
+#include "coupling/passes.hpp"
+#include "coupling/stability_audit.hpp"
+
+namespace solidus::coupling {
+
+DoublePass::DoublePass(Phases phases) : phases_(std::move(phases)) {
+  if (phases_.heat == nullptr || phases_.mechanics == nullptr || phases_.structural == nullptr)
+    throw std::invalid_argument("the double pass needs both phases and structural heat");
+  if (phases_.mechanics->mapping() != mechanics::Mapping::isentropic)
+    throw std::invalid_argument("the mechanical phase was built for another split");
+  if (phases_.mechanics->dynamic()) throw std::invalid_argument("the double pass has no inertia");
+}
+
+void DoublePass::synchronise(const State& state) {
+  for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
+}
+
+void DoublePass::forget() {
+  phases_.mechanics->forget();
+  phases_.heat->forget();
+}
+
+StepEffort DoublePass::advance(const State& old, State& trial, double time, double dt) {
+  State half;
+  StepEffort effort = first_half(old, half, time, dt);
+  effort += second_half(half, trial, time, dt);
+  summarise(phases_, trial, effort);
+  return effort;
+}
+
+StepEffort DoublePass::first_half(const State& old, State& half, double time, double dt) {
+  StepEffort effort;
+  const double middle = time - 0.5 * dt, springs = contact_energy(phases_);
+  phases_.mechanics->rest(old.mechanics, old.heat.temperature);
+  State predicted;
+  thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
+  mechanical_pass(phases_, old, half,
+                  {.time = middle,
+                   .dt = 0.5 * dt,
+                   .temperature = old.heat.temperature,
+                   .iterate_temperature = predicted.heat.temperature,
+                   .work = mechanics::StressAtWork::end_kept},
+                  effort);
+  effort.energy.contact = contact_energy(phases_) - springs;
+  thermal_pass(phases_, old, half, {.time = time, .dt = dt, .stepping = heat::ThermalStepping::sdirk2},
+               effort);
+  effort.stability = stability_audit(phases_, old, half, effort);
+  return effort;
+}
+
+StepEffort DoublePass::second_half(const State& half, State& trial, double time, double dt) {
+  StepEffort effort;
+  const double springs = contact_energy(phases_);
+  mechanical_pass(phases_, half, trial,
+                  {.time = time,
+                   .dt = 0.5 * dt,
+                   .temperature = half.heat.temperature,
+                   .work = mechanics::StressAtWork::kept},
+                  effort);
+  effort.energy.contact = contact_energy(phases_) - springs;
+  thermal_pass(phases_, half, trial, {.time = time, .dt = dt, .adiabatic = true}, effort);
+  effort.energy.heat_exchanged = 0;  // what deformation and heat exchange within a point
+  effort.stability = stability_audit(phases_, half, trial, effort);
+  return effort;
+}
+
+}  // namespace solidus::coupling
