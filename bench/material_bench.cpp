@@ -133,6 +133,7 @@ void register_all() {
   both("perzyna_n5", casting(linear, 1e9, 5), k_cold, k_plastic);
   both("armstrong_frederick", casting(linear, 0, 1, KinematicHardening::armstrong_frederick), k_cold,
        k_plastic);
+  both<Isentropic>("isentropic_no_flow", casting(), k_cold, k_elastic);
   both<Isentropic>("isentropic_elastic", casting(linear, 0, 1), k_cold, k_elastic);
   both<Isentropic>("isentropic_linear", casting(linear, 0, 1), k_cold, k_plastic);
   both<Isentropic>("isentropic_saturation", casting(saturation, 0, 1), k_cold, k_plastic);

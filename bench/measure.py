@@ -16,6 +16,7 @@ from pathlib import Path
 PROGRAMS = Path(os.environ.get("SOLIDUS_BUILD", "build/release"))
 WORK = Path("build/bench")
 REPEAT = int(os.environ.get("REPEAT", "3"))
+SCHEMES = ("isothermal", "isentropic", "simultaneous")
 DIVISIONS = {"100k": 29, "1m": 62}  # unknowns: four at each of (divisions + 1)^3 nodes
 
 
@@ -24,7 +25,7 @@ def load():
 
 
 def run(command, log, folder=".", **environment):
-    """Seconds and the peak memory [MiB] of the largest process."""
+    """Seconds, the peak memory [MiB] of the largest process, and processor seconds of all."""
     start = time.monotonic()
     with open(log, "w") as out:
         process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT,
@@ -33,7 +34,7 @@ def run(command, log, folder=".", **environment):
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))} failed ({process.returncode}); see {log}")
-    return time.monotonic() - start, usage.ru_maxrss / 1024
+    return time.monotonic() - start, usage.ru_maxrss / 1024, usage.ru_utime + usage.ru_stime
 
 
 def median(rows):
@@ -53,11 +54,11 @@ def solidus(name, case, settings, processes=1):
         command += ["--set", f"{key}={value}"]
     if processes > 1:
         command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]
-    wall, _ = run(command, WORK / "log.txt")
+    wall, _, processor = run(command, WORK / "log.txt")
     summary = json.loads((folder / "summary.json").read_text())
     s = summary["seconds"]
     return {"name": name, "program": "Solidus", "processes": processes, "total": wall, "load": before,
-            "prepare": s["mesh"] + s["set_up"], "heat": s.get("heat", 0.0), "mechanics": s.get("mechanics", 0.0),
+            "processor": processor, "steps": summary["steps"], "prepare": s["mesh"] + s["set_up"], "heat": s.get("heat", 0.0), "mechanics": s.get("mechanics", 0.0),
             "output": s["output"], "memory": summary["peak_memory[bytes]"]["all_processes"] / 2**20,
             "final": summary["final"], "seconds": s}
 
@@ -72,7 +73,7 @@ def calculix(name, divisions, element, solver, threads=1, step=1.0):
     times = {}
     memory = 0
     for phase in ("heat", "mechanics"):
-        times[phase], peak = run([ccx, phase], folder / f"{phase}.log", folder, OMP_NUM_THREADS=n,
+        times[phase], peak, _ = run([ccx, phase], folder / f"{phase}.log", folder, OMP_NUM_THREADS=n,
                                  CCX_NPROC_EQUATION_SOLVER=n, CCX_NPROC_STIFFNESS=n, CCX_NPROC_RESULTS=n)
         memory = max(memory, peak)
     probe = str((divisions + 1) ** 3)  # the corner is the last node
@@ -116,6 +117,24 @@ def case():
             for label, settings, p in (("tri3", {}, 1), ("tri3", {}, 2), ("quad4", {"mesh.element": "quad4"}, 1))]
 
 
+def coupling():
+    """Processor time per step by each scheme, the runs of all schemes in turn: the machine may be busy, and not evenly."""
+    rows = []
+    cases = [("aluminium_cylinder, tri3", "cases/aluminium_cylinder", {}, SCHEMES[:2])]
+    cases += [(f"casting block 100k, {element}", "bench/casting_block", block(DIVISIONS["100k"], element, **{"time.end": "6 s"}), SCHEMES)
+              for element in ("hex8", "tet4")]
+    for name, case_folder, settings, schemes in cases:
+        runs = {scheme: [] for scheme in schemes}
+        for _ in range(REPEAT):
+            for scheme in schemes:
+                runs[scheme].append(solidus(f"{name} {scheme}", case_folder, {**settings, "coupling.scheme": scheme}))
+        best = {scheme: min(r["processor"] / r["steps"] for r in runs[scheme]) for scheme in schemes}
+        for scheme in schemes:
+            rows.append({"name": name, "scheme": scheme, "steps": runs[scheme][0]["steps"], "per_step": best[scheme],
+                         "ratio": best[scheme] / best["isothermal"], "load": max(r["load"] for r in runs[scheme])})
+    return rows
+
+
 def check():
     """Both programs on a block with 13^3 nodes, ten steps of 10 s. Solidus' mechanical phase sees the temperature before a
     step, so its displacement after one step more belongs to CalculiX's."""
@@ -146,7 +165,7 @@ def calculix_blocks(size):
             for element, threads in runs]
 
 
-PARTS = {"micro": micro, "case": case, "check": check, "block100k": lambda: blocks("100k"), "block1m": lambda: blocks("1m"),
+PARTS = {"micro": micro, "case": case, "coupling": coupling, "check": check, "block100k": lambda: blocks("100k"), "block1m": lambda: blocks("1m"),
          "calculix100k": lambda: calculix_blocks("100k"), "calculix1m": lambda: calculix_blocks("1m")}
 
 
@@ -166,7 +185,11 @@ def report(parts):
         text.append(table(["", "program", "corner [degC]", "displacement [um]"],
                           [[r["name"], r["program"], f"{r['final']['T_corner[degC]']:.4f}", f"{r['final']['u_corner[um]']:.3f}"]
                            for r in parts["check"]]))
-    runs = [r for name in PARTS if name in parts and name not in ("micro", "check") for r in parts[name]]
+    if "coupling" in parts:
+        text.append(table(["", "scheme", "steps", "processor time per step [s]", "of isothermal", "load"],
+                          [[r["name"], r["scheme"], str(r["steps"]), f"{r['per_step']:.3f}", f"{r['ratio']:.2f}", f"{r['load']:.1f}"]
+                           for r in parts["coupling"]]))
+    runs = [r for name in PARTS if name in parts and name not in ("micro", "coupling", "check") for r in parts[name]]
     if runs:
         seconds = lambda r, key: f"{r[key]:.2f}" if key in r else ""
         text.append(table(["", "program", "processes", "total [s]", "prepare", "heat", "mechanics", "output", "memory [MiB]",

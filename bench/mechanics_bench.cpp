@@ -1,5 +1,5 @@
 /// Nanoseconds per element of the mechanical tangent and residual, assembly into the block matrix included:
-/// elastic, and J2 plasticity with all points flowing.
+/// elastic, and J2 plasticity with all points flowing, by the isothermal and the isentropic mapping.
 ///
 ///   OMP_NUM_THREADS=1 ./mechanics_bench        (build with -DSOLIDUS_MARCH=native for the numbers of the
 ///   design)
@@ -18,6 +18,7 @@ namespace {
 material::Material steel() {
   material::Material m;
   m.density = 7800;
+  m.specific_heat = 500;
   m.young_modulus = Table({280, 400, 600, 800}, {2.1e11, 2.0e11, 1.8e11, 1.5e11});
   m.poisson_ratio = 0.3;
   m.expansion = Table({280, 400, 600, 800}, {1.1e-5, 1.2e-5, 1.3e-5, 1.4e-5});
@@ -78,7 +79,7 @@ struct Prepared {
   std::vector<double> temperature, temperature_rate, u, forces;
 
   Prepared(mesh::Shape shape, int cells, AnalysisKind kind, material::Material of = steel(),
-           bool general = false)
+           bool general = false, mechanics::Mapping mapping = mechanics::Mapping::isothermal)
       : mesh(test::make_mesh({.shape = shape, .cells = {cells, cells, cells}, .distortion = 0.1})),
         material(std::move(of)),
         components(displacement_components(kind)),
@@ -91,14 +92,21 @@ struct Prepared {
       kernel = std::make_unique<mechanics::LawBlock<General, 4, AnalysisKind::solid, false>>(mesh, block,
                                                                                              material);
     else
-      kernel =
-          mechanics::make_block_kernel(mesh, block, kind, material, mechanics::Mapping::isothermal, true);
+      kernel = mechanics::make_block_kernel(mesh, block, kind, material, mapping, true);
     algebra::NodeGraph graph(mesh);
     graph.add_cliques(mesh.blocks.front().nodes, mesh::node_count(shape));
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));
     kernel->bind(*matrix);
     history = kernel->initial_history();
-    kernel->prepare({temperature, temperature, u, &history, &history, 1.0, 1.0});
+    kernel->prepare({.temperature = temperature,
+                     .pass_temperature = temperature,
+                     .initial_temperature = temperature,
+                     .held_displacement = u,
+                     .held_history = &history,
+                     .old_history = &history,
+                     .start_history = &history,
+                     .dt = 1.0,
+                     .effective_dt = 1.0});
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1e-4 * std::sin(static_cast<double>(i));
   }
   void report(benchmark::State& state) const {
@@ -110,8 +118,9 @@ struct Prepared {
 };
 
 void tangent(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind,
-             material::Material material = steel(), bool general = false) {
-  Prepared p(shape, cells, kind, std::move(material), general);
+             material::Material material = steel(), bool general = false,
+             mechanics::Mapping mapping = mechanics::Mapping::isothermal) {
+  Prepared p(shape, cells, kind, std::move(material), general, mapping);
   for (auto _ : state) {
     p.matrix->set_zero();
     p.kernel->add_tangent(p.u, *p.matrix);
@@ -128,8 +137,9 @@ void hand_over(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKi
 }
 
 void residual(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind,
-              material::Material material = steel()) {
-  Prepared p(shape, cells, kind, std::move(material));
+              material::Material material = steel(),
+              mechanics::Mapping mapping = mechanics::Mapping::isothermal) {
+  Prepared p(shape, cells, kind, std::move(material), false, mapping);
   for (auto _ : state) benchmark::DoNotOptimize(p.kernel->add_forces(p.u, p.forces));
   p.report(state);
 }
@@ -147,6 +157,7 @@ void structural_heat(benchmark::State& state, mesh::Shape shape, int cells, Anal
 
 constexpr auto k_solid = AnalysisKind::solid;
 constexpr auto k_axisymmetric = AnalysisKind::axisymmetric;
+constexpr auto k_isentropic = mechanics::Mapping::isentropic;
 BENCHMARK_CAPTURE(tangent, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(hand_over, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(residual, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
@@ -175,6 +186,23 @@ BENCHMARK_CAPTURE(structural_heat, tri3, mesh::Shape::tri3, 200, k_axisymmetric)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(structural_heat, tet4, mesh::Shape::tet4, 30, k_solid)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(residual, quad4, mesh::Shape::quad4, 200, k_axisymmetric)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, tet4_isentropic, mesh::Shape::tet4, 30, k_solid, steel(), false, k_isentropic)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tet4_isentropic, mesh::Shape::tet4, 30, k_solid, steel(), k_isentropic)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, hex8_isentropic, mesh::Shape::hex8, 30, k_solid, steel(), false, k_isentropic)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, hex8_isentropic, mesh::Shape::hex8, 30, k_solid, steel(), k_isentropic)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, tri3_isentropic, mesh::Shape::tri3, 200, k_axisymmetric, steel(), false,
+                  k_isentropic)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tri3_isentropic, mesh::Shape::tri3, 200, k_axisymmetric, steel(), k_isentropic)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(tangent, tet4_isentropic_j2, mesh::Shape::tet4, 30, k_solid, j2(), false, k_isentropic)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(residual, tet4_isentropic_j2, mesh::Shape::tet4, 30, k_solid, j2(), k_isentropic)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace solidus

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs benchmarks and writes build/bench/report.md; ./dev bench builds first.
-#   bench/run.sh [PART ...]      parts: micro case check block100k block1m calculix100k calculix1m; without: all but the last
+#   bench/run.sh [PART ...]      parts: micro case coupling check block100k block1m calculix100k calculix1m; without: all but the last
 #   REPEAT=3 bench/run.sh case   medians of three runs (the default; the million unknowns run once)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -3,6 +3,7 @@
 #include <petsc/private/petscimpl.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "algebra/parallel.hpp"
@@ -227,7 +228,12 @@ LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::spa
     my.stale = true;
   }
   check(KSPSetOperators(my.ksp, matrix, matrix), "KSPSetOperators");
+  return solve_again(b, x);
+}
 
+LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<double> x) {
+  Implementation& my = *implementation_;
+  assert(my.matrix != nullptr);
   double* values = nullptr;
   check(VecGetArrayWrite(my.b, &values), "VecGetArrayWrite");
   PetscInt n = 0;

@@ -47,6 +47,9 @@ class LinearSolver {
   LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x);
   /// The same of a PETSc matrix; the rigid-body modes are those of its first block where it is a MATNEST.
   LinearReport solve(Mat matrix, std::span<const double> b, std::span<double> x);
+  /// Solves with the matrix of the last solve(), as it was then: its factorisation or hierarchy serves again.
+  /// Collective.
+  LinearReport solve_again(std::span<const double> b, std::span<double> x);
   /// The next solve sets the preconditioner up.
   bool stale() const;
   /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).

@@ -10,6 +10,10 @@ namespace {
 // A body that is plastic all through has next to no stiffness: its full step can be a hundred times too long.
 constexpr double k_smallest_step = 1e-3;  ///< of the line search
 constexpr int k_line_search_trials = 12;  ///< residuals after the full step
+/// A full Newton step that contracts the residual by ρ to r₁ has used up the tangent's error F'' e₀ once: a
+/// second step with the same tangent leaves 2ρ r₁ to leading order. It is taken where five times that is
+/// enough.
+constexpr double k_chord_residual = 10;
 
 double dot(std::span<const double> a, std::span<const double> b, std::size_t n) {
   double s = 0;
@@ -40,6 +44,10 @@ class Iteration {
   void constrain();
   bool converged() const {
     return norm_ <= options_.tolerance * reference_ || norm_ <= options_.absolute_tolerance;
+  }
+  bool chord_converges(double norm_before) const {
+    return norm_ * (k_chord_residual * norm_ / norm_before) <=
+           std::max(options_.tolerance * reference_, options_.absolute_tolerance);
   }
   double measured() const { return reference_ > 0 ? norm_ / reference_ : norm_; }
   /// x = start + alpha × step and the residual there; returns step · r.
@@ -126,6 +134,7 @@ NewtonReport Iteration::run() {
   fixed_ = &tangent->fixed();
   ties_ = &tangent->ties();
   constrain();
+  bool chord = false;
   while (true) {
     report.residuals.push_back(measured());
     if (!std::isfinite(norm_)) {
@@ -141,9 +150,10 @@ NewtonReport Iteration::run() {
       report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
       return report;
     }
-    if (!tangent) tangent = &system_.tangent();
+    if (!tangent && !chord) tangent = &system_.tangent();
     for (double& value : r_) value = -value;
-    const LinearReport linear = solver_.solve(*tangent, r_, std::span(step_).first(n_));
+    const auto step = std::span(step_).first(n_);
+    const LinearReport linear = chord ? solver_.solve_again(r_, step) : solver_.solve(*tangent, r_, step);
     for (double& value : r_) value = -value;
     tangent = nullptr;
     ++report.iterations;
@@ -154,18 +164,21 @@ NewtonReport Iteration::run() {
     }
     for (std::size_t i = 0; i < n_ && i < fixed_->size(); ++i)
       if ((*fixed_)[i]) step_[i] = 0;
-    ties_->share(std::span(step_).first(n_));
+    ties_->share(step);
     ghosts_.update(step_, components_);
 
+    const double norm_before = norm_;
+    double alpha = 1;
     std::copy(x_.begin(), x_.end(), start_.begin());
     if (options_.line_search) {
-      const double alpha = search(dot(step_, r_, n_));
+      alpha = search(dot(step_, r_, n_));
       system_.accept(x_, step_, alpha);
     } else {
       for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_[i];
       system_.accept(x_, step_, 1.0);
       evaluate();
     }
+    chord = options_.chords && !chord && alpha == 1.0 && chord_converges(norm_before);
   }
 }
 

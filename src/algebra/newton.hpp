@@ -16,13 +16,14 @@ struct NewtonOptions {
   double absolute_tolerance = 0;  ///< or ‖r‖ <= this, in the units of the residual
   int max_iterations = 25;
   bool line_search = true;
+  bool chords = true;              ///< steps with the tangent before, where they will do
   double line_search_slope = 0.8;  ///< accept α when |d·r(x+αd)| <= this × |d·r(x)|
 };
 
 struct NewtonReport {
   bool converged = false;
   bool out_of_iterations = false;  ///< stopped by max_iterations alone: x is a good iterate
-  int iterations = 0;  ///< linear solves
+  int iterations = 0;              ///< linear solves
   int linear_iterations = 0;
   std::vector<double> residuals;  ///< ‖r‖/reference before each solve and at the end
   std::string reason;             ///< why it stopped when it did not converge
@@ -47,6 +48,8 @@ class NonlinearSystem {
 
 /// Solves r(x) = 0 from the start value x, whose fixed degrees of freedom already hold their
 /// values and whose ties are kept.
+/// Where the step before has contracted so much that the same tangent will do for the rest, it serves once
+/// more: a chord step, without assembly and set-up of the solver.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens
 /// the step. x: [local node][component], ghosts updated on return.
 NewtonReport newton(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts,

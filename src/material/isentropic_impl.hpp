@@ -123,6 +123,28 @@ template <class T>
   return result;
 }
 
+/// Where the iteration starts. Where nothing yields at Θ_n, near enough to Θ̄ for the isothermal mapping there
+/// to be the only one; else Θ_n.
+template <class T>
+[[gnu::always_inline]] inline T first_temperature(const Material& material,
+                                                  const Isentropic::Properties<T>& p,
+                                                  const ReducedEntropy<T>& s,
+                                                  const SensibleEntropy<T>& sensible) {
+  const T close = T(k_last_defect) * p.capacity.value;
+  T result = p.temperature;
+  if (s.yields(p)) return result;
+  for (int i = 0; i < k_max_coupled; ++i) {
+    const auto at = s.at(p, elastic_along(material, p, result), result, T(0.0));
+    const Defect<T> f = sensible.defect(result, at.entropy, at.entropy_theta);
+    const T to = f.step(result);
+    auto inside = to >= p.lowest;
+    inside = both(inside, to <= p.highest);
+    result = select(inside, to, p.temperature);
+    if (!any(magnitude(f.value) > close)) break;
+  }
+  return result;
+}
+
 }  // namespace detail
 
 template <class T>
@@ -220,6 +242,7 @@ Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T
   const ReducedEntropy<T> reduced(law_, start, strain, dt);
   const detail::SensibleEntropy<T> sensible(p);
   T theta = p.temperature, low = p.lowest, high = p.highest;
+  if constexpr (detail::is_plain<T>) theta = detail::first_temperature(material(), p, reduced, sensible);
   bool solved = false;
   for (int i = 0;; ++i) {
     const auto elastic = elastic_along(material(), p, theta);

@@ -102,6 +102,17 @@ class ReducedEntropy {
         ez_(dot(trial_, back_)),
         zz_(dot(back_, back_)) {}
 
+  /// Whether the trial state at Θ_n lies beyond the yield surface in any lane.
+  [[gnu::always_inline]] bool yields(const Properties& p) const {
+    if (flow_ == nullptr) return false;
+    const auto shear = law_.shear(elastic_values(p, elastic_along(law_.material(), p, p.temperature)), dt_);
+    const T s = shear.twice_shear, w = shear.strength;
+    const T m = w * T(return_mapping::k_two_thirds) * p.flow.kinematic_modulus;
+    const T stress = hardening_stress<T>(flow_->isotropic, flow_->curves, p.flow, hardening_).stress;
+    const T radius = T(return_mapping::k_root_two_thirds) * w * (p.flow.flow_stress + stress);
+    return any(s * (s * ee_ + T(2.0) * m * ez_) + m * m * zz_ > radius * radius);
+  }
+
   /// @param p, e   the numbers of Θ_n, and those of Θ
   /// @param gamma  γ, zero where nothing flows
   [[gnu::always_inline]] Point at(const Properties& p, const ElasticAlong<T>& e, const T& temperature,

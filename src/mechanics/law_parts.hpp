@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <cstring>
 #include <string>
 
 #include "material/isentropic.hpp"
@@ -169,14 +170,17 @@ std::string text(const Sym<double>& a);
 std::string text(const material::Viscoelastic::State<double>& state);
 std::string text(const material::Viscoplastic::State<double>& state);
 
-/// One element of a batch: the same struct on double, of one on Lane that holds nothing but lanes.
+/// One element of a batch: the same struct on double, of one on Lane that holds nothing but lanes. Reads that
+/// lane alone, as results ask for every element.
 template <class OnDouble, class OnLane>
 OnDouble element_of(const OnLane& batch, int lane) {
   static_assert(sizeof(OnLane) == sizeof(OnDouble) * k_lanes);
-  constexpr std::size_t n = sizeof(OnDouble) / sizeof(double);
-  const auto lanes = std::bit_cast<std::array<Lane, n>>(batch);
-  std::array<double, n> values;
-  for (std::size_t i = 0; i < n; ++i) values[i] = lanes[i][lane];
+  std::array<double, sizeof(OnDouble) / sizeof(double)> values;
+  const char* from = reinterpret_cast<const char*>(&batch) + static_cast<std::size_t>(lane) * sizeof(double);
+  for (double& value : values) {
+    std::memcpy(&value, from, sizeof value);
+    from += sizeof(Lane);
+  }
   return std::bit_cast<OnDouble>(values);
 }
 

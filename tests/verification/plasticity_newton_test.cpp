@@ -78,6 +78,7 @@ Body block(const Element& element, Kind kind) {
   Body body(lattice, element.kind, m);
   body.options.b_bar = element.b_bar;
   body.options.newton.tolerance = 1e-13;
+  body.options.newton.chords = false;  // the exponent is that of the tangent at every iterate
   for (int i = 0; i < displacement_components(element.kind); ++i) body.hold("bottom", i);
   body.conditions.tractions.push_back({"top",
                                        {Table({1, 2}, {0.25 * k_yield, -0.5 * k_yield}),

@@ -40,6 +40,7 @@ class SpringGrid : public NonlinearSystem {
     return std::sqrt(static_cast<double>(grid_.mesh.n_global_nodes)) * load_;
   }
   BlockMatrix& tangent() override {
+    ++tangents;
     matrix_.set_zero();
     for (std::size_t e = 0; e < grid_.quads.size() / 4; ++e)
       for (std::size_t a = 0; a < 4; ++a)
@@ -55,7 +56,7 @@ class SpringGrid : public NonlinearSystem {
     steps.push_back(alpha);
   }
   BlockMatrix& matrix() { return matrix_; }
-  int evaluations = 0;
+  int evaluations = 0, tangents = 0;
   std::vector<double> steps;
 
  private:
@@ -95,7 +96,8 @@ TEST(Newton, ConvergesQuadratically) {
   SpringGrid system = cubic(grid);
   system.matrix().set_fixed(fix(grid, 7));
   std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 1.5);
-  const NewtonReport report = run(grid, system, x, {.tolerance = 1e-13, .line_search = false});
+  const NewtonReport report =
+      run(grid, system, x, {.tolerance = 1e-13, .line_search = false, .chords = false});
   ASSERT_TRUE(report.converged) << report.reason;
   // The exponent p of |r_{k+1}| = c |r_k|^p from three residuals in a row, above round-off.
   const auto& r = report.residuals;
@@ -166,6 +168,23 @@ TEST(Newton, ALinearProblemTakesOneSolveAndTwoResiduals) {
   EXPECT_EQ(report.iterations, 1);
   EXPECT_EQ(system.evaluations, 2);
   EXPECT_NEAR(x[0], 3.0, 1e-12);
+}
+
+/// From a start near the solution the first step contracts by ρ = 3e-3 to r₁ = 7e-6, so that one with the
+/// same tangent leaves 2ρ r₁ = 4e-8: enough for a tolerance of 1e-6, not for 1e-8.
+TEST(Newton, ATangentThatWillDoServesTwice) {
+  const Grid grid(4, 4);
+  const auto solve = [&](double tolerance) {
+    SpringGrid system = cubic(grid);
+    std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 2.0 * (1 + 1e-3));
+    const NewtonReport report = run(grid, system, x, {.tolerance = tolerance});
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.iterations, 2);
+    EXPECT_NEAR(x[0], 2.0, tolerance);
+    return system.tangents;
+  };
+  EXPECT_EQ(solve(1e-6), 1);
+  EXPECT_EQ(solve(1e-8), 2);
 }
 
 TEST(Newton, NoLoadConvergesAtOnce) {
