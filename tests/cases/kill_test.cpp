@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -66,6 +67,14 @@ class Kill : public ::testing::Test {
   void SetUp() override {
     fs::remove_all(root());
     fs::create_directories(root());
+    // What killed processes leave of MPI's session.
+    fs::create_directories(temporary());
+    setenv("TMPDIR", temporary().c_str(), 1);
+  }
+  void TearDown() override { fs::remove_all(temporary()); }
+  static const fs::path& temporary() {
+    static const fs::path path = fs::temp_directory_path() / ("solidus_kill_" + std::to_string(getpid()));
+    return path;
   }
   static fs::path root() { return fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "kill"; }
 
