@@ -10,6 +10,7 @@
 /// counts.
 #pragma once
 
+#include "material/hardening.hpp"
 #include "material/thermal_derivatives.hpp"
 
 namespace solidus::material {
@@ -19,10 +20,10 @@ struct StructuralPartials {
   StatePartials<T> entropy, internal_energy;
 };
 
-/// @param p      thermal_properties with the phase frozen
+/// @param p      along_lines, or thermal_properties with the phase frozen
 /// @param solid  where a:a counts
 template <class T, class Mask>
-StructuralPartials<T> structural_partials(const Viscoplastic& law, const Viscoplastic::Properties<Jet<T>>& p,
+StructuralPartials<T> structural_partials(const Material& material, const Viscoplastic::Properties<Jet<T>>& p,
                                           const T& temperature, const T& trace, const T& elastic_squared,
                                           const Mask& solid, const T& hardening, const T& back_squared) {
   using J = Jet<T>;
@@ -42,8 +43,8 @@ StructuralPartials<T> structural_partials(const Viscoplastic& law, const Viscopl
   e.strain_trace = k.v * trace - pull.v;
   e.elastic_squared = select(solid, g.v, zero);
   e.hardening = e.back_squared = zero;
-  if (law.material().flow) {
-    const Flow& flow = *law.material().flow;
+  if (material.flow && any(hardening > zero)) {  // K, K_ξ and ζ vanish with ξ
+    const Flow& flow = *material.flow;
     if (flow.isotropic != IsotropicHardening::none) {
       const J stored = hardening_energy<J>(flow.isotropic, flow.curves, p.flow, J(hardening));
       const J stress = hardening_stress<J>(flow.isotropic, flow.curves, p.flow, J(hardening)).stress;

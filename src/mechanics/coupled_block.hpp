@@ -11,6 +11,7 @@
 /// N and the share by which StructuralPoints spreads heat as it is stored.
 #pragma once
 
+#include "material/structural_lines.hpp"
 #include "material/structural_partials.hpp"
 #include "mechanics/coupled_kernel.hpp"
 #include "mechanics/law_block.hpp"
@@ -148,8 +149,10 @@ class CoupledBlock final : public LawBlock<material::Viscoplastic, n_nodes, kind
     const material::Variation<Lane> update(this->law_, p, start, strain, this->effective_dt_, r);
     const auto& at = this->points_.at(batch, q);
     const auto partials = material::structural_partials<Lane>(
-        this->law_, p, theta, at.now.strain_trace, at.now.elastic_squared,
-        p.elastic.solid_fraction.v >= Lane(1.0), at.now.hardening, at.now.back_squared);
+        this->law_.material(),
+        material::along_lines(this->law_.material(), at.temperature, theta, at.strain_offset), theta,
+        at.now.strain_trace, at.now.elastic_squared, p.elastic.solid_fraction.v >= Lane(1.0),
+        at.now.hardening, at.now.back_squared);
     const Lane rate(1.0 / this->dt_);
     Point d;
     d.stress = update.stress();

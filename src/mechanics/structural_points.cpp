@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "material/hardening_heat.hpp"
+#include "material/structural_lines.hpp"
+#include "material/structural_partials.hpp"
 #include "material/thermal_potential.hpp"
 
 namespace solidus::mechanics {
@@ -37,28 +38,17 @@ void StructuralPoints::set_temperature(Index batch, int point, Lane temperature,
 }
 
 StructuralPoints::State StructuralPoints::state(const Point& at, const Deformation& deformation,
-                                                Lane temperature, Want want) const {
-  auto p = properties_at(material_, temperature, Lane(material_.expansion_reference));
-  p.thermal_strain += at.strain_offset;
-  const auto d = derivatives_at(material_, temperature, temperature);
-  const Lane deviator_squared = Lane(4.0) * p.shear * p.shear * deformation.elastic_squared;
-  const auto structural = structural_state(p, d, temperature, deformation.strain_trace, deviator_squared);
-  State r{structural.entropy, structural.internal_energy, Lane(0.0)};
-  if (want == Want::state_and_capacity)
-    r.capacity = structural_capacity(p, d, curvatures_at(material_, temperature), temperature,
-                                     deformation.strain_trace, deviator_squared);
-  if (!material_.flow || !any(deformation.hardening > Lane(0.0))) return r;  // ζ moves with ξ only
-  const auto stored =
-      hardening_state(*material_.flow, deformation.hardening, deformation.back_squared, temperature);
-  r.entropy += stored.entropy;
-  r.internal_energy += stored.internal_energy;
-  r.capacity += stored.capacity;
-  return r;
+                                                Lane temperature) const {
+  const auto partials = material::structural_partials<Lane>(
+      material_, material::along_lines(material_, at.temperature, temperature, at.strain_offset), temperature,
+      deformation.strain_trace, deformation.elastic_squared, deformation.elastic_squared >= Lane(0.0),
+      deformation.hardening, deformation.back_squared);
+  return {partials.entropy.value, partials.internal_energy.value, partials.internal_energy.temperature};
 }
 
 void StructuralPoints::set_old(Index batch, int point, const Deformation& deformation) {
   Point& p = at(batch, point);
-  const State old = state(p, deformation, p.temperature, Want::state);
+  const State old = state(p, deformation, p.temperature);
   p.old_entropy = old.entropy;
   p.old_energy = old.internal_energy;
 }
@@ -83,61 +73,55 @@ void StructuralPoints::begin_stage(const algebra::Stage& stage, std::span<const 
     for (int q = 0; q < geometry_.n_points; ++q) {
       const std::size_t i = index(batch, q);
       const Point& at = points_[i];
-      const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature), Want::state);
+      const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature));
       carried_[i] = {at.old_entropy + carried * (now.entropy - at.old_entropy),
                      at.old_energy + carried * (now.internal_energy - at.old_energy)};
     }
 }
 
-/// H^ep Δt at t_{n+1} [J/m³] (2.127b). Tables are piecewise linear, so only products remain in the slope.
+/// H^ep Δt at t_{n+1} [J/m³] (2.127b).
 StructuralPoints::Sloped StructuralPoints::structural_heating(const Point& at, Lane temperature) const {
+  using J = Jet<Lane>;
+  const auto p = material::along_lines(material_, at.temperature, temperature, at.strain_offset);
+  const J &k = p.elastic.bulk, &g = p.elastic.shear, pull = k * p.elastic.thermal_strain;
   const Lane two(2.0);
-  auto p = properties_at(material_, temperature, Lane(material_.expansion_reference));
-  p.thermal_strain += at.strain_offset;
-  const auto d = derivatives_at(material_, temperature, temperature);
-  const auto c = curvatures_at(material_, temperature);
   // ∂σ/∂Θ : Δε^E and its derivative.
-  Lane stress_theta = (d.bulk * at.now.strain_trace - d.bulk * p.thermal_strain - p.bulk * d.thermal_strain) *
-                          at.change.strain_trace +
-                      two * d.shear * at.change.elastic_squared;
-  Lane stress_theta2 = (c.bulk * at.now.strain_trace - c.bulk * p.thermal_strain -
-                        two * d.bulk * d.thermal_strain - p.bulk * c.thermal_strain) *
-                           at.change.strain_trace +
-                       two * c.shear * at.change.elastic_squared;
+  Lane stress_theta =
+      (k.d * at.now.strain_trace - pull.d) * at.change.strain_trace + two * g.d * at.change.elastic_squared;
+  Lane stress_theta2 = (k.dd * at.now.strain_trace - pull.dd) * at.change.strain_trace +
+                       two * g.dd * at.change.elastic_squared;
   if (material_.flow) {  // −∂q/∂Θ of both hardening forces
-    using J = Jet<Lane>;
     const material::Flow& flow = *material_.flow;
-    const auto f = flow_properties_at(flow, J::variable(temperature));
     if (flow.isotropic != material::IsotropicHardening::none) {
-      const J k = hardening_stress<J>(flow.isotropic, flow.curves, f, J(at.now.hardening)).stress;
-      stress_theta += k.d * at.change.hardening;
-      stress_theta2 += k.dd * at.change.hardening;
+      const J stress = hardening_stress<J>(flow.isotropic, flow.curves, p.flow, J(at.now.hardening)).stress;
+      stress_theta += stress.d * at.change.hardening;
+      stress_theta2 += stress.dd * at.change.hardening;
     }
     if (flow.kinematic != material::KinematicHardening::none)
-      stress_theta += Lane(2.0 / 3.0) * f.kinematic_modulus.d * at.change.back_squared;
+      stress_theta += Lane(2.0 / 3.0) * p.flow.kinematic_modulus.d * at.change.back_squared;
   }
   return {-temperature * stress_theta, -stress_theta - temperature * stress_theta2};
 }
 
-/// What the stage stores at a point [J/m³]; the slope only if wanted, without third derivatives.
-StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t point, Lane temperature,
-                                                Want want) const {
+/// What the stage stores at a point [J/m³]; the slope without third derivatives.
+StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t point,
+                                                Lane temperature) const {
   const Point& at = points_[point];
   const Start start = carried_.empty() ? Start{at.old_entropy, at.old_energy} : carried_[point];
   const Lane share(stage_.share), dissipated = share * at.dissipated;
   if (form == StructuralForm::temperature) {
-    const Lane capacity = state(at, at.now, temperature, Want::state_and_capacity).capacity;
+    const Lane capacity = state(at, at.now, temperature).capacity;
     const Lane warmed = temperature - at.temperature;
     const Sloped h = structural_heating(at, temperature);
     return {capacity * warmed + h.value - dissipated,
             capacity * (Lane(1.0) + warmed / temperature) + h.slope};
   }
-  const State now = state(at, at.now, temperature, want);
+  const State now = state(at, at.now, temperature);
   switch (form) {
     case StructuralForm::energy:
       return {now.internal_energy - start.energy - share * at.work, now.capacity};
     case StructuralForm::literal: {
-      const Lane gained = now.entropy - state(at, at.now, at.temperature, Want::state).entropy;
+      const Lane gained = now.entropy - state(at, at.now, at.temperature).entropy;
       const Sloped h = structural_heating(at, temperature);
       return {temperature * gained + h.value - dissipated, now.capacity + gained + h.slope};
     }
@@ -151,7 +135,7 @@ StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t
 
 StructuralDensities StructuralPoints::densities(Index batch, int point, Lane temperature) const {
   const Point& p = at(batch, point);
-  const State now = state(p, p.now, temperature, Want::state);
+  const State now = state(p, p.now, temperature);
   return {now.entropy, now.internal_energy};
 }
 
@@ -186,8 +170,7 @@ void StructuralPoints::add_heat(StructuralForm form, std::span<const double> tem
     Lane total(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Lane theta = temperature_at(geometry_, batch, q, temperature);
-      const Sloped stored =
-          heat(form, index(batch, q), theta, tangent ? Want::state_and_capacity : Want::state);
+      const Sloped stored = heat(form, index(batch, q), theta);
       Lane density = rate * (tangent ? stored.slope : stored.value);
       density *= geometry_.weight_at(batch, q);
       total += density;
@@ -210,7 +193,7 @@ StructuralChange StructuralPoints::change(std::span<const double> temperature) c
     Lane energy(0.0), entropy(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
-      const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature), Want::state);
+      const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature));
       energy += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy);
       entropy += geometry_.weight_at(batch, q) * (now.entropy - at.old_entropy);
     }
@@ -227,7 +210,7 @@ StructuralChange StructuralPoints::mechanical_change() const {
     Lane energy(0.0), entropy(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
-      const State now = state(at, at.now, at.pass_temperature, Want::state);
+      const State now = state(at, at.now, at.pass_temperature);
       const auto sensible = material::sensible_heat(material_, at.temperature, at.pass_temperature);
       energy += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy + sensible.heat);
       entropy += geometry_.weight_at(batch, q) * (now.entropy - at.old_entropy + sensible.entropy);

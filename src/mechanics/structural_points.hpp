@@ -89,18 +89,17 @@ class StructuralPoints {
     return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
            static_cast<std::size_t>(point);
   }
-  /// Entropy, internal energy and Θ ∂S/∂Θ of deformation and hardening.
+  /// Entropy, internal energy and Θ ∂S/∂Θ of deformation and hardening, along the lines of Θ_n.
   struct State {
     Lane entropy, internal_energy, capacity;
   };
-  enum class Want { state, state_and_capacity };
-  State state(const Point& at, const Deformation& deformation, Lane temperature, Want want) const;
+  State state(const Point& at, const Deformation& deformation, Lane temperature) const;
   /// A quantity and its derivative with respect to temperature.
   struct Sloped {
     Lane value, slope;
   };
   Sloped structural_heating(const Point& at, Lane temperature) const;
-  Sloped heat(StructuralForm form, std::size_t point, Lane temperature, Want want) const;
+  Sloped heat(StructuralForm form, std::size_t point, Lane temperature) const;
 
   const mesh::BlockGeometry& geometry_;
   material::Material material_;  ///< without phase changes: their fraction and straining are held
