@@ -40,6 +40,7 @@ StepEffort& StepEffort::operator+=(const StepEffort& next) {
   };
   add(heat, first.heat);
   add(mechanics, first.mechanics);
+  coupling_iterations = std::max(coupling_iterations, first.coupling_iterations);
   energy += first.energy;
   stability += first.stability;
   least_dissipation = std::min(least_dissipation, first.least_dissipation);
