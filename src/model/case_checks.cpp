@@ -234,6 +234,24 @@ void check_simultaneous(const CaseSpec& spec) {
                      "coupling.integration = \"sdirk2\" or mechanics.integration = \"bdf2\"");
 }
 
+void check_iteration(const CouplingSpec& c) {
+  const IterationSpec& i = c.iteration;
+  if (c.scheme != CouplingSpec::Scheme::block_iterative) {
+    if (i != IterationSpec{})
+      throw InputError(c.where, "[coupling.iteration] is of the block-iterative scheme",
+                       "scheme = \"block_iterative\", or no such section");
+    return;
+  }
+  using Relaxation = IterationSpec::Relaxation;
+  if (i.relaxation == Relaxation::none && i.factor != 1)
+    throw InputError(c.where, "'factor' means nothing without relaxation",
+                     "relaxation \"fixed\" or \"aitken\", or no factor");
+  if (i.relaxation == Relaxation::aitken && i.passes == IterationSpec::Passes::isentropic)
+    throw InputError(c.where,
+                     "relaxation = \"aitken\" is for isothermal passes; isentropic ones converge without it",
+                     "passes = \"isothermal\", or relaxation \"none\" or \"fixed\"");
+}
+
 void check_coupling(const CaseSpec& spec) {
   if (!spec.coupled()) return;
   using Scheme = CouplingSpec::Scheme;
@@ -250,6 +268,10 @@ void check_coupling(const CaseSpec& spec) {
                                  form == Heating::literal ? "literal" : "temperature"),
                      "scheme = \"isothermal\", or structural_heating \"entropy\" or \"energy\"");
   check_simultaneous(spec);
+  check_iteration(c);
+  if (c.scheme == Scheme::double_pass && spec.dynamics)
+    throw InputError(c.where, "the double pass is for quasi-statics",
+                     "scheme = \"isentropic\", \"simultaneous\" or \"isothermal\"");
   if (!c.as_printed) return;
   if (form == Heating::energy || form == Heating::none)
     throw InputError(c.where, "as_printed has no meaning without a printed form of structural heat",

@@ -11,6 +11,7 @@
 #include "base/keys.hpp"
 #include "base/types.hpp"
 #include "contact/spec.hpp"
+#include "coupling/block_iterative.hpp"
 #include "coupling/step_limits.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mechanics/mechanical_phase.hpp"
@@ -143,17 +144,19 @@ struct DynamicsSpec {
 
 /// Numerics of the block-iterative scheme (coupling/block_iterative.hpp).
 struct IterationSpec {
-  enum class Sweep { gauss_seidel, jacobi };
+  using Sweep = coupling::IterationOptions::Sweep;
+  using Loop = coupling::IterationOptions::Loop;
+  using Relaxation = coupling::RelaxationOptions::Kind;
   enum class Passes { isentropic, isothermal };
-  enum class Loop { nested, single };
-  enum class Relaxation { none, fixed, aitken };
   Sweep sweep = Sweep::gauss_seidel;
   Passes passes = Passes::isentropic;
   Loop loop = Loop::nested;
   Relaxation relaxation = Relaxation::none;
-  double factor = 0;     ///< of a fixed relaxation, and the first one of Aitken's
-  double tolerance = 0;  ///< of temperatures and displacements between two iterates, relative
-  int max_iterations = 0;
+  double factor = 1;        ///< of a fixed relaxation, and the first one of Aitken's
+  double tolerance = 1e-8;  ///< of temperatures and displacements between two iterates, relative
+  int max_iterations = 100;
+
+  bool operator==(const IterationSpec&) const = default;
 };
 
 struct CouplingSpec {

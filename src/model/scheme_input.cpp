@@ -2,7 +2,8 @@
 
 #include <stdexcept>
 
-#include "base/errors.hpp"
+#include "coupling/block_iterative.hpp"
+#include "coupling/double_pass.hpp"
 #include "coupling/isentropic.hpp"
 #include "coupling/isothermal.hpp"
 #include "coupling/simultaneous.hpp"
@@ -15,6 +16,14 @@ coupling::SimultaneousOptions simultaneous_options(const CouplingSpec& spec) {
   using Integration = coupling::SimultaneousOptions::Integration;
   const bool two_stages = spec.integration == CouplingSpec::Integration::sdirk2;
   return {two_stages ? Integration::sdirk2 : Integration::backward_euler, spec.solver};
+}
+
+coupling::IterationOptions iteration_options(const IterationSpec& spec) {
+  return {.sweep = spec.sweep,
+          .loop = spec.loop,
+          .relaxation = {spec.relaxation, spec.factor},
+          .tolerance = spec.tolerance,
+          .max_iterations = spec.max_iterations};
 }
 
 }  // namespace
@@ -30,12 +39,12 @@ std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
       return std::make_unique<coupling::IsothermalSplit>(phases);
     case Scheme::simultaneous:
       return std::make_unique<coupling::SimultaneousScheme>(phases, simultaneous_options(spec.coupling));
-    case Scheme::double_pass:
     case Scheme::block_iterative:
-      break;
+      return std::make_unique<coupling::BlockIterative>(phases, iteration_options(spec.coupling.iteration));
+    case Scheme::double_pass:
+      return std::make_unique<coupling::DoublePass>(phases);
   }
-  throw InputError(spec.coupling.where, "this coupling scheme is not there yet",
-                   "isentropic, isothermal, simultaneous");
+  throw std::logic_error("no such coupling scheme");
 }
 
 mechanics::StructuralForm structural_form(const CaseSpec& spec) {
