@@ -89,10 +89,9 @@ MotionWork InertialForces::conclude(std::span<const double> x, std::span<const d
   }
   std::vector<double> impulse(n_owned_), j(n_owned_);
   mass_.multiply(increment_, components_, impulse);
-  if (m.alpha_f > 0) force(x, j);
-
   const double w = m.work_share;
   const bool remembers = m.remembers();
+  if (remembers) force(x, j);
   MotionWork work;
   for (std::size_t i = 0; i < n_owned_; ++i) {
     const double increment = x[i] - old.displacement[i];
@@ -103,7 +102,7 @@ MotionWork InertialForces::conclude(std::span<const double> x, std::span<const d
     work.numerical += (increment / dt_ - mean_velocity) * impulse[i];
     if (fixed[i] != 0)
       work.support += (w * net[i] + (1 - w) * old_net + rate) * increment;
-    else if (m.alpha_f > 0)
+    else if (remembers)
       work.numerical +=
           ((1 - m.alpha_f) * j[i] - m.alpha_f * old_net - rate - (w - 1 + m.alpha_f) * (net[i] - old_net)) *
           increment;

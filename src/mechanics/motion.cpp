@@ -12,7 +12,7 @@ Motion Motion::newmark(double gamma, double beta) {
   m.gamma = gamma;
   m.beta = beta;
   m.memory = 0.5 - beta;
-  m.work_share = gamma;
+  m.work_share = 0.5;
   return m;
 }
 

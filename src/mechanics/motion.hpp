@@ -18,8 +18,8 @@ struct Motion {
   double gamma = 1, beta = 1;
   double memory = 0;  ///< μ
   double alpha_m = 0, alpha_f = 0;
-  /// The share of t_{n+1} in the stress and the forces whose work a step does: (1−w) σ_n + w σ_1. With it the
-  /// numerical dissipation is of the order of the method.
+  /// The share of t_{n+1} in the stress and the forces whose work a step does, (1−w) σ_n + w σ_1: one with
+  /// backward Euler, whose stability proof needs it, else a half, which makes no heat out of vibration.
   double work_share = 1;
 
   static Motion backward_euler() { return {}; }

@@ -5,6 +5,8 @@
   backward Euler a_1 = (u_1 - u_n - dt v_n)/dt^2,                                 v_1 = (u_1 - u_n)/dt
 
 Consistent mass. The trapezoidal rule is gamma = 1/2, beta = 1/4. The pressure acts from t = 0 on, so a_0 is not zero.
+The work of the energy form is that of sigma_1 with backward Euler, else of the mean stress (sigma_n + sigma_1)/2, sigma_n being
+that of the mechanical phase before (docs/theory/dynamics.md).
 """
 from dataclasses import dataclass
 
@@ -20,6 +22,7 @@ INTEGRATORS = {"be": None, "newmark": (0.6, 0.3025), "trapezoidal": (0.5, 0.25)}
 class MovingState(State):
     v: np.ndarray = None  # mm/s
     a: np.ndarray = None  # mm/s^2
+    stress: np.ndarray = None  # of the mechanical phase, N/mm^2, [3, element, point]
 
 
 class MovingCylinder(Cylinder):
@@ -38,7 +41,30 @@ class MovingCylinder(Cylinder):
         rest = super().start()
         load = np.zeros_like(rest.u)
         load[0] = self.pressure * self.strip.r[0]
-        return MovingState(rest.u, rest.t, rest.plastic, np.zeros_like(rest.u), np.linalg.solve(self.mass, load))
+        still = np.zeros_like(rest.u)
+        return MovingState(rest.u, rest.t, rest.plastic, still, np.linalg.solve(self.mass, load), np.zeros_like(rest.plastic))
+
+    def step(self, scheme, old, dt):
+        self.scheme, self.old_stress = scheme, old.stress
+        return super().step(scheme, old, dt)
+
+    def linearised(self, scheme, dt):
+        self.old_stress = np.zeros_like(self.start().plastic)
+        return super().linearised(scheme, dt)
+
+    def _heat(self, form, old, u, t, plastic, plastic_bar, work_stress):
+        if self.newmark is not None:
+            work_stress = 0.5 * (work_stress + self.old_stress)
+        return super()._heat(form, old, u, t, plastic, plastic_bar, work_stress)
+
+    def _stress(self, old, u, t, plastic):
+        """Of the mechanical phase at t_{n+1}."""
+        p = self.strip
+        if self.scheme.mechanical == "simultaneous":
+            return self.steel.stress(p.strain(p.gather(u)) - plastic, p.at_points(p.gather(t)))
+        before = (p.gather(old.u), p.gather(old.t), old.plastic)
+        elastic, _, t_bar = self._mechanics(self.scheme, before, p.gather(u))
+        return self.steel.stress(elastic, t_bar)
 
     def _acceleration(self, old, u, dt):
         """a_1 and its derivative with respect to u_1."""
@@ -60,7 +86,7 @@ class MovingCylinder(Cylinder):
         else:
             gamma = self.newmark[0]
             v = old.v + dt * ((1 - gamma) * old.a + gamma * a)
-        return MovingState(u, t, plastic, v, a)
+        return MovingState(u, t, plastic, v, a, self._stress(old, u, t, plastic))
 
     def _kinetic(self, state):
         return 0.5 * state.v @ self.mass @ state.v
