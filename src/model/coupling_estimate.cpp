@@ -71,14 +71,13 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
 }
 
 std::string text(const CouplingEstimate& e) {
-  return fmt::format(
-      "{}: delta = {:.4f} at {:.6g} degC and at most {:.4f}, at {:.6g} degC; isothermal split "
-      "quasi-statically "
-      "{}: {} = {:.4f}",
-      e.body, e.at_initial.uniaxial, e.initial - k_zero_celsius, e.at_worst.uniaxial,
-      e.worst - k_zero_celsius,
-      e.decisive() < 1 ? "stable" : (e.plane ? "unstable" : "unstable in the worst case"),
-      e.plane ? "2 (1 - nu) delta" : "3 (1 - nu)/(1 + nu) delta", e.decisive());
+  std::string most;
+  if (e.at_worst.uniaxial > e.at_initial.uniaxial)
+    most = fmt::format(", at most {:.4f} at {:.6g} degC", e.at_worst.uniaxial, e.worst - k_zero_celsius);
+  return fmt::format("{}: delta = {:.4f} at {:.6g} degC{}; isothermal split quasi-statically {}: {} = {:.4f}",
+                     e.body, e.at_initial.uniaxial, e.initial - k_zero_celsius, most,
+                     e.decisive() < 1 ? "stable" : (e.plane ? "unstable" : "unstable in the worst case"),
+                     e.plane ? "2 (1 - nu) delta" : "3 (1 - nu)/(1 + nu) delta", e.decisive());
 }
 
 void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates) {

@@ -65,7 +65,9 @@ TEST(AluminiumCylinder, EntropyFormLosesHeatAtFirstOrderInTheStep) {
   // Over a fixed time the defects of second order per step sum up to first order.
   std::vector<double> defect;
   for (const char* step : {"2 s", "1 s", "0.5 s"}) {
-    const CaseRun r = small(std::string("entropy_") + step[0], {std::string("time.step=\"") + step + "\""});
+    const CaseRun r =
+        small(std::string("entropy_") + step[0],
+              {std::string("time.step=\"") + step + "\"", "coupling.structural_heating=\"entropy\""});
     ASSERT_TRUE(r.finished) << r.reason;
     defect.push_back(std::abs(r.history.at("energy_defect[J]").back()));
   }
@@ -93,6 +95,18 @@ double difference(const CaseRun& a, const CaseRun& b, const std::string& column)
   return largest;
 }
 
+/// 𝓛 of 2.24 with contact: what surrounds the cylinder is insulated, its weight is a dead load. Residuals
+/// and rounding may raise it; in this case they are a small part of what it falls by.
+void expect_falling(const CaseRun& r) {
+  const auto& h = r.history.at("lyapunov[J]");
+  const auto& slack = r.steps.at("lyapunov_tolerance[J]");
+  ASSERT_EQ(h.size(), slack.size() + 1);
+  for (std::size_t i = 1; i < h.size(); ++i) {
+    EXPECT_LE(h[i] - h[i - 1], slack[i - 1]) << "step " << i;
+    EXPECT_LT(slack[i - 1], 0.01 * (h[i - 1] - h[i])) << "step " << i;
+  }
+}
+
 // Figure 7.21: aluminium is weakly coupled, what is left is the error of a step of 1 s.
 TEST(AluminiumCylinder, BothSplitsSuperpose) {
   for (const std::string file : {"isentropic.toml", "plastic.toml"}) {
@@ -107,6 +121,7 @@ TEST(AluminiumCylinder, BothSplitsSuperpose) {
       EXPECT_LT(difference(isothermal, isentropic, column), 0.3) << file << " " << column;  // of 200 K
     EXPECT_LT(difference(isothermal, isentropic, "gap[mm]"), 2e-4) << file;                 // of 0.05 mm
     EXPECT_LT(relative_defect(isentropic), 1e-8) << file;
+    expect_falling(isentropic);
   }
 }
 

@@ -66,7 +66,10 @@ inline Coupled casting(double pressure) {
   c.mechanical.gravity = {0, -9.81, 0};
   for (const char* side : {"lower_x_min", "upper_x_min"}) c.hold(side, 0);
   c.hold("lower_y_min", 1);
-  if (pressure > 0) c.mechanical.pressures.push_back({"upper_y_max", Table({0, 8}, {0, pressure})});
+  if (pressure > 0)
+    c.mechanical.pressures.push_back({"upper_y_max", Table({0, 8}, {0, pressure})});
+  else
+    c.ambient = 500;  // the lowest temperature of an insulated pair; its weight is a dead load
   return c;
 }
 

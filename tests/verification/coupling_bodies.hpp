@@ -1,12 +1,15 @@
 /// Thermo-mechanical bodies driven by the splits, and what every step reports of the first law.
 #pragma once
 
-#include <functional>
+#include <gtest/gtest.h>
+
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "coupling/block_iterative.hpp"
+#include "coupling/double_pass.hpp"
 #include "coupling/isentropic.hpp"
 #include "coupling/isothermal.hpp"
 #include "coupling/simultaneous.hpp"
@@ -27,11 +30,15 @@ struct Coupled {
   mechanics::Mapping mapping = mechanics::Mapping::isothermal;  ///< which makes the split
   heat::Integration integration = heat::Integration::closed;
   std::optional<mechanics::DynamicsOptions> dynamics;  ///< absent: no inertia
-  double mechanics_tolerance = 1e-11;  ///< of Newton's method
+  double mechanics_tolerance = 1e-11;                  ///< of Newton's method
   heat::SensibleForm sensible = heat::SensibleForm::enthalpy;
   coupling::SimultaneousOptions simultaneous;  ///< with Mapping::simultaneous
+  bool double_pass = false;                    ///< with Mapping::isentropic
   /// Present: passes of `mapping` in turn until they agree.
   std::optional<coupling::IterationOptions> iteration;
+  /// Θ_a where the conditions are admissible for 𝓛 (2.26, coupling_stability.md, 2): every quasi-static step
+  /// of the isentropic split is then checked not to raise it.
+  std::optional<double> ambient;
 
   /// Every node of a group at rest in a direction, or as the table says.
   void hold(const std::string& group, int component, Table value = 0.0) {
@@ -41,7 +48,8 @@ struct Coupled {
 
 struct CoupledRun {
   std::vector<coupling::EnergyAudit> steps;
-  std::vector<int> iterations;  ///< between the phases, of every step
+  std::vector<coupling::StabilityAudit> stability;  ///< zero without an ambient temperature
+  std::vector<int> iterations;                      ///< between the phases, of every step
   coupling::State end;
 
   double exchanged() const {
@@ -64,9 +72,10 @@ struct CoupledRun {
 };
 
 /// Equal steps from zero to `end`. The criteria of both phases are at round-off, so that what remains of the
-/// first law is the scheme's. `watch` sees the state after every step.
-inline CoupledRun march(const Coupled& c, double end, int n_steps,
-                        const std::function<void(const coupling::State&)>& watch = {}) {
+/// first law is the scheme's. `watch` sees the state after every step and, if it takes it, the step's effort.
+template <class Watch = void (*)(const coupling::State&)>
+CoupledRun march(
+    const Coupled& c, double end, int n_steps, Watch watch = [](const coupling::State&) {}) {
   std::optional<contact::ContactPair> pair;
   std::vector<algebra::Contribution*> mechanical, thermal;
   if (c.contact) {
@@ -103,10 +112,13 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps,
   phases.heat = &heat;
   phases.mechanics = &mechanics;
   phases.structural = structural ? &*structural : nullptr;
+  phases.ambient_temperature = c.ambient;
   if (pair) phases.contacts = {&*pair};
   std::unique_ptr<coupling::CouplingScheme> split;
   if (c.iteration)
     split = std::make_unique<coupling::BlockIterative>(phases, *c.iteration);
+  else if (c.double_pass)
+    split = std::make_unique<coupling::DoublePass>(phases);
   else if (c.mapping == mechanics::Mapping::isentropic)
     split = std::make_unique<coupling::IsentropicSplit>(phases);
   else if (c.mapping == mechanics::Mapping::simultaneous)
@@ -114,6 +126,8 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps,
   else
     split = std::make_unique<coupling::IsothermalSplit>(phases);
 
+  const bool falls = c.ambient && c.mapping == mechanics::Mapping::isentropic && !c.iteration &&
+                     !c.dynamics && !c.double_pass;
   CoupledRun run;
   run.end.heat = heat.initial_state(c.start);
   run.end.mechanics = mechanics.initial_state();
@@ -123,9 +137,17 @@ inline CoupledRun march(const Coupled& c, double end, int n_steps,
     trial.time = end * n / n_steps;
     const coupling::StepEffort effort = split->advance(run.end, trial, trial.time, end / n_steps);
     run.steps.push_back(effort.energy);
+    run.stability.push_back(effort.stability);
+    if (falls) {
+      EXPECT_LE(effort.stability.increment(), effort.stability.tolerance)
+          << "step " << n << " of " << n_steps;
+    }
     run.iterations.push_back(effort.coupling_iterations);
     run.end = std::move(trial);
-    if (watch) watch(run.end);
+    if constexpr (std::is_invocable_v<Watch, const coupling::State&, const coupling::StepEffort&>)
+      watch(run.end, effort);
+    else
+      watch(run.end);
   }
   return run;
 }

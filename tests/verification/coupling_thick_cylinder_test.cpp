@@ -24,23 +24,38 @@ using verification::Variant;
 constexpr double k_step = 10, k_end = 1000;  // [s]
 
 struct Tolerance {
-  double u, temperature;  ///< [mm], [K]
+  double u, temperature, functional;  ///< [mm], [K], [J]
 };
-/// The run against a scheme of the reference; a row of the table: the largest differences in displacement and
-/// temperature, the first law's defect of the worst step over the heat exchanged.
+/// The run against a scheme of the reference; a row of the table: the largest differences in displacement,
+/// temperature and functional, the first law's defect of the worst step over the heat exchanged, the largest
+/// increment of the functional.
 void expect_reference(const Variant& v, const std::string& scheme, const Tolerance& tolerance,
                       std::ofstream& out) {
   SCOPED_TRACE(scheme + (v.plastic ? ", plastic, " : ", elastic, ") + std::to_string(v.expansion_factor));
   const Coupled c = cylinder(v);
-  std::map<int, Surfaces> at;
+  std::map<int, verification::ReferenceRow> at;
+  verification::Functional functional;
+  double largest = -1e300;
   const CoupledRun run =
-      verification::march(c, k_end, static_cast<int>(k_end / k_step), [&](const coupling::State& state) {
-        const int time = static_cast<int>(std::lround(state.time));
-        if (time == 10 || time == 100 || time == 1000) at[time] = surfaces(c.mesh, state);
-      });
-  Tolerance worst{0, 0};
-  for (const auto& [time, here] : at) {
-    const Surfaces there = reference(v, scheme, time);
+      verification::march(c, k_end, static_cast<int>(k_end / k_step),
+                          [&](const coupling::State& state, const coupling::StepEffort& effort) {
+                            const int time = static_cast<int>(std::lround(state.time));
+                            functional.add(effort.stability);
+                            largest = std::max(largest, functional.mechanical + functional.thermal);
+                            if (time == 10 || time == 100 || time == 1000)
+                              at[time] = {surfaces(c.mesh, state), functional};
+                          });
+  Tolerance worst{0, 0, 0};
+  for (const auto& [time, row] : at) {
+    const Surfaces& here = row.surfaces;
+    const auto [there, expected] = verification::reference_row(v, scheme, time);
+    const double differences[] = {row.functional.sum - expected.sum,
+                                  row.functional.mechanical - expected.mechanical,
+                                  row.functional.thermal - expected.thermal};
+    for (const double difference : differences) {
+      EXPECT_NEAR(difference, 0, tolerance.functional) << time << " s";
+      worst.functional = std::max(worst.functional, std::abs(difference));
+    }
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_NEAR(here.u[i], there.u[i], tolerance.u) << time << " s";
       EXPECT_NEAR(here.temperature[i], there.temperature[i], tolerance.temperature) << time << " s";
@@ -49,39 +64,43 @@ void expect_reference(const Variant& v, const std::string& scheme, const Toleran
     }
   }
   out << scheme << "," << (v.plastic ? "tp" : "te") << "," << v.expansion_factor << "," << worst.u << ","
-      << worst.temperature << "," << run.worst_defect() / run.exchanged() << "\n";
+      << worst.temperature << "," << worst.functional << "," << run.worst_defect() / run.exchanged() << ","
+      << largest << "\n";
   if (v.form == StructuralForm::energy) {
     EXPECT_LT(run.worst_defect(), 1e-8 * run.exchanged());
     EXPECT_LT(std::abs(run.defect()), 1e-8 * run.exchanged());
   }
 }
 
-constexpr const char* k_columns = "scheme,law,expansion_factor,u[mm],T[K],first_law[heat exchanged]";
+constexpr const char* k_columns =
+    "scheme,law,expansion_factor,u[mm],T[K],functional[J],first_law[heat exchanged],largest_increment[J]";
+
+// 0.1 J of the functional: 4e-6 of what it falls by in 1000 s, as temperatures differ by 3e-4 K of 300 K.
 
 TEST(IsentropicSplit, EnergyFormGivesTheReferenceInEveryVariant) {
   auto out = verification::table("coupling_thick_cylinder_energy", k_columns);
   for (const bool plastic : {false, true})
     for (const int factor : {1, 6})
       expect_reference({plastic, factor, Mapping::isentropic, StructuralForm::energy},
-                       "isentropic_energy_kept", {1e-5, 1e-3}, out);
+                       "isentropic_energy_kept", {1e-5, 1e-3, 0.1}, out);
 }
 
 TEST(IsentropicSplit, EntropyFormGivesTheReferenceInEveryVariant) {
   auto out = verification::table("coupling_thick_cylinder_entropy", k_columns);
   for (const int factor : {1, 6})
     expect_reference({false, factor, Mapping::isentropic, StructuralForm::entropy}, "isentropic_enthalpy",
-                     {1e-5, 1e-3}, out);
+                     {1e-5, 1e-3, 0.1}, out);
   // The reference maps the flow again in the thermal phase, here that of the mechanical phase is kept.
   for (const int factor : {1, 6})
     expect_reference({true, factor, Mapping::isentropic, StructuralForm::entropy}, "isentropic_enthalpy",
-                     {1e-3, 1e-2}, out);
+                     {1e-3, 1e-2, 0.2}, out);
 }
 
 TEST(IsothermalSplit, GivesTheReferenceWhereTheCouplingIsWeak) {
   auto out = verification::table("coupling_thick_cylinder_isothermal", k_columns);
   for (const bool plastic : {false, true})
     expect_reference({plastic, 1, Mapping::isothermal, StructuralForm::energy}, "isothermal_energy",
-                     plastic ? Tolerance{1e-3, 2e-2} : Tolerance{1e-5, 1e-3},  // flow mapped again, as above
+                     plastic ? Tolerance{1e-3, 2e-2, 0.2} : Tolerance{1e-5, 1e-3, 0.1},  // flow as above
                      out);
 }
 
@@ -98,6 +117,7 @@ TEST(IsentropicSplit, EnergyFormClosesTheFirstLawForAnyStepAndCoupling) {
 /// What becomes of the isothermal split with six times the expansion, as far as temperatures are positive.
 struct BlowUp {
   int steps = 0;                ///< with positive temperatures
+  int functional_grows = 0;     ///< the first step that raises 𝓛
   double growth = 0;            ///< mean factor a step of the change of temperature, from step 3 to step 5
   std::vector<double> changes;  ///< of the mean temperature [K]
   std::string reason;           ///< of the end
@@ -107,19 +127,23 @@ BlowUp blow_up(const Variant& v) {
   BlowUp r;
   double before = c.start[0];
   try {
-    verification::march(c, k_end, static_cast<int>(k_end / k_step), [&](const coupling::State& state) {
-      double sums[2] = {0, 0}, coldest = before;
-      for (Index node = 0; node < c.mesh.n_owned_nodes; ++node) {
-        sums[0] += state.heat.temperature[static_cast<std::size_t>(node)];
-        sums[1] += 1;
-        coldest = std::min(coldest, state.heat.temperature[static_cast<std::size_t>(node)]);
-      }
-      if (algebra::global_min(coldest) < 0) throw StepRejected("temperature below zero");
-      const double mean = algebra::global_sum(sums[0]) / algebra::global_sum(sums[1]);
-      r.changes.push_back(mean - before);
-      before = mean;
-      ++r.steps;
-    });
+    verification::march(
+        c, k_end, static_cast<int>(k_end / k_step),
+        [&](const coupling::State& state, const coupling::StepEffort& effort) {
+          double sums[2] = {0, 0}, coldest = before;
+          for (Index node = 0; node < c.mesh.n_owned_nodes; ++node) {
+            sums[0] += state.heat.temperature[static_cast<std::size_t>(node)];
+            sums[1] += 1;
+            coldest = std::min(coldest, state.heat.temperature[static_cast<std::size_t>(node)]);
+          }
+          if (algebra::global_min(coldest) < 0) throw StepRejected("temperature below zero");
+          const double mean = algebra::global_sum(sums[0]) / algebra::global_sum(sums[1]);
+          r.changes.push_back(mean - before);
+          before = mean;
+          ++r.steps;
+          if (effort.stability.increment() > effort.stability.tolerance && r.functional_grows == 0)
+            r.functional_grows = r.steps;
+        });
   } catch (const StepRejected& rejected) {
     r.reason = rejected.reason();
   }
@@ -127,7 +151,8 @@ BlowUp blow_up(const Variant& v) {
   return r;
 }
 
-// Growth: blow_up.csv of the reference; the step in which a run fails depends on rounding.
+// Growth, and the step in which 𝓛 first grows, the fifth: blow_up.csv of the reference; the step in which a
+// run fails depends on rounding.
 TEST(IsothermalSplit, GrowsWithAlternatingSignsToItsEndWhereTheCouplingIsStrong) {
   const struct {
     Variant variant;
@@ -139,6 +164,7 @@ TEST(IsothermalSplit, GrowsWithAlternatingSignsToItsEndWhereTheCouplingIsStrong)
   for (const auto& run : runs) {
     const BlowUp r = blow_up(run.variant);
     EXPECT_FALSE(r.reason.empty());
+    EXPECT_EQ(r.functional_grows, 5);
     EXPECT_GE(r.steps, 5);
     EXPECT_LT(r.steps, 12);
     for (std::size_t i = 1; i < r.changes.size(); ++i) EXPECT_LT(r.changes[i] * r.changes[i - 1], 0) << i;

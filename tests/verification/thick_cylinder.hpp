@@ -64,6 +64,7 @@ inline Coupled cylinder(const Variant& v) {
   c.mapping = v.mapping;
   c.form = v.form;
   c.sensible = v.sensible;
+  c.ambient = 293;
   return c;
 }
 
@@ -88,8 +89,23 @@ inline Surfaces surfaces(const mesh::Mesh& mesh, const coupling::State& state) {
   return s;
 }
 
-/// One line of the reference's histories.
-inline Surfaces reference(const Variant& v, const std::string& scheme, int time) {
+/// 𝓛 since the start and its increments per phase in a step, of the ring 1 mm high [J].
+struct Functional {
+  double sum = 0, mechanical = 0, thermal = 0;
+  /// Goes on by a step of cylinder(), which is 2 mm high.
+  void add(const coupling::StabilityAudit& step) {
+    mechanical = step.mechanical / 2;
+    thermal = step.thermal / 2;
+    sum += mechanical + thermal;
+  }
+};
+
+/// What the reference's histories say of a time.
+struct ReferenceRow {
+  Surfaces surfaces;
+  Functional functional;
+};
+inline ReferenceRow reference_row(const Variant& v, const std::string& scheme, int time) {
   std::ifstream file(SOLIDUS_SOURCE_DIR "/tests/verification/reference/histories.csv");
   const std::string start = std::string(v.plastic ? "tp," : "te,") + std::to_string(v.expansion_factor) +
                             ",closed," + scheme + "," + std::to_string(time) + ",";
@@ -97,12 +113,17 @@ inline Surfaces reference(const Variant& v, const std::string& scheme, int time)
     if (line.rfind(start, 0) != 0) continue;
     std::istringstream rest(line.substr(start.size()));
     Surfaces s{};
+    Functional f;
     char comma = 0;
-    rest >> s.u[0] >> comma >> s.u[1] >> comma >> s.temperature[0] >> comma >> s.temperature[1];
-    return s;
+    rest >> s.u[0] >> comma >> s.u[1] >> comma >> s.temperature[0] >> comma >> s.temperature[1] >> comma >>
+        f.sum >> comma >> f.mechanical >> comma >> f.thermal;
+    return {s, f};
   }
   ADD_FAILURE() << "no line " << start;
   return {};
+}
+inline Surfaces reference(const Variant& v, const std::string& scheme, int time) {
+  return reference_row(v, scheme, time).surfaces;
 }
 
 }  // namespace solidus::verification
