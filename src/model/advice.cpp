@@ -40,6 +40,28 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
   return advice;
 }
 
+std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  const IterationSpec& i = spec.coupling.iteration;
+  std::vector<std::string> advice;
+  if (i.passes == IterationSpec::Passes::isothermal) {
+    advice.emplace_back(
+        "isentropic passes, which converge however strong the coupling is: coupling.iteration.passes");
+    if (i.relaxation != IterationSpec::Relaxation::aitken)
+      advice.emplace_back("coupling.iteration.relaxation = \"aitken\"");
+  }
+  if (!says(stop, "diverges"))
+    advice.push_back(
+        fmt::format("more iterations: coupling.iteration.max_iterations (now {}), or "
+                    "coupling.iteration.tolerance (now {:g})",
+                    i.max_iterations, i.tolerance));
+  if (!spec.contacts.empty())
+    advice.emplace_back("a heat transfer that changes less steeply with the gap: [contact.heat]");
+  advice.emplace_back(
+      "another scheme: coupling.scheme = \"isentropic\" takes one turn a step, \"simultaneous\" solves "
+      "both fields at once");
+  return advice;
+}
+
 std::vector<std::string> heat_advice(const CaseSpec& spec) {
   return {fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance (now {:g})",
                       spec.heat.max_iterations, spec.heat.tolerance),
@@ -66,8 +88,10 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
                         stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +
             go_on;
   text += "  what may help:";
-  const bool mechanics = stop.reason.rfind("mechanics", 0) == 0;
-  for (const std::string& advice : mechanics ? mechanics_advice(stop, spec) : heat_advice(spec))
+  const bool mechanics = stop.reason.starts_with("mechanics"), coupling = stop.reason.starts_with("coupling");
+  for (const std::string& advice : coupling    ? coupling_advice(stop, spec)
+                                   : mechanics ? mechanics_advice(stop, spec)
+                                               : heat_advice(spec))
     text += fmt::format("\n    - {}", advice);
   if (steps)
     text += fmt::format(
