@@ -103,6 +103,20 @@ void ContactPair::add_coupling(std::span<const double> temperature, algebra::Cou
   heat_->add_gap_tangent(slope, temperature, mechanics_->slots(), matrix);
 }
 
+double ContactPair::work(std::span<const double> old_penetration, double share) const {
+  double work = 0;
+  for (const Pairing& pairing : points_.pairings) {
+    if (!pairing.counted) continue;
+    for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
+      const auto i = static_cast<std::size_t>(p);
+      const double before = old_penetration[i], now = state_.penetration[i];
+      const double pressure = share * law_.update(now).pressure + (1 - share) * law_.update(before).pressure;
+      work += points_.weight[i] * pressure * (now - before);
+    }
+  }
+  return algebra::global_sum(work);
+}
+
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
   double points = 0, closed = 0, area = 0, force = 0, energy = 0;
   for (const Pairing& pairing : points_.pairings) {

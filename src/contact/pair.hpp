@@ -62,6 +62,10 @@ class ContactPair {
 
   /// Sums at the last update(); `temperature` [local node] or empty (heat = 0). Collective.
   ContactSums sums(std::span<const double> temperature) const;
+  /// Work that closes the gaps from an earlier penetration to that of the last update(), by the mean of the
+  /// pressures at both [J]. Collective.
+  /// @param share of the last update() in the mean
+  double work(std::span<const double> old_penetration, double share) const;
   /// Averages at nodes, at the last update(). Local.
   ContactNodalFields nodal_fields() const;
   /// Heat that leaves the slave's and enters the master's surface around every owned node [W]: positive where

@@ -10,6 +10,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
+#include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
 
@@ -77,7 +78,7 @@ void BlockIterative::forget() {
 }
 
 StepEffort BlockIterative::advance(const State& old, State& trial, double time, double dt) {
-  const double spring_energy = contact_energy(phases_);
+  ContactWork contact(phases_);
   Iterate it;
   it.time = time;
   it.dt = dt;
@@ -96,7 +97,10 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
 
   StepEffort effort = std::move(it.effort);
   effort.coupling_iterations = it.number;
-  if (phases_.structural != nullptr) effort.energy.contact = contact_energy(phases_) - spring_energy;
+  if (phases_.structural != nullptr) {
+    contact.add(phases_.mechanics->work_share());
+    contact.book(effort.energy);
+  }
   trial.heat = std::move(it.now.heat);
   trial.mechanics = std::move(it.now.mechanics);
   effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);

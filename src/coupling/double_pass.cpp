@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
 
@@ -34,7 +35,8 @@ StepEffort DoublePass::advance(const State& old, State& trial, double time, doub
 
 StepEffort DoublePass::first_half(const State& old, State& half, double time, double dt) {
   StepEffort effort;
-  const double middle = time - 0.5 * dt, springs = contact_energy(phases_);
+  const double middle = time - 0.5 * dt;
+  ContactWork contact(phases_);
   phases_.mechanics->rest(old.mechanics, old.heat.temperature);
   State predicted;
   thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
@@ -45,7 +47,8 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
                    .iterate_temperature = predicted.heat.temperature,
                    .work = mechanics::StressAtWork::end_kept},
                   effort);
-  effort.energy.contact = contact_energy(phases_) - springs;
+  contact.add();
+  contact.book(effort.energy);
   thermal_pass(phases_, old, half, {.time = time, .dt = dt, .stepping = heat::ThermalStepping::sdirk2},
                effort);
   effort.stability = stability_audit(phases_, old, half, effort);
@@ -54,14 +57,15 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
 
 StepEffort DoublePass::second_half(const State& half, State& trial, double time, double dt) {
   StepEffort effort;
-  const double springs = contact_energy(phases_);
+  ContactWork contact(phases_);
   mechanical_pass(phases_, half, trial,
                   {.time = time,
                    .dt = 0.5 * dt,
                    .temperature = half.heat.temperature,
                    .work = mechanics::StressAtWork::kept},
                   effort);
-  effort.energy.contact = contact_energy(phases_) - springs;
+  contact.add(0);  // of the pressure in the middle, as that of the stress
+  contact.book(effort.energy);
   thermal_pass(phases_, half, trial, {.time = time, .dt = dt, .adiabatic = true}, effort);
   effort.energy.heat_exchanged = 0;  // what deformation and heat exchange within a point
   effort.stability = stability_audit(phases_, half, trial, effort);

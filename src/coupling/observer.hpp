@@ -25,7 +25,7 @@ struct EnergyAudit {
   double structural = 0;   ///< change of the structural energy W + M + Θ S
   double contact = 0;      ///< change of the energy in contact penalties
   double kinetic = 0;      ///< change of the kinetic energy
-  double numerical = 0;    ///< what the time integration of inertia dissipates (its own term of the balance)
+  double numerical = 0;    ///< what the time integration of inertia and of contact penalties dissipates
   double work = 0;         ///< work of loads and supports on the bodies
   double unbalanced = 0;   ///< work of the forces that Newton's iteration left, a part of the defect
   double heat_in = 0;      ///< through boundaries and from sources

@@ -33,10 +33,4 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   }
 }
 
-double contact_energy(const Phases& phases) {
-  double energy = 0;
-  for (const contact::ContactPair* pair : phases.contacts) energy += pair->sums({}).energy;
-  return energy;
-}
-
 }  // namespace solidus::coupling

@@ -28,7 +28,4 @@ struct Phases {
 /// What every scheme reports of the state it reached: temperatures, solid fraction, contact.
 void summarise(const Phases& phases, const State& state, StepEffort& effort);
 
-/// Energy in the contact penalties at the last update of the pairs [J]. Collective.
-double contact_energy(const Phases& phases);
-
 }  // namespace solidus::coupling

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
 
@@ -34,11 +35,12 @@ StepEffort SequentialSplit::advance(const State& old, State& trial, double time,
 // From the temperature of t_n (4.40, 4.46).
 void SequentialSplit::mechanical_phase(const State& old, State& trial, double time, double dt,
                                        StepEffort& effort) {
-  const double spring_energy = contact_energy(phases_);
+  ContactWork contact(phases_);
   const std::vector<double>& temperature =
       phases_.heat != nullptr ? old.heat.temperature : phases_.temperature;
   mechanical_pass(phases_, old, trial, {.time = time, .dt = dt, .temperature = temperature}, effort);
-  effort.energy.contact = contact_energy(phases_) - spring_energy;
+  contact.add(phases_.mechanics->work_share());
+  contact.book(effort.energy);
 }
 
 }  // namespace solidus::coupling

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coupling/contact_work.hpp"
 #include "coupling/stability_audit.hpp"
 #include "material/time_integration.hpp"
 
@@ -67,11 +68,12 @@ void SimultaneousScheme::drop_carried() {
 
 StepEffort SimultaneousScheme::advance(const State& old, State& trial, double time, double dt) {
   drop_carried();  // of a step that failed
-  const double springs = contact_energy(phases_);
+  ContactWork contact(phases_);
   StepEffort effort = options_.integration == SimultaneousOptions::Integration::sdirk2
-                          ? two_stages(old, trial, time, dt)
+                          ? two_stages(old, trial, time, dt, contact)
                           : backward_euler(old, trial, time, dt);
-  effort.energy.contact = contact_energy(phases_) - springs;
+  contact.add(phases_.mechanics->work_share());
+  contact.book(effort.energy);
   effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
   effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
   summarise(phases_, trial, effort);
@@ -83,7 +85,8 @@ StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, do
   return stage(old.mechanics, {.time = time, .dt = dt, .temperature = old.heat.temperature}, trial);
 }
 
-StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double time, double dt) {
+StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double time, double dt,
+                                          ContactWork& contact) {
   const double share = material::k_sdirk_share * dt, carried = material::k_sdirk_carried;
   const double middle = time - dt + share;
   State first;
@@ -91,6 +94,8 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   const StepEffort of_first =
       stage(old.mechanics, {.time = middle, .dt = share, .temperature = old.heat.temperature}, first);
 
+  contact.add(1, carried);
+  contact.restart(carried);
   for (mechanics::CoupledKernel* kernel : newton_.kernels()) kernel->carry(carried, first.heat.temperature);
   const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
   newton_.thermal().begin_stage(old.heat, first.heat, carried, time, share);

@@ -17,6 +17,8 @@
 
 namespace solidus::coupling {
 
+class ContactWork;
+
 struct SimultaneousOptions {
   enum class Integration { backward_euler, sdirk2 };
   Integration integration = Integration::backward_euler;
@@ -39,7 +41,7 @@ class SimultaneousScheme final : public CouplingScheme {
 
  private:
   StepEffort backward_euler(const State& old, State& trial, double time, double dt);
-  StepEffort two_stages(const State& old, State& trial, double time, double dt);
+  StepEffort two_stages(const State& old, State& trial, double time, double dt, ContactWork& contact);
   /// Mechanics from `old`, heat as thermal() has begun.
   StepEffort stage(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass, State& trial);
   void drop_carried();

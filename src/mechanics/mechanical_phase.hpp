@@ -136,6 +136,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   MechanicalState initial_state();
   /// Whether the bodies have inertia.
   bool dynamic() const { return inertia_ != nullptr; }
+  /// The share of t_{n+1} in the mean of the forces whose work a step does (Motion::work_share).
+  double work_share() const { return inertia_ ? inertia_->motion().work_share : 1.0; }
 
   /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be the iterate.
   /// Throws StepRejected (on all processes) when Newton's iteration fails; the place is the element whose law

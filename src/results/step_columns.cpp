@@ -50,6 +50,7 @@ std::vector<Column> step_columns(StepTable table) {
                                  {"stored_heat", "J"},
                                  {"structural_energy", "J"},
                                  {"contact_energy", "J"},
+                                 {"numerical_dissipation", "J"},
                                  {"work", "J"},
                                  {"heat_in", "J"},
                                  {"heat_exchanged", "J"},
@@ -57,8 +58,7 @@ std::vector<Column> step_columns(StepTable table) {
                                  {"plastic_dissipation", "J"},
                                  {"plastic_work", "J"},
                                  {"energy_defect", "J"}};
-  if (table.dynamics)
-    columns.insert(columns.end(), {{"kinetic_energy", "J"}, {"numerical_dissipation", "J"}});
+  if (table.dynamics) columns.push_back({"kinetic_energy", "J"});
   if (table.stability)
     columns.insert(columns.end(), {{"lyapunov_mechanical", "J"},
                                    {"lyapunov_thermal", "J"},
@@ -96,6 +96,7 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
                              r.energy.stored_heat,
                              r.energy.structural,
                              r.energy.contact,
+                             r.energy.numerical,
                              r.energy.work,
                              r.energy.heat_in,
                              r.energy.heat_exchanged,
@@ -103,7 +104,7 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
                              r.energy.plastic_dissipation,
                              r.energy.plastic_work,
                              r.energy.defect()};
-  if (table.dynamics) cells.insert(cells.end(), {r.energy.kinetic, r.energy.numerical});
+  if (table.dynamics) cells.emplace_back(r.energy.kinetic);
   if (table.stability)
     cells.insert(cells.end(),
                  {r.stability.mechanical, r.stability.thermal, r.stability.tolerance, r.stability.entropy});
@@ -131,10 +132,9 @@ std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
     add("work", "J", sum_.work);
   }
   if (options_.mechanics && options_.contact) add("contact_energy", "J", sum_.contact);
-  if (options_.dynamics) {
-    add("kinetic_energy", "J", sum_.kinetic);
+  if (options_.dynamics) add("kinetic_energy", "J", sum_.kinetic);
+  if (options_.dynamics || (options_.mechanics && options_.contact))
     add("numerical_dissipation", "J", sum_.numerical);
-  }
   if (options_.mechanics) add("viscous_dissipation", "J", sum_.viscous_dissipation);
   if (options_.plastic) {
     add("plastic_dissipation", "J", sum_.plastic_dissipation);
