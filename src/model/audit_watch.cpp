@@ -11,7 +11,7 @@ namespace {
 /// The scheme closes the first law to its residuals.
 bool closes_first_law(const CaseSpec& spec) {
   return !spec.coupled() || (spec.coupling.structural_heating == CouplingSpec::StructuralHeating::energy &&
-                             !spec.coupling.as_printed && spec.contacts.empty());
+                             !spec.coupling.as_printed);
 }
 
 }  // namespace

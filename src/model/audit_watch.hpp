@@ -25,7 +25,7 @@ class StabilityWatch : public coupling::Observer {
 
 /// Warns at the end of a run, whole or stopped, whose steps together violate the first law: by more than
 /// residuals explain where the scheme closes it, by a thousandth of the heat exchanged where it does not
-/// (printed forms; penalty contact, whose springs lose work at second order in the step).
+/// (the entropy and the printed forms).
 class FirstLawWatch : public coupling::Observer {
  public:
   /// @param spec kept by reference
