@@ -68,7 +68,8 @@ std::string type_text(const Key& key) {
     return {};
   };
   if (!key.list) return single();
-  return key.length ? fmt::format("list of {} x {}", key.length, single()) : "list of " + single();
+  if (key.length) return fmt::format("list of {} x {}", key.length, single());
+  return (key.single ? single() + " or list of " : "list of ") + single();
 }
 
 /// A value as it would stand in a file.
@@ -212,8 +213,10 @@ std::string schema_of_section(const SectionInfo& info, int depth) {
       if (!more.empty()) description += (description.empty() ? "" : " ") + ("(" + more + ")");
     std::string value = schema_of_value(key, depth);
     if (key.list) {
-      value = "\"type\": \"array\", \"items\": {" + value + "}";
+      const std::string item = value;
+      value = "\"type\": \"array\", \"items\": {" + item + "}";
       if (key.length) value += fmt::format(", \"minItems\": {0}, \"maxItems\": {0}", key.length);
+      if (key.single) value = "\"anyOf\": [{" + item + "}, {" + value + "}]";
     }
     properties += fmt::format("{}\n{}{}: {{\"description\": {}, {}}}", properties.empty() ? "" : ",", indent,
                               json_text(key.name), json_text(description), value);

@@ -80,6 +80,8 @@ class Key {
   Key& of(std::vector<Argument> which) { return arguments = std::move(which), *this; }
   /// The key belongs to the section only when another key of it, a text, has one of these values.
   Key& when(std::string key, std::vector<std::string> values);
+  /// A list of one may be written as its item.
+  Key& or_one() { return single = true, *this; }
   /// Temperatures are differences: "5 degC" is 5 K.
   Key& difference() { return temperature = units::Temperature::difference, *this; }
 
@@ -87,6 +89,7 @@ class Key {
   Kind kind = Kind::text;
   bool list = false;       ///< the value is a list of such values
   std::size_t length = 0;  ///< its length, zero: any
+  bool single = false;     ///< a list of one may be written as its item
   bool required = true;
   std::optional<Value> initial;
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
@@ -141,6 +144,7 @@ void read(const Value& value, const Key& key, std::optional<M>& out) {
 template <class M>
 void read(const Value& value, const Key& key, std::vector<M>& out) {
   out.clear();
+  if (key.single && !value.is_list()) return read(value, key, out.emplace_back());
   for (const Value& item : list_items(value, key)) read(item, key, out.emplace_back());
 }
 template <class M, std::size_t N>

@@ -21,20 +21,31 @@ std::string resolved_path(const Value& value) {
   return fs::absolute(path.is_absolute() ? path : folder / path).lexically_normal().string();
 }
 
+Value load_with_includes(const fs::path& path, std::vector<fs::path>& chain);
+
+/// @param include one path of the key `include`
+/// @param chain the files that led here, each included by the one before
+Value load_included(const Value& include, std::vector<fs::path>& chain) {
+  if (!include.is_text())
+    throw InputError(include.where, "'include' is " + include.describe(),
+                     "the path of a case file, in quotes, or a list of such paths");
+  const fs::path other = resolved_path(include);
+  if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(other)) != chain.end())
+    throw InputError(include.where, fmt::format("'{}' is included by itself", include.text()));
+  if (!fs::exists(other))
+    throw InputError(include.where, fmt::format("the included file '{}' does not exist", other.string()));
+  return load_with_includes(other, chain);
+}
+
 Value load_with_includes(const fs::path& path, std::vector<fs::path>& chain) {
   Value document = load_document(path);
-  chain.push_back(fs::weakly_canonical(path));
   const Value* include = document.find("include");
   if (!include) return document;
-  if (!include->is_text())
-    throw InputError(include->where, "'include' is " + include->describe(),
-                     "the path of a case file, in quotes");
-  const fs::path other = resolved_path(*include);
-  if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(other)) != chain.end())
-    throw InputError(include->where, fmt::format("'{}' is included by itself", include->text()));
-  if (!fs::exists(other))
-    throw InputError(include->where, fmt::format("the included file '{}' does not exist", other.string()));
-  Value base = load_with_includes(other, chain);
+  chain.push_back(fs::weakly_canonical(path));
+  Value base;
+  for (const Value& item : include->is_list() ? include->items() : Value::List{*include})
+    lay_over(base, load_included(item, chain));
+  chain.pop_back();
   std::erase_if(document.entries(), [](const Value::Entry& e) { return e.key == "include"; });
   lay_over(base, document);
   base.where = document.where;

@@ -50,7 +50,11 @@ const Section<CaseSpec>& case_keys() {
     Section<CaseSpec> s("", "A case of Solidus.");
     s.key("title", &CaseSpec::title).doc("What the case is about, one line.");
     s.key("include", &CaseSpec::include)
-        .doc("Another case file that this one starts from; what stands here is laid over it.");
+        .or_one()
+        .initially(Value::list())
+        .doc(
+            "The case file, or files, that this one starts from: each is laid over those before it, what "
+            "stands here over them all.");
     s.section("analysis", &CaseSpec::analysis, analysis_keys());
     s.section("mesh", &CaseSpec::mesh, mesh_keys());
     s.section("time", &CaseSpec::time, time_keys());

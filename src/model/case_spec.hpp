@@ -167,9 +167,9 @@ struct CouplingSpec {
   StructuralHeating structural_heating = StructuralHeating::energy;
   bool as_printed = false;  ///< the sensible heat in the same form, not as a difference of enthalpies
   enum class Integration { backward_euler, sdirk2 };
-  Integration integration = Integration::backward_euler;  ///< of the simultaneous scheme
+  Integration integration = Integration::backward_euler;                      ///< of the simultaneous scheme
   algebra::CoupledSolverKind solver = algebra::CoupledSolverKind::automatic;  ///< of the same
-  std::optional<double> ambient_temperature;              ///< Θ_a of 2.24 [K]; absent: from the conditions
+  std::optional<double> ambient_temperature;  ///< Θ_a of 2.24 [K]; absent: from the conditions
   IterationSpec iteration;
   SourceLocation where;
 };
@@ -197,7 +197,7 @@ struct OutputSpec {
 
 struct CaseSpec {
   std::string title;
-  std::optional<std::string> include;  ///< resolved by load_case: empty afterwards
+  std::vector<std::string> include;  ///< resolved by load_case: empty afterwards
   AnalysisSpec analysis;
   MeshSpec mesh;
   TimeSpec time;

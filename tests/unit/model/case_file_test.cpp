@@ -121,6 +121,37 @@ TEST_F(CaseFile, IncludesInACircleAndMissingOnesAreRefused) {
               AllOf(HasSubstr("c.toml:1:11"), HasSubstr("does not exist")));
 }
 
+TEST_F(CaseFile, OfSeveralIncludesTheLaterIsLaidOverTheEarlier) {
+  write("case.toml", k_block);
+  write("parts/slow.toml", "[time]\nend = \"40 s\"\nstep = \"2 s\"\n");
+  write("parts/iron.toml", "[[body]]\nname = \"block\"\nmaterial = \"iron.toml\"\n[time]\nstep = \"4 s\"\n");
+  const Case c = load_case(
+      write("slow_iron.toml", "include = [\"case.toml\", \"parts/slow.toml\", \"parts/iron.toml\"]\n"));
+  EXPECT_DOUBLE_EQ(*c.spec.time.end, 40);
+  EXPECT_DOUBLE_EQ(*c.spec.time.step, 4);
+  EXPECT_EQ(c.spec.bodies[0].material, (folder_ / "parts/iron.toml").string());
+  EXPECT_TRUE(c.spec.include.empty());
+}
+
+TEST_F(CaseFile, TwoIncludesMayStartFromTheSameFile) {
+  write("case.toml", k_block);
+  write("a.toml", "include = \"case.toml\"\n[time]\nstep = \"2 s\"\n");
+  write("b.toml", "include = \"case.toml\"\n[time]\nend = \"20 s\"\n");
+  const Case c = load_case(write("c.toml", "include = [\"a.toml\", \"b.toml\"]\n"));
+  EXPECT_DOUBLE_EQ(*c.spec.time.step, 1);  // b.toml as a whole, the step of case.toml in it, over a.toml
+  EXPECT_DOUBLE_EQ(*c.spec.time.end, 20);
+}
+
+TEST_F(CaseFile, EveryPathOfAListOfIncludesIsChecked) {
+  write("case.toml", k_block);
+  EXPECT_THAT(error(write("missing.toml", "include = [\"case.toml\", \"nowhere.toml\"]\n")),
+              AllOf(HasSubstr("missing.toml:1:25"), HasSubstr("does not exist")));
+  EXPECT_THAT(error(write("circle.toml", "include = [\"case.toml\", \"circle.toml\"]\n")),
+              HasSubstr("included by itself"));
+  EXPECT_THAT(error(write("number.toml", "include = [\"case.toml\", 3]\n")),
+              AllOf(HasSubstr("'include' is"), HasSubstr("a list of such paths")));
+}
+
 TEST_F(CaseFile, OverridesReachSectionsAndNamedListSections) {
   const fs::path file = write("case.toml", k_block);
   const Case c = load_case(file, {"time.step=0.5 s", "body.block.material=iron",
