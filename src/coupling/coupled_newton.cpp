@@ -10,6 +10,7 @@ namespace solidus::coupling {
 
 namespace {
 
+constexpr int k_full_steps = 15;         ///< before steps are halved for more than their numbers' sake
 constexpr std::size_t k_remembered = 5;  ///< residuals that a step may rise to
 constexpr int k_halvings = 8;
 constexpr double k_far_off = 1e6;  ///< a residual that rises so much even after halving ends the iteration
@@ -130,10 +131,11 @@ double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanic
   const std::size_t n = report.residuals.size();
   for (std::size_t i = n > k_remembered ? n - k_remembered : 0; i < n; ++i)
     highest = std::max(highest, report.residuals[i].size());
+  const bool full = report.iterations <= k_full_steps;
   double alpha = 1, best = 1, least = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= k_halvings; ++k, alpha *= 0.5) {
     const double size = evaluate_at(alpha, old, pass, x).size();
-    if (std::isfinite(size) && (size <= highest || converged())) return alpha;
+    if (std::isfinite(size) && (full || size <= highest || converged())) return alpha;
     if (std::isfinite(size) && size < least) {
       least = size;
       best = alpha;

@@ -9,8 +9,10 @@
 /// exact, the slope of the conductivity and that of the conductance in the gap included; only radiation
 /// across a gap has the symmetric slope of HeatTerm.
 ///
-/// A step that leads far off is halved: nonmonotone, against the largest of the last residuals (Grippo,
-/// Lampariello, Lucidi 1986), because yield, contact and plateaus raise it for an iteration.
+/// Full steps first, halved only where a law finds no state or a temperature falls below zero: where contact
+/// opens or closes, metal yields or a node freezes, the residual rises for an iteration and falls at once
+/// after it. From the sixteenth on a step is halved until the residual is below the largest of the last five
+/// (nonmonotone, Grippo, Lampariello, Lucidi 1986).
 #pragma once
 
 #include <memory>
