@@ -12,7 +12,6 @@ namespace solidus::algebra {
 /// `dt`, from E* = E_n + carried (E(x) − E_n) with the x of the stage before.
 struct Stage {
   double dt = 0;       ///< [s]
-  double share = 1;    ///< of the step, and so of what is spread over it
   double carried = 0;  ///< zero in the first stage
 };
 

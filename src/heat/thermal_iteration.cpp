@@ -22,7 +22,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
   old_ = &old;
   dt_ = dt;
   phase_.system_->exchange(true);
-  if (phase_.printed_) phase_.printed_->begin_stage({dt, 1, factor}, old.temperature);
+  if (phase_.printed_) phase_.printed_->begin_stage({dt, factor}, old.temperature);
   now_ = phase_.start(stage, time);
   if (closed()) {
     stored_from_ = old.enthalpy;

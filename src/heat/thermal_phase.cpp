@@ -174,9 +174,9 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
     const double first_dt = k_sdirk_share * pass.dt, carried = (1 - k_sdirk_share) / k_sdirk_share;
     ThermalState middle;
     const ThermalPass to_middle{pass.time - pass.dt + first_dt, pass.dt, pass.iterate, pass.newton_steps};
-    report = solve_stage(old, old, {first_dt, k_sdirk_share, 0}, to_middle, middle);
+    report = solve_stage(old, old, {first_dt, 0}, to_middle, middle);
     const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
-    PhaseReport last = solve_stage(old, middle, {first_dt, k_sdirk_share, carried}, to_end, next);
+    PhaseReport last = solve_stage(old, middle, {first_dt, carried}, to_end, next);
     add_stage(report, carried, last);
     set_latent(report.balance, old, next);
   } else {

@@ -73,9 +73,11 @@ void StructuralPoints::begin_stage(const algebra::Stage& stage, std::span<const 
     for (int q = 0; q < geometry_.n_points; ++q) {
       const std::size_t i = index(batch, q);
       const Point& at = points_[i];
-      const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature));
-      carried_[i] = {at.old_entropy + carried * (now.entropy - at.old_entropy),
-                     at.old_energy + carried * (now.internal_energy - at.old_energy)};
+      const Lane theta = temperature_at(geometry_, batch, q, temperature);
+      const State now = state(at, at.now, theta);
+      const Lane entropy = at.old_entropy + at.dissipated / theta, energy = at.old_energy + at.work;
+      carried_[i] = {entropy + carried * (now.entropy - entropy),
+                     energy + carried * (now.internal_energy - energy)};
     }
 }
 
@@ -107,8 +109,9 @@ StructuralPoints::Sloped StructuralPoints::structural_heating(const Point& at, L
 StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t point,
                                                 Lane temperature) const {
   const Point& at = points_[point];
-  const Start start = carried_.empty() ? Start{at.old_entropy, at.old_energy} : carried_[point];
-  const Lane share(stage_.share), dissipated = share * at.dissipated;
+  const bool first = carried_.empty();  // the deformation comes before the stages, with its work and heat
+  const Start start = first ? Start{at.old_entropy, at.old_energy + at.work} : carried_[point];
+  const Lane dissipated = first ? at.dissipated : Lane(0.0);
   if (form == StructuralForm::temperature) {
     const Lane capacity = state(at, at.now, temperature).capacity;
     const Lane warmed = temperature - at.temperature;
@@ -119,7 +122,7 @@ StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t
   const State now = state(at, at.now, temperature);
   switch (form) {
     case StructuralForm::energy:
-      return {now.internal_energy - start.energy - share * at.work, now.capacity};
+      return {now.internal_energy - start.energy, now.capacity};
     case StructuralForm::literal: {
       const Lane gained = now.entropy - state(at, at.now, at.temperature).entropy;
       const Sloped h = structural_heating(at, temperature);

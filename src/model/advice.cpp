@@ -62,7 +62,9 @@ std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseS
   return advice;
 }
 
-std::vector<std::string> heat_advice(const CaseSpec& spec) {
+std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  if (says(stop, "temperature falls") || says(stop, "temperature is not"))
+    return {"fluxes and sources at that place: do they take more heat than there is?"};
   return {fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance (now {:g})",
                       spec.heat.max_iterations, spec.heat.tolerance),
           "films, radiation, sources or conductivities that change steeply with temperature at that place",
@@ -71,10 +73,18 @@ std::vector<std::string> heat_advice(const CaseSpec& spec) {
               : "heat.exact_conductivity = true where the conductivity depends strongly on temperature"};
 }
 
+/// The body for which the isothermal split is unstable, however short the step; null without one.
+const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) {
+  const auto worst = std::max_element(couplings.begin(), couplings.end(), [](const auto& a, const auto& b) {
+    return a.decisive() < b.decisive();
+  });
+  return worst != couplings.end() && worst->decisive() >= 1 ? &*worst : nullptr;
+}
+
 }  // namespace
 
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
-                      const std::string& checkpoint) {
+                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
   const std::string go_on = fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
   if (stop.asked)
     return fmt::format("stopped as asked at t = {:.6g} s\n", time) + go_on +
@@ -88,19 +98,25 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
                         stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +
             go_on;
   text += "  what may help:";
+  const CouplingEstimate* unstable = too_strong(couplings);
+  if (unstable != nullptr)
+    text += fmt::format(
+        "\n    - the coupling is too strong for the isothermal split: {};\n      coupling.scheme = "
+        "\"isentropic\" "
+        "is stable for every step. Shorter steps do not help",
+        model::text(*unstable));
   const bool mechanics = stop.reason.starts_with("mechanics"), coupling = stop.reason.starts_with("coupling");
   for (const std::string& advice : coupling    ? coupling_advice(stop, spec)
                                    : mechanics ? mechanics_advice(stop, spec)
-                                               : heat_advice(spec))
+                                               : heat_advice(stop, spec))
     text += fmt::format("\n    - {}", advice);
-  if (steps)
-    text += fmt::format(
-        "\n    - smaller steps: time.step (now {:g} s), time.min_step\n"
-        "  The results so far are whole; after a change that leaves mesh and materials alone, the same "
-        "command "
-        "with --restart\n  continues from there.",
-        spec.time.step.value_or(0));
-  return text;
+  if (!steps) return text;
+  if (unstable == nullptr)
+    text += fmt::format("\n    - smaller steps: time.step (now {:g} s), time.min_step",
+                        spec.time.step.value_or(0));
+  return text +
+         "\n  The results so far are whole; after a change that leaves mesh and materials alone, the same "
+         "command with --restart\n  continues from there.";
 }
 
 }  // namespace solidus::model

@@ -1,17 +1,20 @@
 /// What a user reads when a run stops before its end.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "coupling/continuation.hpp"
 #include "model/case_spec.hpp"
+#include "model/coupling_estimate.hpp"
 
 namespace solidus::model {
 
 /// Reason, place, what was tried, where the checkpoint lies, and what may help; several lines.
 /// @param time the run reached [s]
 /// @param checkpoint its file
+/// @param couplings  of a run by the isothermal split, otherwise empty
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
-                      const std::string& checkpoint);
+                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings = {});
 
 }  // namespace solidus::model

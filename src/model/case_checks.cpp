@@ -272,12 +272,15 @@ void check_coupling(const CaseSpec& spec) {
   if (c.scheme == Scheme::double_pass && spec.dynamics)
     throw InputError(c.where, "the double pass is for quasi-statics",
                      "scheme = \"isentropic\", \"simultaneous\" or \"isothermal\"");
+  if (c.scheme == Scheme::double_pass && form != Heating::energy)
+    throw InputError(c.where,
+                     "temperature x difference of entropy is of first order, the double pass of second",
+                     "structural_heating = \"energy\"");
   if (!c.as_printed) return;
   if (form == Heating::energy || form == Heating::none)
     throw InputError(c.where, "as_printed has no meaning without a printed form of structural heat",
                      "structural_heating \"entropy\", \"literal\" or \"temperature\", or as_printed = false");
-  if (c.scheme == Scheme::double_pass ||
-      (c.scheme == Scheme::simultaneous && c.integration == CouplingSpec::Integration::sdirk2))
+  if (c.scheme == Scheme::simultaneous && c.integration == CouplingSpec::Integration::sdirk2)
     throw InputError(c.where, "printed forms of sensible heat go with backward Euler",
                      "as_printed = false, or a scheme of first order");
 }

@@ -259,8 +259,12 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   const coupling::Outcome outcome =
       simulation.run(start, at_start.solid_fraction, from ? std::optional(from->continuation) : std::nullopt);
   if (outcome == coupling::Outcome::finished) return {};
+  std::vector<CouplingEstimate> couplings;
+  if (spec.coupled() && spec.coupling.scheme == CouplingSpec::Scheme::isothermal)
+    couplings = coupling_estimates(spec, a.materials, a.mesh);
   return {false, stop_text(why.stop, spec, why.time,
-                           results::CheckpointFolder(options.folder).latest().lexically_normal().string())};
+                           results::CheckpointFolder(options.folder).latest().lexically_normal().string(),
+                           couplings)};
 }
 
 // The checkpoint that a run is to go on from; nothing without --restart.
