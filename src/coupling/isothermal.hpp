@@ -1,8 +1,10 @@
-/// The isothermal split (monograph 4.2.3, 4.36, 4.46–4.54) in its temperature form: first the mechanical
-/// phase at Θ_n, then the thermal phase at the configuration found, with exact enthalpy differences and
-/// structural heating (2.127b).
+/// The isothermal split (monograph 4.2.3, 4.36, 4.46–4.54): first the mechanical phase at Θ_n, then the
+/// thermal phase at the configuration found, in any form of structural heat
+/// (mechanics/structural_heat.hpp): 4.48a with 4.50 literal or collapsed, 4.53a, or the difference of the
+/// internal energy.
 ///
-/// Conditionally stable: see docs/theory/coupling.md. With only one of the phases it is that phase alone.
+/// Conditionally stable, in every form alike: docs/theory/coupling_stability.md, section 5. With only one of
+/// the phases it is that phase alone.
 #pragma once
 
 #include "coupling/sequential_split.hpp"
