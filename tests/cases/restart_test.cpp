@@ -90,6 +90,15 @@ TEST_F(Restart, GoesOnWithTheSameBitsOfATwoStepMethodAndPlasticHistory) {
       1);
 }
 
+// Velocities, accelerations, forces and stresses of t_n are part of the state.
+TEST_F(Restart, GoesOnWithTheSameBitsWithInertia) {
+  expect_the_same("--set dynamics.method='\"generalised_alpha\"'", 1);
+}
+
+TEST_F(Restart, GoesOnWithTheSameBitsWithInertiaInBackwardEuler) {
+  expect_the_same("--set dynamics.method='\"backward_euler\"' --set dynamics.mass='\"lumped\"'", 1);
+}
+
 // MUMPS on several processes adds in the order in which messages come: two runs never have the same bits.
 TEST_F(Restart, GoesOnWithTheSameBitsOnTwoProcesses) {
   expect_the_same("--set mechanics.solver='\"multigrid\"'", 2);
@@ -126,6 +135,13 @@ TEST_F(Restart, RefusesTheCheckpointOfAnotherCaseAndLeavesItsResults) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.output, HasSubstr("of another case: its mesh is"));
   EXPECT_EQ(text(root() / "other/history.csv"), before);
+}
+
+TEST_F(Restart, RefusesACheckpointWithoutTheMotionThatInertiaNeeds) {
+  ASSERT_EQ(run("still").code, 0);
+  const Outcome outcome = run("still", "--restart --set dynamics.method='\"trapezoidal\"'");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("of another case: its analysis is"));
 }
 
 TEST_F(Restart, FallsBackToThePreviousCheckpointWhenTheLatestIsDamaged) {
