@@ -18,7 +18,7 @@ enum class CoupledSolverKind {
   field_split
 };
 
-/// What one newton and one watt count in the norm of the residual: the reciprocals of what is tolerated.
+/// What one newton and one watt count in the norm of the residual.
 struct FieldWeights {
   double force = 1;  ///< [1/N]
   double heat = 1;   ///< [1/W]

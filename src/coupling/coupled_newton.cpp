@@ -83,16 +83,27 @@ algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState
   return matrix_;
 }
 
+algebra::FieldWeights CoupledNewton::weights() {
+  const std::span<const double> heat = thermal_->right_hand_side();
+  double squares[2] = {0, 0};
+  for (std::size_t i = 0; i < heat.size(); ++i) {
+    step_t_[i] = heat[i] / *matrix_.temperature().diagonal_block(static_cast<Index>(i));
+    squares[0] += heat[i] * heat[i];
+  }
+  ghosts_.update(step_t_, 1);
+  matrix_.multiply_force(step_t_, std::span(step_u_).first(force_.size()));
+  for (std::size_t i = 0; i < force_.size(); ++i) squares[1] += step_u_[i] * step_u_[i];
+  const double of_heat = std::sqrt(algebra::global_sum(squares[0]));
+  const double of_force = std::max(norm_, std::sqrt(algebra::global_sum(squares[1])));
+  return {of_force > 0 ? 1.0 / of_force : 1.0, of_heat > 0 ? 1.0 / of_heat : 1.0};
+}
+
 bool CoupledNewton::find_direction(CoupledReport& report, std::string& failure) {
-  const auto weight = [](double tolerance, double reference) {
-    return tolerance * reference > 0 ? 1.0 / (tolerance * reference) : 1.0;
-  };
-  const algebra::FieldWeights weights{weight(mechanics_.options().newton.tolerance, reference_),
-                                      weight(thermal_->tolerance(), thermal_->moved())};
+  const algebra::FieldWeights scales = weights();
   for (double& r : force_) r = -r;
   const auto n_u = force_.size(), n_t = further_.size();
   const std::span<double> owned_u = std::span(step_u_).first(n_u);
-  const algebra::LinearReport linear = solver_.solve(matrix_, force_, thermal_->right_hand_side(), weights,
+  const algebra::LinearReport linear = solver_.solve(matrix_, force_, thermal_->right_hand_side(), scales,
                                                      owned_u, std::span(step_t_).first(n_t));
   for (double& r : force_) r = -r;
   report.linear_iterations += linear.iterations;

@@ -72,6 +72,9 @@ class CoupledNewton {
   /// Of the last evaluation.
   CoupledResidual present() const;
   bool converged() const;
+  /// The reciprocals of the heat out of balance and of the forces that the temperatures which balance it
+  /// would cause: measured by the forces that bodies exchange, thermal stress would drown the heat.
+  algebra::FieldWeights weights();
   /// δu and δΘ from the tangent; false when the linear solver fails, which `failure` names.
   bool find_direction(CoupledReport& report, std::string& failure);
   /// Moves along the direction as far as it is any good.
