@@ -1,0 +1,102 @@
+/// [coupling]: which form goes with which scheme, and what a run that stops is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "model/advice.hpp"
+#include "model/case_file.hpp"
+#include "model/case_keys.hpp"
+#include "model/heat_input.hpp"
+#include "model/scheme_input.hpp"
+
+namespace solidus::model {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+CaseSpec read(const std::string& coupling) {
+  const CaseSpec spec = case_keys().read(parse_document(R"(title = "A block"
+[analysis]
+kind = "plane_strain"
+[mesh]
+shape = "block"
+element = "quad4"
+[mesh.block]
+size = ["1 m", "1 m"]
+divisions = [1, 1]
+[time]
+end = "10 s"
+step = "1 s"
+[[body]]
+name = "block"
+material = "steel"
+initial_temperature = "20 degC"
+[coupling]
+)" + coupling,
+                                                        "case.toml"));
+  check_case(spec);
+  return spec;
+}
+
+std::string error(const std::string& coupling) {
+  try {
+    read(coupling);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(CouplingForms, TheDefaultIsTheIsentropicSplitInTheEnergyForm) {
+  const CaseSpec spec = read("");
+  EXPECT_EQ(spec.coupling.scheme, CouplingSpec::Scheme::isentropic);
+  EXPECT_EQ(structural_form(spec), mechanics::StructuralForm::energy);
+  EXPECT_EQ(heat_options(spec).sensible, heat::SensibleForm::enthalpy);
+}
+
+TEST(CouplingForms, AsPrintedTakesSensibleHeatInTheFormOfStructuralHeat) {
+  EXPECT_EQ(heat_options(read("structural_heating = \"entropy\"\nas_printed = true")).sensible,
+            heat::SensibleForm::entropy);
+  const CaseSpec spec =
+      read("scheme = \"isothermal\"\nstructural_heating = \"temperature\"\nas_printed = true");
+  EXPECT_EQ(heat_options(spec).sensible, heat::SensibleForm::temperature);
+  EXPECT_EQ(structural_form(spec), mechanics::StructuralForm::temperature);
+}
+
+TEST(CouplingForms, OfTheIsothermalSplitAreRefusedByOthers) {
+  for (const std::string form : {"literal", "temperature"}) {
+    EXPECT_EQ(error("scheme = \"isothermal\"\nstructural_heating = \"" + form + "\""), "no error");
+    for (const std::string scheme : {"isentropic", "simultaneous", "block_iterative", "double_pass"})
+      EXPECT_THAT(error("scheme = \"" + scheme + "\"\nstructural_heating = \"" + form + "\""),
+                  HasSubstr(form));
+  }
+}
+
+TEST(CouplingForms, PrintedSensibleHeatNeedsAPrintedFormOfStructuralHeat) {
+  EXPECT_THAT(error("as_printed = true"), HasSubstr("as_printed"));
+}
+
+TEST(CouplingForms, TheDoublePassIsOfTheEnergyForm) {
+  EXPECT_EQ(error("scheme = \"double_pass\""), "no error");
+  EXPECT_THAT(error("scheme = \"double_pass\"\nstructural_heating = \"entropy\""), HasSubstr("first order"));
+}
+
+TEST(Advice, NamesTheCouplingWhereItIsTooStrongForTheIsothermalSplitAndNoShorterSteps) {
+  const CaseSpec spec = read("scheme = \"isothermal\"");
+  const coupling::Stop stop{false, "heat: the temperature falls to -12 K", "node 1", 11, 1e-3};
+  CouplingEstimate estimate;
+  estimate.body = "block";
+  estimate.plane = true;
+  estimate.at_worst.plane = 2.0;
+  const std::string strong = stop_text(stop, spec, 3, "there", std::vector{estimate});
+  EXPECT_THAT(strong, HasSubstr("too strong for the isothermal split: block: delta"));
+  EXPECT_THAT(strong, HasSubstr("coupling.scheme = \"isentropic\""));
+  EXPECT_THAT(strong, Not(HasSubstr("time.min_step")));
+  estimate.at_worst.plane = 0.1;
+  const std::string weak = stop_text(stop, spec, 3, "there", std::vector{estimate});
+  EXPECT_THAT(weak, Not(HasSubstr("too strong")));
+  EXPECT_THAT(weak, HasSubstr("time.min_step"));
+}
+
+}  // namespace
+}  // namespace solidus::model
