@@ -207,6 +207,59 @@ TEST(InterfaceHeat, HasTheTangentThatFiniteDifferencesShow) {
     }
 }
 
+// The heat of a temperature field that stays, along a displacement that moves every gap.
+double gap_tangent_defect(const mesh::Mesh& mesh, ContactPair& pair, const std::vector<double>& temperature,
+                          const std::vector<double>& u, double h) {
+  algebra::BlockMatrix of_u = make_matrix(mesh, mesh.dimension, pair.mechanics());
+  algebra::BlockMatrix of_t = make_matrix(mesh, 1, *pair.heat());
+  pair.mechanics().bind(of_u);
+  algebra::CoupledMatrix matrix(mesh, of_u, of_t);
+  pair.update(u);
+  pair.add_coupling(temperature, matrix);
+  std::vector<double> d(u.size());
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const Point& p = mesh.x[i / static_cast<std::size_t>(mesh.dimension)];
+    d[i] = 1e-5 * std::sin(31 * p[0] + 17 * p[1] + 13 * p[2] + static_cast<double>(i % 2));
+  }
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  std::vector<double> product(n), difference(n, 0.0);
+  matrix.multiply_heat(d, product);
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<double> x = u;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += sign * h * d[i];
+    pair.update(x);
+    const std::vector<double> heat = pair.nodal_heat(temperature);
+    for (std::size_t i = 0; i < n; ++i) difference[i] += sign * heat[i] / (2 * h);
+  }
+  double defect = 0, size = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    defect = std::max(defect, std::abs(difference[i] - product[i]));
+    size = std::max(size, std::abs(product[i]));
+  }
+  return algebra::global_max(defect) / algebra::global_max(size);
+}
+
+TEST(InterfaceHeat, FollowsTheGapAsFiniteDifferencesShow) {
+  HeatTransferSpec pressed = heat_spec();
+  pressed.exponent = 0.95;
+  pressed.hardness = 1e9;
+  HeatTransferSpec gas = heat_spec();
+  gas.gap_law = HeatTransferSpec::GapLaw::gas;
+  gas.open_conductance = gas.conductance;
+  gas.gas_conductivity = 0.06;
+  for (const HeatTransferSpec& law : {heat_spec(), pressed, gas})
+    for (Shape shape : {Shape::quad4, Shape::hex8})
+      for (bool nodal : {true, false}) {
+        const mesh::Mesh mesh = test::two_blocks(shape);
+        ContactSpec s = spec();
+        s.heat = law;
+        s.nodal_heat = nodal;
+        ContactPair pair(mesh, kind_of(mesh), s);
+        // Steps of 1e-10 m of gaps of 1e-4 m: 1e-12 by curvature, 1e-10 by rounding.
+        EXPECT_LT(gap_tangent_defect(mesh, pair, warm(mesh), rocking(mesh), 1e-5), 1e-7);
+      }
+}
+
 TEST(InterfaceHeat, ByRadiationHasTheMeanOfBothDerivativesAsItsTangent) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   ContactSpec s = spec();

@@ -1,0 +1,121 @@
+/// The tangent of two fields: its rectangles, what is prescribed and tied, and both solvers.
+#include "algebra/coupled_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "grid.hpp"
+
+namespace solidus::algebra {
+namespace {
+
+using test::Grid;
+
+/// An entry that depends on global numbers only.
+double entry(GlobalIndex row, GlobalIndex column, double seed) {
+  return 0.2 * std::sin(seed * static_cast<double>(3 * row + 5 * column) + seed);
+}
+
+/// Two diagonally strong matrices and their coupling, on the quads of a grid.
+struct System {
+  Grid grid{6, 5};
+  BlockMatrix u, t;
+  std::unique_ptr<CoupledMatrix> coupled;
+
+  System() : u(matrix(2)), t(matrix(1)) {
+    const auto n = grid.mesh.x.size();
+    std::vector<char> fixed_u(2 * n, 0), fixed_t(n, 0);
+    std::vector<Index> tied;
+    for (std::size_t i = 0; i < n; ++i) {
+      const GlobalIndex g = grid.mesh.global_node[i];
+      if (g % 6 == 0) fixed_u[2 * i] = 1;
+      if (g % 6 == 5) tied.push_back(static_cast<Index>(2 * i));
+      if (g / 6 == 0) fixed_t[i] = 1;
+    }
+    u.set_fixed(fixed_u);
+    u.tie({tied});
+    t.set_fixed(fixed_t);
+    coupled = std::make_unique<CoupledMatrix>(grid.mesh, u, t);
+    fill();
+  }
+  BlockMatrix matrix(int block) const {
+    NodeGraph graph(grid.mesh);
+    graph.add_cliques(grid.quads, 4);
+    return {grid.mesh, block, std::move(graph)};
+  }
+  void fill() {
+    const auto of_u = u.clique_slots(grid.quads, 4), of_t = t.clique_slots(grid.quads, 4);
+    for (std::size_t e = 0; e < grid.quads.size() / 4; ++e)
+      for (std::size_t p = 0; p < 4; ++p)
+        for (std::size_t q = 0; q < 4; ++q) {
+          const GlobalIndex row = grid.global(grid.quads[4 * e + p]),
+                            column = grid.global(grid.quads[4 * e + q]);
+          const std::size_t pair = (4 * e + p) * 4 + q;
+          for (int a = 0; a < 2; ++a) {
+            for (int b = 0; b < 2; ++b)
+              u.block(of_u[pair])[2 * a + b] +=
+                  entry(2 * row + a, 2 * column + b, 1.0) + (row == column && a == b ? 4 : 0);
+            coupled->force_by_temperature(of_u[pair])[a] += entry(2 * row + a, column, 2.0);
+            coupled->heat_by_displacement(of_u[pair])[a] += entry(row, 2 * column + a, 3.0);
+          }
+          *t.block(of_t[pair]) += entry(row, column, 4.0) + (row == column ? 4 : 0);
+        }
+  }
+  /// What is left of the right-hand side, by the products of the blocks.
+  double defect(const std::vector<double>& force, const std::vector<double>& heat, std::vector<double> du,
+                std::vector<double> dt) {
+    const GhostExchange ghosts(grid.mesh);
+    const auto n = static_cast<std::size_t>(grid.mesh.n_owned_nodes);
+    u.ties().share(std::span(du).first(2 * n));
+    for (std::size_t i = 0; i < 2 * n; ++i)
+      if (u.fixed()[i]) du[i] = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (t.fixed()[i]) dt[i] = 0;
+    ghosts.update(du, 2);
+    ghosts.update(dt, 1);
+    std::vector<double> ru(2 * n), rt(n), part(2 * n);
+    u.multiply(du, ru);
+    coupled->multiply_force(dt, part);
+    for (std::size_t i = 0; i < 2 * n; ++i) ru[i] += part[i];
+    t.multiply(dt, rt);
+    coupled->multiply_heat(du, part);
+    for (std::size_t i = 0; i < n; ++i) rt[i] += part[i] - heat[i];
+    for (std::size_t i = 0; i < 2 * n; ++i)
+      if (u.fixed()[i]) ru[i] = 0;
+    u.ties().sum(ru);
+    double worst = 0;
+    for (std::size_t i = 0; i < 2 * n; ++i)
+      if (!u.fixed()[i]) worst = std::max(worst, std::abs(ru[i] - force[i]));
+    for (std::size_t i = 0; i < n; ++i)
+      if (!t.fixed()[i]) worst = std::max(worst, std::abs(rt[i]));
+    return global_max(worst);
+  }
+};
+
+TEST(CoupledSolver, SolvesBothFieldsWithWhatIsPrescribedAndTied) {
+  for (const auto kind : {CoupledSolverKind::direct, CoupledSolverKind::field_split}) {
+    System s;
+    const auto n = static_cast<std::size_t>(s.grid.mesh.n_owned_nodes);
+    std::vector<double> force(2 * n), heat(n), du(2 * s.grid.mesh.x.size()), dt(s.grid.mesh.x.size());
+    for (std::size_t i = 0; i < 2 * n; ++i)
+      force[i] = s.u.fixed()[i]
+                     ? 0.0
+                     : std::sin(static_cast<double>(2 * s.grid.mesh.global_node[i / 2] + (i % 2 ? 1 : 0)));
+    s.u.ties().sum(force);
+    for (std::size_t i = 0; i < n; ++i)
+      heat[i] = s.t.fixed()[i] ? 0.0 : std::cos(static_cast<double>(s.grid.mesh.global_node[i]));
+    CoupledSolver solver(s.grid.mesh, 2, kind, 1e-13);
+    for (int pass = 0; pass < 3; ++pass) {  // the second and third reuse pattern, analysis, hierarchy
+      const LinearReport report = solver.solve(*s.coupled, force, heat, {1.0 + pass, 0.5},
+                                               std::span(du).first(2 * n), std::span(dt).first(n));
+      ASSERT_TRUE(report.converged) << report.reason;
+      EXPECT_LT(s.defect(force, heat, du, dt), 1e-11) << pass;
+      if (pass == 1) solver.forget();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace solidus::algebra
