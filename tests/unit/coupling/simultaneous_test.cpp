@@ -1,0 +1,283 @@
+/// The simultaneous scheme: its tangent against differences of both residuals, its convergence, what it asks
+/// of its phases, and that a run continued from a state goes the same way.
+#include "coupling/simultaneous.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "../mechanics/plastic_material.hpp"
+
+namespace solidus {
+namespace {
+
+using coupling::SimultaneousOptions;
+using mechanics::StructuralForm;
+using mesh::Shape;
+
+constexpr double k_start = 420;  // [K]
+
+/// Everything varies with temperature, conductivity and heat capacity too.
+material::Material varying(material::Material m) {
+  m.conductivity = Table({300, 600}, {45, 30});
+  m.specific_heat = Table({300, 600}, {450, 560});
+  m.young_modulus = Table({300, 600}, {2.1e11, 1.5e11});
+  m.poisson_ratio = Table({300, 600}, {0.27, 0.35});
+  m.expansion = Table({300, 600}, {1.1e-5, 1.6e-5});
+  m.expansion_reference = 293;
+  return m;
+}
+
+/// Phases of one body by the simultaneous scheme.
+struct Model {
+  test::Body body;
+  std::optional<mechanics::StructuralHeat> structural;
+  std::optional<heat::ThermalPhase> heat;
+  std::unique_ptr<mechanics::MechanicalPhase> mechanics;
+  coupling::Phases phases;
+  coupling::State state;
+
+  Model(Shape shape, AnalysisKind kind, const material::Material& material, StructuralForm form,
+        heat::Integration rule = heat::Integration::closed, heat::Conditions thermal = {},
+        const std::function<void(test::Body&)>& hold = {})
+      : body({.shape = shape,
+              .cells = {3, 2, 2},
+              .size = {0.03, 0.02, 0.02},
+              .distortion = 0.15,
+              .map =
+                  [](const mesh::Point& x) {
+                    return mesh::Point{x[0] + 0.05, x[1], x[2]};
+                  }},
+             kind, material) {
+    body.options.mapping = mechanics::Mapping::simultaneous;
+    std::fill(body.initial_temperature.begin(), body.initial_temperature.end(), k_start);
+    if (hold) hold(body);
+    mechanics = body.phase();
+    structural.emplace(*mechanics, form, rule == heat::Integration::closed);
+    heat::HeatOptions options;
+    options.integration = rule;
+    options.tolerance = 1e-11;
+    heat.emplace(body.mesh, kind, body.materials, std::move(thermal), options,
+                 std::vector<algebra::Contribution*>{&*structural});
+    phases.heat = &*heat;
+    phases.mechanics = mechanics.get();
+    phases.structural = &*structural;
+    state.heat = heat->initial_state(std::vector<double>{k_start});
+    state.mechanics = mechanics->initial_state();
+  }
+
+  /// Numbers between −1 and 1 that every process computes alike, [local node][component].
+  std::vector<double> noise(int components, double seed) const {
+    std::vector<double> values;
+    for (const GlobalIndex node : body.mesh.input_node)
+      for (int i = 0; i < components; ++i)
+        values.push_back(std::sin(seed * static_cast<double>(node * components + i + 1)));
+    return values;
+  }
+};
+
+double norm(std::span<const double> a) {
+  double s = 0;
+  for (const double x : a) s += x * x;
+  return std::sqrt(algebra::global_sum(s));
+}
+
+/// The largest of the two errors of A d against central differences, in parts of ‖A d‖ of its field.
+double tangent_error(Model& m, double strain) {
+  m.structural->leave_tangent();
+  coupling::CoupledNewton newton(m.phases, algebra::CoupledSolverKind::direct);
+  heat::ThermalIteration& thermal = newton.thermal();
+  const int nc = m.mechanics->components();
+  constexpr double k_dt = 0.5;
+  mechanics::MechanicalPass pass{.time = k_dt, .dt = k_dt, .temperature = m.state.heat.temperature};
+  thermal.begin(m.state.heat, k_dt, k_dt);
+  pass.iterate_temperature = thermal.temperature();
+  m.mechanics->begin(m.state.mechanics, pass);
+
+  // Some state: a jump from the start.
+  std::vector<double> u = m.noise(nc, 1.3), warmer = m.noise(1, 0.7);
+  for (double& x : u) x *= strain * 0.01;
+  for (double& x : warmer) x *= 30;
+  newton.evaluate(m.state.mechanics, pass, std::vector<double>(u.size(), 0.0));
+  newton.assemble(m.state.mechanics, std::vector<double>(u.size(), 0.0), 0);
+  thermal.set_direction(warmer, {});
+  thermal.move(1.0);
+  newton.evaluate(m.state.mechanics, pass, u);
+  algebra::CoupledMatrix& a = newton.assemble(m.state.mechanics, u, 0);
+
+  std::vector<double> du = m.noise(nc, 2.1), dt = m.noise(1, 1.9);
+  for (double& x : du) x *= strain * 0.01;
+  for (double& x : dt) x *= 20;
+  thermal.set_direction(dt, {});
+  const auto n_owned = static_cast<std::size_t>(m.body.mesh.n_owned_nodes);
+  std::vector<double> force(n_owned * static_cast<std::size_t>(nc)), heat(n_owned), part(force.size());
+  a.displacement().multiply(du, force);
+  a.multiply_force(dt, part);
+  for (std::size_t i = 0; i < force.size(); ++i) force[i] += part[i];
+  a.temperature().multiply(dt, heat);
+  part.resize(n_owned);
+  a.multiply_heat(du, part);
+  for (std::size_t i = 0; i < heat.size(); ++i) heat[i] += part[i];
+
+  constexpr double k_h = 1e-5;  // error h² of the differences, rounding 1e-16/h: 1e-10 of either
+  std::vector<double> force_error = force, heat_error = heat;
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<double> x = u;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += sign * k_h * du[i];
+    thermal.move(sign * k_h);
+    newton.evaluate(m.state.mechanics, pass, x);
+    for (std::size_t i = 0; i < force.size(); ++i) force_error[i] -= sign * newton.force()[i] / (2 * k_h);
+    for (std::size_t i = 0; i < heat.size(); ++i) heat_error[i] -= sign * thermal.residual()[i] / (2 * k_h);
+  }
+  return std::max(norm(force_error) / norm(force), norm(heat_error) / norm(heat));
+}
+
+struct Case {
+  Shape shape;
+  AnalysisKind kind;
+};
+const Case k_cases[] = {
+    {Shape::tri3, AnalysisKind::plane_strain},  {Shape::tri6, AnalysisKind::plane_strain},
+    {Shape::quad4, AnalysisKind::plane_strain}, {Shape::quad8, AnalysisKind::plane_strain},
+    {Shape::tri3, AnalysisKind::axisymmetric},  {Shape::tri6, AnalysisKind::axisymmetric},
+    {Shape::quad4, AnalysisKind::axisymmetric}, {Shape::quad8, AnalysisKind::axisymmetric},
+    {Shape::tet4, AnalysisKind::solid},         {Shape::tet10, AnalysisKind::solid},
+    {Shape::hex8, AnalysisKind::solid},         {Shape::hex20, AnalysisKind::solid}};
+
+TEST(CoupledTangent, IsTheDerivativeOfBothResidualsInEveryShapeAndKind) {
+  using Kinematic = material::KinematicHardening;
+  const material::Material elastic = varying(test::elastic_material(2e11, 0.3));
+  const material::Material plastic = varying(test::plastic_material());
+  const material::Material recalled = varying(test::plastic_material(Kinematic::armstrong_frederick));
+  for (const Case& c : k_cases)
+    for (const auto form : {StructuralForm::energy, StructuralForm::entropy})
+      for (const material::Material* m : {&elastic, &plastic, &recalled}) {
+        Model model(c.shape, c.kind, *m, form);
+        EXPECT_LT(tangent_error(model, 2e-3), 1e-6)
+            << "shape " << static_cast<int>(c.shape) << " kind " << static_cast<int>(c.kind) << " form "
+            << static_cast<int>(form) << " material "
+            << (m == &elastic   ? 0
+                : m == &plastic ? 1
+                                : 2);
+      }
+}
+
+TEST(CoupledTangent, IsTheDerivativeWithTheOpenRuleAndWithAMushyZone) {
+  material::Material melt = varying(test::plastic_material());
+  melt.liquid_viscosity = 1e9;
+  melt.phase_changes.push_back({.name = "freezing",
+                                .fraction = material::PhaseFraction::linear(380, 440),
+                                .latent_heat = 3e4,
+                                .volume_change = -0.01,
+                                .solidification = true});
+  for (const auto form : {StructuralForm::energy, StructuralForm::entropy})
+    for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+      for (const auto& m : {varying(test::plastic_material()), melt}) {
+        Model model(Shape::quad4, AnalysisKind::plane_strain, m, form, rule);
+        EXPECT_LT(tangent_error(model, 2e-3), 1e-6);
+      }
+}
+
+/// Chilled on one side and pulled.
+Model pulled(StructuralForm form, double pull = 1e-4) {
+  heat::Conditions thermal;
+  thermal.films.push_back({"chill", "top", {20000.0}, 300.0});
+  return Model(Shape::quad4, AnalysisKind::plane_strain, varying(test::plastic_material()), form,
+               heat::Integration::closed, thermal, [pull](test::Body& body) {
+                 body.hold("left", 0);
+                 body.hold("left", 1);
+                 body.hold("right", 0, Table({0, 1}, {0, pull}));
+               });
+}
+
+TEST(SimultaneousScheme, ConvergesQuadratically) {
+  for (const auto form : {StructuralForm::energy, StructuralForm::entropy}) {
+    Model m = pulled(form);
+    coupling::SimultaneousScheme scheme(m.phases);
+    coupling::State trial = m.state;
+    scheme.advance(m.state, trial, 1.0, 1.0);
+    const auto& r = scheme.report().residuals;
+    ASSERT_GE(r.size(), 4U);
+    EXPECT_EQ(scheme.report().shortest_step, 1.0);
+    // The last step that is not cut off by rounding.
+    constexpr double k_rounding = 1e-10;
+    std::size_t last = r.size() - 1;
+    while (last > 2 && r[last].heat < k_rounding) --last;
+    const double exponent =
+        std::log(r[last].heat / r[last - 1].heat) / std::log(r[last - 1].heat / r[last - 2].heat);
+    std::string all;
+    for (const auto& x : r)
+      all += std::to_string(std::log10(x.force)) + " " + std::to_string(std::log10(x.heat)) + "; ";
+    EXPECT_GT(exponent, 1.7) << all;
+  }
+}
+
+TEST(SimultaneousScheme, GoesTheSameWayFromAStateWithAFieldSplit) {
+  Model a = pulled(StructuralForm::energy), b = pulled(StructuralForm::energy);
+  coupling::SimultaneousScheme direct(a.phases, {.solver = algebra::CoupledSolverKind::direct});
+  coupling::SimultaneousScheme split(b.phases, {.solver = algebra::CoupledSolverKind::field_split});
+  coupling::State of_direct = a.state, of_split = b.state;
+  for (int n = 1; n <= 3; ++n) {
+    coupling::State trial = of_direct;
+    direct.advance(of_direct, trial, 0.3 * n, 0.3);
+    std::swap(of_direct, trial);
+    trial = of_split;
+    const coupling::StepEffort effort = split.advance(of_split, trial, 0.3 * n, 0.3);
+    EXPECT_GT(effort.mechanics.linear_iterations, effort.mechanics.iterations);
+    std::swap(of_split, trial);
+  }
+  // Newton's criteria are 1e-11.
+  for (std::size_t i = 0; i < of_direct.heat.temperature.size(); ++i)
+    EXPECT_NEAR(of_direct.heat.temperature[i], of_split.heat.temperature[i], 1e-6);
+  for (std::size_t i = 0; i < of_direct.mechanics.displacement.size(); ++i)
+    EXPECT_NEAR(of_direct.mechanics.displacement[i], of_split.mechanics.displacement[i], 1e-12);
+}
+
+TEST(SimultaneousScheme, ContinuesFromAStateBitByBit) {
+  for (const auto integration :
+       {SimultaneousOptions::Integration::backward_euler, SimultaneousOptions::Integration::sdirk2})
+    for (const auto solver : {algebra::CoupledSolverKind::direct, algebra::CoupledSolverKind::field_split}) {
+      Model a = pulled(StructuralForm::energy), b = pulled(StructuralForm::energy);
+      coupling::SimultaneousScheme whole(a.phases, {integration, solver}),
+          rest(b.phases, {integration, solver});
+      coupling::State state = a.state, trial = a.state;
+      for (int n = 1; n <= 2; ++n) {
+        whole.advance(state, trial, 0.3 * n, 0.3);
+        std::swap(state, trial);
+      }
+      whole.forget();
+      coupling::State continued = state, next = state;
+      rest.synchronise(continued);
+      whole.advance(state, trial, 0.9, 0.3);
+      rest.advance(continued, next, 0.9, 0.3);
+      EXPECT_EQ(trial.heat.temperature, next.heat.temperature);
+      EXPECT_EQ(trial.heat.enthalpy, next.heat.enthalpy);
+      EXPECT_EQ(trial.mechanics.displacement, next.mechanics.displacement);
+    }
+}
+
+TEST(SimultaneousScheme, RejectsAStepThatDoesNotGoThroughAndLeavesTheStateAlone) {
+  Model m = pulled(StructuralForm::energy, 1e100);  // outside the range of any law
+  coupling::SimultaneousScheme scheme(m.phases);
+  coupling::State trial = m.state;
+  const coupling::State before = m.state;
+  EXPECT_THROW(scheme.advance(m.state, trial, 1.0, 1.0), StepRejected);
+  EXPECT_EQ(m.state.heat.temperature, before.heat.temperature);
+  EXPECT_EQ(m.state.mechanics.displacement, before.mechanics.displacement);
+}
+
+TEST(SimultaneousScheme, RefusesPhasesThatWereBuiltForASplitOrExchangeNothing) {
+  Model m = pulled(StructuralForm::energy);
+  coupling::Phases phases = m.phases;
+  phases.structural = nullptr;
+  EXPECT_THROW(coupling::SimultaneousScheme{phases}, std::invalid_argument);
+  m.body.options.mapping = mechanics::Mapping::isothermal;
+  const auto isothermal = m.body.phase();
+  phases = m.phases;
+  phases.mechanics = isothermal.get();
+  EXPECT_THROW(coupling::SimultaneousScheme{phases}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace solidus
