@@ -3,10 +3,10 @@
 """Which coupling scheme is stable, and how accurate, at which coupling and step: the tables of docs/verification/thick_cylinder.md.
 
 usage: schemes.py [--program FILE] [--folder DIR] stability    runs the elastic wall by every scheme, expansion and step: some minutes
-       schemes.py [--folder DIR] outcomes                      of the variants that have been run (README.md), from their history.csv
+       schemes.py [--folder DIR] inertia                       reads the history.csv of all variants with inertia (README.md runs them)
 
-The error of a run is its largest difference, at the times of the longest step, to the simultaneous scheme of the same form, extrapolated to
-vanishing steps.
+Stability: the largest differences in temperature and displacement, every 50 s, to the simultaneous scheme of the same form extrapolated to vanishing
+steps, and the defect of the first law over the heat exchanged. Inertia: the differences to the simultaneous scheme with the same step at the end.
 """
 import argparse
 import csv
@@ -20,10 +20,20 @@ ROOT = HERE.parents[1]
 U, T = ("u_inner[mm]", "u_outer[mm]"), ("T_inner[K]", "T_outer[K]")
 END, COMMON = 1000.0, 50.0  # [s]; all steps but the longest meet the multiples of COMMON
 FACTORS, STEPS = (1, 3, 6), (1.0, 10.0, 50.0, 1000.0)
-SCHEMES = {"simultaneous": "simultaneous", "simultaneous_energy": "simultaneous, energy form", "isentropic": "isentropic",
-           "isentropic_energy": "isentropic, energy form", "isentropic_double_pass": "isentropic double pass",
-           "block_iterative": "block-iterative", "isothermal": "isothermal, literal", "isothermal_collapsed": "isothermal, collapsed",
-           "isothermal_temperature": "isothermal, temperature form"}
+ENERGY = ['coupling.structural_heating="energy"', "coupling.as_printed=false"]
+# row of the table: the variant it starts from, what is set besides, whether its limit is that of the energy form
+SCHEMES = {
+    "simultaneous": ("simultaneous", [], False),
+    "simultaneous, energy form": ("simultaneous_energy", [], True),
+    "block-iterative": ("block_iterative", [], False),
+    "isentropic": ("isentropic", [], False),
+    "isentropic, energy form": ("isentropic_energy", [], True),
+    "isentropic double pass, energy form": ("isentropic_double_pass", [], True),
+    "isothermal, literal": ("isothermal", [], False),
+    "isothermal, collapsed": ("isothermal_collapsed", [], False),
+    "isothermal, temperature form": ("isothermal_temperature", [], False),
+    "isothermal, energy form": ("isothermal", ENERGY, True),
+}
 
 
 def columns(file):
@@ -34,10 +44,11 @@ def columns(file):
 
 def run(options, scheme, factor, step):
     """History of a run (as far as it came), and the reason why it stopped, or nothing."""
-    folder = options.folder / "stability" / f"x{factor}_{scheme}_{step:g}"
+    variant, more, _ = SCHEMES[scheme]
+    folder = options.folder / "stability" / f"x{factor}_{step:g}_{scheme.replace(', ', '_').replace(' ', '_')}"
     settings = [f'time.step="{step:g} s"', f'time.min_step="{step:g} s"', 'output.every="1000 s"',
-                f'body.wall.material="{HERE}/materials/te_x{factor}.toml"']
-    command = [options.program, "run", HERE / f"te_x1_{scheme}.toml", "-o", folder]
+                f'body.wall.material="{HERE}/materials/te_x{factor}.toml"'] + more
+    command = [options.program, "run", HERE / f"te_x1_{variant}.toml", "-o", folder]
     for setting in settings:
         command += ["--set", setting]
     done = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
@@ -68,35 +79,40 @@ def cell(history, reason, reference):
 
 def stability(options):
     for factor in FACTORS:
-        limits = {form: limit(options, "simultaneous" + form, factor) for form in ("", "_energy")}
+        limits = {energy: limit(options, "simultaneous, energy form" if energy else "simultaneous", factor) for energy in (False, True)}
         print(f"\n### alpha x {factor}\n\n| | {' | '.join(f'{step:g} s' for step in STEPS)} |\n|---|{'---|' * len(STEPS)}")
-        for scheme, title in SCHEMES.items():
-            reference = limits["_energy" if scheme.endswith("_energy") else ""]
-            cells = [cell(*run(options, scheme, factor, step), reference) for step in STEPS]
-            print(f"| {title} | {' | '.join(cells)} |", flush=True)
+        for scheme, (_, _, energy) in SCHEMES.items():
+            cells = [cell(*run(options, scheme, factor, step), limits[energy]) for step in STEPS]
+            print(f"| {scheme} | {' | '.join(cells)} |", flush=True)
 
 
-def outcomes(options):
-    """Every variant beside the simultaneous one: how far it came, how far away it is at its end."""
-    print("| variant | steps | largest T | | difference at the end: u | T | L rises at most |\n|---|---|---|---|---|---|---|")
-    for folder in sorted(path.parent for path in options.folder.glob("*/history.csv")):
-        rows = columns(folder / "history.csv")
-        rises = max((row["lyapunov_mechanical[J]"] + row["lyapunov_thermal[J]"] for row in rows), default=0)
-        temperatures = [row[key] for row in rows for key in T]
-        stem = re.match(r"(t[ep]_x\d|dyn_t[ep]_x\d_[a-z]+)_", folder.name)
-        reference = columns(options.folder / f"{stem.group(1)}_simultaneous" / "history.csv") if stem else rows
-        there = {row["time[s]"]: row for row in reference}.get(rows[-1]["time[s]"], rows[-1])
-        u, t = (max(abs(rows[-1][key] - there[key]) for key in keys) for keys in (U, T))
-        print(f"| {folder.name} | {len(rows)} | {min(temperatures):.0f} to {max(temperatures):.0f} K | {u:.2g} mm | {t:.2g} K | {rises:.2g} J |")
+def against_simultaneous(options, problem, scheme):
+    """A run with inertia beside the simultaneous one at its end, and how much L rose in the worst step."""
+    rows, whole = (columns(options.folder / f"dyn_{problem}_{name}" / "history.csv") for name in (scheme, "simultaneous"))
+    rise = max(row["lyapunov_mechanical[J]"] + row["lyapunov_thermal[J]"] for row in rows[1:])
+    end = f"stops in step {len(rows)}"
+    if len(rows) == len(whole):
+        u, t = (max(abs(rows[-1][key] - whole[-1][key]) for key in keys) for keys in (U, T))
+        end = f"{u:.1g} mm, {t:.2g} K"
+    return end + (f", L +{rise:.2g} J" if rise > 0 else "")
+
+
+def inertia(options):
+    runs = [(law, scheme) for law in ("te", "tp") for scheme in ("isentropic", "isothermal")]
+    print(f"| | {' | '.join(f'{law}, {scheme}' for law, scheme in runs)} |\n|---|{'---|' * len(runs)}")
+    for method in ("be", "newmark", "trapezoidal"):
+        for factor in FACTORS:
+            cells = [against_simultaneous(options, f"{law}_x{factor}_{method}", scheme) for law, scheme in runs]
+            print(f"| {method}, alpha x {factor} | {' | '.join(cells)} |")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", choices=["stability", "outcomes"])
+    parser.add_argument("table", choices=["stability", "inertia"])
     parser.add_argument("--program", type=Path, default=ROOT / "build/release/solidus")
     parser.add_argument("--folder", type=Path, default=ROOT / "results/thick_cylinder")
     options = parser.parse_args()
-    {"stability": stability, "outcomes": outcomes}[options.table](options)
+    {"stability": stability, "inertia": inertia}[options.table](options)
 
 
 if __name__ == "__main__":

@@ -121,7 +121,7 @@ def chosen(spec, history, others, folder):
                       textcoords="offset points", ha="left", va="top", **style.REMARK)
     if len(spec["lines"]) > 1 or others:
         handles = axes.get_legend_handles_labels()[0] + key
-        axes.legend(handles=handles, **({"loc": "best"} if len(handles) <= 5 else BESIDE))
+        axes.legend(handles=handles, **(BESIDE if others or len(handles) > 5 else {"loc": "best"}))
     return style.save(figure, folder, spec["file"], vector=True)
 
 

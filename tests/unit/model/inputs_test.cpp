@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "coupling/simulation.hpp"
 #include "model/case_file.hpp"
 #include "model/case_keys.hpp"
 #include "model/contact_input.hpp"
@@ -10,6 +11,7 @@
 #include "model/mesh_checks.hpp"
 #include "model/mesh_input.hpp"
 #include "model/run_input.hpp"
+#include "model/time_input.hpp"
 
 namespace solidus::model {
 namespace {
