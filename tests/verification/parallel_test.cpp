@@ -126,6 +126,13 @@ TEST(TwoProcesses, SolidifyTheAluminiumCylinderAsOneDoes) {
   compare("aluminium_cylinder", "cases/aluminium_cylinder", both(k_cylinder, k_strict), 1e-8);
 }
 
+TEST(TwoProcesses, SolidifyTheAluminiumCylinderSimultaneouslyAsOneDoes) {
+  compare("aluminium_cylinder_simultaneous", "cases/aluminium_cylinder",
+          both(both(k_cylinder, k_strict),
+               {"coupling.scheme=\"simultaneous\"", "time.end=\"4 s\"", "output.every=\"4 s\""}),
+          1e-8);
+}
+
 TEST(TwoProcesses, CoolTwoBlocksInThreeDimensionsAsOneDoes) {
   compare("two_blocks", "cases/two_blocks", both(k_blocks, k_strict), 1e-8);
 }
