@@ -71,7 +71,7 @@ def largest(rows, reference, keys):
 
 def cell(history, reason, reference):
     if reason:
-        return f"stops in step {len(history) + 1}"
+        return f"stops in step {len(history)}"  # its first row is the initial state
     last = history[-1]
     defect = abs(last["energy_defect[J]"]) / last["heat_exchanged[J]"]
     return f"{largest(history, reference, T):.2g} K, {largest(history, reference, U):.1g} mm, {defect:.0e}"
