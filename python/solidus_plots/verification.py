@@ -3,7 +3,8 @@
     python3 -m solidus_plots.verification build/release/verification docs/verification/images
 
 The first column of a table is the abscissa. Columns called exact… are drawn as black lines, the others as points of one colour each.
-Tables called …order… or …convergence… are drawn on logarithmic axes, with a line of the slope that the last two points have.
+Tables called …order… or …convergence… are drawn on logarithmic axes, with a line of the slope that the last two points have;
+…radius… over a logarithmic abscissa, with the limit of stability.
 """
 
 import sys
@@ -49,6 +50,14 @@ def draw_curves(axes, headers, values):
             colour += 1
 
 
+def draw_radius(axes, headers, values):
+    for i, header in enumerate(headers[1:], 1):
+        axes.semilogx(values[:, 0], values[:, i], "o-", markersize=3, linewidth=0.8, label=label(header),
+                      color=style.COLOURS[(i - 1) % len(style.COLOURS)])
+    axes.axhline(1, color="black", linewidth=0.8, linestyle="--")
+    axes.set_ylabel("spectral radius")
+
+
 def draw(path, folder):
     try:
         headers, values = read(path)
@@ -59,6 +68,8 @@ def draw(path, folder):
     figure, axes = plt.subplots(figsize=(5.2, 3.4))
     if "order" in path.stem or "convergence" in path.stem:
         draw_convergence(axes, headers, values)
+    elif "radius" in path.stem:
+        draw_radius(axes, headers, values)
     else:
         draw_curves(axes, headers, values)
     axes.set_xlabel(label(headers[0]))

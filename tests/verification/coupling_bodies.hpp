@@ -71,71 +71,91 @@ struct CoupledRun {
   }
 };
 
-/// Equal steps from zero to `end`. The criteria of both phases are at round-off, so that what remains of the
-/// first law is the scheme's. `watch` sees the state after every step and, if it takes it, the step's effort.
+/// The phases of a body and the scheme that drives them. Their criteria are at round-off, so that what is
+/// seen is the scheme's. Keeps references to the body.
+class Assembly {
+ public:
+  explicit Assembly(const Coupled& c) {
+    std::vector<algebra::Contribution*> mechanical, thermal;
+    if (c.contact) {
+      std::vector<double> moduli;
+      for (const auto& m : c.materials) moduli.push_back(m.young_modulus.max_value());
+      pair_.emplace(c.mesh, c.kind, *c.contact, moduli);
+      mechanical.push_back(&pair_->mechanics());
+      if (pair_->heat() != nullptr) thermal.push_back(pair_->heat());
+    }
+    std::vector<double> initial(c.mesh.x.size());
+    for (const mesh::Block& block : c.mesh.blocks)
+      for (const Index node : block.nodes)
+        initial[static_cast<std::size_t>(node)] = c.start[static_cast<std::size_t>(block.body)];
+
+    mechanics::MechanicsOptions mechanics_options = test::strict();
+    mechanics_options.newton.max_iterations = 60;
+    mechanics_options.newton.tolerance = c.mechanics_tolerance;
+    mechanics_options.mapping = c.mapping;
+    mechanics_options.dynamics = c.dynamics;
+    mechanics_.emplace(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options, mechanical);
+    if (c.form)
+      thermal.push_back(
+          &structural_.emplace(*mechanics_, *c.form, c.integration == heat::Integration::closed));
+
+    heat::HeatOptions heat_options;
+    heat_options.integration = c.integration;
+    heat_options.sensible = c.sensible;
+    heat_options.tolerance = 1e-12;
+    heat_options.solver = algebra::SolverKind::direct;
+    heat_.emplace(c.mesh, c.kind, c.materials, c.thermal, heat_options, thermal);
+
+    coupling::Phases phases;
+    phases.heat = &*heat_;
+    phases.mechanics = &*mechanics_;
+    phases.structural = structural_ ? &*structural_ : nullptr;
+    phases.ambient_temperature = c.ambient;
+    if (pair_) phases.contacts = {&*pair_};
+    if (c.iteration)
+      scheme_ = std::make_unique<coupling::BlockIterative>(phases, *c.iteration);
+    else if (c.double_pass)
+      scheme_ = std::make_unique<coupling::DoublePass>(phases);
+    else if (c.mapping == mechanics::Mapping::isentropic)
+      scheme_ = std::make_unique<coupling::IsentropicSplit>(phases);
+    else if (c.mapping == mechanics::Mapping::simultaneous)
+      scheme_ = std::make_unique<coupling::SimultaneousScheme>(phases, c.simultaneous);
+    else
+      scheme_ = std::make_unique<coupling::IsothermalSplit>(phases);
+
+    start_.heat = heat_->initial_state(c.start);
+    start_.mechanics = mechanics_->initial_state();
+  }
+
+  const coupling::State& start() const { return start_; }
+  const heat::ThermalPhase& heat() const { return *heat_; }
+  const mechanics::MechanicalPhase& mechanics() const { return *mechanics_; }
+  coupling::CouplingScheme& scheme() { return *scheme_; }
+
+ private:
+  std::optional<contact::ContactPair> pair_;
+  std::optional<mechanics::MechanicalPhase> mechanics_;
+  std::optional<mechanics::StructuralHeat> structural_;
+  std::optional<heat::ThermalPhase> heat_;
+  std::unique_ptr<coupling::CouplingScheme> scheme_;
+  coupling::State start_;
+};
+
+/// Equal steps from zero to `end`. `watch` sees the state after every step and, if it takes it, the step's
+/// effort.
 template <class Watch = void (*)(const coupling::State&)>
 CoupledRun march(
     const Coupled& c, double end, int n_steps, Watch watch = [](const coupling::State&) {}) {
-  std::optional<contact::ContactPair> pair;
-  std::vector<algebra::Contribution*> mechanical, thermal;
-  if (c.contact) {
-    std::vector<double> moduli;
-    for (const auto& m : c.materials) moduli.push_back(m.young_modulus.max_value());
-    pair.emplace(c.mesh, c.kind, *c.contact, moduli);
-    mechanical.push_back(&pair->mechanics());
-    if (pair->heat() != nullptr) thermal.push_back(pair->heat());
-  }
-  std::vector<double> initial(c.mesh.x.size());
-  for (const mesh::Block& block : c.mesh.blocks)
-    for (const Index node : block.nodes)
-      initial[static_cast<std::size_t>(node)] = c.start[static_cast<std::size_t>(block.body)];
-
-  mechanics::MechanicsOptions mechanics_options = test::strict();
-  mechanics_options.newton.max_iterations = 60;
-  mechanics_options.newton.tolerance = c.mechanics_tolerance;
-  mechanics_options.mapping = c.mapping;
-  mechanics_options.dynamics = c.dynamics;
-  mechanics::MechanicalPhase mechanics(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options,
-                                       mechanical);
-  std::optional<mechanics::StructuralHeat> structural;
-  if (c.form)
-    thermal.push_back(&structural.emplace(mechanics, *c.form, c.integration == heat::Integration::closed));
-
-  heat::HeatOptions heat_options;
-  heat_options.integration = c.integration;
-  heat_options.sensible = c.sensible;
-  heat_options.tolerance = 1e-12;
-  heat_options.solver = algebra::SolverKind::direct;
-  heat::ThermalPhase heat(c.mesh, c.kind, c.materials, c.thermal, heat_options, thermal);
-
-  coupling::Phases phases;
-  phases.heat = &heat;
-  phases.mechanics = &mechanics;
-  phases.structural = structural ? &*structural : nullptr;
-  phases.ambient_temperature = c.ambient;
-  if (pair) phases.contacts = {&*pair};
-  std::unique_ptr<coupling::CouplingScheme> split;
-  if (c.iteration)
-    split = std::make_unique<coupling::BlockIterative>(phases, *c.iteration);
-  else if (c.double_pass)
-    split = std::make_unique<coupling::DoublePass>(phases);
-  else if (c.mapping == mechanics::Mapping::isentropic)
-    split = std::make_unique<coupling::IsentropicSplit>(phases);
-  else if (c.mapping == mechanics::Mapping::simultaneous)
-    split = std::make_unique<coupling::SimultaneousScheme>(phases, c.simultaneous);
-  else
-    split = std::make_unique<coupling::IsothermalSplit>(phases);
-
+  Assembly assembly(c);
   const bool falls = c.ambient && c.mapping == mechanics::Mapping::isentropic && !c.iteration &&
                      !c.dynamics && !c.double_pass;
   CoupledRun run;
-  run.end.heat = heat.initial_state(c.start);
-  run.end.mechanics = mechanics.initial_state();
-  split->synchronise(run.end);
+  run.end = assembly.start();
+  assembly.scheme().synchronise(run.end);
   for (int n = 1; n <= n_steps; ++n) {
     coupling::State trial = run.end;
     trial.time = end * n / n_steps;
-    const coupling::StepEffort effort = split->advance(run.end, trial, trial.time, end / n_steps);
+    const coupling::StepEffort effort = assembly.scheme().advance(run.end, trial, trial.time, end / n_steps);
     run.steps.push_back(effort.energy);
     run.stability.push_back(effort.stability);
     if (falls) {

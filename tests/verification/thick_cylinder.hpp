@@ -45,10 +45,10 @@ struct Variant {
   heat::SensibleForm sensible = heat::SensibleForm::enthalpy;
 };
 
-inline Coupled cylinder(const Variant& v) {
+inline Coupled cylinder(const Variant& v, int quads = 50) {
   Coupled c;
   c.mesh = test::make_mesh({.shape = mesh::Shape::quad4,
-                            .cells = {50, 1, 1},
+                            .cells = {quads, 1, 1},
                             .size = {0.1, 0.002, 1},
                             .map = [](const mesh::Point& x) {
                               return mesh::Point{x[0] + 0.1, x[1], 0};
