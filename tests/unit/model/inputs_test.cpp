@@ -131,7 +131,8 @@ TEST(ModelInput, ContactTakesItsPenaltyAsANumberOrAsAFactor) {
 
 TEST(ModelInput, TheSplitChoosesWhatTheMechanicalPhaseHolds) {
   using mechanics::Mapping;
-  EXPECT_EQ(mechanics_options(read()).mapping, Mapping::isothermal);
+  EXPECT_EQ(mechanics_options(read()).mapping, Mapping::isentropic);
+  EXPECT_EQ(mechanics_options(read("[coupling]\nscheme = \"isothermal\"\n")).mapping, Mapping::isothermal);
   const std::string isentropic = "[coupling]\nscheme = \"isentropic\"\n";
   EXPECT_EQ(mechanics_options(read(isentropic)).mapping, Mapping::isentropic);
   CaseSpec alone = read(isentropic);
