@@ -5,6 +5,7 @@
 
 #include "long_dual.hpp"
 #include "material/free_energy.hpp"
+#include "material/structural_partials.hpp"
 #include "thermal_cases.hpp"
 
 namespace solidus::material::test {
@@ -183,6 +184,58 @@ TEST(ThermalDerivatives, OfFrozenPropertiesAreZeroAndTheOthersStay) {
   EXPECT_EQ(held.flow.flow_stress.v, all.flow.flow_stress.v);
   // the straining of solidification falls by 3 % over 50 K
   EXPECT_NEAR(all.elastic.thermal_strain.d - held.elastic.thermal_strain.d, 0.03 / 50, 1e-12);
+}
+
+/// W + M + K at the end of the update and its entropy, from the functions that know nothing of the update;
+/// outside phase changes, with their fractions held.
+struct Structural {
+  Ad entropy, energy;
+};
+Structural reference_state(const Viscoplastic& law, const Viscoplastic::Response<Ad>& r,
+                           const Sym<Ad>& strain, const Ad& theta) {
+  const StateVariables<Ad> state{strain + Ad(-1.0) * (r.state.viscous_strain + r.state.plastic_strain),
+                                 r.state.hardening, r.state.back_strain};
+  const StateVariables<Ad> nothing{convert<Ad>(Sym<double>{}), Ad(0.0), convert<Ad>(Sym<double>{})};
+  const auto at = thermal_state<Ad>(law, state, theta, Ad(k_start_temperature));
+  const auto zero = thermal_state<Ad>(law, nothing, theta, Ad(k_start_temperature));
+  return {at.entropy - zero.entropy, at.internal_energy - zero.internal_energy};
+}
+
+TEST(StructuralPartials, AlongTheUpdateAreTheDerivativesOfEntropyAndEnergy) {
+  Random random(11);
+  int plastic = 0;
+  for (const auto liquid : k_liquid)
+    for (const auto isotropic : k_isotropic)
+      for (const auto kinematic : k_kinematic)
+        for (const double theta : {420.0, 650.0, 800.0})  // solid, between the changes
+          for (const double size : {2e-4, 2e-3, 3e-2}) {
+            const Material m = varying_material({isotropic, kinematic, 1e7, 3.0, liquid});
+            const Viscoplastic law(m);
+            const auto start = random_state(random);
+            const auto strain = random_tensor(random, size);
+            const auto p = thermal_properties(law, theta, k_start_temperature, Frozen{.phase = true});
+            const auto r = law.update(law.properties_at(theta, k_start_temperature), start, strain, 0.5);
+            const Variation<double> update(law, p, start, strain, 0.5, r);
+            const Sym<double> elastic = dev(strain - r.state.viscous_strain - r.state.plastic_strain);
+            const auto partials =
+                structural_partials(law.material(), p, theta, trace(strain), dot(elastic, elastic), true,
+                                    r.state.hardening, dot(r.state.back_strain, r.state.back_strain));
+
+            const Ad theta_ad(theta, 7, k_theta);
+            Sym<Ad> strain_ad;
+            for (int i = 0; i < 6; ++i) strain_ad[i] = Ad(strain[i], 7, i);
+            const auto exact = law.update(law.properties_at(theta_ad, Ad(k_start_temperature)),
+                                          convert<Ad>(start), strain_ad, 0.5);
+            const Structural s = reference_state(law, exact, strain_ad, theta_ad);
+            plastic += r.flow_increment > 0;
+            EXPECT_LT(error(update.along(partials.entropy), s.entropy, largest_slope(s.entropy),
+                            std::abs(slope(s.entropy, k_theta)) + 1),
+                      1e-9);
+            EXPECT_LT(error(update.along(partials.internal_energy), s.energy, largest_slope(s.energy),
+                            std::abs(slope(s.energy, k_theta)) + 1e3),
+                      1e-9);
+          }
+  EXPECT_GT(plastic, 50);
 }
 
 TEST(ThermalDerivatives, EntropyAndStressAreTheMixedDerivativesOfOnePotentialWhereDissipationIsFrozen) {
