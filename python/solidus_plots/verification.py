@@ -74,7 +74,7 @@ def draw(path, folder):
         draw_curves(axes, headers, values)
     axes.set_xlabel(label(headers[0]))
     axes.set_title(path.stem.replace("_", " ").capitalize(), loc="left")
-    axes.legend(loc="center left" if "radius" in path.stem else "best")
+    axes.legend(loc="lower left" if "radius" in path.stem else "best")
     figure.savefig(folder / f"{path.stem}.png", dpi=110)
     plt.close(figure)
     return True

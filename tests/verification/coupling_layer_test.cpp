@@ -106,8 +106,9 @@ TEST(CoupledLayer, IsWarmedFarFromItsHotFaceByCompressionTheMoreTheStrongerTheCo
   for (std::size_t c = 2; c < columns.size(); ++c) EXPECT_GT(columns[c][0], columns[c - 2][0] + 0.02);
 }
 
-// Differences of successive refinements: the mesh's error is not in them. The face's jump at the start is not
-// smooth: the double pass, whose first half step predicts from it, keeps one and a half of its two orders.
+// Differences of successive refinements: the mesh's error is not in them. After the jump of the face's
+// temperature the double pass shows one and a half of its two orders; with smooth conditions it has both
+// (coupling_double_pass_test.cpp).
 TEST(CoupledLayer, IsApproachedWithTheOrderOfTheScheme) {
   auto out = verification::table("coupling_layer_order",
                                  "step[l²/a],isentropic,isothermal,simultaneous,double_pass,sdirk2");
