@@ -22,14 +22,19 @@ using verification::StripFields;
 using verification::StripScheme;
 
 constexpr double k_length = 5, k_end = 2.5;
-constexpr int k_quads = 150;
-constexpr int k_steps = 1500;  // the split lags by a step: small against the rise of the stress
-constexpr double k_dt = k_end / k_steps;
-constexpr int k_sample = 30;      // every so many steps
-constexpr double k_rise = 1;      // of the surface temperature, if it is smooth
-constexpr std::size_t k_at = 30;  // the node at ξ = 1
+constexpr int k_samples = 50;
+constexpr double k_rise = 1;  // of the surface temperature, if it is smooth
 
 enum class Heating { smooth, at_once };
+
+struct Resolution {
+  int quads, steps;
+};
+/// The split lags by a step, which must be small against the rise of the stress; a jump asks for short
+/// elements that the wave passes in few steps, as the integrator damps only what changes within some of them.
+constexpr Resolution resolution(Heating heating) {
+  return heating == Heating::smooth ? Resolution{150, 1500} : Resolution{400, 800};
+}
 
 const StripScheme k_isentropic{"isentropic", Mapping::isentropic};
 const StripScheme k_isothermal{"isothermal", Mapping::isothermal};
@@ -54,16 +59,20 @@ Table surface_temperature(Heating heating) {
 
 History half_space(double delta, const StripScheme& scheme, Heating heating) {
   const LinearSolid solid{delta};
-  Coupled c = verification::linear_strip(solid, scheme, k_length, k_quads);
+  const auto [quads, steps] = resolution(heating);
+  Coupled c = verification::linear_strip(solid, scheme, k_length, quads);
   c.thermal.temperatures.push_back({"hot", "left", surface_temperature(heating)});
-  c.dynamics = DynamicsOptions{MassKind::consistent, Motion::generalised_alpha(0.8), {}};
+  c.dynamics = DynamicsOptions{MassKind::consistent, Motion::generalised_alpha(0.5), {}};
+  const int every = steps / k_samples;
+  const double dt = k_end / steps;
+  const std::size_t at = static_cast<std::size_t>(quads / k_length);  // ξ = 1
   History h;
-  verification::march_strip(c, solid, k_dt, k_steps, [&](int n, const StripFields& f) {
-    if (n % k_sample != 0) return;
-    h.time.push_back(n * k_dt);
-    h.temperature.push_back(f.temperature[k_at]);
-    h.displacement.push_back(f.displacement[k_at]);
-    h.stress.push_back(0.5 * (f.stress[k_at - 1] + f.stress[k_at]));
+  verification::march_strip(c, solid, dt, steps, [&](int n, const StripFields& f) {
+    if (n % every != 0) return;
+    h.time.push_back(n * dt);
+    h.temperature.push_back(f.temperature[at]);
+    h.displacement.push_back(f.displacement[at]);
+    h.stress.push_back(0.5 * (f.stress[at - 1] + f.stress[at]));
   });
   return h;
 }
@@ -203,6 +212,7 @@ TEST(CoupledHalfSpace, IsDanilovskayasAndNickellAndSackmansUnderAStepBesideItsFr
     const Difference d = difference(here, there, k_beside);
     EXPECT_LT(d.temperature, k_one_percent);
     EXPECT_LT(d.displacement, k_one_percent);
+    EXPECT_LT(d.stress, k_one_percent);
     write(out, delta, split(delta), d);
   }
   curves.write("step");
