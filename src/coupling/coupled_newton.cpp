@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/errors.hpp"
 
@@ -10,6 +11,8 @@ namespace solidus::coupling {
 
 namespace {
 
+constexpr int k_plain_steps = 4;         ///< before equilibrium is looked at
+constexpr double k_stalls = 0.1;         ///< a residual above this share of the one before
 constexpr int k_full_steps = 15;         ///< before steps are halved for more than their numbers' sake
 constexpr std::size_t k_remembered = 5;  ///< residuals that a step may rise to
 constexpr int k_halvings = 8;
@@ -132,7 +135,21 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
     constexpr double k_none = std::numeric_limits<double>::infinity();
     return {k_none, k_none};
   }
+  if (in_equilibrium_) equilibrate(old, pass, x);
   return evaluate(old, pass, x);
+}
+
+void CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
+                                std::vector<double>& x) {
+  mechanics::MechanicalState iterate = old;
+  iterate.displacement = x;
+  pass.iterate = &iterate;
+  try {
+    mechanics_.solve(old, iterate, pass);
+    x = std::move(iterate.displacement);
+  } catch (const StepRejected&) {
+    // The iterate is too far off for its own equilibrium: the step stands as it is.
+  }
 }
 
 double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
@@ -162,6 +179,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
   const int max_iterations = std::max(mechanics_.options().newton.max_iterations, thermal_->max_iterations());
   pass.iterate_temperature = thermal_->temperature();
   CoupledReport report;
+  in_equilibrium_ = false;
   CoupledResidual residual = evaluate(old, pass, x);
   while (true) {
     report.residuals.push_back(residual);
@@ -176,6 +194,9 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
     std::string failure;
     const bool found = find_direction(report, failure);
     ++report.iterations;
+    if (report.iterations > k_plain_steps &&
+        residual.size() > k_stalls * report.residuals[report.residuals.size() - 2].size())
+      in_equilibrium_ = true;
     if (!found) mechanics_.reject("linear solver: " + failure, x);
     const double alpha = move(old, pass, x, report);
     if (alpha == 0) mechanics_.reject("no step along Newton's direction lowers the residual", x);

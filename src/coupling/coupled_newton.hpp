@@ -11,8 +11,11 @@
 ///
 /// Full steps first, halved only where a law finds no state or a temperature falls below zero: where contact
 /// opens or closes, metal yields or a node freezes, the residual rises for an iteration and falls at once
-/// after it. From the sixteenth on a step is halved until the residual is below the largest of the last five
-/// (nonmonotone, Grippo, Lampariello, Lucidi 1986).
+/// after it. From the fifth on, once an iteration gains less than a digit, every iterate is brought to
+/// equilibrium at its temperature by the mechanical phase, whose line search follows an energy: perfectly
+/// plastic metal near its freezing point sends plain Newton steps back and forth. The displacement is then
+/// eliminated, and the heat alone is iterated on. From the sixteenth on a step is halved until the residual
+/// is below the largest of the last five (nonmonotone, Grippo, Lampariello, Lucidi 1986).
 #pragma once
 
 #include <memory>
@@ -82,6 +85,9 @@ class CoupledNewton {
               std::vector<double>& x, const CoupledReport& report);
   CoupledResidual evaluate_at(double alpha, const mechanics::MechanicalState& old,
                               const mechanics::MechanicalPass& pass, std::vector<double>& x);
+  /// The displacement in equilibrium with the temperature of now; left alone where there is none.
+  void equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
+                   std::vector<double>& x);
 
   Phases phases_;
   mechanics::MechanicalPhase& mechanics_;
@@ -95,6 +101,7 @@ class CoupledNewton {
   std::vector<double> step_u_, start_u_;          ///< [local node][component]
   std::vector<double> step_t_, further_;          ///< [local node], [owned node]
   double norm_ = 0, reference_ = 0;               ///< of r_u
+  bool in_equilibrium_ = false;                   ///< every iterate is brought there
 };
 
 }  // namespace solidus::coupling

@@ -1,39 +1,21 @@
 /// Weiner and Boley's slab: a shell that freezes from a cold wall and yields, against the similarity solution
-/// of analytic/solidifying_slab.hpp. A strip of one row of elements; its long sides stay plane, so it shrinks
-/// in the plane of the slab and does not bend:
-///
-///            ┌──┬──┬──┬──┬──┬──┬──┬──┐   ← plane, moves as a whole
-///   1000 °C ▒│  │  │  │  │  │  │  │  │   free, insulated
-///            └──┴──┴──┴──┴──┴──┴──┴──┘
-///             symmetry
-///
-/// Data as in S. Koric, B. G. Thomas, Efficient thermo-mechanical model for solidification processes, Int. J.
-/// Numer. Meth. Engng 66 (2006) 1955–1989.
+/// of analytic/solidifying_slab.hpp. Deformation does no heat here; coupling_slab_test.cpp has it coupled.
 #include <gtest/gtest.h>
 
-#include "analytic/solidifying_slab.hpp"
 #include "coupling/isothermal.hpp"
-#include "plasticity_bodies.hpp"
+#include "slab.hpp"
 
 namespace solidus {
 namespace {
 
 using analytic::SolidifyingSlab;
 using mesh::Shape;
-using test::Lattice;
-
-SolidifyingSlab steel() {
-  return SolidifyingSlab({.conductivity = 33,
-                          .specific_heat = 661,
-                          .latent = 272e3,
-                          .density = 7500,
-                          .wall = 1000 + k_zero_celsius,
-                          .melting = 1494.4 + k_zero_celsius,
-                          .young = 40e9,
-                          .poisson = 0.35,
-                          .expansion = 2e-5,
-                          .wall_yield = 20e6});
-}
+using verification::disc;
+using verification::freeze;
+using verification::k_length;
+using verification::material_of;
+using verification::solid;
+using verification::steel;
 
 // The similarity solution by itself.
 
@@ -100,119 +82,16 @@ TEST(WeinerBoley, SolutionIsWhatMarchingInTimeFinds) {
 
 // The finite elements.
 
-material::Material material_of(const SolidifyingSlab& slab) {
-  material::Material m = verification::plastic_material(
-      slab.young, slab.poisson, Table({slab.wall, slab.melting}, {slab.wall_yield, 0}), slab.expansion);
-  m.density = slab.density;
-  m.conductivity = slab.conductivity;
-  m.specific_heat = slab.specific_heat;
-  m.phase_changes = {{"solidification", material::PhaseFraction::linear(slab.melting, slab.melting),
-                      slab.latent, 0.0, true}};
-  m.liquid_viscosity = 1e5;  // stresses of kPa in the melt at the rates of this slab
-  return m;
-}
-
-struct Strip {
-  mesh::Mesh mesh;
-  AnalysisKind kind;
-  mechanics::Conditions conditions;
-  std::size_t depth;     ///< the coordinate away from the wall
-  std::size_t in_plane;  ///< the stress component that is compared
-};
-
-constexpr double k_length = 0.03;
-/// Melt at its freezing point itself would be half solid without yield stress: it could not bear any
-/// deviator, and its shape would be left to rounding. A tenth of a kelvin is 0.02 % of the heat that freezing
-/// takes.
-constexpr double k_superheat = 0.1;
-
-/// Hexahedra with the depth along x.
-Strip solid(Shape shape, int n) {
-  Strip s{
-      test::make_mesh({.shape = shape, .cells = {n, 1, 1}, .size = {k_length, k_length / n, k_length / n}}),
-      AnalysisKind::solid,
-      {},
-      0,
-      1};
-  s.conditions.displacements = {{"left", 0, 0.0}, {"bottom", 1, 0.0}, {"back", 2, 0.0}};
-  s.conditions.plane_faces = {{"top"}, {"front"}};
-  return s;
-}
-/// A round disc that freezes from below: the depth is the axis, the rim is the plane face.
-Strip disc(int n) {
-  Strip s{test::make_mesh({.shape = Shape::quad4, .cells = {1, n, 1}, .size = {k_length / n, k_length, 1}}),
-          AnalysisKind::axisymmetric,
-          {},
-          1,
-          0};
-  s.conditions.displacements = {{"bottom", 1, 0.0}};
-  s.conditions.plane_faces = {{"right"}};
-  return s;
-}
-
-/// rms of the error over the shell at 5 and at 21 s [Pa], front error [m].
-struct Result {
-  double rms[2], front_error;
-};
-
-Result freeze(const Strip& strip, double dt, const std::string& table = {}) {
-  const SolidifyingSlab slab = steel();
-  const double start = slab.melting + k_superheat;
-  const std::vector<material::Material> materials{material_of(slab)};
-  const std::vector<double> initial(strip.mesh.x.size(), start);
-  mechanics::MechanicsOptions options = test::strict();
-  options.newton.tolerance = 1e-6;
-  mechanics::MechanicalPhase mechanics(strip.mesh, strip.kind, materials, initial, strip.conditions, options);
-  heat::Conditions thermal;
-  thermal.temperatures.push_back({"wall", strip.depth == 0 ? "left" : "bottom", Table(slab.wall)});
-  heat::HeatOptions heat_options;
-  heat::ThermalPhase heat(strip.mesh, strip.kind, materials, thermal, heat_options);
-  coupling::Phases phases;
-  phases.heat = &heat;
-  phases.mechanics = &mechanics;
-  coupling::IsothermalSplit split(phases);
-
-  coupling::State state;
-  state.heat = heat.initial_state(std::vector<double>{start});
-  state.mechanics = mechanics.initial_state();
-  Result result{};
-  const mesh::Block& block = strip.mesh.blocks[0];
-  const auto compare = [&](double time) {
-    auto out = table.empty() ? std::ofstream{}
-                             : verification::table(table + "_" + std::to_string(std::lround(time)) + "s",
-                                                   "distance[mm],exact_stress[MPa],stress[MPa]");
-    const auto fields = mechanics.element_fields();
-    double squares = 0;
-    int n = 0;
-    for (Index e = 0; e < block.size(); ++e) {
-      const double x = verification::centre(strip.mesh, block, e)[strip.depth];
-      const double stress = fields[0].stress[static_cast<std::size_t>(e)][strip.in_plane];
-      const double exact = slab.stress(x, time);
-      out << 1e3 * x << "," << 1e-6 * exact << "," << 1e-6 * stress << "\n";
-      if (x > slab.front(time)) continue;
-      squares += (stress - exact) * (stress - exact);
-      ++n;
-    }
-    return std::sqrt(squares / n);
+verification::SlabRun uncoupled(double dt, std::string table = {}) {
+  verification::SlabRun run{material_of(steel()), dt, std::move(table)};
+  run.scheme = [](coupling::Phases phases) {
+    return std::make_unique<coupling::IsothermalSplit>(std::move(phases));
   };
-  const int steps = static_cast<int>(std::lround(21 / dt));
-  for (int i = 1; i <= steps; ++i) {
-    coupling::State trial = state;
-    trial.time = i * dt;
-    split.advance(state, trial, trial.time, dt);
-    state = std::move(trial);
-    if (i == std::lround(5 / dt)) result.rms[0] = compare(5);
-  }
-  result.rms[1] = compare(21);
-  result.front_error = k_length * heat.mean_solid_fraction(state.heat, 0) - slab.front(21);
-  printf("%s, step %g s: rms %.3f MPa at 5 s, %.3f MPa at 21 s, front %.3f mm off\n",
-         std::string(mesh::name(block.shape)).c_str(), dt, 1e-6 * result.rms[0], 1e-6 * result.rms[1],
-         1e3 * result.front_error);
-  return result;
+  return run;
 }
 
 TEST(WeinerBoley, StressProfilesAtFiveAndTwentyOneSecondsAreWithinHalfAMegapascal) {
-  const Result result = freeze(solid(Shape::hex8, 150), 0.05, "plasticity_slab");
+  const verification::SlabResult result = freeze(solid(Shape::hex8, 150), uncoupled(0.05, "plasticity_slab"));
   EXPECT_LT(result.rms[0], 0.5e6);
   EXPECT_LT(result.rms[1], 0.5e6);
 }
@@ -222,9 +101,9 @@ TEST(WeinerBoley, StressProfilesAtFiveAndTwentyOneSecondsAreWithinHalfAMegapasca
 // steep where it is elastic, shows.
 TEST(WeinerBoley, ARoundDiscOfAxisymmetricElementsConvergesToTheProfiles) {
   auto out = verification::table("plasticity_slab_order", "h[mm],stress_at_5_s[MPa],stress_at_21_s[MPa]");
-  std::vector<Result> results;
+  std::vector<verification::SlabResult> results;
   for (const int n : {75, 150, 300}) {
-    results.push_back(freeze(disc(n), 7.5 / n));
+    results.push_back(freeze(disc(n), uncoupled(7.5 / n)));
     out << 1e3 * k_length / n << "," << 1e-6 * results.back().rms[0] << "," << 1e-6 * results.back().rms[1]
         << "\n";
   }

@@ -1,0 +1,85 @@
+/// Weiner and Boley's slab (slab.hpp) by the coupled schemes. Structural heat changes little: the profiles of
+/// the similarity solution must come out of every scheme.
+///
+/// The capacity of the solution is that of metal which shrinks as it cools, C_p; the one that a material of
+/// the program has is that at constant strain. Stresses are bounded by the yield stress, so tr ε is 3α ΔΘ to
+/// 1e-3, and entropy C ln Θ + 3α k tr ε grows by C_p = C + 9α²kΘ: 4 to 6 % more than C. The material's
+/// capacity is taken that much smaller.
+#include <gtest/gtest.h>
+
+#include "coupling/block_iterative.hpp"
+#include "coupling/double_pass.hpp"
+#include "coupling/isentropic.hpp"
+#include "coupling/isothermal.hpp"
+#include "coupling/simultaneous.hpp"
+#include "slab.hpp"
+
+namespace solidus {
+namespace {
+
+using coupling::Phases;
+using mechanics::Mapping;
+using verification::SlabResult;
+using verification::SlabRun;
+
+material::Material at_constant_strain() {
+  const analytic::SolidifyingSlab slab = verification::steel();
+  material::Material m = verification::material_of(slab);
+  const double bulk = slab.young / (3 * (1 - 2 * slab.poisson));
+  const auto capacity = [&](double theta) {
+    return slab.specific_heat - 9 * slab.expansion * slab.expansion * bulk * theta / slab.density;
+  };
+  m.specific_heat = Table({slab.wall, slab.melting}, {capacity(slab.wall), capacity(slab.melting)});
+  return m;
+}
+
+/// Asserts half a megapascal, as where deformation does no heat.
+SlabResult freeze(const std::string& name, Mapping mapping,
+                  std::function<std::unique_ptr<coupling::CouplingScheme>(Phases)> scheme) {
+  SlabRun run{at_constant_strain(), 0.05, "coupling_slab_" + name};
+  run.mapping = mapping;
+  run.form = mechanics::StructuralForm::energy;
+  run.scheme = std::move(scheme);
+  const SlabResult result = verification::freeze(verification::disc(150), run);
+  EXPECT_LT(result.rms[0], 0.5e6);
+  EXPECT_LT(result.rms[1], 0.5e6);
+  // Half an element and what freezes in a step.
+  EXPECT_LT(std::abs(result.front_error), 0.2e-3);
+  auto out = verification::table("coupling_slab_" + name,
+                                 "stress_at_5_s[MPa],stress_at_21_s[MPa],front[mm],iterations");
+  out << 1e-6 * result.rms[0] << "," << 1e-6 * result.rms[1] << "," << 1e3 * result.front_error << ","
+      << result.iterations << "\n";
+  return result;
+}
+
+TEST(CoupledWeinerBoley, IsothermalSplit) {
+  freeze("isothermal", Mapping::isothermal,
+         [](Phases phases) { return std::make_unique<coupling::IsothermalSplit>(std::move(phases)); });
+}
+
+// The wall is the coldest place and nothing is done from outside: 𝓛 falls.
+TEST(CoupledWeinerBoley, IsentropicSplit) {
+  const SlabResult result = freeze("isentropic", Mapping::isentropic, [](Phases phases) {
+    return std::make_unique<coupling::IsentropicSplit>(std::move(phases));
+  });
+  EXPECT_LE(result.rise, 0);
+}
+
+TEST(CoupledWeinerBoley, DoublePass) {
+  freeze("double_pass", Mapping::isentropic,
+         [](Phases phases) { return std::make_unique<coupling::DoublePass>(std::move(phases)); });
+}
+
+TEST(CoupledWeinerBoley, BlockIterative) {
+  freeze("block_iterative", Mapping::isentropic, [](Phases phases) {
+    return std::make_unique<coupling::BlockIterative>(std::move(phases), coupling::IterationOptions{});
+  });
+}
+
+TEST(CoupledWeinerBoley, Simultaneous) {
+  freeze("simultaneous", Mapping::simultaneous,
+         [](Phases phases) { return std::make_unique<coupling::SimultaneousScheme>(std::move(phases)); });
+}
+
+}  // namespace
+}  // namespace solidus
