@@ -43,8 +43,8 @@ SlabResult freeze(const std::string& name, Mapping mapping,
   const SlabResult result = verification::freeze(verification::disc(150), run);
   EXPECT_LT(result.rms[0], 0.5e6);
   EXPECT_LT(result.rms[1], 0.5e6);
-  // Half an element and what freezes in a step.
-  EXPECT_LT(std::abs(result.front_error), 0.2e-3);
+  // A tenth of an element. With the capacity of the solution in the material it is 0.1 mm behind.
+  EXPECT_LT(std::abs(result.front_error), 0.02e-3);
   auto out = verification::table("coupling_slab_" + name,
                                  "stress_at_5_s[MPa],stress_at_21_s[MPa],front[mm],iterations");
   out << 1e-6 * result.rms[0] << "," << 1e-6 * result.rms[1] << "," << 1e3 * result.front_error << ","
