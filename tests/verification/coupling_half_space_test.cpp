@@ -198,8 +198,9 @@ TEST(CoupledHalfSpace, IsDanilovskayasAndNickellAndSackmansUnderSmoothHeating) {
   curves.write("smooth");
 }
 
-// The stress jumps at the front. Elements ring behind it; the split, which takes the waves within a step to
-// be isentropic, spreads it like a viscosity of δ (λ+2μ) Δt/2. Temperature and displacement have kinks there.
+// The stress jumps at the front, where elements ring. The split spreads the jump: where conduction is fast,
+// the heat of straining that it holds back for a step acts like a viscosity of δ (λ+2μ) Δt. Temperature and
+// displacement have kinks there.
 TEST(CoupledHalfSpace, IsDanilovskayasAndNickellAndSackmansUnderAStepBesideItsFront) {
   constexpr double k_beside = 0.2;
   auto out = verification::table("coupling_half_space_step", k_columns);
