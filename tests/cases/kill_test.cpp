@@ -71,7 +71,14 @@ class Kill : public ::testing::Test {
     fs::create_directories(temporary());
     setenv("TMPDIR", temporary().c_str(), 1);
   }
-  void TearDown() override { fs::remove_all(temporary()); }
+  void TearDown() override {
+    // What a killed run leaves behind, the message layer may be removing at the same moment.
+    for (int i = 0; i < 50 && fs::exists(temporary()); ++i) {
+      std::error_code error;
+      fs::remove_all(temporary(), error);
+      if (error) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
   static const fs::path& temporary() {
     static const fs::path path = fs::temp_directory_path() / ("solidus_kill_" + std::to_string(getpid()));
     return path;
