@@ -7,36 +7,16 @@
 #include "base/log.hpp"
 #include "coupling/state.hpp"
 #include "model/audit_watch.hpp"
-#include "model/case_keys.hpp"
 #include "model/coupling_estimate.hpp"
+#include "small_case.hpp"
 
 namespace solidus::model {
 namespace {
 
+using test::bar_case;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-CaseSpec read(const std::string& more = "") {
-  return case_keys().read(parse_document(R"(title = "A bar"
-[analysis]
-kind = "plane_strain"
-[mesh]
-shape = "block"
-element = "quad4"
-[mesh.block]
-size = ["10 mm", "10 mm"]
-divisions = [1, 1]
-[time]
-end = "10 s"
-step = "1 s"
-[[body]]
-name = "bar"
-material = "a"
-initial_temperature = "600 K"
-)" + more,
-                                         "case.toml"));
-}
 
 constexpr const char* k_film = R"toml([[thermal_condition]]
 name = "film"
@@ -47,25 +27,25 @@ ambient = "293 K"
 )toml";
 
 TEST(AmbientTemperature, IsTheInitialOneOfAnInsulatedBody) {
-  EXPECT_EQ(admissibility(read()).ambient_temperature, 600);
-  EXPECT_TRUE(admissibility(read()).holds());
+  EXPECT_EQ(admissibility(bar_case()).ambient_temperature, 600);
+  EXPECT_TRUE(admissibility(bar_case()).holds());
 }
 
 TEST(AmbientTemperature, IsThatOfTheSurroundings) {
-  const Admissibility a = admissibility(read(k_film));
+  const Admissibility a = admissibility(bar_case(k_film));
   EXPECT_NEAR(a.ambient_temperature, 293, 1e-9);
   EXPECT_THAT(a.violations, IsEmpty());
 }
 
 TEST(AmbientTemperature, MayBeGiven) {
   const Admissibility a =
-      admissibility(read(std::string("[coupling]\nambient_temperature = \"300 K\"\n") + k_film));
+      admissibility(bar_case(std::string("[coupling]\nambient_temperature = \"300 K\"\n") + k_film));
   EXPECT_EQ(a.ambient_temperature, 300);
   EXPECT_THAT(a.violations, ElementsAre(HasSubstr("'film' is not the ambient one")));
 }
 
 TEST(Admissible, IsNothingThatFeedsABody) {
-  const Admissibility a = admissibility(read(std::string(k_film) + R"([[thermal_condition]]
+  const Admissibility a = admissibility(bar_case(std::string(k_film) + R"([[thermal_condition]]
 name = "burner"
 group = "right"
 kind = "flux"
@@ -86,7 +66,7 @@ pressure = { of = "time", argument_unit = "s", unit = "MPa", points = [[0, 0], [
 }
 
 TEST(Admissible, AreDeadLoadsAndSupportsAtRest) {
-  EXPECT_TRUE(admissibility(read(R"([[mechanical_condition]]
+  EXPECT_TRUE(admissibility(bar_case(R"([[mechanical_condition]]
 name = "support"
 group = "bottom"
 kind = "displacement"
@@ -110,7 +90,7 @@ std::vector<std::string> warned(const std::function<void()>& action) {
 }
 
 TEST(StabilityWatch, WarnsOnceWhenTheFunctionalGrowsBeyondResiduals) {
-  const CaseSpec spec = read("[coupling]\nscheme = \"isothermal\"\n");
+  const CaseSpec spec = bar_case("[coupling]\nscheme = \"isothermal\"\n");
   coupling::StepRecord step;
   step.number = 7;
   step.time = 7;
@@ -127,7 +107,7 @@ TEST(StabilityWatch, WarnsOnceWhenTheFunctionalGrowsBeyondResiduals) {
 }
 
 TEST(StabilityWatch, IsSilentWhereSomethingFeedsTheBody) {
-  const CaseSpec spec = read(R"([[thermal_condition]]
+  const CaseSpec spec = bar_case(R"([[thermal_condition]]
 name = "oven"
 group = "bar"
 kind = "source"
@@ -150,7 +130,7 @@ TEST(FirstLawWatch, WarnsWhereMoreIsLostThanResidualsExplain) {
       watch.end({});
     });
   };
-  const CaseSpec energy = read(), entropy = read("[coupling]\nstructural_heating = \"entropy\"\n");
+  const CaseSpec energy = bar_case(), entropy = bar_case("[coupling]\nstructural_heating = \"entropy\"\n");
   EXPECT_THAT(run(energy), ElementsAre(HasSubstr("violated by 0.005 of the heat exchanged, 0.5 J")));
   EXPECT_THAT(run(entropy), ElementsAre(HasSubstr("structural_heating = \"energy\"")));
   step.energy.unbalanced = 0.6;  // Newton's criterion of the mechanical phase
@@ -166,22 +146,23 @@ TEST(IsothermalPasses, AreAnnouncedByTheirCouplingNumber) {
   e.initial = e.worst = 593;
   e.plane = true;
   e.at_initial = e.at_worst = {.uniaxial = 0.04, .plane = 0.056, .bound = 0.065};
-  const CaseSpec isothermal = read("[coupling]\nscheme = \"isothermal\"\n");
+  const CaseSpec isothermal = bar_case("[coupling]\nscheme = \"isothermal\"\n");
   EXPECT_THAT(warned([&] { announce_isothermal(isothermal, {e}); }), IsEmpty());
   EXPECT_THAT(text(e), HasSubstr("stable: 2 (1 - nu) delta = 0.0560"));
   e.at_worst = {.uniaxial = 1.44, .plane = 2.02, .bound = 2.33};
   EXPECT_THAT(warned([&] { announce_isothermal(isothermal, {e}); }),
               ElementsAre(AllOf(HasSubstr("unstable"), HasSubstr("scheme = \"isentropic\""))));
-  EXPECT_THAT(warned([&] { announce_isothermal(read(), {e}); }), IsEmpty());
+  EXPECT_THAT(warned([&] { announce_isothermal(bar_case(), {e}); }), IsEmpty());
 }
 
 TEST(IsothermalPasses, WithInertiaAreWarnedOfHoweverWeakTheCouplingUnlessBackwardEulerDamps) {
   CouplingEstimate e;
   e.at_initial = e.at_worst = {.uniaxial = 0.04, .plane = 0.056, .bound = 0.065};
   const std::string inertia = "[coupling]\nscheme = \"isothermal\"\n[dynamics]\nmethod = ";
-  EXPECT_THAT(warned([&] { announce_isothermal(read(inertia + "\"trapezoidal\"\n"), {e}); }),
+  EXPECT_THAT(warned([&] { announce_isothermal(bar_case(inertia + "\"trapezoidal\"\n"), {e}); }),
               ElementsAre(HasSubstr("by newmark")));  // the trapezoidal rule is one of Newmark's methods
-  EXPECT_THAT(warned([&] { announce_isothermal(read(inertia + "\"backward_euler\"\n"), {e}); }), IsEmpty());
+  EXPECT_THAT(warned([&] { announce_isothermal(bar_case(inertia + "\"backward_euler\"\n"), {e}); }),
+              IsEmpty());
 }
 
 }  // namespace

@@ -2,9 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "model/case_file.hpp"
-#include "model/case_keys.hpp"
 #include "model/mechanics_input.hpp"
+#include "small_case.hpp"
 
 namespace solidus::model {
 namespace {
@@ -12,36 +11,13 @@ namespace {
 using ::testing::HasSubstr;
 
 CaseSpec read(const std::string& coupling) {
-  const CaseSpec spec = case_keys().read(parse_document(R"(title = "A block"
-[analysis]
-kind = "plane_strain"
-[mesh]
-shape = "block"
-element = "quad4"
-[mesh.block]
-size = ["1 m", "1 m"]
-divisions = [1, 1]
-[time]
-end = "10 s"
-step = "1 s"
-[[body]]
-name = "block"
-material = "steel"
-initial_temperature = "20 degC"
-[coupling]
-)" + coupling,
-                                                        "case.toml"));
+  const CaseSpec spec = test::bar_case("[coupling]\n" + coupling);
   check_case(spec);
   return spec;
 }
 
 std::string error(const std::string& coupling) {
-  try {
-    read(coupling);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no InputError";
+  return test::refusal(test::bar_case("[coupling]\n" + coupling));
 }
 
 const std::string k_scheme = "scheme = \"block_iterative\"\n", k_section = "[coupling.iteration]\n";

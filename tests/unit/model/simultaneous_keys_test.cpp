@@ -2,46 +2,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/errors.hpp"
 #include "mechanics/mechanical_phase.hpp"
-#include "model/case_file.hpp"
-#include "model/case_keys.hpp"
 #include "model/mechanics_input.hpp"
+#include "small_case.hpp"
 
 namespace solidus::model {
 namespace {
 
+using test::refusal;
 using ::testing::HasSubstr;
 
 CaseSpec read(const std::string& coupling, const std::string& more = "") {
-  return case_keys().read(parse_document(R"(title = "A bar"
-[analysis]
-kind = "plane_strain"
-[mesh]
-shape = "block"
-element = "quad4"
-[mesh.block]
-size = ["10 mm", "10 mm"]
-divisions = [1, 1]
-[time]
-end = "10 s"
-step = "1 s"
-[[body]]
-name = "bar"
-material = "a"
-initial_temperature = "600 K"
-[coupling]
-)" + coupling + "\n" + more,
-                                         "case.toml"));
-}
-
-std::string refusal(const CaseSpec& spec) {
-  try {
-    check_case(spec);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return {};
+  return test::bar_case("[coupling]\n" + coupling + "\n" + more);
 }
 
 TEST(SimultaneousKeys, AreReadWithTheirDefaults) {
