@@ -3,9 +3,9 @@
 ///
 ///   K_uΘ = ∫ B̄ᵀ σ_Θ N dV        K_Θu = ∫ M h_εᵀ B̄ dV        K_ΘΘ += ∫ M h_Θ N dV
 ///
-///   energy form   h Δt = E − E_n − σ : Δε   h_ε Δt = E_ε − (Cᵀ : Δε + σ)        h_Θ Δt = E_Θ − σ_Θ : Δε
-///   entropy form  h Δt = Θ (S − S_n) − D Δt h_ε Δt = Θ S_ε − D_ε Δt             h_Θ Δt = S − S_n + Θ S_Θ −
-///   D_Θ Δt
+///   energy form   h Δt = E − E_n − σ : Δε,      h_ε Δt = E_ε − (Cᵀ : Δε + σ),  h_Θ Δt = E_Θ − σ_Θ : Δε
+///   entropy form  h Δt = Θ (S − S_n) − D Δt,    h_ε Δt = Θ S_ε − D_ε Δt,
+///                                               h_Θ Δt = S − S_n + Θ S_Θ − D_Θ Δt
 ///
 /// All derivatives are those along the update, flow and hardening eliminated (thermal_derivatives.hpp). M is
 /// N and the share by which StructuralPoints spreads heat as it is stored.

@@ -3,10 +3,10 @@
 ///   β Δt² a_1 = Δu − Δt v_n − μ Δt² a_n          v_1 = v_n + Δt [(1−γ) a_n + γ a_1]
 ///   M [(1−α_m) a_1 + α_m a_n] + (1−α_f) g_1 + α_f g_n = 0        g: internal and contact forces less loads
 ///
-///                        γ           β               μ        α_m            α_f
-///   backward Euler       1           1               0        0              0            first order
-///   Newmark              γ           β               1/2 − β  0              0            second order: γ =
-///   1/2 generalised-α        1/2−α_m+α_f (1−α_m+α_f)²/4  1/2 − β  (2ρ−1)/(1+ρ)   ρ/(1+ρ)      second order
+///                        γ           β               μ        α_m            α_f        order
+///   backward Euler       1           1               0        0              0          1
+///   Newmark              γ           β               1/2 − β  0              0          2 for γ = 1/2
+///   generalised-α        1/2−α_m+α_f (1−α_m+α_f)²/4  1/2 − β  (2ρ−1)/(1+ρ)   ρ/(1+ρ)    2
 ///
 /// Newmark 1959; J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371. All are stable for every step in
 /// linear dynamics. Energy: docs/theory/dynamics.md.
