@@ -76,8 +76,7 @@ TEST(EntropyForm, LosesLittleAndMoreInLongSteps) {
   EXPECT_LT(std::abs(sums[2]), std::abs(sums[1]));
 }
 
-// What the criteria of the phases let through: 1e-12 of the heat, 1e-11 of the forces. The springs of a
-// pressed interface add ½ ε_N Δg² a step, which vanishes with the penetration.
+// What the criteria of the phases let through: 1e-12 of the heat, 1e-11 of the forces.
 constexpr double k_closed = 1e-8;
 
 TEST(EnergyForm, ClosesTheFirstLawForAnyStepInBothSplits) {
