@@ -14,6 +14,7 @@ EnergyAudit& EnergyAudit::operator+=(const EnergyAudit& next) {
   work += next.work;
   unbalanced += next.unbalanced;
   heat_in += next.heat_in;
+  entropy_in += next.entropy_in;
   heat_exchanged += next.heat_exchanged;
   viscous_dissipation += next.viscous_dissipation;
   plastic_dissipation += next.plastic_dissipation;

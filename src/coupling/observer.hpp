@@ -18,7 +18,7 @@ struct PhaseEffort {
   double seconds = 0;
 };
 
-/// The first law over one step, all in joules (whole body; axisymmetric: the full revolution), and where
+/// The first law over one step, in joules (whole body; axisymmetric: the full revolution), and where
 /// mechanical work goes.
 struct EnergyAudit {
   double stored_heat = 0;  ///< change of sensible and latent heat
@@ -29,6 +29,7 @@ struct EnergyAudit {
   double work = 0;         ///< work of loads and supports on the bodies
   double unbalanced = 0;   ///< work of the forces that Newton's iteration left, a part of the defect
   double heat_in = 0;      ///< through boundaries and from sources
+  double entropy_in = 0;   ///< that came with it, at the temperatures of the bodies there [J/K]
   double heat_exchanged =
       0;  ///< what the defect is measured against: the sum of magnitudes of heat moved in the step
   double viscous_dissipation = 0;  ///< heat of the flowing melt (2.114)

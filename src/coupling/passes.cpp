@@ -42,6 +42,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
 
   effort.energy.stored_heat = report.balance.stored;
   effort.energy.heat_in = 0;
+  effort.energy.entropy_in = report.balance.entropy_in;
   for (const heat::ConditionHeat& condition : report.balance.conditions)
     effort.energy.heat_in += condition.heat;
   effort.energy.heat_exchanged = report.balance.exchanged;

@@ -46,8 +46,8 @@ mechanics::MechanicalState second_start(const mechanics::MechanicalState& old,
 void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried) {
   for (double EnergyAudit::*part :
        {&EnergyAudit::stored_heat, &EnergyAudit::work, &EnergyAudit::unbalanced, &EnergyAudit::heat_in,
-        &EnergyAudit::heat_exchanged, &EnergyAudit::viscous_dissipation, &EnergyAudit::plastic_dissipation,
-        &EnergyAudit::plastic_work})
+        &EnergyAudit::entropy_in, &EnergyAudit::heat_exchanged, &EnergyAudit::viscous_dissipation,
+        &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work})
     sum.*part += carried * first.*part;
 }
 
@@ -135,6 +135,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old, mech
   energy.plastic_work = work.plastic_work;
   energy.stored_heat = balance.stored;
   for (const heat::ConditionHeat& condition : balance.conditions) energy.heat_in += condition.heat;
+  energy.entropy_in = balance.entropy_in;
   energy.heat_exchanged = balance.exchanged;
   effort.least_dissipation = work.least_dissipation;
   effort.largest_dissipation = work.largest_dissipation;

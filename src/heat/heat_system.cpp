@@ -48,6 +48,7 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
 
   local_.resize(mesh.x.size());
+  supplied_.resize(mesh.x.size());
   contributed_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
   surface_power_.resize(surfaces_.size());
   source_power_.resize(sources_.size());
@@ -135,7 +136,7 @@ void HeatSystem::update_conductivity(std::span<const double> temperature, bool s
 
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
   double moved = 0;
-  std::fill(local_.begin(), local_.end(), 0.0);
+  for (auto* heat : {&local_, &supplied_}) std::fill(heat->begin(), heat->end(), 0.0);
   std::fill(surface_power_.begin(), surface_power_.end(), 0.0);
   std::fill(source_power_.begin(), source_power_.end(), 0.0);
   if (exchange_) moved += add_flows(temperature);
@@ -163,18 +164,25 @@ double HeatSystem::add_flows(std::span<const double> temperature) {
     conduction_[b]->add_heat(temperature, {k.value, k.slope}, local_);
   }
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-    surface_power_[s] = surfaces_[s].add_residual(temperature, local_);
+    surface_power_[s] = surfaces_[s].add_residual(temperature, supplied_);
     moved += std::abs(surface_power_[s]);
   }
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const Volume& source = sources_[s];
     for (std::size_t i = 0; i < source.weight.size(); ++i) {
-      local_[i] -= source.now * source.weight[i];
+      supplied_[i] -= source.now * source.weight[i];
       source_power_[s] += source.now * source.weight[i];
     }
     moved += std::abs(source_power_[s]);
   }
+  for (std::size_t i = 0; i < local_.size(); ++i) local_[i] += supplied_[i];
   return moved;
+}
+
+double HeatSystem::entropy_power(std::span<const double> temperature) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < contributed_.size(); ++i) sum -= supplied_[i] / temperature[i];
+  return sum;
 }
 
 void HeatSystem::assemble(std::span<const double> temperature, bool exact) {

@@ -48,6 +48,9 @@ class HeatSystem {
     double value;
   };
   std::vector<Power> powers() const;
+  /// Entropy that surfaces and sources brought with their heat at the last residual(), at the temperatures of
+  /// the bodies there; this process's share [W/K].
+  double entropy_power(std::span<const double> temperature) const;
   std::vector<double> contribution_powers() const;  ///< [W]
   /// Sums the reactions [owned node] of each prescribed temperature: heat into the body by it [W].
   std::vector<Power> reaction_powers(std::span<const double> reactions) const;
@@ -88,7 +91,8 @@ class HeatSystem {
   std::vector<char> fixed_;
   bool exchange_ = true;
   std::unique_ptr<algebra::BlockMatrix> matrix_;
-  std::vector<double> local_;                                              ///< work, [local node]
+  std::vector<double> local_;     ///< work, [local node]
+  std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]
   std::vector<double> contributed_;                                        ///< work, [owned node]
   std::vector<double> surface_power_, source_power_, contribution_power_;  ///< of this process, last residual
 };

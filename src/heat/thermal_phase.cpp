@@ -69,6 +69,7 @@ void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
   HeatBalance& sum = last.balance;
   sum.stored += carried * first.stored;
   sum.exchanged += carried * first.exchanged;
+  sum.entropy_in += carried * first.entropy_in;
   for (std::size_t i = 0; i < sum.conditions.size(); ++i)
     sum.conditions[i].heat += carried * first.conditions[i].heat;
   for (std::size_t i = 0; i < sum.contributions.size(); ++i)
@@ -223,7 +224,7 @@ void ThermalPhase::begin_stage(const algebra::Stage& stage, std::span<const doub
 HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& next,
                                   std::span<const double> residual, double moved, double dt) {
   keep_reactions(residual);
-  HeatBalance balance = measure(dt);
+  HeatBalance balance = measure(next.temperature, dt);
   double stored = 0;
   if (options_.integration == Integration::open) {
     for (const auto& block : points_) stored += block->stored(next.temperature);
@@ -260,7 +261,7 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   temperature_system_->use_storage(false);
   PhaseReport report;
   report.newton = solve_temperature(temperature);
-  report.balance = measure(1.0);
+  report.balance = measure(temperature, 1.0);
   report.balance.exchanged = temperature_system_->moved();
   trial = initial_state_at_nodes(temperature);
   return report;
@@ -288,8 +289,11 @@ void ThermalPhase::keep_reactions(std::span<const double> residual) {
 }
 
 /// Heat through conditions and contributions at the last residual.
-HeatBalance ThermalPhase::measure(double dt) const {
+HeatBalance ThermalPhase::measure(std::span<const double> temperature, double dt) const {
   HeatBalance balance;
+  double entropy = system_->entropy_power(temperature);
+  for (std::size_t i = 0; i < reactions_.size(); ++i) entropy += reactions_[i] / temperature[i];
+  balance.entropy_in = algebra::global_sum(entropy) * dt;
   for (const auto& [name, power] : system_->reaction_powers(reactions_))
     balance.conditions.push_back({name, power * dt});
   for (const auto& [name, power] : system_->powers()) balance.conditions.push_back({name, power * dt});

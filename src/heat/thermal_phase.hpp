@@ -134,7 +134,7 @@ class ThermalPhase {
   /// Throws StepRejected like require() unless `newton_steps` limits the iteration.
   algebra::NewtonReport solve_temperature(std::span<double> temperature, int newton_steps = 0);
   void keep_reactions(std::span<const double> residual);
-  HeatBalance measure(double dt) const;
+  HeatBalance measure(std::span<const double> temperature, double dt) const;
   PhaseReport solve_stage(const ThermalState& old, const ThermalState& before, const algebra::Stage& stage,
                           const ThermalPass& pass, ThermalState& next);
   /// Tells the contributions that store.

@@ -29,6 +29,7 @@ struct HeatBalance {
   double latent = 0;    ///< the part of `stored` that changed phase, positive when melting [J]
   std::vector<ConditionHeat> conditions;  ///< prescribed temperatures, fluxes, films, radiations, sources
   std::vector<double> contributions;      ///< heat into the bodies by each contribution, in their order [J]
+  double entropy_in = 0;  ///< ∫ dQ/Θ of the heat by conditions, Θ of the bodies there [J/K]
   double exchanged =
       0;  ///< half the sum of the magnitudes of all heat moved: what the defect is measured against
 

@@ -63,7 +63,8 @@ std::vector<Column> step_columns(StepTable table) {
     columns.insert(columns.end(), {{"lyapunov_mechanical", "J"},
                                    {"lyapunov_thermal", "J"},
                                    {"lyapunov_tolerance", "J"},
-                                   {"entropy", "J/K"}});
+                                   {"entropy", "J/K"},
+                                   {"entropy_production", "J/K"}});
   return columns;
 }
 
@@ -106,8 +107,8 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
                              r.energy.defect()};
   if (table.dynamics) cells.emplace_back(r.energy.kinetic);
   if (table.stability)
-    cells.insert(cells.end(),
-                 {r.stability.mechanical, r.stability.thermal, r.stability.tolerance, r.stability.entropy});
+    cells.insert(cells.end(), {r.stability.mechanical, r.stability.thermal, r.stability.tolerance,
+                               r.stability.entropy, r.stability.entropy - r.energy.entropy_in});
   return cells;
 }
 
@@ -146,6 +147,7 @@ std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
     add("lyapunov_mechanical", "J", last_.stability.mechanical);
     add("lyapunov_thermal", "J", last_.stability.thermal);
     add("entropy", "J/K", stability_.entropy);
+    add("entropy_production", "J/K", stability_.entropy - sum_.entropy_in);
   }
   add("heat_exchanged", "J", sum_.heat_exchanged);
   add("energy_defect", "J", sum_.defect());

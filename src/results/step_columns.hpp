@@ -12,7 +12,7 @@ namespace solidus::results {
 /// steps.csv: one row a step, all that StepRecord holds; energies are those of the step.
 struct StepTable {
   bool dynamics = false;   ///< bodies have inertia: one column more
-  bool stability = false;  ///< 𝓛 is followed: four more
+  bool stability = false;  ///< 𝓛 is followed: five more
 };
 std::vector<Column> step_columns(StepTable table = {});
 std::vector<Cell> step_row(const coupling::StepRecord& record, StepTable table = {});

@@ -99,10 +99,12 @@ double difference(const CaseRun& a, const CaseRun& b, const std::string& column)
 void expect_falling(const CaseRun& r) {
   const auto& h = r.history.at("lyapunov[J]");
   const auto& slack = r.steps.at("lyapunov_tolerance[J]");
+  const auto& produced = r.history.at("entropy_production[J/K]");
   ASSERT_EQ(h.size(), slack.size() + 1);
   for (std::size_t i = 1; i < h.size(); ++i) {
     EXPECT_LE(h[i] - h[i - 1], slack[i - 1]) << "step " << i;
     EXPECT_LT(slack[i - 1], 0.01 * (h[i - 1] - h[i])) << "step " << i;
+    EXPECT_GT(produced[i], produced[i - 1]) << "step " << i;
   }
 }
 

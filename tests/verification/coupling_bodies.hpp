@@ -161,6 +161,8 @@ CoupledRun march(
     if (falls) {
       EXPECT_LE(effort.stability.increment(), effort.stability.tolerance)
           << "step " << n << " of " << n_steps;
+      EXPECT_GE(effort.stability.entropy - effort.energy.entropy_in, -effort.stability.tolerance / *c.ambient)
+          << "step " << n << " of " << n_steps;
     }
     run.iterations.push_back(effort.coupling_iterations);
     run.end = std::move(trial);

@@ -208,16 +208,18 @@ TEST(StepColumns, FitTheRow) {
 TEST(StepColumns, GiveTheIncrementsOfTheFunctionalWhereItIsFollowed) {
   coupling::StepRecord step = sample_step();
   step.stability = {.mechanical = -2, .thermal = 0.5, .entropy = 7, .tolerance = 1e-3};
+  step.energy.entropy_in = 2;
   const auto columns = step_columns({.stability = true});
   const auto cells = step_row(step, {.stability = true});
   ASSERT_EQ(columns.size(), cells.size());
   std::map<std::string, double> by_header;
-  for (std::size_t i = columns.size() - 4; i < columns.size(); ++i)
+  for (std::size_t i = columns.size() - 5; i < columns.size(); ++i)
     by_header[columns[i].header()] = std::get<double>(cells[i]);
   const std::map<std::string, double> expected = {{"lyapunov_mechanical[J]", -2},
                                                   {"lyapunov_thermal[J]", 0.5},
                                                   {"lyapunov_tolerance[J]", 1e-3},
-                                                  {"entropy[J/K]", 7}};
+                                                  {"entropy[J/K]", 7},
+                                                  {"entropy_production[J/K]", 5}};
   EXPECT_EQ(by_header, expected);
 }
 
@@ -225,6 +227,7 @@ TEST(GlobalHistory, SumsTheFunctionalAndGivesItsLastIncrements) {
   GlobalHistory history({.stability = true});
   coupling::StepRecord step = sample_step();
   step.stability = {.mechanical = -2, .thermal = 0.5, .entropy = 7};
+  step.energy.entropy_in = 2;
   history.start({}, {}, {.mechanical = -10, .thermal = 1, .entropy = 3});  // a run that goes on
   history.add(step);
   history.add(step);
@@ -236,7 +239,8 @@ TEST(GlobalHistory, SumsTheFunctionalAndGivesItsLastIncrements) {
   EXPECT_DOUBLE_EQ(by_header.at("lyapunov_mechanical[J]"), -2.0);
   EXPECT_DOUBLE_EQ(by_header.at("lyapunov_thermal[J]"), 0.5);
   EXPECT_DOUBLE_EQ(by_header.at("entropy[J/K]"), 17.0);
-  EXPECT_EQ(history.columns().size(), GlobalHistory({}).columns().size() + 4);
+  EXPECT_DOUBLE_EQ(by_header.at("entropy_production[J/K]"), 13.0);
+  EXPECT_EQ(history.columns().size(), GlobalHistory({}).columns().size() + 5);
 }
 
 TEST(GlobalHistory, SumsTheFirstLawOverTheSteps) {
