@@ -24,8 +24,7 @@ struct CoupledSolver::Petsc {
 
 CoupledSolver::CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind,
                              double relative_tolerance)
-    : mesh_(mesh),
-      direct_(is_direct(kind, mesh, components)),
+    : direct_(is_direct(kind, mesh, components)),
       solver_(mesh, {.prefix = "coupled_",
                      .kind = direct_ ? SolverKind::direct : SolverKind::field_split,
                      .symmetric = false,

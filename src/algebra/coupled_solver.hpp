@@ -38,7 +38,6 @@ class CoupledSolver {
   double seconds() const;
 
  private:
-  const mesh::Mesh& mesh_;
   bool direct_;
   LinearSolver solver_;
   FieldWeights weights_;  ///< of the present preconditioner

@@ -189,8 +189,8 @@ void BlockIterative::relax(Iterate& it) {
   const auto n_owned = static_cast<std::size_t>(phases_.heat->mesh().n_owned_nodes);
   std::vector<double> change(from.size());
   for (std::size_t i = 0; i < change.size(); ++i) change[i] = it.now.heat.temperature[i] - from[i];
-  const std::size_t which = options_.sweep == IterationOptions::Sweep::jacobi ? it.number % 2 : 0;
-  const double factor = relaxation_[which].factor(std::span(change).first(n_owned));
+  const bool second = options_.sweep == IterationOptions::Sweep::jacobi && it.number % 2 == 1;
+  const double factor = relaxation_[second ? 1 : 0].factor(std::span(change).first(n_owned));
   for (std::size_t i = 0; i < change.size(); ++i) change[i] = from[i] + factor * change[i];
   it.before = std::exchange(it.temperature, std::move(change));
 }
