@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -113,6 +114,16 @@ class Kill : public ::testing::Test {
     return fs::exists(root() / folder / "checkpoint/state.h5") ||
            fs::exists(root() / folder / "checkpoint/previous.h5");
   }
+  /// Until history.csv has its head and `n` rows; not longer than a minute.
+  static void wait_for_rows(const std::string& folder, int n) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    const fs::path file = root() / folder / "history.csv";
+    while (n > 0 && std::chrono::steady_clock::now() < end) {
+      const std::string rows = fs::exists(file) ? text(file) : std::string();
+      if (std::count(rows.begin(), rows.end(), '\n') > n) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
   /// Goes on from what is there, or begins anew where there is no checkpoint yet.
   void finish(const std::string& folder) const {
     const bool restart = has_checkpoint(folder);
@@ -152,17 +163,20 @@ class Kill : public ::testing::Test {
 };
 
 TEST_F(Kill, TwentyTimesAtRandomMomentsLeavesTheSameBytes) {
-  const Seconds length = run_whole();
+  constexpr int k_steps = 40;  // of the run
+  const Seconds step = run_whole() / k_steps;
   std::mt19937 random(k_seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   int killed = 0, with_checkpoint = 0;
   for (int i = 0; i < 20; ++i) {
     const std::string folder = "killed";
     fs::remove_all(root() / folder);
-    const double moment = share(random);
-    SCOPED_TRACE("kill " + std::to_string(i + 1) + " at " + std::to_string(moment) + " of the run");
+    // By the run's own progress, whatever else the machine does: a number of rows, and up to two steps more.
+    const int rows = static_cast<int>(share(random) * (k_steps - 2));
+    SCOPED_TRACE("kill " + std::to_string(i + 1) + " after " + std::to_string(rows) + " rows");
     const Child child = start(folder, false);
-    std::this_thread::sleep_for(moment * length);
+    wait_for_rows(folder, rows);
+    std::this_thread::sleep_for(2 * share(random) * step);
     child.kill_hard();
     if (child.wait() == -SIGKILL) ++killed;
     if (has_checkpoint(folder)) ++with_checkpoint;
