@@ -67,7 +67,7 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
     heat_ = std::make_unique<HeatTerm>(mesh, points_, heat_law_->radiation_factor(), spec_.nodal_heat);
   }
   const auto n = static_cast<std::size_t>(points_.n_points());
-  state_.penetration.resize(n);
+  penetration_.resize(n);
   pressure_.resize(n);
   conductance_.resize(n);
   update(std::vector<double>(mesh.x.size() * static_cast<std::size_t>(components_), 0.0));
@@ -88,7 +88,7 @@ void ContactPair::update(std::span<const double> displacement) {
     for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
       const auto i = static_cast<std::size_t>(p);
       const double g = mechanics_->penetration(pairing, p, displacement);
-      state_.penetration[i] = g;
+      penetration_[i] = g;
       pressure_[i] = law_.update(g).pressure;
       if (heat_law_) conductance_[i] = heat_law_->conductance(-g, pressure_[i]);
     }
@@ -99,7 +99,7 @@ void ContactPair::add_coupling(std::span<const double> temperature, algebra::Cou
   if (!heat_) return;
   std::vector<double> slope(pressure_.size());
   for (std::size_t i = 0; i < slope.size(); ++i)
-    slope[i] = -heat_law_->slope(-state_.penetration[i], pressure_[i], law_.penalty);
+    slope[i] = -heat_law_->slope(-penetration_[i], pressure_[i], law_.penalty);
   heat_->add_gap_tangent(slope, temperature, mechanics_->slots(), matrix);
 }
 
@@ -109,7 +109,7 @@ double ContactPair::work(std::span<const double> old_penetration, double share) 
     if (!pairing.counted) continue;
     for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
       const auto i = static_cast<std::size_t>(p);
-      const double before = old_penetration[i], now = state_.penetration[i];
+      const double before = old_penetration[i], now = penetration_[i];
       const double pressure = share * law_.update(now).pressure + (1 - share) * law_.update(before).pressure;
       work += points_.weight[i] * pressure * (now - before);
     }
@@ -123,7 +123,7 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
     if (!pairing.counted) continue;
     for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
       const auto i = static_cast<std::size_t>(p);
-      const auto response = law_.update(state_.penetration[i]);
+      const auto response = law_.update(penetration_[i]);
       points += 1;
       if (!response.closed) continue;
       closed += 1;
@@ -156,7 +156,7 @@ ContactNodalFields ContactPair::nodal_fields() const {
         if (node >= n) continue;
         const double w = points_.weight[i] * b[a] * b[a];
         weight[node] += w;
-        opening[node] -= w * state_.penetration[i];
+        opening[node] -= w * penetration_[i];
         pressure[node] += w * pressure_[i];
         conductance[node] += w * conductance_[i];
       }

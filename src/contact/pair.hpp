@@ -10,7 +10,6 @@
 #include "contact/integration.hpp"
 #include "contact/normal.hpp"
 #include "contact/spec.hpp"
-#include "contact/state.hpp"
 
 namespace solidus::contact {
 
@@ -77,10 +76,9 @@ class ContactPair {
   double penalty() const { return law_.penalty; }  ///< ε_N [Pa/m]
   /// Part of the slave surface that has a partner, 0 to 1.
   double coverage() const { return points_.paired_measure / points_.slave_measure; }
-  std::span<const double> penetration() const { return state_.penetration; }  ///< [point] [m]
-  std::span<const double> pressure() const { return pressure_; }              ///< [point] [Pa]
-  std::span<const double> conductance() const { return conductance_; }        ///< [point] [W/(m² K)]
-  const ContactState& state() const { return state_; }
+  std::span<const double> penetration() const { return penetration_; }  ///< [point] [m]
+  std::span<const double> pressure() const { return pressure_; }        ///< [point] [Pa]
+  std::span<const double> conductance() const { return conductance_; }  ///< [point] [W/(m² K)]
   std::size_t bytes() const;
 
  private:
@@ -90,8 +88,7 @@ class ContactPair {
   ContactPoints points_;
   NormalPenalty law_;
   std::optional<HeatTransferLaw> heat_law_;
-  ContactState state_;
-  std::vector<double> pressure_, conductance_;
+  std::vector<double> penetration_, pressure_, conductance_;
   std::unique_ptr<MechanicsTerm> mechanics_;
   std::unique_ptr<HeatTerm> heat_;
 };

@@ -4,12 +4,30 @@
 
 #include <vector>
 
+#include "contact/vector.hpp"
+
 namespace solidus::contact {
 
-/// Without friction the law has no history; the penetration at t_n is kept for the difference quotients of
-/// 5.19 and for the audit. Friction adds its slip here.
+/// The history of one point of the slave surface: it travels with the slave's particle, whatever it meets.
+struct PointState {
+  double penetration = 0;  ///< g_N [m] (3.5)
+  double multiplier = 0;   ///< λ_N [Pa]: of the augmented Lagrangian, else zero
+  // Friction.
+  Point traction{};       ///< t_T of 3.42b, a vector in the master's tangent plane (ContactKinematics) [Pa]
+  Point anchor{};         ///< where slip is counted from: ContactKinematics::anchor [m]
+  bool touching = false;  ///< closed at t_n: `anchor` and `traction` hold
+  double internal_variable = 0;  ///< ζ_c, in the units of the law (friction.hpp)
+  double slip = 0;               ///< ∫ γ_c dt [m]
+  double dissipation = 0;        ///< ∫ D_c,mech dt [J/m²] (3.58)
+  double wear_depth = 0;         ///< by Archard's law [m]
+  // The interface as a body of its own.
+  double temperature = 0;      ///< Θ_c [K]; zero: not known yet
+  double plastic_entropy = 0;  ///< S^p_c [J/(m² K)] (3.53c)
+};
+
+/// One per point of the pair, in its order.
 struct ContactState {
-  std::vector<double> penetration;  ///< g_N [m], [point]
+  std::vector<PointState> points;
 };
 
 }  // namespace solidus::contact

@@ -3,7 +3,10 @@
 #include "coupling/simultaneous.hpp"
 
 #include <gtest/gtest.h>
+#include <mpi.h>
+#include <petscsys.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -234,6 +237,27 @@ TEST(SimultaneousScheme, GoesTheSameWayFromAStateWithAFieldSplit) {
     EXPECT_NEAR(of_direct.mechanics.displacement[i], of_split.mechanics.displacement[i], 1e-12);
 }
 
+int processes() {
+  int n = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n);
+  return n;
+}
+
+/// Bit by bit, or to the rounding of a direct solution.
+void expect_the_same(const std::vector<double>& a, const std::vector<double>& b, bool exact) {
+  if (exact) {
+    EXPECT_EQ(a, b);
+    return;
+  }
+  ASSERT_EQ(a.size(), b.size());
+  double size = 0, difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    size = std::max(size, std::abs(a[i]));
+    difference = std::max(difference, std::abs(a[i] - b[i]));
+  }
+  EXPECT_LE(difference, 1e-12 * size);
+}
+
 TEST(SimultaneousScheme, ContinuesFromAStateBitByBit) {
   for (const auto integration :
        {SimultaneousOptions::Integration::backward_euler, SimultaneousOptions::Integration::sdirk2})
@@ -251,9 +275,11 @@ TEST(SimultaneousScheme, ContinuesFromAStateBitByBit) {
       rest.synchronise(continued);
       whole.advance(state, trial, 0.9, 0.3);
       rest.advance(continued, next, 0.9, 0.3);
-      EXPECT_EQ(trial.heat.temperature, next.heat.temperature);
-      EXPECT_EQ(trial.heat.enthalpy, next.heat.enthalpy);
-      EXPECT_EQ(trial.mechanics.displacement, next.mechanics.displacement);
+      // MUMPS on several processes adds in the order in which messages come.
+      const bool exact = processes() == 1;
+      expect_the_same(trial.heat.temperature, next.heat.temperature, exact);
+      expect_the_same(trial.heat.enthalpy, next.heat.enthalpy, exact);
+      expect_the_same(trial.mechanics.displacement, next.mechanics.displacement, exact);
     }
 }
 

@@ -203,6 +203,8 @@ TEST(Phase, TheSameStepFromTheSameStateGivesTheSameBits) {
   Body body = cube();
   stand(body);
   body.conditions.gravity = {0, -9.81, 0};
+  // MUMPS on several processes adds in the order in which messages come.
+  body.options.solver = algebra::SolverKind::multigrid;
   const auto phase = body.phase();
   const auto old = phase->initial_state();
   mechanics::MechanicalState first, second;

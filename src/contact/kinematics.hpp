@@ -1,0 +1,78 @@
+/// How the points of a contact pair move: what the laws need to know of a displacement, and the derivatives
+/// that a consistent tangent needs.
+///
+/// At every point the bodies exchange the force w f on the slave and −w f on the master at the partner's
+/// place (3.73), as nodal forces
+///
+///   r_b = w B_b f,   f = t_N n + F T
+///
+/// w    weight: slave area in the reference configuration (tractions are nominal, 3.6), with 2πr
+/// B_b  shape functions of the slave's nodes and minus those of the master's at the partner
+/// n    unit vector from the slave to the master, −ν of 3.10b
+/// t_N  pressure [Pa], a function of the penetration g_N
+/// T    frictional traction 3.42b as a vector in the master's tangent plane in the reference configuration:
+///      its components are the t_Tα of the monograph, its length is the norm 3.52
+/// F    carries T to the current configuration: τ^α ⊗ τ_α^ref
+///
+/// Slip is measured where T lives: ΔG = Ȳ_{n+1} − Ȳ_n, the way of the partner on the master in the reference
+/// configuration since t_n (3.15a), so it does not see rigid motions and goes on from face to face.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "contact/state.hpp"
+#include "contact/vector.hpp"
+
+namespace solidus::contact {
+
+/// A 3 × 3 matrix, row-major.
+using Tensor = std::array<std::array<double, 3>, 3>;
+
+/// One point in a configuration. Arrays are owned by the ContactKinematics and live until its next call.
+struct PointMotion {
+  bool partnered = false;         ///< the point has a partner within reach; else the rest is void
+  std::span<const Index> nodes;   ///< local numbers: the slave's, then the master's
+  std::span<const double> share;  ///< B_b
+  double weight = 0;              ///< w [m²]
+  double penetration = 0;         ///< g_N [m]
+  Point normal{};                 ///< n
+  Tensor push{};                  ///< F
+  Point slip{};                   ///< ΔG [m]; zero unless asked for
+  Point anchor{};                 ///< Ȳ_{n+1} [m]: PointState::anchor of the next step
+  // Asked for with the tangent:
+  std::span<const Point> penetration_rate;  ///< ∂g_N/∂x_b
+  std::span<const Tensor> slip_rate;        ///< ∂ΔG_i/∂x_bj
+};
+
+class ContactKinematics {
+ public:
+  enum class Asked { motion, rates };
+  virtual ~ContactKinematics() = default;
+  virtual Index n_points() const = 0;
+  /// Brings partners in line with a displacement [local node][component], ghosts up to date [m]. The result
+  /// depends on the displacement alone, not on earlier calls. Local: surfaces are held whole by every
+  /// process.
+  virtual void place(std::span<const double> displacement) = 0;
+  /// One point at the displacement of the last place().
+  /// @param old  at t_n: slip is counted from its anchor; where it did not touch, from here (ΔG = 0)
+  virtual PointMotion motion(Index point, const PointState& old, Asked asked) const = 0;
+  /// Adds what the forces change by the geometry at fixed t_N and T,
+  ///
+  ///   K_bc += w [ ∂B_b/∂x_c ⊗ f + B_b (t_N ∂n/∂x_c + ∂(F T)/∂x_c) ],
+  ///
+  /// for the nodes of the last motion() with rates. @param k  [b][c], 3 × 3 blocks
+  virtual void add_geometric_tangent(Index point, double pressure, const Point& traction,
+                                     std::span<Tensor> k) const = 0;
+  /// True when nodes meet that did not at the last add_to_graph(): matrices must be made anew.
+  virtual bool graph_outdated() const = 0;
+  /// Cliques of nodes that may meet, with a margin for what comes next.
+  /// @param add  called with each clique
+  struct CliqueSink {
+    virtual ~CliqueSink() = default;
+    virtual void add(std::span<const Index> nodes) = 0;
+  };
+  virtual void add_to_graph(CliqueSink& sink) = 0;
+};
+
+}  // namespace solidus::contact
