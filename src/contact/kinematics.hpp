@@ -33,6 +33,7 @@ using Tensor = std::array<std::array<double, 3>, 3>;
 struct PointMotion {
   bool partnered = false;         ///< the point has a partner within reach; else the rest is void
   std::span<const Index> nodes;   ///< local numbers: the slave's, then the master's
+  int n_slave = 0;                ///< how many of them are the slave's
   std::span<const double> share;  ///< B_b
   double weight = 0;              ///< w [m²]
   double penetration = 0;         ///< g_N [m]
@@ -50,12 +51,27 @@ class ContactKinematics {
   enum class Asked { motion, rates };
   virtual ~ContactKinematics() = default;
   virtual Index n_points() const = 0;
+  /// What a point is whatever moves.
+  struct Particle {
+    GlobalIndex number = 0;  ///< of all processes alike, and of runs on another number of them
+    bool counted = false;    ///< this process counts it in sums; over all processes every point once
+    Point position{};        ///< on the slave, reference configuration [m]
+  };
+  virtual Particle particle(Index point) const = 0;
+  /// Part of the slave surface that has a partner in the reference configuration, 0 to 1. Collective at
+  /// construction, not here.
+  virtual double coverage() const = 0;
+  /// Whether the derivatives of the normal forces are symmetric (not with averaged normals).
+  virtual bool symmetric() const { return true; }
+  /// Whether partners ever change: else graph_outdated() is never true.
+  virtual bool partners_change() const { return true; }
   /// Brings partners in line with a displacement [local node][component], ghosts up to date [m]. The result
   /// depends on the displacement alone, not on earlier calls. Local: surfaces are held whole by every
   /// process.
   virtual void place(std::span<const double> displacement) = 0;
   /// One point at the displacement of the last place().
-  /// @param old  at t_n: slip is counted from its anchor; where it did not touch, from here (ΔG = 0)
+  /// @param old  at t_n: slip is counted from its anchor, whether it touched or not; where it had no partner,
+  ///             from here (ΔG = 0)
   virtual PointMotion motion(Index point, const PointState& old, Asked asked) const = 0;
   /// Adds what the forces change by the geometry at fixed t_N and T,
   ///

@@ -11,11 +11,15 @@ namespace solidus::contact {
 /// The history of one point of the slave surface: it travels with the slave's particle, whatever it meets.
 struct PointState {
   double penetration = 0;  ///< g_N [m] (3.5)
-  double multiplier = 0;   ///< λ_N [Pa]: of the augmented Lagrangian, else zero
+  double pressure = 0;     ///< t_N [Pa]
+  /// What t_N counts as in the balance of forces at t_n [Pa]: the same, but with the energy-conserving
+  /// quotient, which is a mean over the step (normal.hpp).
+  double balance_pressure = 0;
+  double multiplier = 0;  ///< λ_N [Pa]: of the augmented Lagrangian, else zero
   // Friction.
   Point traction{};       ///< t_T of 3.42b, a vector in the master's tangent plane (ContactKinematics) [Pa]
-  Point anchor{};         ///< where slip is counted from: ContactKinematics::anchor [m]
-  bool touching = false;  ///< closed at t_n: `anchor` and `traction` hold
+  Point anchor{};         ///< where slip is counted from: PointMotion::anchor [m]
+  bool anchored = false;  ///< had a partner at t_n, touching it or not: `anchor` holds
   double internal_variable = 0;  ///< ζ_c, in the units of the law (friction.hpp)
   double slip = 0;               ///< ∫ γ_c dt [m]
   double dissipation = 0;        ///< ∫ D_c,mech dt [J/m²] (3.58)
