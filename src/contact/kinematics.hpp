@@ -40,10 +40,15 @@ struct PointMotion {
   Point normal{};                 ///< n
   Tensor push{};                  ///< F
   Point slip{};                   ///< ΔG [m]; zero unless asked for
-  Point anchor{};                 ///< Ȳ_{n+1} [m]: PointState::anchor of the next step
+  /// T_n of `old` in the tangent plane at the new partner: turned by the smallest rotation that takes the old
+  /// reference normal of the master to the new one [Pa]. The trial traction is carried + ε_T ΔG (5.30).
+  Point carried{};
+  Point anchor{};         ///< Ȳ_{n+1} [m]: PointState::anchor of the next step
+  Point master_normal{};  ///< ν^ref at the partner (3.10a): PointState::master_normal of the next step
   // Asked for with the tangent:
   std::span<const Point> penetration_rate;  ///< ∂g_N/∂x_b
   std::span<const Tensor> slip_rate;        ///< ∂ΔG_i/∂x_bj
+  std::span<const Tensor> carried_rate;  ///< ∂carried_i/∂x_bj; empty: zero (masters flat in the reference)
 };
 
 class ContactKinematics {
@@ -65,8 +70,10 @@ class ContactKinematics {
   virtual bool symmetric() const { return true; }
   /// Whether partners ever change: else graph_outdated() is never true.
   virtual bool partners_change() const { return true; }
+  /// The time whose place prescribed motions of rigid surfaces have [s]; takes effect at the next place().
+  virtual void set_time(double) {}
   /// Brings partners in line with a displacement [local node][component], ghosts up to date [m]. The result
-  /// depends on the displacement alone, not on earlier calls. Local: surfaces are held whole by every
+  /// depends on displacement and time alone, not on earlier calls. Local: surfaces are held whole by every
   /// process.
   virtual void place(std::span<const double> displacement) = 0;
   /// One point at the displacement of the last place().

@@ -19,6 +19,7 @@ struct PointState {
   // Friction.
   Point traction{};       ///< t_T of 3.42b, a vector in the master's tangent plane (ContactKinematics) [Pa]
   Point anchor{};         ///< where slip is counted from: PointMotion::anchor [m]
+  Point master_normal{};  ///< ν^ref of the plane that holds `traction`: PointMotion::master_normal
   bool anchored = false;  ///< had a partner at t_n, touching it or not: `anchor` holds
   double internal_variable = 0;  ///< ζ_c, in the units of the law (friction.hpp)
   double slip = 0;               ///< ∫ γ_c dt [m]
