@@ -13,7 +13,7 @@ from solidus_plots.vtu import ResultError
 
 
 class Table(dict):
-    """Header -> numbers; columns of text are left out."""
+    """Header -> numbers; columns of text are left out. A header without a unit in brackets may hold either."""
 
     @staticmethod
     def name(header):
@@ -24,10 +24,10 @@ class Table(dict):
         return header.partition("[")[2].rstrip("]")
 
     def by_unit(self):
-        """Headers grouped by unit, time left out, in the order of the file."""
+        """Headers grouped by unit, time and mere numbers left out, in the order of the file."""
         groups = {}
         for header in self:
-            if self.name(header) != "time":
+            if self.name(header) != "time" and "[" in header:
                 groups.setdefault(self.unit(header), []).append(header)
         return groups
 
@@ -45,6 +45,9 @@ def read_table(path, first="time[s]"):
     whole = [row for row in rows[1:] if len(row) == len(rows[0])]
     table = Table()
     for index, header in enumerate(rows[0]):
-        if "[" in header:
+        try:
             table[header] = np.array([float(row[index]) for row in whole])
+        except ValueError:
+            if "[" in header:
+                raise
     return table

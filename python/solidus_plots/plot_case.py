@@ -10,17 +10,20 @@ from pathlib import Path
 import sys
 import tomllib
 
-from solidus_plots import curves, maps, point, style
+from solidus_plots import curves, graphs, maps, point, style
 from solidus_plots.history import read_table
 from solidus_plots.vtu import ResultError, read_collection
 
 # What plots.toml may say; anything else is a typo.
 KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
                    "compare"},
+        "graphs": {"file", "only", "title", "table", "x", "x_quantity", "part", "quantity", "lines", "each",
+                   "values", "keep", "from_zero"},
         "maps": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "mirror",
                  "magnification", "bodies", "contours", "range"},
         "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"}}
-REQUIRED = {"curves": ("file", "lines"), "maps": ("file", "field"), "deformed": ("file",)}
+REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps": ("file", "field"),
+            "deformed": ("file",)}
 
 
 def find_spec(results, summary):
@@ -105,6 +108,8 @@ def draw(results, spec_file=None):
     for picture in spec.get("curves", []):
         part = star(picture.get("only", [variant]), variant)
         attempt(curves.chosen, picture, history, histories(picture.get("compare", []), part, results))
+    for picture in spec.get("graphs", []):
+        attempt(graphs.draw, picture, results)
     if "maps" in spec or "deformed" in spec:
         times, moments = read_collection(results / "fields.pvd")
         section = maps.Section(times, moments, list(summary.get("mesh", {}).get("bodies", {})))

@@ -153,6 +153,50 @@ lines = [{ column = "T_wall[degC]" }]
   });
 }
 
+TEST_F(Plots, GraphsShowATableOverAColumnWithALineForEachCycle) {
+  test::on_first([&] {
+    {
+      CsvTable table((folder.path / "cycles.csv").string(), {{"pass", ""}, {"way", "mm"}, {"force", "N"}});
+      for (int pass = 1; pass <= 3; ++pass)
+        for (int i = 0; i <= 4; ++i) table.add(std::vector<double>{1.0 * pass, 1.0 * i, 10.0 * pass + i});
+    }
+    draw(R"(
+[[graphs]]
+file = "within"
+table = "cycles.csv"
+x = "way[mm]"
+lines = [{ column = "force[N]" }]
+each = "pass"
+values = [1, 3]
+keep = { column = "way[mm]", share = 0.5 }
+
+[[graphs]]
+file = "over_passes"
+table = "cycles.csv"
+x = "pass"
+x_quantity = "Passes"
+part = "way[mm]"
+lines = [{ column = "force[N]" }]
+
+[[graphs]]
+file = "no_column"
+table = "cycles.csv"
+x = "way"
+lines = [{ column = "force[N]" }]
+)");
+    EXPECT_EQ(code, 0) << said;
+    const std::string within = test::read_text(folder.path / "plots" / "within.svg");
+    EXPECT_NE(within.find(">pass 1<"), std::string::npos);
+    EXPECT_EQ(within.find(">pass 2<"), std::string::npos);
+    EXPECT_NE(within.find(">pass 3<"), std::string::npos);
+    EXPECT_EQ(within.find(">0.0<"), std::string::npos);  // the first half of the way was not kept
+    EXPECT_NE(test::read_text(folder.path / "plots" / "over_passes.svg").find(">Passes<"), std::string::npos);
+    EXPECT_NE(said.find("graphs 'no_column': no column way in cycles.csv; it has pass, way[mm], force[N]"),
+              std::string::npos)
+        << said;
+  });
+}
+
 TEST_F(Plots, SaysWhichKeyItDoesNotKnow) {
   test::on_first([&] {
     draw("[[maps]]\nfile = \"a\"\nfeld = \"temperature\"\n");
