@@ -1,10 +1,10 @@
 #include "contact/integration.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "algebra/parallel.hpp"
 #include "contact/point_list.hpp"
+#include "contact/slave_rule.hpp"
 #include "mesh/quadrature.hpp"
 
 namespace solidus::contact {
@@ -15,45 +15,11 @@ namespace {
 // coordinates of its face, still belong to it: on curved surfaces the two discrete edges never coincide.
 constexpr double k_edge_tolerance = 0.02;
 
-double circumference(AnalysisKind kind, const Point& x) {
-  return kind == AnalysisKind::axisymmetric ? 2 * std::numbers::pi * x[0] : 1.0;
-}
-
-Point node_xi(mesh::Shape shape, std::size_t a) {
-  const auto v = reference_vertices(shape);
-  return a < v.size() ? v[a] : scale(0.5, add(v[a - v.size()], v[(a - v.size() + 1) % v.size()]));
-}
-
 double measure_of(const Face& face, AnalysisKind kind) {
   double sum = 0;
   for (const auto& q : mesh::gauss_rule(face.shape, face.affine() ? 2 : 6))
     sum += q.weight * face.jacobian(q.xi) * circumference(kind, face.at(q.xi));
   return sum;
-}
-
-// ∫ N_a dA of a face with 2πr, or, where one of them is negative (quad8), the whole measure shared out in
-// the ratio of ∫ N_a² dA (Hinton, Rock, Zienkiewicz 1976).
-std::vector<double> nodal_measures(const Face& face, AnalysisKind kind) {
-  const auto n = static_cast<std::size_t>(face.n_nodes);
-  std::vector<double> first(n, 0), second(n, 0), values(n);
-  double total = 0;
-  for (const auto& q : mesh::gauss_rule(face.shape, 8)) {
-    mesh::basis_values(face.shape, q.xi, values);
-    const double w = q.weight * face.jacobian(q.xi) * circumference(kind, face.at(q.xi));
-    total += w;
-    for (std::size_t a = 0; a < n; ++a) {
-      first[a] += w * values[a];
-      second[a] += w * values[a] * values[a];
-    }
-  }
-  if (std::all_of(first.begin(), first.end(), [&](double f) { return f > -1e-12 * total; })) {
-    for (double& f : first) f = std::abs(f) <= 1e-12 * total ? 0 : f;
-    return first;
-  }
-  double sum = 0;
-  for (double s : second) sum += s;
-  for (double& s : second) s *= total / sum;
-  return second;
 }
 
 class Builder {
@@ -109,11 +75,9 @@ class Builder {
                                                       found_);
         break;
       case IntegrationRule::gauss:
-        for (const auto& q : mesh::gauss_rule(face.shape, options_.gauss_degree))
-          add_point(face, q.xi, q.weight * face.jacobian(q.xi), candidates);
-        break;
       case IntegrationRule::nodal:
-        add_nodal_points(face, candidates);
+        for (const SlaveRulePoint& q : slave_rule(face, kind_, options_.rule, options_.gauss_degree))
+          add_point(face, q.xi, q.weight, candidates);
         break;
     }
     std::stable_sort(found_.begin(), found_.end(), [](const PairedPoint& a, const PairedPoint& b) {
@@ -122,7 +86,7 @@ class Builder {
     for (std::size_t first = 0; first < found_.size();) {
       std::size_t last = first;
       while (last < found_.size() && found_[last].master_face == found_[first].master_face) ++last;
-      store(f, face, std::span(found_).subspan(first, last - first));
+      store(f, face, first, std::span(found_).subspan(first, last - first));
       first = last;
     }
   }
@@ -133,14 +97,8 @@ class Builder {
     if (partner.face >= 0) found_.push_back({partner.face, xi, partner.projection.xi, measure});
   }
 
-  void add_nodal_points(const Face& face, const std::vector<Index>& candidates) {
-    const std::vector<double> measures = nodal_measures(face, kind_);
-    for (std::size_t a = 0; a < measures.size(); ++a)
-      if (measures[a] > 0) add_point(face, node_xi(face.shape, a), measures[a], candidates);
-  }
-
   // Points of one slave face and one master face become a pairing, when they touch a node of this process.
-  void store(Index slave_face, const Face& face, std::span<const PairedPoint> found) {
+  void store(Index slave_face, const Face& face, std::size_t place, std::span<const PairedPoint> found) {
     const Index master_face = found.front().master_face;
     const auto s = slave_.nodes(slave_face), m = master_.nodes(master_face);
     if (!owns_any(s) && !owns_any(m)) return;
@@ -164,9 +122,10 @@ class Builder {
       mesh::basis_values(partner.shape, point.master_xi, values);
       for (std::size_t b = 0; b < m.size(); ++b) points_.shape.push_back(-values[b]);
       const Point x = face.at(point.slave_xi), n = face.normal(point.slave_xi);
-      // The nodal rule's measures hold the circumference already.
+      // The other rules' measures hold the circumference already.
       const double w =
-          point.measure * (options_.rule == IntegrationRule::nodal ? 1.0 : circumference(kind_, x));
+          point.measure * (options_.rule == IntegrationRule::segments ? circumference(kind_, x) : 1.0);
+      points_.number.push_back(slave_face * k_points_of_a_face + static_cast<GlobalIndex>(place++));
       points_.weight.push_back(w);
       points_.normal.push_back(n);
       points_.position.push_back(x);
@@ -191,7 +150,7 @@ class Builder {
 std::size_t ContactPoints::bytes() const {
   return pairings.capacity() * sizeof(Pairing) + nodes.capacity() * sizeof(Index) +
          (shape.capacity() + weight.capacity() + initial_penetration.capacity()) * sizeof(double) +
-         (normal.capacity() + position.capacity()) * sizeof(Point);
+         (normal.capacity() + position.capacity()) * sizeof(Point) + number.capacity() * sizeof(GlobalIndex);
 }
 
 ContactPoints integrate(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,

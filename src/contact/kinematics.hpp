@@ -18,16 +18,12 @@
 /// configuration since t_n (3.15a), so it does not see rigid motions and goes on from face to face.
 #pragma once
 
-#include <array>
 #include <span>
 
+#include "contact/rotation.hpp"
 #include "contact/state.hpp"
-#include "contact/vector.hpp"
 
 namespace solidus::contact {
-
-/// A 3 × 3 matrix, row-major.
-using Tensor = std::array<std::array<double, 3>, 3>;
 
 /// One point in a configuration. Arrays are owned by the ContactKinematics and live until its next call.
 struct PointMotion {
@@ -61,6 +57,7 @@ class ContactKinematics {
     GlobalIndex number = 0;  ///< of all processes alike, and of runs on another number of them
     bool counted = false;    ///< this process counts it in sums; over all processes every point once
     Point position{};        ///< on the slave, reference configuration [m]
+    double weight = 0;       ///< w of every motion() [m²]
   };
   virtual Particle particle(Index point) const = 0;
   /// Part of the slave surface that has a partner in the reference configuration, 0 to 1. Collective at

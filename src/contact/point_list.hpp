@@ -12,7 +12,7 @@ namespace solidus::contact {
 struct PairedPoint {
   Index master_face = 0;
   Point slave_xi{}, master_xi{};
-  double measure = 0;  ///< length or area that the point stands for, without 2πr
+  double measure = 0;  ///< length or area that the point stands for; rule `segments`: without 2πr
 };
 
 /// Pieces of a slave face in 2-D, cut at the projections of the master's vertices; Gauss points in each.

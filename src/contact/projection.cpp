@@ -61,18 +61,6 @@ bool minimise(const Face& face, const Point& p, Point& xi) {
   return false;
 }
 
-// The face's edge `e` as a line with its own nodes.
-Face edge_of(const Face& face, std::size_t e) {
-  const auto v = static_cast<std::size_t>(mesh::vertex_count(face.shape));
-  Face edge;
-  edge.shape = mesh::order(face.shape) == 1 ? mesh::Shape::line2 : mesh::Shape::line3;
-  edge.n_nodes = mesh::node_count(edge.shape);
-  edge.x[0] = face.x[e];
-  edge.x[1] = face.x[(e + 1) % v];
-  if (edge.n_nodes == 3) edge.x[2] = face.x[v + e];
-  return edge;
-}
-
 struct Best {
   Point xi{};
   double value = std::numeric_limits<double>::max();
@@ -98,6 +86,17 @@ void try_line(const Face& line, const Point& p, Best& best) {
 
 }  // namespace
 
+Face edge_of(const Face& face, std::size_t e) {
+  const auto v = static_cast<std::size_t>(mesh::vertex_count(face.shape));
+  Face edge;
+  edge.shape = mesh::order(face.shape) == 1 ? mesh::Shape::line2 : mesh::Shape::line3;
+  edge.n_nodes = mesh::node_count(edge.shape);
+  edge.x[0] = face.x[e];
+  edge.x[1] = face.x[(e + 1) % v];
+  if (edge.n_nodes == 3) edge.x[2] = face.x[v + e];
+  return edge;
+}
+
 Projection closest_point(const Face& face, const Point& p) {
   Best best;
   if (face.dimension() == 1) {
@@ -105,10 +104,13 @@ Projection closest_point(const Face& face, const Point& p) {
   } else {
     const auto vertices = reference_vertices(face.shape);
     try_interior(face, p, reference_centre(face.shape), best);
-    if (!face.affine())
+    const bool affine = face.affine();
+    // The distance to a plane has one stationary point: inside, it is the minimum.
+    const bool done = affine && best.value < std::numeric_limits<double>::max();
+    if (!affine)
       for (const Point& v : vertices)
         try_interior(face, p, scale(0.5, add(v, reference_centre(face.shape))), best);
-    for (std::size_t e = 0; e < vertices.size(); ++e) {
+    for (std::size_t e = 0; e < vertices.size() && !done; ++e) {
       Best on_edge;
       try_line(edge_of(face, e), p, on_edge);
       const double s = 0.5 * (1 + on_edge.xi[0]);
@@ -118,6 +120,15 @@ Projection closest_point(const Face& face, const Point& p) {
   }
   const Point y = face.at(best.xi);
   return {true, best.xi, y, distance(p, y)};
+}
+
+Projection closest_point_extended(const Face& face, const Point& p, const Point& start) {
+  Projection result;
+  result.xi = start;
+  result.found = minimise(face, p, result.xi);
+  result.y = face.at(result.xi);
+  result.distance = distance(p, result.y);
+  return result;
 }
 
 Projection project_along_extended(const Face& face, const Point& p, const Point& d) {

@@ -12,11 +12,18 @@ struct Projection {
   double distance = 0;  ///< closest point: |p − ȳ|; along a direction d: (ȳ − p)·d, signed [m]
 };
 
+/// Edge `e` of a face as a line with its own nodes, from vertex e to the next.
+Face edge_of(const Face& face, std::size_t e);
+
 /// The closest point of the face, its edges and vertices included: minimises |x(ξ) − p| over the reference
 /// shape by Newton's method with the exact Hessian, guarded by steepest-descent-like Gauss–Newton steps,
 /// from the centre and, on curved faces, from the vertices too; edges by the same in one parameter.
 /// Always `found`.
 Projection closest_point(const Face& face, const Point& p);
+
+/// The same without the limits of the face, from a start: the stationary point of the distance that Newton's
+/// method finds, within four times the reference shape; `found` tells that it did.
+Projection closest_point_extended(const Face& face, const Point& p, const Point& start);
 
 /// The point of the face on the line p + s d, |d| = 1, by Newton's method in ξ. A point outside the face by
 /// up to `tolerance` in reference coordinates counts as found, and ξ̄ is moved onto the face.

@@ -1,0 +1,62 @@
+/// A surface of a mesh as the master: closest point (3.4), averaged normals, wedges at edges and vertices.
+///
+/// Where two faces meet at an angle, the normals of both leave a wedge of places open, on the outside of a
+/// ridge or behind a groove. The closest point of all of them is on the edge: there the normal is the
+/// direction of the distance (Partner::Region::edge, vertex), which turns from one face's normal to the
+/// other's, so that neither the penetration nor the normal force jumps.
+/// Beyond the surface's free boundary there is no partner, but for a small tolerance within which the last
+/// face is continued.
+#pragma once
+
+#include <optional>
+
+#include "contact/master.hpp"
+#include "contact/master_normals.hpp"
+#include "contact/master_topology.hpp"
+#include "contact/sliding_search.hpp"
+
+namespace solidus::contact {
+
+struct MeshMasterOptions {
+  double search_distance = 0;  ///< partners are looked for this far, on both sides [m]
+  bool smoothing = false;      ///< projection along averaged normals
+  double feature_angle = 0.6;  ///< edges sharper than this in the reference stay sharp [rad]
+};
+
+class MeshMaster : public Master {
+ public:
+  MeshMaster(int components, const ContactSurface& surface, const MeshMasterOptions& options);
+  void place(std::span<const double> displacement, double time) override;
+  Partner find(const Point& x, const Point& slave_normal, Index hint) const override;
+  void frame(const Partner& partner, bool rates, MasterFrame& frame) const override;
+  std::size_t max_nodes() const override { return max_nodes_; }
+  bool reference_turns() const override;
+  bool symmetric() const override { return !normals_; }
+  std::span<const Index> nodes(Index face) const override;
+  std::span<const Index> around(Index face) const override { return topology_.around(face); }
+  /// How often the tree was built.
+  int n_builds() const { return search_.n_builds(); }
+
+ private:
+  const Face& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
+  Partner on_face(Index f, const Point& xi, const Point& x) const;
+  Partner in_wedge(const Feature& feature, const SurfacePoint& closest, const Point& x) const;
+  Partner continued(const SurfacePoint& closest, const Feature& feature, const Point& x,
+                    double tolerance) const;
+  Partner along_edge(const Feature& vertex, const Point& x) const;
+  Partner flat(const SurfacePoint& closest, const Point& x) const;
+  Partner smooth(const SurfacePoint& closest, const Point& x) const;
+  Partner smooth_on(Index f, const Point& start, const Point& x, double tolerance) const;
+
+  ContactSurface surface_;
+  int components_;
+  MeshMasterOptions options_;
+  std::vector<Face> reference_, faces_;
+  MasterTopology topology_;
+  std::optional<AveragedNormals> normals_, reference_normals_;
+  SlidingSearch search_;
+  std::size_t max_nodes_ = 0;
+  bool turns_ = false;
+};
+
+}  // namespace solidus::contact

@@ -1,0 +1,93 @@
+/// Large sliding: points fixed on the slave, partners found anew in every configuration x = X + u.
+///
+/// A point's partner ȳ = y(ξ̄) is the closest point of the master (3.4), or, with smoothing, the point on the
+/// line along the averaged normals, x_s = y(ξ̄) − g_N ν(ξ̄). Both are the root of
+///
+///   r(ξ, g) = x_s − y(ξ) + g ν(ξ) = 0
+///
+/// whose derivatives give ∂ξ̄^α/∂x_b and ∂g_N/∂x_b exactly; for the closest point they are those of Laursen
+/// and Simo (1993) with A_αβ = m_αβ + g_N k_αβ. Derivation: docs/theory/contact.md.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "contact/integration.hpp"
+#include "contact/kinematics.hpp"
+#include "contact/master.hpp"
+
+namespace solidus::contact {
+
+struct SlidingOptions {
+  IntegrationRule rule = IntegrationRule::gauss;  ///< gauss or nodal
+  int gauss_degree = 4;
+  /// Faces around a partner that the graph of the matrix keeps ready, in rings.
+  int graph_rings = 2;
+  /// Points with larger openings do not ask for a new graph [m].
+  double graph_distance = 1e300;
+};
+
+class SlidingKinematics : public ContactKinematics {
+ public:
+  /// Places the points at zero displacement and time zero.
+  SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
+                    std::unique_ptr<Master> master, const SlidingOptions& options);
+
+  Index n_points() const override { return static_cast<Index>(weight_.size()); }
+  Particle particle(Index point) const override;
+  double coverage() const override { return coverage_; }
+  bool symmetric() const override { return master_->symmetric(); }
+  void set_time(double time) override { time_ = time; }
+  void place(std::span<const double> displacement) override;
+  PointMotion motion(Index point, const PointState& old, Asked asked) const override;
+  void add_geometric_tangent(Index point, double pressure, const Point& traction,
+                             std::span<Tensor> k) const override;
+  bool graph_outdated() const override;
+  void add_to_graph(CliqueSink& sink) override;
+
+  const Partner& partner(Index point) const { return partner_[static_cast<std::size_t>(point)]; }
+  Index slave_face(Index point) const { return face_[static_cast<std::size_t>(point)]; }
+  const Point& slave_xi(Index point) const { return xi_[static_cast<std::size_t>(point)]; }
+
+ private:
+  void add_points(AnalysisKind kind, const SlidingOptions& options);
+  Point place_of(std::size_t point, const Face& face) const;
+  void list_nodes(std::size_t point) const;
+  void find_rates(const Partner& partner) const;
+  void find_face_rates(const Partner& partner) const;
+  void find_wedge_rates(const Partner& partner) const;
+  void find_slip(const Partner& partner, const PointState& old, Asked asked, PointMotion& motion) const;
+  std::span<const Index> allowed(Index slave_face) const;
+
+  const mesh::Mesh& mesh_;
+  std::size_t components_;
+  ContactSurface slave_;
+  std::unique_ptr<Master> master_;
+  SlidingOptions options_;
+  double time_ = 0, coverage_ = 0;
+
+  // [point], sorted by face
+  std::vector<Index> face_;
+  std::vector<Index> number_;  ///< of the point on its face
+  std::vector<Point> xi_, position_, x_;
+  std::vector<double> weight_;
+  std::vector<std::array<double, k_max_face_nodes>> shape_;
+  std::vector<Partner> partner_;
+  std::vector<Index> hint_;  ///< the face met last
+
+  // Pairs of faces that the graph holds: master faces of every slave face, sorted.
+  std::vector<std::size_t> first_allowed_;
+  std::vector<Index> allowed_;
+
+  // Of the last motion(), [node]; no allocation there.
+  mutable MasterFrame frame_;
+  mutable std::size_t n_slave_ = 0, n_nodes_ = 0;
+  mutable std::vector<Index> nodes_;
+  mutable std::vector<double> share_;
+  mutable std::vector<Point> penetration_rate_;
+  mutable std::vector<std::array<Point, 2>> xi_rate_;
+  mutable std::vector<Tensor> normal_rate_;  ///< ∂ν/∂x_b
+  mutable std::vector<Tensor> slip_rate_, carried_rate_;
+};
+
+}  // namespace solidus::contact
