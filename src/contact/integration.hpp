@@ -19,6 +19,9 @@
 
 namespace solidus::contact {
 
+/// More than a face ever holds.
+inline constexpr GlobalIndex k_points_of_a_face = 1 << 20;
+
 enum class IntegrationRule {
   segments,  ///< slave faces cut where master faces begin and end, Gauss points in each piece (default)
   nodal,     ///< at the slave's nodes with the weights ∫ N_a dA
@@ -52,6 +55,7 @@ struct ContactPoints {
   std::vector<Point> normal;    ///< n, from the slave to the master
   std::vector<Point> position;  ///< on the slave, reference configuration [m]
   std::vector<double> initial_penetration;  ///< g_N at u = 0 [m]
+  std::vector<GlobalIndex> number;          ///< of all processes alike: slave face × k_points_of_a_face + place
 
   double slave_measure = 0;   ///< whole slave surface, axisymmetric with 2πr [m²]; over all processes
   double paired_measure = 0;  ///< the part that found a partner [m²]; over all processes
