@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct Column {
   /// "T_center[degC]", "reason".
   std::string header() const { return unit.empty() ? name : name + "[" + unit + "]"; }
 };
+
+/// A number of the run and the column that shows it.
+using Reading = std::pair<Column, double>;
 
 using Cell = std::variant<double, std::int64_t, std::string>;
 

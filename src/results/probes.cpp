@@ -68,6 +68,12 @@ double component_of(const Field& field, std::size_t entity, int component) {
   return std::sqrt(square);
 }
 
+const Reading* find_global(const std::vector<Reading>& globals, const std::string& name) {
+  const auto found = std::find_if(globals.begin(), globals.end(),
+                                  [&](const Reading& global) { return global.first.name == name; });
+  return found == globals.end() ? nullptr : &*found;
+}
+
 units::Conversion conversion_to(const Column& column, const std::string& si, units::Temperature kind,
                                 const SourceLocation& where) {
   if (!units::compatible(column.unit, si))
@@ -99,8 +105,8 @@ int component_index(std::string_view name, int components, AnalysisKind kind) {
   throw std::invalid_argument("components: " + known);
 }
 
-Probes::Probes(const Mesh& mesh, AnalysisKind kind, const std::vector<Probe>& probes,
-               const FieldSet& fields) {
+Probes::Probes(const Mesh& mesh, AnalysisKind kind, const std::vector<Probe>& probes, const FieldSet& fields,
+               const std::vector<Reading>& globals) {
   const auto field_of = [&](const Sampled& probe) -> const Field& {
     if (const Field* field = fields.find(probe.field)) return *field;
     std::string known;
@@ -114,8 +120,10 @@ Probes::Probes(const Mesh& mesh, AnalysisKind kind, const std::vector<Probe>& pr
       samples_.push_back(point_sample(mesh, *point, field_of(*point)));
     else if (const auto* group = std::get_if<GroupProbe>(&probe))
       samples_.push_back(group_sample(mesh, kind, *group, field_of(*group)));
+    else if (const auto* linear = std::get_if<LinearProbe>(&probe))
+      samples_.push_back(linear_sample(*linear));
     else
-      samples_.push_back(linear_sample(std::get<LinearProbe>(probe)));
+      samples_.push_back(global_sample(std::get<GlobalProbe>(probe), globals));
     columns_.push_back(std::visit([](const auto& p) { return p.column; }, probe));
   }
 }
@@ -227,7 +235,27 @@ Probes::Sample Probes::linear_sample(const LinearProbe& probe) const {
   return sample;
 }
 
-std::vector<double> Probes::values(const FieldSet& fields) const {
+Probes::Sample Probes::global_sample(const GlobalProbe& probe, const std::vector<Reading>& globals) {
+  const Reading* found = find_global(globals, probe.global);
+  if (found == nullptr) {
+    std::string known;
+    for (const Reading& global : globals) known += (known.empty() ? "" : ", ") + global.first.name;
+    throw InputError(
+        probe.where,
+        fmt::format("probe '{}': history.csv has no column '{}'", probe.column.name, probe.global),
+        "columns: " + known);
+  }
+  Sample sample;
+  sample.reduce = Reduce::global;
+  sample.field = probe.global;
+  sample.factor = probe.factor;
+  sample.unit = found->first.unit;
+  if (!probe.column.unit.empty())
+    sample.shown = conversion_to(probe.column, sample.unit, units::Temperature::absolute, probe.where);
+  return sample;
+}
+
+std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Reading>& globals) const {
   // In SI; minima and maxima in one reduction (the maximum of the negated value is the minimum).
   std::vector<double> sums(samples_.size(), 0.0), peaks(samples_.size(), 0.0);
   for (std::size_t s = 0; s < samples_.size(); ++s) {
@@ -256,6 +284,7 @@ std::vector<double> Probes::values(const FieldSet& fields) const {
     if (sample.reduce == Reduce::sum) si[s] = sums[s] * sample.factor;
     if (sample.reduce == Reduce::maximum) si[s] = peaks[s];
     if (sample.reduce == Reduce::minimum) si[s] = -peaks[s];
+    if (sample.reduce == Reduce::global) si[s] = sample.factor * find_global(globals, sample.field)->second;
     for (const auto& [factor, term] : sample.terms) si[s] += factor * si[term];
     shown[s] = sample.shown(si[s]);
     if (!std::isfinite(shown[s])) throw NotFiniteError("probe '" + columns_[s].header() + "'", {});

@@ -58,25 +58,35 @@ struct LinearProbe {
   SourceLocation where;
 };
 
-using Probe = std::variant<PointProbe, GroupProbe, LinearProbe>;
+/// A column that history.csv has anyway, under another name, times a factor, in another unit: "pass" = the
+/// cycle, the force on 10 mm of a sheet = 0.01 x the force per metre. Without a unit the number as it is.
+struct GlobalProbe {
+  Column column;
+  std::string global;  ///< name of the column, without its unit
+  double factor = 1;
+  SourceLocation where;
+};
+
+using Probe = std::variant<PointProbe, GroupProbe, LinearProbe, GlobalProbe>;
 
 class Probes {
  public:
   /// Finds elements, nodes and weights once. Collective. Throws InputError (on every process) for a point in
   /// no element, an unknown group, field or probe, a unit of another dimension.
-  /// @param fields  the fields there will be; only names, units and shapes are used
-  Probes(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<Probe>& probes, const FieldSet& fields);
+  /// @param fields, globals  what there will be; only names, units and shapes are used
+  Probes(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<Probe>& probes, const FieldSet& fields,
+         const std::vector<Reading>& globals = {});
 
   const std::vector<Column>& columns() const { return columns_; }
   /// The values of the columns in their units, on every process. Collective.
-  std::vector<double> values(const FieldSet& fields) const;
+  std::vector<double> values(const FieldSet& fields, const std::vector<Reading>& globals = {}) const;
   std::size_t bytes() const;
 
  private:
-  enum class Reduce { sum, minimum, maximum, linear };
+  enum class Reduce { sum, minimum, maximum, linear, global };
   struct Sample {
     Reduce reduce = Reduce::sum;
-    std::string field;
+    std::string field;  // of a global probe: the column's name
     int component = 0;
     std::vector<std::pair<std::size_t, double>> weights;  // of nodes or cells this process counts
     double factor = 1;
@@ -88,6 +98,7 @@ class Probes {
   Sample group_sample(const mesh::Mesh& mesh, AnalysisKind kind, const GroupProbe& probe,
                       const Field& field) const;
   Sample linear_sample(const LinearProbe& probe) const;
+  static Sample global_sample(const GlobalProbe& probe, const std::vector<Reading>& globals);
 
   std::vector<Column> columns_;
   std::vector<Sample> samples_;

@@ -1,0 +1,122 @@
+#include "results/profile.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "algebra/parallel.hpp"
+#include "results/output_error.hpp"
+#include "results/output_file.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+units::Conversion shown_in(const std::string& unit, const std::string& si, const std::string& what,
+                           const SourceLocation& where) {
+  if (!units::compatible(unit, si))
+    throw InputError(where, fmt::format("{}: the unit '{}' does not fit", what, unit),
+                     fmt::format("it measures {}, for example in '{}'", units::dimension_name(si), si));
+  return units::conversion(si, unit, units::Temperature::absolute);
+}
+
+/// The rows of all processes on process 0, one behind the other.
+std::vector<double> on_first_of_all(const std::vector<double>& mine) {
+  int rank = 0, processes = 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &processes);
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(processes)), starts(counts.size());
+  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+  std::vector<double> all(rank == 0 ? static_cast<std::size_t>(starts.back() + counts.back()) : 0);
+  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0,
+              PETSC_COMM_WORLD);
+  return all;
+}
+
+double component_at(const Field& field, Index node, int component) {
+  const auto n = static_cast<std::size_t>(field.components);
+  const double* v = field.values.data() + static_cast<std::size_t>(node) * n;
+  if (component != k_magnitude) return v[component];
+  return std::sqrt(std::inner_product(v, v + n, v, 0.0));
+}
+
+}  // namespace
+
+ProfileTable::ProfileTable(const mesh::Mesh& mesh, AnalysisKind kind, Profile profile, const FieldSet& fields)
+    : mesh_(mesh), profile_(std::move(profile)), dimension_(kind == AnalysisKind::solid ? 3 : 2) {
+  const std::string what = fmt::format("profile '{}'", profile_.name);
+  const auto group = mesh.node_sets.find(profile_.group);
+  if (group == mesh.node_sets.end()) {
+    std::string known;
+    for (const auto& [name, nodes] : mesh.node_sets) known += (known.empty() ? "" : ", ") + name;
+    throw InputError(profile_.where, fmt::format("{}: there is no group '{}'", what, profile_.group),
+                     "groups: " + known);
+  }
+  for (const Index node : group->second)
+    if (node < mesh.n_owned_nodes) nodes_.push_back(node);
+  if (!algebra::any_process(!nodes_.empty()))
+    throw InputError(profile_.where, fmt::format("{}: the group '{}' is empty", what, profile_.group));
+  length_ = shown_in(profile_.length_unit, "m", what, profile_.where);
+  for (const Sampled& column : profile_.columns) {
+    const Field* field = fields.find(column.field);
+    if (field == nullptr || field->place != Place::node) {
+      std::string known;
+      for (const Field& f : fields.all())
+        if (f.place == Place::node) known += (known.empty() ? "" : ", ") + f.name;
+      throw InputError(column.where, fmt::format("{}: there is no field '{}' at nodes", what, column.field),
+                       "fields: " + known);
+    }
+    shown_.push_back(shown_in(column.column.unit, field->unit, what, column.where));
+  }
+}
+
+std::vector<Column> ProfileTable::columns() const {
+  std::vector<Column> all;
+  for (int i = 0; i < dimension_; ++i) all.push_back({std::string(1, "xyz"[i]), profile_.length_unit});
+  for (const Sampled& column : profile_.columns) all.push_back(column.column);
+  return all;
+}
+
+std::vector<double> ProfileTable::gather(const FieldSet& fields) const {
+  std::vector<double> mine;
+  for (const Index node : nodes_) {
+    for (int i = 0; i < dimension_; ++i)
+      mine.push_back(length_(mesh_.x[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)]));
+    for (std::size_t c = 0; c < shown_.size(); ++c) {
+      const Sampled& column = profile_.columns[c];
+      mine.push_back(shown_[c](component_at(*fields.find(column.field), node, column.component)));
+    }
+  }
+  return on_first_of_all(mine);
+}
+
+void ProfileTable::write(const std::filesystem::path& folder, const FieldSet& fields) const {
+  const std::vector<double> values = gather(fields);
+  on_first_process([&] {
+    const std::vector<Column> header = columns();
+    const auto width = static_cast<std::ptrdiff_t>(header.size());
+    using Row = std::vector<double>;
+    std::vector<Row> rows;
+    for (auto row = values.begin(); row != values.end(); row += width) rows.emplace_back(row, row + width);
+    std::sort(rows.begin(), rows.end());  // coordinates come first
+    std::string text;
+    const auto add_line = [&text](std::size_t n, const auto& cell) {
+      for (std::size_t i = 0; i < n; ++i) text += (i == 0 ? "" : ",") + cell(i);
+      text += "\n";
+    };
+    add_line(header.size(), [&](std::size_t i) { return csv_text(header[i].header()); });
+    for (const Row& row : rows)
+      add_line(row.size(), [&](std::size_t i) {
+        if (!std::isfinite(row[i])) throw NotFiniteError("column '" + header[i].header() + "'", {});
+        return number_text(row[i]);
+      });
+    write_file(folder / file_name(), text);
+  });
+}
+
+}  // namespace solidus::results
