@@ -11,6 +11,8 @@ namespace {
 constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
 /// Bisection alone needs 53, and a step is halved every other time.
 constexpr int k_max_iterations = 200;
+/// Of the temperatures after and before the isentropic phase: far beyond what the lines of tables hold for.
+constexpr double k_largest_ratio = 2;
 /// The range of ζ_c is cut into up to 2^k parts to prove that the solution is the only one.
 constexpr int k_halvings = 8;
 
@@ -21,6 +23,10 @@ const char* reason(FrictionStatus status) {
     case FrictionStatus::coefficient_vanishes:
       return "the coefficient of friction falls to zero within the step: the internal variable has left the "
              "range that its data are good for (check internal_variable_unit), or the step is too long";
+    case FrictionStatus::temperature_runs_off:
+      return "friction at fixed entropy changes the temperature of the interface by a factor of two: its "
+             "heat "
+             "capacity is too small for a hardening that depends on temperature, or the step is too long";
     case FrictionStatus::not_unique:
       return "friction changes so fast with slip that the step has no unique solution: a larger tangential "
              "penalty (softening) or a shorter step (hardening) is needed";
@@ -95,6 +101,7 @@ FrictionResponse FrictionLaw::solve(const FrictionInput& in, Radius radius) cons
   }
   const double hardening = mu.zeta * in.pressure, stiffness = penalty_ + hardening * at.gamma;
   r.sticks = false;
+  r.stiffness = stiffness;
   r.slip = gamma;
   // ‖T‖ from the side that rounding of γ changes less.
   r.traction = hardening * at.gamma > penalty_ ? in.trial - penalty_ * gamma : mu.value * in.pressure;
@@ -163,6 +170,9 @@ FrictionResponse FrictionLaw::isentropic(const FrictionInput& in) const {
         at.zeta + at.zeta_theta * change + at.theta * at.theta * theta / heat_capacity_};
   });
   r.temperature = temperature(coefficient_.point(r.internal_variable, in.temperature).stored_theta);
+  const double ratio = r.temperature / in.temperature;
+  if (r.status == FrictionStatus::converged && !(ratio < k_largest_ratio && ratio * k_largest_ratio > 1))
+    r.status = FrictionStatus::temperature_runs_off;
   return with_heat(in, r);
 }
 

@@ -46,6 +46,7 @@ struct FrictionInput {
 enum class FrictionStatus {
   converged,
   coefficient_vanishes,  ///< μ <= 0 is reached within the step
+  temperature_runs_off,  ///< the isentropic phase would double or halve Θ_c
   not_unique,            ///< the step has no or several solutions that follow from its start
   not_converged          ///< numbers that are not finite
 };
@@ -66,6 +67,7 @@ struct FrictionResponse {
   double structural_entropy = 0;
   /// ∂‖T‖/∂‖T^trial‖ (1 where it sticks) and ∂‖T‖/∂t_N, of the law as it was solved.
   double trial_slope = 1, pressure_slope = 0;
+  double stiffness = 0;  ///< −dΦ_c/dγ [Pa/m] where it slips
 };
 
 class FrictionLaw {

@@ -27,10 +27,10 @@ struct FrictionCurve {
 };
 
 struct FrictionCoefficientSpec {
-  std::vector<Table> terms;           ///< μ_0, μ_1, … over temperature [K]; or, where empty,
-  std::vector<FrictionCurve> curves;  ///< in any order
-  double unit = 1;                    ///< of z, in SI
-  SourceLocation where;
+  std::vector<Table> terms{};           ///< μ_0, μ_1, … over temperature [K]; or, where empty,
+  std::vector<FrictionCurve> curves{};  ///< in any order
+  double unit = 1;                      ///< of z, in SI
+  SourceLocation where{};
 };
 
 class FrictionCoefficient {
@@ -53,8 +53,8 @@ class FrictionCoefficient {
   };
   Value value(double zeta, double theta) const;
   Point point(double zeta, double theta) const;
-  /// Bounds of ∂μ/∂ζ over [from, to], 0 <= from <= to, at Θ. Of curves they are sharp, of a polynomial they
-  /// are those of its terms: not sharp, but they become so as the range shrinks.
+  /// Bounds of ∂μ/∂ζ over [from, to], 0 <= from <= to, at Θ. Of one curve they are sharp, of a polynomial
+  /// they are those of its terms: not sharp, but they become so as the range shrinks.
   Bounds slopes(double from, double to, double theta) const;
 
   /// μ does not depend on ζ.
