@@ -42,6 +42,10 @@ struct Face {
   bool straight_edges() const;
 };
 
+/// Two faces look at each other when the angle between one normal and the reverse of the other is below 72°;
+/// the walls of a right-angled corner do not.
+inline constexpr double k_facing_cosine = -0.3;
+
 /// The reference coordinates of the centre and of the vertices of a face shape.
 Point reference_centre(mesh::Shape shape);
 std::span<const Point> reference_vertices(mesh::Shape shape);

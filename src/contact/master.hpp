@@ -19,7 +19,7 @@ struct Partner {
   Index face = -1;  ///< −1: no partner within reach
   Region region = Region::face;
   bool averaged = false;   ///< found along the field of averaged normals
-  Point xi{};              ///< ξ̄ on the face
+  Point xi{};              ///< ξ̄ on the face; analytic surfaces: Ȳ
   Point along{};           ///< region edge: the edge's direction in ξ
   double penetration = 0;  ///< g_N (3.5) [m]
   Point normal{};          ///< ν, out of the master (3.10b)
@@ -58,8 +58,9 @@ class Master {
   virtual void frame(const Partner& partner, bool rates, MasterFrame& frame) const = 0;
   /// The most nodes that a frame has.
   virtual std::size_t max_nodes() const = 0;
-  /// True when normals depend on ξ, or partners move off the normal: the reference normal turns on a face.
+  /// True when the reference normal turns on a face: then carried tractions have rates.
   virtual bool reference_turns() const = 0;
+  /// Whether ∂g_N/∂x_b = B_b n, so that normal forces have a potential.
   virtual bool symmetric() const { return true; }
   /// Nodes that a frame on this face may have.
   virtual std::span<const Index> nodes(Index face) const = 0;

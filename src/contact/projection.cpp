@@ -76,9 +76,29 @@ void try_interior(const Face& face, const Point& p, Point start, Best& best) {
     keep_better(face, p, clamp(face.shape, start), best);
 }
 
+// True when the distance surely has no more than one stationary point on the face: affine faces, and bilinear
+// ones whose warp is small against the distance, |r·∂²x/∂ξ∂η| well below the smaller eigenvalue of the
+// metric.
+bool one_minimum(const Face& face, const Point& p) {
+  if (face.affine()) return true;
+  if (mesh::vertex_count(face.shape) != 4 || !face.straight_edges()) return false;
+  const Point centre = face.at({});
+  const auto [t1, t2] = face.tangents({});
+  const Point twist = scale(0.25, subtract(add(face.x[0], face.x[2]), add(face.x[1], face.x[3])));
+  const double farthest = distance(p, centre) + norm(t1) + norm(t2);
+  const double least = dot(cross(t1, t2), cross(t1, t2)) / (dot(t1, t1) + dot(t2, t2));
+  return 4 * norm(twist) * (farthest + norm(t1) + norm(t2)) < least;
+}
+
 void try_line(const Face& line, const Point& p, Best& best) {
+  if (line.n_nodes == 2) {
+    const Point d = subtract(line.x[1], line.x[0]);
+    const double s = dot(subtract(p, line.x[0]), d) / dot(d, d);
+    keep_better(line, p, {std::clamp(2 * s - 1, -1.0, 1.0), 0, 0}, best);
+    return;
+  }
   try_interior(line, p, {}, best);
-  if (line.n_nodes == 3 && !line.affine())
+  if (!line.affine())
     for (double start : {-0.7, 0.7}) try_interior(line, p, {start, 0, 0}, best);
   keep_better(line, p, {-1, 0, 0}, best);
   keep_better(line, p, {1, 0, 0}, best);
@@ -104,10 +124,9 @@ Projection closest_point(const Face& face, const Point& p) {
   } else {
     const auto vertices = reference_vertices(face.shape);
     try_interior(face, p, reference_centre(face.shape), best);
-    const bool affine = face.affine();
-    // The distance to a plane has one stationary point: inside, it is the minimum.
-    const bool done = affine && best.value < std::numeric_limits<double>::max();
-    if (!affine)
+    const bool one = one_minimum(face, p);
+    const bool done = one && best.value < std::numeric_limits<double>::max();
+    if (!one)
       for (const Point& v : vertices)
         try_interior(face, p, scale(0.5, add(v, reference_centre(face.shape))), best);
     for (std::size_t e = 0; e < vertices.size() && !done; ++e) {

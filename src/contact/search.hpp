@@ -44,10 +44,6 @@ class FaceSearch {
   std::unique_ptr<Tree> tree_;
 };
 
-/// Two faces look at each other when the angle between one normal and the reverse of the other is below 72°;
-/// the walls of a right-angled corner do not.
-inline constexpr double k_facing_cosine = -0.3;
-
 /// The faces of a surface in the reference configuration.
 std::vector<Face> reference_faces(const ContactSurface& surface);
 

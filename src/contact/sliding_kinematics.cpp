@@ -71,9 +71,9 @@ void SlidingKinematics::add_points(AnalysisKind kind, const SlidingOptions& opti
 
 ContactKinematics::Particle SlidingKinematics::particle(Index point) const {
   const auto p = static_cast<std::size_t>(point);
-  constexpr GlobalIndex k_points_per_face = 1 << 20;
-  return {face_[p] * k_points_per_face + number_[p], slave_.nodes(face_[p])[0] < mesh_.n_owned_nodes,
-          position_[p]};
+  const std::span<const Index> nodes = slave_.nodes(face_[p]);
+  return {face_[p] * k_points_of_a_face + number_[p], nodes[0] < mesh_.n_owned_nodes,
+          position_[p], weight_[p], nodes, std::span(shape_[p]).first(nodes.size())};
 }
 
 Point SlidingKinematics::place_of(std::size_t point, const Face& face) const {

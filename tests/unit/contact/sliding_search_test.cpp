@@ -1,0 +1,158 @@
+#include "contact/sliding_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "sliding_bodies.hpp"
+
+namespace solidus::contact {
+namespace {
+
+using test::Sliding;
+
+// A random landscape of n × n warped quads, turned by `phase`.
+std::vector<Face> landscape(int n, unsigned seed, double phase) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> height(-0.3, 0.3);
+  const auto m = static_cast<std::size_t>(n + 1);
+  std::vector<Point> x(m * m);
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t j = 0; j < m; ++j) {
+      const double h = height(random) / n;
+      const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
+      x[i * m + j] = {a * std::cos(phase) - h * std::sin(phase), b,
+                      a * std::sin(phase) + h * std::cos(phase)};
+    }
+  std::vector<Face> faces;
+  for (std::size_t i = 0; i + 1 < m; ++i)
+    for (std::size_t j = 0; j + 1 < m; ++j) {
+      Face f;
+      f.shape = mesh::Shape::quad4;
+      f.n_nodes = 4;
+      f.x = {x[i * m + j], x[(i + 1) * m + j], x[(i + 1) * m + j + 1], x[i * m + j + 1]};
+      faces.push_back(f);
+    }
+  return faces;
+}
+
+// The same rule without a tree: nearest within reach, of equals the lowest.
+SurfacePoint brute_force(std::span<const Face> faces, const Point& p, double reach, const Point& facing) {
+  SurfacePoint best;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const Projection projection = closest_point(faces[f], p);
+    if (projection.distance > reach || dot(faces[f].normal(projection.xi), facing) >= k_facing_cosine)
+      continue;
+    if (best.face < 0 || projection.distance < best.projection.distance * (1 - 1e-9))
+      best = {static_cast<Index>(f), projection};
+  }
+  return best;
+}
+
+TEST(SlidingSearch, FindsThePartnersOfBruteForceWhereverTheSurfaceHasMovedAndWhateverTheHint) {
+  const int n = 12;
+  const std::vector<Face> start = landscape(n, 5, 0);
+  SlidingSearch moving(start, 0.05);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-0.1, 1.1), small(-0.15, 0.15);
+  for (double phase : {0.0, 0.01, 0.02, 0.04, 0.6}) {
+    const std::vector<Face> faces = landscape(n, 5, phase);
+    moving.move(faces);
+    for (int i = 0; i < 40; ++i) {
+      const double a = place(random), h = small(random);
+      const Point p{a * std::cos(phase), place(random), a * std::sin(phase) + h};
+      const Point facing{0, 0, -1};
+      const SurfacePoint expected = brute_force(faces, p, 0.12, facing);
+      for (Index hint : {-1, 0, 70, 143}) {
+        const SurfacePoint found = moving.closest(p, 0.12, facing, hint);
+        ASSERT_EQ(found.face, expected.face);
+        if (found.face < 0) continue;
+        EXPECT_EQ(found.projection.distance, expected.projection.distance);
+        EXPECT_EQ(found.projection.xi, expected.projection.xi);
+      }
+    }
+  }
+}
+
+TEST(SlidingSearch, TakesTheLowestNumberOfEquallyNearFaces) {
+  std::vector<Face> faces = landscape(2, 1, 0);
+  for (Face& f : faces)
+    for (Point& x : f.x) x[2] = 0;
+  SlidingSearch search(faces, 0.1);
+  search.move(faces);
+  for (Index hint : {-1, 0, 1, 2, 3})
+    EXPECT_EQ(search.closest({0.5, 0.5, 0.01}, 1, {0, 0, -1}, hint).face, 0);
+}
+
+TEST(SlidingSearch, BuildsItsTreeOnlyWhenANodeHasMovedFartherThanTheMargin) {
+  std::vector<Face> faces = landscape(4, 2, 0);
+  SlidingSearch search(faces, 0.1);
+  EXPECT_EQ(search.n_builds(), 1);
+  // Ten moves of 0.03: the fourth, eighth, … are beyond 0.1 since the last build.
+  for (int i = 0; i < 10; ++i) {
+    for (Face& f : faces)
+      for (Point& x : f.x) x[0] += 0.03;
+    search.move(faces);
+  }
+  EXPECT_EQ(search.n_builds(), 3);
+}
+
+TEST(SlidingKinematics, FindsTheSameBitsWhateverWasPlacedBefore) {
+  const mesh::Mesh mesh = test::wavy_blocks(mesh::Shape::hex8);
+  const auto u = test::overlapping(mesh), far = test::overlapping(mesh, 0.01, 0.09);
+  for (bool smoothing : {false, true}) {
+    const Sliding fresh(mesh, smoothing), travelled(mesh, smoothing);
+    fresh->place(u);
+    travelled->place(far);
+    travelled->place(u);
+    for (Index p = 0; p < fresh->n_points(); ++p) {
+      EXPECT_EQ(fresh->partner(p).face, travelled->partner(p).face);
+      EXPECT_EQ(fresh->partner(p).xi, travelled->partner(p).xi);
+      EXPECT_EQ(fresh->partner(p).penetration, travelled->partner(p).penetration);
+      EXPECT_EQ(fresh->partner(p).normal, travelled->partner(p).normal);
+    }
+  }
+}
+
+struct Cliques : ContactKinematics::CliqueSink {
+  std::set<std::pair<Index, Index>> pairs;
+  void add(std::span<const Index> nodes) override {
+    for (Index a : nodes)
+      for (Index b : nodes) pairs.emplace(a, b);
+  }
+};
+
+TEST(SlidingKinematics, AsksForANewGraphOnlyWhenNodesMeetThatAreNotInIt) {
+  const mesh::TwoBlocks blocks{{1.0, 0.1}, {0.2, 0.1}, {20, 1}, {4, 1}, 0};
+  const mesh::Mesh mesh = test::distribute_blocks(test::raw_blocks(blocks, mesh::Shape::quad4));
+  for (bool smoothing : {false, true}) {
+    const Sliding sliding(mesh, smoothing);
+    EXPECT_TRUE(sliding->graph_outdated());
+    Cliques cliques;
+    sliding->add_to_graph(cliques);
+    int renewals = 0;
+    for (int i = 0; i <= 70; ++i) {
+      sliding->place(test::nodal_field(mesh, 2, [&](const Point&, bool upper) {
+        return std::vector{upper ? 0.01 * i : 0.0, upper ? -1e-3 : 0.0};
+      }));
+      if (sliding->graph_outdated()) {
+        ++renewals;
+        cliques.pairs.clear();
+        sliding->add_to_graph(cliques);
+        EXPECT_FALSE(sliding->graph_outdated());
+      }
+      for (Index p = 0; p < sliding->n_points(); ++p) {
+        const PointMotion m = sliding->motion(p, {}, ContactKinematics::Asked::motion);
+        for (Index a : m.nodes)
+          for (Index b : m.nodes) ASSERT_TRUE(cliques.pairs.contains({a, b}));
+      }
+    }
+    // 14 faces are crossed; two rings last for two or three.
+    EXPECT_GE(renewals, 3);
+    EXPECT_LE(renewals, 7);
+  }
+}
+
+}  // namespace
+}  // namespace solidus::contact
