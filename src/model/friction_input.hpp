@@ -1,0 +1,16 @@
+/// From [contact.friction] and [contact.wear] to what the contact room needs.
+#pragma once
+
+#include "contact/friction.hpp"
+#include "contact/wear.hpp"
+#include "model/friction_spec.hpp"
+
+namespace solidus::model {
+
+/// Throws InputError for what a single key cannot tell: a unit of the wrong dimension, curves that do not
+/// fit, coefficients that make no law (contact/friction_coefficient.hpp).
+contact::FrictionSpec friction_spec(const FrictionSpec& spec);
+
+contact::WearSpec wear_spec(const WearSpec& spec);
+
+}  // namespace solidus::model

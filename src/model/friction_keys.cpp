@@ -1,0 +1,89 @@
+/// The keys of [contact.friction], [contact.wear] and [contact.interface].
+#include "model/friction_spec.hpp"
+
+namespace solidus::model {
+namespace {
+
+Section<FrictionCurveSpec> curve_keys() {
+  using C = FrictionCurveSpec;
+  Section<C> s(
+      "curve",
+      "The coefficient of friction as a table of the internal variable, instead of `coefficient`. One "
+      "curve, or several at different temperatures, linear between them; level beyond the last "
+      "points and temperatures.");
+  s.quantity("temperature", &C::temperature, "K")
+      .positive()
+      .doc("Of the surface; needed where there are several curves.");
+  s.key("internal_variable", &C::internal_variable)
+      .doc("Rising numbers from 0 on, in `internal_variable_unit`.");
+  s.key("coefficient", &C::coefficient).doc("The coefficient of friction at each of them, above zero.");
+  s.place(&C::where);
+  return s;
+}
+
+}  // namespace
+
+Section<FrictionSpec> friction_keys() {
+  using F = FrictionSpec;
+  using enum contact::InternalVariable;
+  Section<F> s("friction", "Coulomb friction |t_T| <= mu p; without this section surfaces slide freely.");
+  s.function("coefficient", &F::coefficient, "1")
+      .of({Argument::temperature})
+      .or_one()
+      .doc(
+          "mu: a number, a table of temperature, or a list [mu_0, mu_1, ...] of such, the polynomial mu_0 + "
+          "mu_1 z + mu_2 z^2 + ... of the internal variable z in its unit (3.62). mu_0 must not rise with "
+          "temperature (3.60). Or give [[contact.friction.curve]].")
+      .required = false;
+  s.sections("curve", &F::curves, curve_keys());
+  s.choice("internal_variable", &F::internal_variable,
+           {{"normal_work", normal_work, "pressure times slip (3.53b); its hardening stores energy (3.41c)"},
+            {"frictional_work", frictional_work, "the work of friction"},
+            {"slip", slip, "the length of the way"}})
+      .initially("normal_work")
+      .doc("What hardens, softens or wears the surface: z, added up on the slave's points.");
+  s.key("internal_variable_unit", &F::internal_variable_unit)
+      .doc("Unit of z in `coefficient` or `curve`, as \"kN/mm\"; without it N/m for work and m for slip.");
+  s.quantity("tangential_penalty", &F::tangential_penalty, "N/m3")
+      .positive()
+      .doc("Traction per elastic slip before it slides; without it from `tangential_penalty_factor`.");
+  s.key("tangential_penalty_factor", &F::tangential_penalty_factor)
+      .initially(1.0)
+      .positive()
+      .doc("Tangential penalty = factor x penalty.");
+  s.key("symmetric", &F::symmetric)
+      .initially(false)
+      .doc(
+          "Leaves out of the matrix, not out of the forces, how the limit of friction follows the pressure: "
+          "for symmetric solvers, at the price of iterations.");
+  s.place(&F::where);
+  return s;
+}
+
+Section<WearSpec> wear_keys() {
+  using W = WearSpec;
+  Section<W> s(
+      "wear",
+      "Depth worn off the slave's surface by Archard's law, dh = k p dg / H, as a field; the geometry "
+      "stays as it is. Needs [contact.friction].");
+  s.key("archard", &W::archard).positive().doc("k, the dimensionless coefficient of wear, 1e-8 to 1e-3.");
+  s.function("hardness", &W::hardness, "Pa")
+      .positive()
+      .of({Argument::temperature})
+      .doc("H of the softer surface.");
+  s.place(&W::where);
+  return s;
+}
+
+Section<InterfaceSpec> interface_keys() {
+  Section<InterfaceSpec> s("interface", "The interface as a body of its own, with a temperature.");
+  s.quantity("heat_capacity", &InterfaceSpec::heat_capacity, "J/m2/K")
+      .at_least(0)
+      .initially("0 J/m2/K")
+      .doc(
+          "C_co (3.41b). Zero: it stores no heat, its temperature is where the heat flows balance. With "
+          "hardening that depends on temperature, the isentropic split keeps its estimate only above zero.");
+  return s;
+}
+
+}  // namespace solidus::model

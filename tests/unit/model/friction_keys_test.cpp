@@ -1,0 +1,103 @@
+/// [contact.friction] and [contact.wear]: what they mean and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/document.hpp"
+#include "base/errors.hpp"
+#include "model/friction_input.hpp"
+
+namespace solidus::model {
+namespace {
+
+using ::testing::HasSubstr;
+
+contact::FrictionSpec read(const std::string& keys) {
+  return friction_spec(friction_keys().read(parse_document(keys, "case.toml")));
+}
+double coefficient(const std::string& keys, double zeta, double theta) {
+  return contact::FrictionCoefficient(read(keys).coefficient).value(zeta, theta).value;
+}
+std::string error(const std::string& keys) {
+  try {
+    read(keys);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+const std::string k_curves = R"([[curve]]
+temperature = "20 degC"
+internal_variable = [0, 4]
+coefficient = [0.2, 0.4]
+[[curve]]
+temperature = "120 degC"
+internal_variable = [0, 2]
+coefficient = [0.1, 0.3]
+)";
+
+TEST(FrictionKeys, ANumberIsAConstantCoefficient) {
+  const auto spec = read("coefficient = 0.3\n");
+  EXPECT_DOUBLE_EQ(coefficient("coefficient = 0.3\n", 1e9, 400), 0.3);
+  EXPECT_EQ(spec.internal_variable, contact::InternalVariable::normal_work);
+  EXPECT_FALSE(spec.tangential_penalty);
+  EXPECT_EQ(spec.tangential_penalty_factor, 1);
+  EXPECT_FALSE(spec.symmetric);
+}
+
+TEST(FrictionKeys, ATableIsACoefficientOfTemperature) {
+  EXPECT_DOUBLE_EQ(
+      coefficient("coefficient = { of = \"temperature\", argument_unit = \"degC\", unit = \"1\", "
+                  "points = [[0, 0.3], [100, 0.1]] }\n",
+                  5, 323.15),
+      0.2);
+}
+
+TEST(FrictionKeys, AListIsAPolynomialOfTheInternalVariableInItsUnit) {
+  EXPECT_DOUBLE_EQ(
+      coefficient("coefficient = [0.178, -0.666e-2]\ninternal_variable_unit = \"kN/mm\"\n", 2e6, 300),
+      0.178 - 2 * 0.666e-2);
+  EXPECT_DOUBLE_EQ(coefficient("coefficient = [0.2, 0.01]\ninternal_variable = \"slip\"\n"
+                               "internal_variable_unit = \"mm\"\n",
+                               0.005, 300),
+                   0.25);
+  const std::string thermal =
+      "coefficient = [0.2, { of = \"temperature\", argument_unit = \"K\", unit = \"1\", points = [[300, "
+      "0.1], "
+      "[400, 0.3]] }]\n";
+  EXPECT_DOUBLE_EQ(coefficient(thermal, 2, 350), 0.2 + 2 * 0.2);
+}
+
+TEST(FrictionKeys, CurvesOverTheInternalVariableMayDependOnTemperature) {
+  EXPECT_DOUBLE_EQ(coefficient(k_curves, 1, 343.15), 0.5 * (0.25 + 0.2));
+  EXPECT_DOUBLE_EQ(coefficient("[[curve]]\ninternal_variable = [0, 4]\ncoefficient = [0.2, 0.4]\n", 1, 900),
+                   0.25);
+}
+
+TEST(FrictionKeys, WhatMakesNoLawIsRefused) {
+  EXPECT_THAT(error("symmetric = true\n"), HasSubstr("no coefficient of friction"));
+  EXPECT_THAT(error("coefficient = 0.2\n" + k_curves), HasSubstr("two coefficients"));
+  EXPECT_THAT(error("coefficient = -0.2\n"), HasSubstr("above zero"));
+  EXPECT_THAT(error("coefficient = 0.2\ninternal_variable_unit = \"mm\"\n"), HasSubstr("no unit of work"));
+  EXPECT_THAT(error("coefficient = 0.2\ninternal_variable = \"slip\"\ninternal_variable_unit = \"kN/mm\"\n"),
+              HasSubstr("as \"mm\""));
+  EXPECT_THAT(error("coefficient = { of = \"temperature\", argument_unit = \"K\", unit = \"1\", points = "
+                    "[[300, 0.1], [400, 0.3]] }\n"),
+              HasSubstr("3.60"));
+  EXPECT_THAT(error(k_curves + "[[curve]]\ninternal_variable = [0]\ncoefficient = [0.1]\n"),
+              HasSubstr("has no temperature"));
+  EXPECT_THAT(error("[[curve]]\ninternal_variable = [0, 1]\ncoefficient = [0.1]\n"), HasSubstr("as many"));
+  EXPECT_THAT(error("[[curve]]\ninternal_variable = [0, 0]\ncoefficient = [0.1, 0.1]\n"),
+              HasSubstr("not beyond the point before"));
+}
+
+TEST(WearKeys, HardnessMayDependOnTemperature) {
+  const auto wear = wear_spec(wear_keys().read(
+      parse_document("archard = 1e-4\nhardness = { of = \"temperature\", argument_unit = \"K\", unit = "
+                     "\"MPa\", points = [[300, 2000], [500, 1000]] }\n",
+                     "case.toml")));
+  EXPECT_DOUBLE_EQ(wear.depth_increment(1e7, 0.1, 400), 1e-4 * 1e7 * 0.1 / 1.5e9);
+}
+
+}  // namespace
+}  // namespace solidus::model
