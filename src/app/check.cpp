@@ -4,6 +4,7 @@
 #include "app/verbs.hpp"
 #include "base/units.hpp"
 #include "model/run.hpp"
+#include "model/stage_input.hpp"
 
 namespace solidus::app {
 
@@ -57,9 +58,17 @@ ExitCode check(const CaseArguments& arguments) {
     out += fmt::format("\n  contact     {}: {} on {}", k.name, k.slave, k.master);
   for (const model::CouplingEstimate& estimate : checked.couplings)
     out += "\n  coupling    " + model::text(estimate);
-  out += spec.time.steady
-             ? "\n  time        steady"
-             : fmt::format("\n  time        {:.6g} s in steps of {:.6g} s", *spec.time.end, *spec.time.step);
+  for (const model::StageRun& run : model::stage_runs(spec)) {
+    const std::string cycle = run.cycle > 0 ? fmt::format(" {}", run.cycle) : "";
+    out += fmt::format("\n  stage       {}: {:.6g} s to {:.6g} s in steps of {:.6g} s",
+                       run.stage->name + cycle, run.start, run.end, model::first_step(*run.stage, spec.time));
+  }
+  if (!spec.stages.empty())
+    out += fmt::format("\n  time        {:.6g} s", *spec.time.end);
+  else
+    out += spec.time.steady ? "\n  time        steady"
+                            : fmt::format("\n  time        {:.6g} s in steps of {:.6g} s", *spec.time.end,
+                                          *spec.time.step);
   print(out + "\nThe case is in order.\n");
   return k_done;
 }

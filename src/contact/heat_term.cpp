@@ -65,6 +65,7 @@ void HeatTerm::bind(const algebra::BlockMatrix& matrix) {
 }
 
 void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
+  if (!active_) return;
   for (std::size_t k = 0; k < points_.pairings.size(); ++k) {
     const Pairing& pairing = points_.pairings[k];
     const Index* nodes = points_.nodes.data() + pairing.first_node;
@@ -82,6 +83,7 @@ void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
 }
 
 void HeatTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {
+  if (!active_) return;
   for (std::size_t k = 0; k < points_.pairings.size(); ++k) {
     const Pairing& pairing = points_.pairings[k];
     const auto n = static_cast<std::size_t>(pairing.n_nodes());
@@ -138,6 +140,7 @@ void HeatTerm::add_gap_tangent(std::span<const double> slope, std::span<const do
 }
 
 double HeatTerm::counted_heat(std::span<const double> temperature) const {
+  if (!active_) return 0;
   double sum = 0;
   for (std::size_t k = 0; k < points_.pairings.size(); ++k) {
     const Pairing& pairing = points_.pairings[k];

@@ -28,6 +28,9 @@ class HeatTerm : public algebra::Contribution {
   /// Freezes h [W/(m² K)], [point].
   void set_conductance(std::span<const double> conductance);
 
+  /// Off: no term at all.
+  void activate(bool on) { active_ = on; }
+
   void add_to_graph(algebra::NodeGraph& graph) const override;
   void bind(const algebra::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
@@ -56,6 +59,7 @@ class HeatTerm : public algebra::Contribution {
   Index n_owned_;
   const ContactPoints& points_;
   bool nodal_;
+  bool active_ = true;
   std::vector<std::size_t> first_entry_;  ///< of each pairing in the coefficients and slots: n × n
   std::vector<double> conduction_;        ///< c_ij [W/K]
   std::vector<double> radiation_;         ///< e_ij [W/K⁴]; empty without radiation

@@ -67,6 +67,7 @@ double MechanicsTerm::penetration(const Pairing& pairing, Index p, std::span<con
 }
 
 void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r) {
+  if (!active_) return;
   for (const Pairing& pairing : points_.pairings) {
     const Index* nodes = points_.nodes.data() + pairing.first_node;
     for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
@@ -115,6 +116,7 @@ void MechanicsTerm::add_pairing_tangent(const Pairing& pairing, std::span<const 
 }
 
 void MechanicsTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {
+  if (!active_) return;
   const algebra::BlockMatrix::Slot* slots = slots_.data();
   for (const Pairing& pairing : points_.pairings) {
     if (components_ == 2)

@@ -19,6 +19,8 @@ class MechanicsTerm : public algebra::Contribution {
                 double stabilisation);
   void add_to_graph(algebra::NodeGraph& graph) const override;
   void bind(const algebra::BlockMatrix& matrix) override;
+  /// Off: no term at all.
+  void activate(bool on) { active_ = on; }
   void add_residual(std::span<const double> x, std::span<double> r) override;
   void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
 
@@ -38,6 +40,7 @@ class MechanicsTerm : public algebra::Contribution {
   const ContactPoints& points_;
   const NormalPenalty& law_;
   double stabilisation_;
+  bool active_ = true;
   std::vector<algebra::BlockMatrix::Slot> slots_;  ///< [pairing][a][b]
 };
 

@@ -75,6 +75,12 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
 
 ContactPair::~ContactPair() = default;
 
+void ContactPair::activate(bool on) {
+  active_ = on;
+  mechanics_->activate(on);
+  if (heat_) heat_->activate(on);
+}
+
 algebra::Contribution& ContactPair::mechanics() {
   return *mechanics_;
 }
@@ -89,14 +95,16 @@ void ContactPair::update(std::span<const double> displacement) {
       const auto i = static_cast<std::size_t>(p);
       const double g = mechanics_->penetration(pairing, p, displacement);
       penetration_[i] = g;
-      pressure_[i] = law_.update(g).pressure;
-      if (heat_law_) conductance_[i] = heat_law_->conductance(-g, pressure_[i]);
+      pressure_[i] = active_ ? law_.update(g).pressure : 0;
+      if (heat_law_ && !active_)
+        conductance_[i] = 0;
+      else if (heat_law_) conductance_[i] = heat_law_->conductance(-g, pressure_[i]);
     }
   if (heat_) heat_->set_conductance(conductance_);
 }
 
 void ContactPair::add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const {
-  if (!heat_) return;
+  if (!heat_ || !active_) return;
   std::vector<double> slope(pressure_.size());
   for (std::size_t i = 0; i < slope.size(); ++i)
     slope[i] = -heat_law_->slope(-penetration_[i], pressure_[i], law_.penalty);
@@ -106,7 +114,7 @@ void ContactPair::add_coupling(std::span<const double> temperature, algebra::Cou
 double ContactPair::work(std::span<const double> old_penetration, double share) const {
   double work = 0;
   for (const Pairing& pairing : points_.pairings) {
-    if (!pairing.counted) continue;
+    if (!pairing.counted || !active_) continue;
     for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
       const auto i = static_cast<std::size_t>(p);
       const double before = old_penetration[i], now = penetration_[i];
@@ -125,7 +133,7 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
       const auto i = static_cast<std::size_t>(p);
       const auto response = law_.update(penetration_[i]);
       points += 1;
-      if (!response.closed) continue;
+      if (!response.closed || !active_) continue;
       closed += 1;
       area += points_.weight[i];
       force += points_.weight[i] * response.pressure;

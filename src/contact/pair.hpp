@@ -45,6 +45,11 @@ class ContactPair {
   ContactPair(const ContactPair&) = delete;
   ContactPair& operator=(const ContactPair&) = delete;
 
+  /// Off: open at every point, without force, heat, energy or stabilisation, whatever the gap; gaps are still
+  /// measured. Between steps; holds from the next update() on.
+  void activate(bool on);
+  bool active() const { return active_; }
+
   /// The term of the mechanical phase: r = ∫ t_N δg_N dA of the displacement it is called with, whatever the
   /// state of update().
   algebra::Contribution& mechanics();
@@ -85,6 +90,7 @@ class ContactPair {
   const mesh::Mesh& mesh_;
   ContactSpec spec_;
   int components_;
+  bool active_ = true;
   ContactPoints points_;
   NormalPenalty law_;
   std::optional<HeatTransferLaw> heat_law_;

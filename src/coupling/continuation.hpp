@@ -2,16 +2,26 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "coupling/rates.hpp"
 #include "coupling/step_control.hpp"
 
 namespace solidus::coupling {
 
+/// Where the present stage of a run began; a run without stages has number zero.
+struct StageStart {
+  int number = 0;  ///< in the order of the run, from one
+  std::string name;
+  double time = 0;                   ///< [s]
+  std::vector<double> displacement;  ///< [local node][component] [m]; empty without mechanics
+};
+
 struct Continuation {
   int steps = 0;        ///< taken so far
   StepOptions options;  ///< that the step control worked with
   ControlState control;
+  StageStart stage;
   Rates rates;  ///< of the last step, where adaptive steps predict from them
 };
 

@@ -80,6 +80,9 @@ struct StepRecord : StepEffort {
   int rejected = 0;         ///< how many tries failed before
   std::string rejection;    ///< the last try's reason
   bool output = false;      ///< the time is an output time
+  std::string stage;        ///< empty in a run without stages
+  int stage_of_case = 0;    ///< its number in the case, from one; zero without stages
+  int cycle = 0;            ///< how often its cycle has come round, from one; zero outside of cycles
   /// Local errors as estimated, zero where nothing estimates them [K], [m].
   double temperature_error = 0, displacement_error = 0;
 };

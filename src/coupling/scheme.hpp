@@ -16,6 +16,8 @@ class CouplingScheme {
   /// Drops what solvers carried over from earlier steps (lagged preconditioners), so that the next step
   /// depends on the state alone. Called at every checkpoint: a run continued there goes the same way.
   virtual void forget() = 0;
+  /// The phases got other conditions, and with them perhaps other matrices; synchronise() follows.
+  virtual void conditions_changed() {}
   /// Advances from `old` (t_n) to `trial` (old.time + dt). Collective. Throws StepRejected on every process
   /// alike when the physics does not go through; `trial` is then meaningless and `old` untouched.
   virtual StepEffort advance(const State& old, State& trial, double time, double dt) = 0;

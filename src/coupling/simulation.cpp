@@ -11,11 +11,21 @@
 
 namespace solidus::coupling {
 
+namespace {
+
+// Output times this close to the end of a stage, as a share of its step, are that end.
+constexpr double k_same_time = 1e-9;
+
+}  // namespace
+
 struct Simulation::Progress {
-  StepControl control;
-  MeasuredStep step;
   State committed, trial;
-  StepRecord record;  ///< of the step last committed; its rejections are those since
+  std::size_t stage = 0;  ///< in TimeOptions::stages
+  StageStart stage_start;
+  std::optional<StepControl> control;  ///< of the stage
+  std::optional<MeasuredStep> step;
+  std::vector<double> outputs;  ///< times at which fields are written, rising
+  StepRecord record;            ///< of the step last committed; its rejections are those since
   double solid_fraction = 1;
   int saved = -1;       ///< the step whose checkpoint is written
   bool warned = false;  ///< of a limit that the smallest step exceeds
@@ -25,12 +35,14 @@ struct Simulation::Progress {
 Simulation::Simulation(std::unique_ptr<CouplingScheme> scheme, TimeOptions options,
                        std::optional<ErrorEstimate> estimate)
     : scheme_(std::move(scheme)), options_(std::move(options)), estimate_(std::move(estimate)) {
-  if (measures_error() && !estimate_)
-    throw std::invalid_argument("adaptive steps need an estimate of their error");
+  if (options_.stages.empty()) options_.stages.push_back({"", 0, 0, options_.end, options_.step});
+  for (const Stage& stage : options_.stages)
+    if (measures_error(stage.step) && !estimate_)
+      throw std::invalid_argument("adaptive steps need an estimate of their error");
 }
 
-bool Simulation::measures_error() const {
-  return options_.step.adaptive && options_.step.limits.control != ErrorControl::none;
+bool Simulation::measures_error(const StepOptions& step) {
+  return step.adaptive && step.limits.control != ErrorControl::none;
 }
 
 bool Simulation::checkpoint_due(const StepRecord& record) const {
@@ -43,85 +55,124 @@ bool Simulation::stop_asked() const {
 
 void Simulation::save(Progress& p, const ControlState& control) {
   scheme_->forget();
-  const Continuation continuation{p.record.number, options_.step, control, p.step.rates()};
+  const Continuation continuation{p.record.number, options_.stages[p.stage].step, control, p.stage_start,
+                                  p.step->rates()};
   for (Observer* o : observers_) o->checkpoint(continuation, p.committed);
   p.saved = p.record.number;
 }
 
-MeasuredStep Simulation::measured_step(const std::optional<Continuation>& from) {
-  if (!measures_error()) return MeasuredStep(*scheme_);
-  return {*scheme_, options_.step.limits.control, *estimate_, from ? from->rates : Rates{}};
+void Simulation::measure_steps(Progress& p, const StepOptions& step, Rates rates) {
+  if (measures_error(step))
+    p.step.emplace(*scheme_, step.limits.control, *estimate_, std::move(rates));
+  else
+    p.step.emplace(*scheme_);
+}
+
+void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& from) {
+  const Stage& stage = options_.stages[p.stage];
+  const bool first = p.stage == 0, staged = stage.of_case > 0;
+  const double start = first ? p.committed.time : options_.stages[p.stage - 1].end;
+  const bool anew = p.committed.time == start && !(first && from);
+  if (anew) {
+    p.stage_start = {staged ? static_cast<int>(p.stage) + 1 : 0, stage.name, start,
+                     p.committed.mechanics.displacement};
+    p.committed.mechanics.dt_before = 0;
+  } else {
+    p.stage_start = from->stage;
+  }
+  std::vector<double> landings = options_.output_times;
+  std::erase_if(landings, [&](double t) { return t >= stage.end - k_same_time * stage.step.step; });
+  p.outputs = landings;
+  landings.push_back(stage.end);
+  if (options_.output_at_stage_ends || &stage == &options_.stages.back()) p.outputs.push_back(stage.end);
+  std::sort(p.outputs.begin(), p.outputs.end());
+  p.control.emplace(stage.step, p.committed.time, std::move(landings));
+  if (!anew && from->options == stage.step) p.control->resume(from->control);
+  measure_steps(p, stage.step, anew ? Rates{} : from->rates);
+  p.record.stage = stage.name;
+  p.record.stage_of_case = stage.of_case;
+  p.record.cycle = stage.cycle;
+  if (staged) {
+    stage_begins_(p.stage, p.stage_start);
+    scheme_->conditions_changed();
+    scheme_->forget();
+  }
+  scheme_->synchronise(p.committed);
+}
+
+Outcome Simulation::stopped(const Stop& why, Progress& p, Outcome outcome) {
+  for (Observer* o : observers_) o->stopped(why, p.committed);
+  return outcome;
 }
 
 Outcome Simulation::run(State initial, double solid_fraction, const std::optional<Continuation>& from) {
-  std::vector<double> landings = options_.output_times;
-  std::erase_if(landings, [this](double t) { return t >= options_.end; });
-  landings.push_back(options_.end);
-  State trial = initial;
-  const double start = initial.time;
-  Progress p{.control = StepControl(options_.step, start, std::move(landings)),
-             .step = measured_step(from),
-             .committed = std::move(initial),
-             .trial = std::move(trial),
-             .record = {},
-             .solid_fraction = solid_fraction,
-             .saved = from ? from->steps : -1,
-             .warned = false,
-             .stop = {}};
+  Progress p;
+  p.trial = initial;
+  p.committed = std::move(initial);
+  p.solid_fraction = solid_fraction;
+  p.saved = from ? from->steps : -1;
   p.record.number = from ? from->steps : 0;
-  if (from && from->options == options_.step) p.control.resume(from->control);
-  scheme_->synchronise(p.committed);
+  const auto ahead = std::find_if(options_.stages.begin(), options_.stages.end(),
+                                  [&](const Stage& s) { return s.end > p.committed.time; });
+  if (ahead == options_.stages.end()) throw std::invalid_argument("the end time must lie after the start");
+  p.stage = static_cast<std::size_t>(ahead - options_.stages.begin());
+  enter_stage(p, from);
   for (Observer* o : observers_) o->begin(p.committed);
+  while (true) {
+    if (const std::optional<Outcome> outcome = run_stage(p)) return *outcome;
+    if (p.stage + 1 == options_.stages.size()) break;
+    ++p.stage;
+    enter_stage(p, {});
+  }
+  for (Observer* o : observers_) o->end(p.committed);
+  return Outcome::finished;
+}
 
-  const auto stopped = [&](const Stop& why, Outcome outcome) {
-    for (Observer* o : observers_) o->stopped(why, p.committed);
-    return outcome;
-  };
-  while (!p.control.finished(p.committed.time)) {
+std::optional<Outcome> Simulation::run_stage(Progress& p) {
+  while (!p.control->finished(p.committed.time)) {
     if (stop_asked()) {
-      if (p.saved != p.record.number || p.record.rejected > 0) save(p, p.control.state());
+      if (p.saved != p.record.number || p.record.rejected > 0) save(p, p.control->state());
       Stop asked;
       asked.asked = true;
-      return stopped(asked, Outcome::interrupted);
+      return stopped(asked, p, Outcome::interrupted);
     }
     switch (try_step(p)) {
       case Try::committed:
-        if (checkpoint_due(p.record)) save(p, p.control.state());
+        if (checkpoint_due(p.record)) save(p, p.control->state());
         break;
       case Try::repeat:
         scheme_->synchronise(p.committed);
         break;
       case Try::stuck:
         // Whoever continues has changed something: with the step asked for, not with the one that failed.
-        save(p, {.size = options_.step.step});
-        return stopped(p.stop, Outcome::stuck);
+        save(p, {.size = options_.stages[p.stage].step.step});
+        return stopped(p.stop, p, Outcome::stuck);
     }
   }
-  for (Observer* o : observers_) o->end(p.committed);
-  return Outcome::finished;
+  return {};
 }
 
 // The committed state is not touched before the step is known to be good: a step that is repeated starts from
 // the same bits.
 Simulation::Try Simulation::try_step(Progress& p) {
-  const PlannedStep step = p.control.plan(p.committed.time);
+  const PlannedStep step = p.control->plan(p.committed.time);
   StepMeasure measure;
   try {
-    const MeasuredStep::Taken taken = p.step.take(p.committed, p.trial, step.time, step.dt);
+    const MeasuredStep::Taken taken = p.step->take(p.committed, p.trial, step.time, step.dt);
     measure = {std::max(taken.effort.heat.iterations, taken.effort.mechanics.iterations),
                taken.error.temperature, taken.error.displacement,
                std::abs(taken.effort.solid_fraction - p.solid_fraction)};
-    if (p.control.too_long(step, measure)) {
+    if (p.control->too_long(step, measure)) {
       ++p.record.rejected;
-      p.record.rejection = strictest(options_.step.limits, measure).excess;
-      p.control.shortened(step, measure);
+      p.record.rejection = strictest(options_.stages[p.stage].step.limits, measure).excess;
+      p.control->shortened(step, measure);
       return Try::repeat;
     }
     static_cast<StepEffort&>(p.record) = taken.effort;
   } catch (const StepRejected& rejection) {
     ++p.record.rejected;
     p.record.rejection = rejection.reason();
-    if (p.control.rejected(step, rejection.reason())) return Try::repeat;
+    if (p.control->rejected(step, rejection.reason())) return Try::repeat;
     p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt};
     return Try::stuck;
   }
@@ -131,10 +182,10 @@ Simulation::Try Simulation::try_step(Progress& p) {
 
 // A step that is committed beyond a limit holds a jump, or is the smallest: its rates predict nothing.
 void Simulation::look_at_excess(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
-  if (!options_.step.adaptive) return;
-  const Strictest limit = strictest(options_.step.limits, measure);
+  if (!options_.stages[p.stage].step.adaptive) return;
+  const Strictest limit = strictest(options_.stages[p.stage].step.limits, measure);
   if (!limit.exceeded) return;
-  p.step.forget();
+  p.step->forget();
   if (p.warned) return;
   logging::warn("t = {:g} s: {}, which steps down to {:g} s do not bring down; the run goes on", step.time,
                 limit.excess, step.dt);
@@ -144,9 +195,9 @@ void Simulation::look_at_excess(Progress& p, const PlannedStep& step, const Step
 void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
   p.trial.time = step.time;
   std::swap(p.committed, p.trial);
-  p.step.commit();
+  p.step->commit();
   look_at_excess(p, step, measure);
-  p.control.accepted(step, measure);
+  p.control->accepted(step, measure);
   p.solid_fraction = p.record.solid_fraction;
 
   ++p.record.number;
@@ -155,7 +206,7 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
   p.record.reason = step.reason;
   p.record.temperature_error = measure.temperature_error;
   p.record.displacement_error = measure.displacement_error;
-  p.record.output = p.control.is_landing(step.time);
+  p.record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time);
   for (Observer* o : observers_) o->step(p.record, p.committed);
   p.record.rejected = 0;
   p.record.rejection.clear();

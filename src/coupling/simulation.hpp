@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,11 +17,22 @@
 
 namespace solidus::coupling {
 
+/// A part of the run with conditions of its own. Its first step starts anew: no step size, no rates and no
+/// history of a two-step method from before.
+struct Stage {
+  std::string name;
+  int of_case = 0, cycle = 0;  ///< as in StepRecord
+  double end = 0;              ///< [s]
+  StepOptions step;
+};
+
 struct TimeOptions {
   double end = 0;  ///< [s]
   StepOptions step;
+  std::vector<Stage> stages;  ///< one after the other, instead of end and step; empty: one without a name
   std::vector<double> output_times;  ///< met exactly; a checkpoint is due at each of them
-  int checkpoint_every = 0;          ///< steps between further checkpoints; zero: none
+  bool output_at_stage_ends = true;
+  int checkpoint_every = 0;  ///< steps between further checkpoints; zero: none
 };
 
 enum class Outcome {
@@ -39,31 +51,43 @@ class Simulation {
   void add(Observer& observer) { observers_.push_back(&observer); }
   /// Asked before each step, on every process; the run stops when one of them says so.
   void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }
+  /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
+  /// conditions. Collective.
+  /// @param stage  number in TimeOptions::stages
+  void at_stage(std::function<void(std::size_t stage, const StageStart&)> begins) {
+    stage_begins_ = std::move(begins);
+  }
   /// Runs from `initial` to the end time, which must lie ahead. Collective.
   /// @param solid_fraction  of `initial`, as StepEffort gives it of the states that follow
   /// @param from where the run that `initial` comes from stood; without it a new run begins. Its step size
-  /// counts only if the step options are still the same.
+  /// counts only if the step options are still the same; it must have stood in the stage of this time.
   Outcome run(State initial, double solid_fraction, const std::optional<Continuation>& from = {});
 
  private:
   struct Progress;  ///< what changes from step to step
 
   enum class Try { committed, repeat, stuck };
+  /// Begins the stage that holds at the committed time, or goes on in it.
+  void enter_stage(Progress& p, const std::optional<Continuation>& from);
+  /// As run(), within the stage; nothing where its end is reached.
+  std::optional<Outcome> run_stage(Progress& p);
+  Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   void look_at_excess(Progress& p, const PlannedStep& step, const StepMeasure& measure);
-  bool measures_error() const;
+  static bool measures_error(const StepOptions& step);
   bool stop_asked() const;
   bool checkpoint_due(const StepRecord& record) const;
   /// Writes a checkpoint of the committed state, from which a run goes on with this step control.
   void save(Progress& p, const ControlState& control);
-  MeasuredStep measured_step(const std::optional<Continuation>& from);
+  void measure_steps(Progress& p, const StepOptions& step, Rates rates);
 
   std::unique_ptr<CouplingScheme> scheme_;
   TimeOptions options_;
   std::optional<ErrorEstimate> estimate_;
   std::vector<Observer*> observers_;
   std::function<bool()> stop_asked_;
+  std::function<void(std::size_t, const StageStart&)> stage_begins_;
 };
 
 }  // namespace solidus::coupling

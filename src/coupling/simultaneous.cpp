@@ -54,7 +54,7 @@ void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried)
 }  // namespace
 
 SimultaneousScheme::SimultaneousScheme(Phases phases, SimultaneousOptions options)
-    : phases_(checked(phases, options)), options_(options), newton_(phases_, options.solver) {
+    : phases_(checked(phases, options)), options_(options), newton_(std::in_place, phases_, options.solver) {
   phases_.structural->leave_tangent();
 }
 
@@ -63,7 +63,7 @@ void SimultaneousScheme::synchronise(const State& state) {
 }
 
 void SimultaneousScheme::drop_carried() {
-  for (mechanics::CoupledKernel* kernel : newton_.kernels()) kernel->drop_carried();
+  for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->drop_carried();
 }
 
 StepEffort SimultaneousScheme::advance(const State& old, State& trial, double time, double dt) {
@@ -81,7 +81,7 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
 }
 
 StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt) {
-  newton_.thermal().begin(old.heat, time, dt);
+  newton_->thermal().begin(old.heat, time, dt);
   return stage(old.mechanics, {.time = time, .dt = dt, .temperature = old.heat.temperature}, trial);
 }
 
@@ -90,15 +90,15 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   const double share = material::k_sdirk_share * dt, carried = material::k_sdirk_carried;
   const double middle = time - dt + share;
   State first;
-  newton_.thermal().begin(old.heat, middle, share);
+  newton_->thermal().begin(old.heat, middle, share);
   const StepEffort of_first =
       stage(old.mechanics, {.time = middle, .dt = share, .temperature = old.heat.temperature}, first);
 
   contact.add(1, carried);
   contact.restart(carried);
-  for (mechanics::CoupledKernel* kernel : newton_.kernels()) kernel->carry(carried, first.heat.temperature);
+  for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->carry(carried, first.heat.temperature);
   const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
-  newton_.thermal().begin_stage(old.heat, first.heat, carried, time, share);
+  newton_->thermal().begin_stage(old.heat, first.heat, carried, time, share);
   StepEffort effort = stage(
       start, {.time = time, .dt = share, .temperature = old.heat.temperature, .iterate = &first.mechanics},
       trial);
@@ -116,13 +116,13 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
 StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
                                      State& trial) {
   const double start = MPI_Wtime();
-  pass.iterate_temperature = newton_.thermal().temperature();
+  pass.iterate_temperature = newton_->thermal().temperature();
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
-  report_ = newton_.solve(old, pass, x);
+  report_ = newton_->solve(old, pass, x);
   const mechanics::MechanicalWork work =
       phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
-  const heat::HeatBalance balance = newton_.thermal().conclude(trial.heat);
+  const heat::HeatBalance balance = newton_->thermal().conclude(trial.heat);
 
   StepEffort effort;
   EnergyAudit& energy = effort.energy;

@@ -12,6 +12,8 @@
 /// R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006.
 #pragma once
 
+#include <optional>
+
 #include "coupling/coupled_newton.hpp"
 #include "coupling/scheme.hpp"
 
@@ -33,7 +35,8 @@ class SimultaneousScheme final : public CouplingScheme {
   SimultaneousScheme(Phases phases, SimultaneousOptions options = {});
 
   void synchronise(const State& state) override;
-  void forget() override { newton_.forget(); }
+  void forget() override { newton_->forget(); }
+  void conditions_changed() override { newton_.emplace(phases_, options_.solver); }
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
 
   /// Of the last stage.
@@ -48,7 +51,7 @@ class SimultaneousScheme final : public CouplingScheme {
 
   Phases phases_;
   SimultaneousOptions options_;
-  CoupledNewton newton_;
+  std::optional<CoupledNewton> newton_;  ///< refers to the phases' matrices
   CoupledReport report_;
 };
 

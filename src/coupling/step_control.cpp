@@ -111,8 +111,4 @@ void StepControl::resize(double size, const std::string& reason) {
   state_.reason = state_.size > size ? "smallest allowed" : reason;
 }
 
-bool StepControl::is_landing(double time) const {
-  return std::binary_search(landings_.begin(), landings_.end(), time);
-}
-
 }  // namespace solidus::coupling

@@ -58,7 +58,6 @@ class StepControl {
   bool too_long(const PlannedStep& step, const StepMeasure& measure) const;
   /// The step that went through was too long.
   void shortened(const PlannedStep& step, const StepMeasure& measure);
-  bool is_landing(double time) const;
 
   const ControlState& state() const { return state_; }
   void resume(ControlState state) { state_ = std::move(state); }

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "base/table.hpp"
+#include "base/time_function.hpp"
 
 namespace solidus::heat {
 
 /// A coefficient that is a table of time [s] or of the surface's own temperature [K].
 struct Coefficient {
-  Table table;
+  TimeFunction table;
   bool of_temperature = false;
 };
 
@@ -19,14 +19,14 @@ struct Coefficient {
 struct PrescribedTemperature {
   std::string name;
   std::string node_set;  ///< a key of Mesh::node_sets
-  Table value;           ///< [K] over time [s]
+  TimeFunction value;    ///< [K] over time [s]
 };
 
 /// Heat per area into the body.
 struct Flux {
   std::string name;
   std::string surface;  ///< a key of Mesh::surfaces
-  Table value;          ///< [W/m²] over time [s]
+  TimeFunction value;   ///< [W/m²] over time [s]
 };
 
 /// q = h (Θ_a − Θ) into the body.
@@ -34,7 +34,7 @@ struct Film {
   std::string name;
   std::string surface;      ///< a key of Mesh::surfaces
   Coefficient coefficient;  ///< h [W/(m² K)], not negative
-  Table ambient;            ///< Θ_a [K] over time [s]
+  TimeFunction ambient;     ///< Θ_a [K] over time [s]
 };
 
 /// Grey body in large surroundings: q = ε σ (Θ_a⁴ − Θ⁴) into the body.
@@ -42,14 +42,14 @@ struct Radiation {
   std::string name;
   std::string surface;     ///< a key of Mesh::surfaces
   Coefficient emissivity;  ///< ε, 0 to 1
-  Table ambient;           ///< Θ_a [K] over time [s]
+  TimeFunction ambient;    ///< Θ_a [K] over time [s]
 };
 
 /// Heat released in the volume of a body.
 struct Source {
   std::string name;
-  std::string body;  ///< name of a body of the mesh
-  Table power;       ///< [W/m³] over time [s]
+  std::string body;    ///< name of a body of the mesh
+  TimeFunction power;  ///< [W/m³] over time [s]
 };
 
 /// Where nothing is said, a surface is insulated. Tables of time are taken at the end of the step (backward

@@ -23,23 +23,14 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
 }  // namespace
 
 HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
-                       const std::vector<material::Material>& materials, Conditions conditions, bool closed,
-                       std::vector<algebra::Contribution*> contributions)
-    : mesh_(mesh), contributions_(std::move(contributions)) {
-  add_conduction(kind, materials, closed);
-  const auto add_surface = [&](const auto& condition) {
-    surfaces_.emplace_back(mesh, kind, find(mesh.surfaces, condition.surface, "surface"), condition.name,
-                           SurfaceLaw(condition), closed);
-  };
-  for (const Flux& flux : conditions.fluxes) add_surface(flux);
-  for (const Film& film : conditions.films) add_surface(film);
-  for (const Radiation& radiation : conditions.radiations) add_surface(radiation);
-  add_sources(kind, conditions.sources, closed);
-  add_prescribed(conditions.temperatures);
+                       const std::vector<material::Material>& materials, const Conditions& conditions,
+                       bool closed, std::vector<algebra::Contribution*> contributions)
+    : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)) {
+  add_conduction(materials);
+  add_conditions(conditions);
 
   algebra::NodeGraph graph(mesh);
   for (const mesh::Block& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-  for (const SurfaceHeat& surface : surfaces_) surface.add_to_graph(graph);
   for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, std::move(graph));
   matrix_->set_fixed(fixed_);
@@ -50,19 +41,40 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   local_.resize(mesh.x.size());
   supplied_.resize(mesh.x.size());
   contributed_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
-  surface_power_.resize(surfaces_.size());
-  source_power_.resize(sources_.size());
   contribution_power_.resize(contributions_.size());
 }
 
 HeatSystem::~HeatSystem() = default;
 
-void HeatSystem::add_conduction(AnalysisKind kind, const std::vector<material::Material>& materials,
-                                bool closed) {
+void HeatSystem::add_conditions(const Conditions& conditions) {
+  const auto add_surface = [&](const auto& condition) {
+    surfaces_.emplace_back(mesh_, kind_, find(mesh_.surfaces, condition.surface, "surface"), condition.name,
+                           SurfaceLaw(condition), closed_);
+  };
+  for (const Flux& flux : conditions.fluxes) add_surface(flux);
+  for (const Film& film : conditions.films) add_surface(film);
+  for (const Radiation& radiation : conditions.radiations) add_surface(radiation);
+  add_sources(conditions.sources);
+  add_prescribed(conditions.temperatures);
+  surface_power_.resize(surfaces_.size());
+  source_power_.resize(sources_.size());
+}
+
+// The graph need not change: the nodes of a face are nodes of one element.
+void HeatSystem::set_conditions(const Conditions& conditions) {
+  surfaces_.clear();
+  sources_.clear();
+  prescribed_.clear();
+  add_conditions(conditions);
+  matrix_->set_fixed(fixed_);
+  for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
+}
+
+void HeatSystem::add_conduction(const std::vector<material::Material>& materials) {
   for (const material::Material& m : materials) conductivity_.push_back({&m.conductivity, {}, {}, {}});
   for (const mesh::Block& block : mesh_.blocks) {
     const auto body = static_cast<std::size_t>(block.body);
-    conduction_.push_back(make_conduction_block(mesh_, block, kind, materials[body], closed));
+    conduction_.push_back(make_conduction_block(mesh_, block, kind_, materials[body], closed_));
     auto& nodes = conductivity_[body].nodes;
     if (!conductivity_[body].table->constant())
       nodes.insert(nodes.end(), block.nodes.begin(), block.nodes.end());
@@ -77,7 +89,7 @@ void HeatSystem::add_conduction(AnalysisKind kind, const std::vector<material::M
 }
 
 // Spread over the nodes as their heat is stored, so that a uniform source warms them alike.
-void HeatSystem::add_sources(AnalysisKind kind, const std::vector<Source>& sources, bool closed) {
+void HeatSystem::add_sources(const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     std::map<std::string, int> bodies;
     for (std::size_t i = 0; i < mesh_.bodies.size(); ++i) bodies[mesh_.bodies[i].name] = static_cast<int>(i);
@@ -86,7 +98,7 @@ void HeatSystem::add_sources(AnalysisKind kind, const std::vector<Source>& sourc
     for (const mesh::Block& block : mesh_.blocks) {
       if (block.body != body) continue;
       const PackVector<Lane> weights =
-          closed ? mesh::nodal_weights(mesh_, block, kind) : mesh::basis_integrals(mesh_, block, kind);
+          closed_ ? mesh::nodal_weights(mesh_, block, kind_) : mesh::basis_integrals(mesh_, block, kind_);
       const int n = mesh::node_count(block.shape);
       for (Index e = 0; e < block.size(); ++e)
         for (int a = 0; a < n; ++a) {

@@ -24,9 +24,11 @@ class HeatSystem {
   /// @param couple_elements what the storage term needs besides conduction is the same graph
   /// Throws InputError for a condition that names no group of the mesh.
   HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-             Conditions conditions, bool closed, std::vector<algebra::Contribution*> contributions);
+             const Conditions& conditions, bool closed, std::vector<algebra::Contribution*> contributions);
   ~HeatSystem();
 
+  /// From here on other conditions hold. Throws InputError as the constructor does.
+  void set_conditions(const Conditions& conditions);
   void set_time(double time);
   /// Off: nothing flows, only the contributions that store are terms.
   void exchange(bool on) { exchange_ = on; }
@@ -59,13 +61,13 @@ class HeatSystem {
  private:
   struct Prescribed {
     std::string name;
-    Table value;
+    TimeFunction value;
     std::vector<Index> nodes;  ///< local; of the condition that holds
     double now = 0;
   };
   struct Volume {
     std::string name;
-    Table power;
+    TimeFunction power;
     std::vector<double> weight;  ///< ∫ N_i dV of the body [m³], [owned node]
     double now = 0;
   };
@@ -76,12 +78,15 @@ class HeatSystem {
     std::vector<double> value, slope;  ///< [local node]
   };
   void add_prescribed(const std::vector<PrescribedTemperature>& conditions);
-  void add_sources(AnalysisKind kind, const std::vector<Source>& sources, bool closed);
-  void add_conduction(AnalysisKind kind, const std::vector<material::Material>& materials, bool closed);
+  void add_sources(const std::vector<Source>& sources);
+  void add_conduction(const std::vector<material::Material>& materials);
+  void add_conditions(const Conditions& conditions);
   double add_flows(std::span<const double> temperature);
   void update_conductivity(std::span<const double> temperature, bool slopes);
 
   const mesh::Mesh& mesh_;
+  AnalysisKind kind_;
+  bool closed_;
   std::vector<algebra::Contribution*> contributions_;
   std::vector<std::unique_ptr<ConductionBlock>> conduction_;  ///< one per mesh block
   std::vector<NodalTable> conductivity_;                      ///< one per body

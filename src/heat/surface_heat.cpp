@@ -79,10 +79,6 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
   patches_.push_back(std::move(nodes));
 }
 
-void SurfaceHeat::add_to_graph(algebra::NodeGraph& graph) const {
-  for (const Patch& patch : patches_) graph.add_cliques(patch.nodes, patch.n_nodes);
-}
-
 void SurfaceHeat::bind(const algebra::BlockMatrix& matrix) {
   for (Patch& patch : patches_) patch.slots = matrix.clique_slots(patch.nodes, patch.n_nodes);
 }

@@ -32,7 +32,7 @@ class SurfaceLaw {
   enum class Kind { flux, film, radiation };
   Kind kind_;
   Coefficient coefficient_;
-  Table driver_;  ///< flux or ambient over time
+  TimeFunction driver_;  ///< flux or ambient over time
   double driver_now_ = 0, coefficient_now_ = 0;
 };
 
@@ -44,7 +44,7 @@ class SurfaceHeat {
               SurfaceLaw law, bool closed);
   const std::string& name() const { return name_; }
   void set_time(double time) { law_.set_time(time); }
-  void add_to_graph(algebra::NodeGraph& graph) const;
+  /// The nodes of a face are nodes of one element: its graph holds them.
   void bind(const algebra::BlockMatrix& matrix);
   /// r −= heat into the nodes [W], [local node]; ghost rows are scrap. Returns the sum over the counted
   /// points.

@@ -82,7 +82,7 @@ void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
 }  // namespace
 
 ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
-                           const std::vector<material::Material>& materials, Conditions conditions,
+                           const std::vector<material::Material>& materials, const Conditions& conditions,
                            HeatOptions options, std::vector<algebra::Contribution*> contributions)
     : mesh_(mesh),
       options_(options),
@@ -98,8 +98,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     printed_ = std::make_unique<PrintedHeat>(*storage_, options_.sensible);
     contributions_.push_back(printed_.get());
   }
-  system_ =
-      std::make_unique<HeatSystem>(mesh, kind, materials_, std::move(conditions), closed, contributions_);
+  system_ = std::make_unique<HeatSystem>(mesh, kind, materials_, conditions, closed, contributions_);
   solver_ = std::make_unique<HeatSolver>(
       mesh, options_.solver, options_.symmetric && !options_.exact_conductivity, options_.linear_tolerance);
   if (closed) {
@@ -122,6 +121,11 @@ ThermalPhase::~ThermalPhase() = default;
 
 std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
   return std::make_unique<ThermalIteration>(*this);
+}
+
+void ThermalPhase::set_conditions(const Conditions& conditions) {
+  system_->set_conditions(conditions);
+  solver_->forget();
 }
 
 void ThermalPhase::forget() {

@@ -81,9 +81,13 @@ class ThermalPhase {
   ///                       outlive the phase
   /// Throws InputError for a condition that names no group of the mesh.
   ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-               Conditions conditions, HeatOptions options = {},
+               const Conditions& conditions, HeatOptions options = {},
                std::vector<algebra::Contribution*> contributions = {});
   ~ThermalPhase();
+
+  /// From here on other conditions hold; the state goes on as it is. Not between the passes of a step.
+  /// Throws InputError as the constructor does.
+  void set_conditions(const Conditions& conditions);
 
   /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
   /// their heats add up. A body that starts at the temperature of an isothermal change is molten.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/table.hpp"
+#include "base/time_function.hpp"
 #include "base/types.hpp"
 
 namespace solidus::mechanics {
@@ -15,19 +15,21 @@ namespace solidus::mechanics {
 struct PrescribedDisplacement {
   std::string node_set;  ///< a key of Mesh::node_sets
   int component = 0;     ///< 0, 1, 2: x, y, z (axisymmetric: r, axial)
-  Table value;           ///< [m] over time [s]
+  TimeFunction value;    ///< [m] over time [s]
+  /// Counted from where each node was when the condition began (`start` of Loads).
+  bool relative = false;
 };
 
 /// A pressure on a surface, positive towards the body.
 struct Pressure {
   std::string surface;  ///< a key of Mesh::surfaces
-  Table value;          ///< [Pa] over time [s]
+  TimeFunction value;   ///< [Pa] over time [s]
 };
 
 /// Force per area on a surface, in the directions of the coordinates.
 struct Traction {
-  std::string surface;         ///< a key of Mesh::surfaces
-  std::array<Table, 3> value;  ///< [Pa] over time [s]
+  std::string surface;                ///< a key of Mesh::surfaces
+  std::array<TimeFunction, 3> value;  ///< [Pa] over time [s]
 };
 
 /// A face normal to a coordinate that stays plane and parallel to itself: its nodes have one normal

@@ -82,7 +82,7 @@ void merge(std::vector<std::pair<Index, double>>& force) {
 
 }  // namespace
 
-Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions)
+Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, std::span<const double> start)
     : conditions_(std::move(conditions)),
       components_(displacement_components(kind)),
       constant_(static_cast<std::size_t>(mesh.n_owned_nodes * components_), 0.0),
@@ -93,7 +93,7 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions)
   if (kind == AnalysisKind::axisymmetric) {
     double largest = 0;
     for (const mesh::Point& x : mesh.x) largest = std::max(largest, std::abs(x[0]));
-    Support axis{0.0, {}};
+    Support axis{0.0, {}, {}};
     for (Index node = 0; node < mesh.n_nodes(); ++node)
       if (std::abs(mesh.x[static_cast<std::size_t>(node)][0]) <= 1e-10 * largest)
         axis.entries.push_back(node * components_);
@@ -103,9 +103,12 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions)
     if (condition.component < 0 || condition.component >= components_)
       throw InputError({}, "displacement component " + std::to_string(condition.component) + " of '" +
                                condition.node_set + "' does not exist in this analysis");
-    Support support{condition.value, {}};
+    Support support{condition.value, {}, {}};
     for (Index node : find(mesh.node_sets, condition.node_set, "group"))
       support.entries.push_back(node * components_ + condition.component);
+    if (condition.relative)
+      for (const Index entry : support.entries)
+        support.start.push_back(start.empty() ? 0.0 : start[static_cast<std::size_t>(entry)]);
     for (const Index entry : support.entries) supported_[static_cast<std::size_t>(entry)] = 1;
     supports_.push_back(std::move(support));
   }
@@ -183,7 +186,9 @@ void Loads::evaluate(double time, std::span<double> force) const {
 void Loads::prescribe(double time, std::span<double> displacement) const {
   for (const Support& support : supports_) {
     const double value = support.value.value(time);
-    for (Index entry : support.entries) displacement[static_cast<std::size_t>(entry)] = value;
+    for (std::size_t i = 0; i < support.entries.size(); ++i)
+      displacement[static_cast<std::size_t>(support.entries[i])] =
+          support.start.empty() ? value : support.start[i] + value;
   }
 }
 

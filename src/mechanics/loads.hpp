@@ -14,7 +14,8 @@ class Loads {
  public:
   /// Throws InputError for a condition that names no group of the mesh, and for a plane face that is not
   /// normal to a coordinate, prescribed in that direction or tied to another. Collective.
-  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions);
+  /// @param start  displacement that relative ones count from, [local node][component]; empty: zero
+  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, std::span<const double> start = {});
 
   /// Adds a load that does not change in time, [local node][component] [N].
   void add_constant(std::span<const double> force);
@@ -35,13 +36,14 @@ class Loads {
 
  private:
   struct Unit {
-    Table factor;
+    TimeFunction factor;
     std::vector<std::pair<Index, double>>
         force;  ///< entry of an owned degree of freedom, force per unit of the table
   };
   struct Support {
-    Table value;
+    TimeFunction value;
     std::vector<Index> entries;  ///< local degrees of freedom
+    std::vector<double> start;   ///< of a relative one, one per entry; else empty
   };
   void add_plane_face(const mesh::Mesh& mesh, const PlaneFace& face, std::vector<char>& tied);
   void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Pressure& pressure);

@@ -60,7 +60,8 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
   const auto n = static_cast<std::size_t>(components_);
   const auto& gravity = loads_->conditions().gravity;
-  std::vector<double> mass(mesh.x.size(), 0.0), weight(mesh.x.size() * n, 0.0);
+  std::vector<double> mass(mesh.x.size(), 0.0);
+  weight_.assign(mesh.x.size() * n, 0.0);
   for (const mesh::Block& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     plastic_ = plastic_ || material.flow.has_value();
@@ -77,17 +78,12 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     inertia_->mass().multiply(ones, 1, std::span(mass).first(static_cast<std::size_t>(mesh.n_owned_nodes)));
   }
   for (std::size_t node = 0; node < mass.size(); ++node)
-    for (std::size_t i = 0; i < n; ++i) weight[node * n + i] = mass[node] * gravity[i];
-  loads_->add_constant(weight);
+    for (std::size_t i = 0; i < n; ++i) weight_[node * n + i] = mass[node] * gravity[i];
+  loads_->add_constant(weight_);
 
   for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
   create_matrix();
-  solver_ = std::make_unique<algebra::LinearSolver>(
-      mesh, algebra::LinearSolverOptions{.prefix = "mechanics_",
-                                         .kind = options_.solver,
-                                         .symmetric = options_.symmetric,
-                                         .relative_tolerance = options_.linear_tolerance});
-  solver_->use_rigid_body_modes(mesh, components_);
+  create_solver();
   forces_.resize(mesh.x.size() * static_cast<std::size_t>(components_));
   external_.resize(static_cast<std::size_t>(mesh.n_owned_nodes * components_));
   reactions_.assign(external_.size(), 0.0);
@@ -105,6 +101,29 @@ void MechanicalPhase::create_matrix() {
   for (const auto& block : blocks_) block->bind(*matrix_);
   if (inertia_) inertia_->bind(*matrix_);
   for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
+}
+
+void MechanicalPhase::create_solver() {
+  solver_ = std::make_unique<algebra::LinearSolver>(
+      mesh_, algebra::LinearSolverOptions{.prefix = "mechanics_",
+                                          .kind = options_.solver,
+                                          .symmetric = options_.symmetric,
+                                          .relative_tolerance = options_.linear_tolerance});
+  solver_->use_rigid_body_modes(mesh_, components_);
+}
+
+void MechanicalPhase::set_conditions(Conditions conditions, std::span<const double> start) {
+  auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), start);
+  loads->add_constant(weight_);
+  const bool same_ties = !algebra::any_process(loads->ties() != loads_->ties());
+  loads_ = std::move(loads);
+  if (same_ties) {
+    matrix_->set_fixed(loads_->fixed());
+    solver_->forget();
+  } else {
+    create_matrix();
+    create_solver();
+  }
 }
 
 MechanicalState MechanicalPhase::initial_state() {

@@ -131,6 +131,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   AnalysisKind kind() const { return kind_; }
   Mapping mapping() const { return options_.mapping; }
   const MechanicsOptions& options() const { return options_; }
+  /// From here on other conditions hold; the state goes on as it is. Not between the passes of a step. A
+  /// matrix of this phase that others refer to may be made anew (coupling/scheme.hpp). Collective.
+  /// @param start  displacement that relative supports count from, [local node][component]; empty: zero
+  /// Throws InputError as the constructor does.
+  void set_conditions(Conditions conditions, std::span<const double> start);
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
   /// prescribed displacements, and the accelerations that the loads of that time cause. Collective.
   MechanicalState initial_state();
@@ -194,6 +199,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
  private:
   void create_matrix();
+  void create_solver();
   void set_in_motion(MechanicalState& state);
   void add_residual_to_balance(std::span<const double> r);
   std::string law_failure(std::span<const double> x) const;
@@ -210,6 +216,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;
+  std::vector<double> weight_;  ///< of the bodies, [local node][component] [N]
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::unique_ptr<algebra::LinearSolver> solver_;
   std::unique_ptr<InertialForces> inertia_;  ///< null in quasi-statics

@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "model/dynamics_input.hpp"
+#include "model/stage_input.hpp"
 
 namespace solidus::model {
 
@@ -76,11 +77,25 @@ void check_heat(const CaseSpec& spec, Admissibility& a) {
   }
 }
 
+/// A support at a given place that is put on in a later stage pulls the body there.
+bool begins_later(const CaseSpec& spec, const MechanicalConditionSpec& c) {
+  if (c.kind != MechanicalConditionSpec::Kind::displacement || c.relative) return false;
+  bool before = true;
+  for (const StageRun& run : stage_runs(spec)) {
+    const bool now = holds(c.stages, &run);
+    if (now && !before) return true;
+    before = now;
+  }
+  return false;
+}
+
 void check_mechanics(const CaseSpec& spec, Admissibility& a) {
   using Kind = MechanicalConditionSpec::Kind;
   for (const auto& c : spec.mechanical_conditions) {
     if (c.kind == Kind::displacement && (moves(c.ux) || moves(c.uy) || moves(c.uz) || moves(c.ur)))
       a.violations.push_back(fmt::format("the support '{}' moves", c.name));
+    else if (begins_later(spec, c))
+      a.violations.push_back(fmt::format("the support '{}' is put on in a later stage", c.name));
     const bool varies =
         c.kind == Kind::pressure
             ? !steady(c.pressure)

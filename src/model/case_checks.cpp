@@ -9,6 +9,7 @@
 #include "model/dynamics_input.hpp"
 #include "model/field_list.hpp"
 #include "model/run_input.hpp"
+#include "model/stage_input.hpp"
 #include "model/time_input.hpp"
 
 namespace solidus::model {
@@ -296,6 +297,7 @@ void check_case(const CaseSpec& spec) {
   check_names(spec.bodies, "[[body]]");
   check_conditions(spec);
   check_contacts(spec);
+  check_stage_names(spec);
   check_coupling(spec);
   check_dynamics(spec);
   check_probes(spec);

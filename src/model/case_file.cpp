@@ -6,6 +6,7 @@
 
 #include "model/case_keys.hpp"
 #include "model/overrides.hpp"
+#include "model/stage_input.hpp"
 
 namespace solidus::model {
 
@@ -91,6 +92,7 @@ Case load_case(const std::filesystem::path& path, const std::vector<std::string>
   resolve_paths(document);
   result.document = case_keys().info().completed(document, "");
   case_keys().assign(result.spec, result.document);
+  resolve_stages(result.spec);
   check_case(result.spec);
   return result;
 }

@@ -58,6 +58,8 @@ const Section<CaseSpec>& case_keys() {
     s.section("analysis", &CaseSpec::analysis, analysis_keys());
     s.section("mesh", &CaseSpec::mesh, mesh_keys());
     s.section("time", &CaseSpec::time, time_keys());
+    s.sections("stage", &CaseSpec::stages, stage_keys());
+    s.sections("cycle", &CaseSpec::cycles, cycle_keys());
     s.sections("body", &CaseSpec::bodies, body_keys());
     s.sections("thermal_condition", &CaseSpec::thermal_conditions, thermal_condition_keys());
     s.sections("mechanical_condition", &CaseSpec::mechanical_conditions, mechanical_condition_keys());

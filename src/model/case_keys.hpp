@@ -13,6 +13,8 @@ const Section<CaseSpec>& case_keys();
 Section<AnalysisSpec> analysis_keys();
 Section<MeshSpec> mesh_keys();
 Section<TimeSpec> time_keys();
+Section<StageSpec> stage_keys();
+Section<CycleSpec> cycle_keys();
 Section<BodySpec> body_keys();
 Section<ThermalConditionSpec> thermal_condition_keys();
 Section<MechanicalConditionSpec> mechanical_condition_keys();

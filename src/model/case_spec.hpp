@@ -77,6 +77,27 @@ struct TimeSpec {
   SourceLocation where;
 };
 
+/// A part of the run with conditions of its own (model/stage_input.hpp).
+struct StageSpec {
+  std::string name;
+  double duration = 0;         ///< [s]
+  std::optional<double> step;  ///< [s]
+  std::optional<int> steps;
+  std::optional<double> min_step, max_step;  ///< [s]
+  SourceLocation where;
+};
+
+/// Stages that are run through several times.
+struct CycleSpec {
+  std::string name;
+  std::vector<std::string> stages;
+  int repeat = 1;
+  SourceLocation where;
+};
+
+/// What functions of time count from: the start of the run, or that of the stage.
+enum class Clock { run, stage };
+
 struct BodySpec {
   std::string name;
   std::optional<std::string> group;      ///< of the mesh; absent: as `name`
@@ -91,12 +112,14 @@ struct ThermalConditionSpec {
   enum class Kind { temperature, flux, film, radiation, source };
   std::string name, group;
   Kind kind = Kind::temperature;
-  Function temperature;  ///< [K] of time
-  Function flux;         ///< into the body [W/m²] of time or temperature
-  Function coefficient;  ///< film [W/(m² K)] of time or of the surface's temperature
-  Function emissivity;   ///< [1] of time or of the surface's temperature
-  Function ambient;      ///< [K] of time
-  Function power;        ///< [W/m³] of time or temperature
+  Function temperature;             ///< [K] of time
+  Function flux;                    ///< into the body [W/m²] of time or temperature
+  Function coefficient;             ///< film [W/(m² K)] of time or of the surface's temperature
+  Function emissivity;              ///< [1] of time or of the surface's temperature
+  Function ambient;                 ///< [K] of time
+  Function power;                   ///< [W/m³] of time or temperature
+  std::vector<std::string> stages;  ///< in which it holds; empty: all
+  Clock clock = Clock::run;
   SourceLocation where;
 };
 
@@ -107,6 +130,9 @@ struct MechanicalConditionSpec {
   std::optional<Function> ux, uy, uz, ur;  ///< [m] of time
   Function pressure;                       ///< on the surface, positive inward [Pa] of time
   std::vector<Function> traction;          ///< one per direction [Pa] of time
+  bool relative = false;                   ///< displacements from where nodes are at the start of the stage
+  std::vector<std::string> stages;         ///< in which it holds; empty: all
+  Clock clock = Clock::run;
   SourceLocation where;
 };
 
@@ -120,6 +146,7 @@ struct ContactSpec {
   int gauss_degree = 0;
   std::optional<double> search_distance, touching;  ///< [m]
   std::optional<contact::HeatTransferSpec> heat;    ///< absent: no heat passes
+  std::vector<std::string> stages;                  ///< in which it holds; empty: all
   SourceLocation where;
 };
 
@@ -193,6 +220,7 @@ struct OutputSpec {
   std::vector<std::string> fields;
   std::optional<int> checkpoint_every;  ///< steps
   std::optional<std::string> folder;
+  bool stage_ends = true;  ///< outputs at the end of every stage
 };
 
 struct CaseSpec {
@@ -200,7 +228,9 @@ struct CaseSpec {
   std::vector<std::string> include;  ///< resolved by load_case: empty afterwards
   AnalysisSpec analysis;
   MeshSpec mesh;
-  TimeSpec time;
+  TimeSpec time;  ///< with stages, `end` is that of the last one (resolve_stages)
+  std::vector<StageSpec> stages;
+  std::vector<CycleSpec> cycles;
   std::vector<BodySpec> bodies;
   std::vector<ThermalConditionSpec> thermal_conditions;
   std::vector<MechanicalConditionSpec> mechanical_conditions;

@@ -43,6 +43,14 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
       .of({Argument::time})
       .when("kind", {"source"})
       .doc("Heat released per volume and time.");
+  s.key("stages", &C::stages)
+      .or_one()
+      .initially(Value::list())
+      .doc("The stages in which it holds; empty: in all.");
+  s.choice("time", &C::clock,
+           {{"run", Clock::run, "the start of the run"}, {"stage", Clock::stage, "the start of each stage"}})
+      .initially("run")
+      .doc("What tables of time count from.");
   s.place(&C::where);
   return s;
 }
@@ -84,6 +92,21 @@ Section<MechanicalConditionSpec> mechanical_condition_keys() {
       .of({Argument::time})
       .when("kind", {"traction"})
       .doc("Force per area, one value per direction of the mesh: [\"1 MPa\", \"0 MPa\"].");
+  s.key("relative", &C::relative)
+      .initially(false)
+      .when("kind", {"displacement"})
+      .doc(
+          "Count displacements from where each node is when the stage begins: 0 holds it there. Otherwise "
+          "from "
+          "the mesh.");
+  s.key("stages", &C::stages)
+      .or_one()
+      .initially(Value::list())
+      .doc("The stages in which it holds; empty: in all.");
+  s.choice("time", &C::clock,
+           {{"run", Clock::run, "the start of the run"}, {"stage", Clock::stage, "the start of each stage"}})
+      .initially("run")
+      .doc("What tables of time count from.");
   s.place(&C::where);
   return s;
 }

@@ -89,6 +89,10 @@ Section<ContactSpec> contact_keys() {
       .at_least(0)
       .doc("Initial gaps and penetrations up to this size count as touching; without it rounding only.");
   s.section("heat", &C::heat, contact_heat_keys());
+  s.key("stages", &C::stages)
+      .or_one()
+      .initially(Value::list())
+      .doc("The stages in which it holds; empty: in all. In the others nothing passes between the surfaces.");
   s.place(&C::where);
   return s;
 }

@@ -4,31 +4,36 @@ namespace solidus::model {
 
 namespace {
 
-heat::Coefficient coefficient(const Function& f) {
-  return {f.table, f.of == Argument::temperature};
+heat::Coefficient coefficient(const Function& f, Clock clock, const StageRun* stage) {
+  if (f.of == Argument::temperature) return {f.table, true};
+  return {on_clock(f, clock, stage), false};
 }
 
 }  // namespace
 
-heat::Conditions thermal_conditions(const CaseSpec& spec) {
+heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage) {
   using Kind = ThermalConditionSpec::Kind;
   heat::Conditions conditions;
   for (const auto& c : spec.thermal_conditions) {
+    if (!holds(c.stages, stage)) continue;
+    const auto of_time = [&](const Function& f) { return on_clock(f, c.clock, stage); };
     switch (c.kind) {
       case Kind::temperature:
-        conditions.temperatures.push_back({c.name, c.group, c.temperature.table});
+        conditions.temperatures.push_back({c.name, c.group, of_time(c.temperature)});
         break;
       case Kind::flux:
-        conditions.fluxes.push_back({c.name, c.group, c.flux.table});
+        conditions.fluxes.push_back({c.name, c.group, of_time(c.flux)});
         break;
       case Kind::film:
-        conditions.films.push_back({c.name, c.group, coefficient(c.coefficient), c.ambient.table});
+        conditions.films.push_back(
+            {c.name, c.group, coefficient(c.coefficient, c.clock, stage), of_time(c.ambient)});
         break;
       case Kind::radiation:
-        conditions.radiations.push_back({c.name, c.group, coefficient(c.emissivity), c.ambient.table});
+        conditions.radiations.push_back(
+            {c.name, c.group, coefficient(c.emissivity, c.clock, stage), of_time(c.ambient)});
         break;
       case Kind::source:
-        conditions.sources.push_back({c.name, c.group, c.power.table});
+        conditions.sources.push_back({c.name, c.group, of_time(c.power)});
         break;
     }
   }

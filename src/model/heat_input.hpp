@@ -3,10 +3,12 @@
 
 #include "heat/conditions.hpp"
 #include "model/case_spec.hpp"
+#include "model/stage_input.hpp"
 
 namespace solidus::model {
 
-heat::Conditions thermal_conditions(const CaseSpec& spec);
+/// @param stage  whose conditions; null: those of all stages
+heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
 /// With what the coupling asks of the thermal phase: the form of sensible heat.
 heat::HeatOptions heat_options(const CaseSpec& spec);
 

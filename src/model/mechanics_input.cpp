@@ -19,14 +19,16 @@ std::array<double, 3> gravity(const AnalysisSpec& analysis) {
   return direction;
 }
 
-mechanics::Conditions mechanical_conditions(const CaseSpec& spec) {
+mechanics::Conditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage) {
   using Kind = MechanicalConditionSpec::Kind;
   mechanics::Conditions conditions;
   conditions.gravity = gravity(spec.analysis);
   const bool axisymmetric = spec.analysis.kind == AnalysisKind::axisymmetric;
   for (const auto& c : spec.mechanical_conditions) {
+    if (!holds(c.stages, stage)) continue;
+    const auto of_time = [&](const Function& f) { return on_clock(f, c.clock, stage); };
     const auto prescribe = [&](const std::optional<Function>& value, int component) {
-      if (value) conditions.displacements.push_back({c.group, component, value->table});
+      if (value) conditions.displacements.push_back({c.group, component, of_time(*value), c.relative});
     };
     switch (c.kind) {
       case Kind::displacement:
@@ -36,11 +38,11 @@ mechanics::Conditions mechanical_conditions(const CaseSpec& spec) {
         prescribe(c.uz, axisymmetric ? 1 : 2);
         break;
       case Kind::pressure:
-        conditions.pressures.push_back({c.group, c.pressure.table});
+        conditions.pressures.push_back({c.group, of_time(c.pressure)});
         break;
       case Kind::traction: {
-        mechanics::Traction traction{c.group, {Table(0), Table(0), Table(0)}};
-        for (std::size_t i = 0; i < c.traction.size(); ++i) traction.value[i] = c.traction[i].table;
+        mechanics::Traction traction{c.group, {0.0, 0.0, 0.0}};
+        for (std::size_t i = 0; i < c.traction.size(); ++i) traction.value[i] = of_time(c.traction[i]);
         conditions.tractions.push_back(std::move(traction));
         break;
       }

@@ -5,13 +5,15 @@
 
 #include "mechanics/mechanical_phase.hpp"
 #include "model/case_spec.hpp"
+#include "model/stage_input.hpp"
 
 namespace solidus::model {
 
 /// Acceleration of gravity [m/s²] in the coordinates of the mesh.
 std::array<double, 3> gravity(const AnalysisSpec& analysis);
 
-mechanics::Conditions mechanical_conditions(const CaseSpec& spec);
+/// @param stage  whose conditions; null: those of all stages
+mechanics::Conditions mechanical_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
 mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec);
 
 }  // namespace solidus::model

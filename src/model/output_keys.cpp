@@ -48,6 +48,9 @@ Section<OutputSpec> output_keys() {
       .initially(Value::list())
       .positive()
       .doc("Fields are written at these times, met exactly.");
+  s.key("stage_ends", &OutputSpec::stage_ends)
+      .initially(true)
+      .doc("Fields are written at the end of every stage too.");
   s.key("fields", &OutputSpec::fields)
       .initially(Value::list())
       .choices(field_names(false))

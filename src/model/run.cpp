@@ -24,6 +24,7 @@
 #include "model/mesh_input.hpp"
 #include "model/run_input.hpp"
 #include "model/scheme_input.hpp"
+#include "model/stage_input.hpp"
 #include "model/time_input.hpp"
 #include "results/recorder.hpp"
 
@@ -41,6 +42,8 @@ struct Assembly {
   std::unique_ptr<heat::ThermalPhase> heat;
   coupling::Phases phases;
   coupling::State initial;
+  std::vector<StageRun> stages;  ///< empty: the case has none
+  const StageRun* first_stage() const { return stages.empty() ? nullptr : &stages.front(); }
 };
 
 // Of mechanics alone: every body at its temperature for the whole run.
@@ -68,9 +71,9 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
 void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
   std::vector<algebra::Contribution*> contributions;
   for (const auto& pair : a.contacts) contributions.push_back(&pair->mechanics());
-  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(a.mesh, spec.analysis.kind, a.materials,
-                                                             initial_temperature, mechanical_conditions(spec),
-                                                             mechanics_options(spec), contributions);
+  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(
+      a.mesh, spec.analysis.kind, a.materials, initial_temperature,
+      mechanical_conditions(spec, a.first_stage()), mechanics_options(spec), contributions);
   a.phases.mechanics = a.mechanics.get();
   a.initial.mechanics = a.mechanics->initial_state();
 }
@@ -81,12 +84,23 @@ void build_heat(const CaseSpec& spec, const std::vector<double>& body_temperatur
     if (pair->heat() != nullptr) contributions.push_back(pair->heat());
   if (a.structural) contributions.push_back(a.structural.get());
   a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
-                                                thermal_conditions(spec), heat_options(spec), contributions);
+                                                thermal_conditions(spec, a.first_stage()), heat_options(spec),
+                                                contributions);
   a.phases.heat = a.heat.get();
   a.initial.heat = a.heat->initial_state(body_temperature);
 }
 
+/// Gives the phases the conditions of a stage that begins at this displacement.
+void apply(const CaseSpec& spec, const StageRun& stage, const std::vector<double>& displacement,
+           Assembly& a) {
+  for (std::size_t i = 0; i < a.contacts.size(); ++i)
+    a.contacts[i]->activate(holds(spec.contacts[i].stages, &stage));
+  if (a.mechanics) a.mechanics->set_conditions(mechanical_conditions(spec, &stage), displacement);
+  if (a.heat) a.heat->set_conditions(thermal_conditions(spec, &stage));
+}
+
 void build(const CaseSpec& spec, Assembly& a) {
+  a.stages = stage_runs(spec);
   std::vector<double> body_temperature;
   for (const BodySpec& body : spec.bodies) body_temperature.push_back(body.initial_temperature);
   build_contacts(spec, a);
@@ -192,6 +206,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.kind = spec.analysis.kind;
   r.probes = probes(spec);
   r.fields = spec.output.fields;
+  r.stages = !spec.stages.empty();
   r.progress = options.progress;
   r.progress_options.end = spec.time.end.value_or(0);
   r.progress_options.heat = spec.has_heat();
@@ -235,9 +250,11 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
                         const std::optional<results::Checkpoint>& from, results::Recorder& recorder) {
   coupling::TimeOptions times = time_options(spec);
   std::optional<coupling::ErrorEstimate> estimate;
-  if (times.step.adaptive) {
+  if (spec.time.adaptive) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
-    times.step.limits.displacement = displacement_error(spec.time, norm.diagonal());
+    const double error = displacement_error(spec.time, norm.diagonal());
+    times.step.limits.displacement = error;
+    for (coupling::Stage& stage : times.stages) stage.step.limits.displacement = error;
     estimate.emplace(std::move(norm));
   }
   coupling::Simulation simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
@@ -253,6 +270,9 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   simulation.add(recorder);
   simulation.add(why);
   simulation.stop_when(options.stop_asked);
+  simulation.at_stage([&](std::size_t stage, const coupling::StageStart& start) {
+    apply(spec, a.stages[stage], start.displacement, a);
+  });
   const coupling::State& start = from ? from->state : a.initial;
   coupling::StepEffort at_start;
   coupling::summarise(a.phases, start, at_start);
@@ -273,11 +293,12 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   if (!options.restart) return {};
   const results::CheckpointFolder folder(options.folder);
   results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
+  check_stage_of_checkpoint(spec, found.continuation.stage, found.state.time);
   if (found.state.time >= *spec.time.end)
     throw InputError(spec.time.where,
                      fmt::format("the run has reached t = {:g} s already; the end is at {:g} s",
                                  found.state.time, *spec.time.end),
-                     "a later end: time.end");
+                     spec.stages.empty() ? "a later end: time.end" : "further stages");
   return found;
 }
 
@@ -299,6 +320,8 @@ CheckedRun check_run(const Case& c) {
   const results::StateFields fields(a.mesh, a.phases);
   const results::Probes found(a.mesh, c.spec.analysis.kind, probes(c.spec), fields.bodies());
   fields.bodies().select(c.spec.output.fields);
+  for (const StageRun& stage : a.stages)
+    if (stage.cycle <= 1) apply(c.spec, stage, {}, a);
   CheckedRun checked{results::count(a.mesh), {}};
   if (a.phases.audits_stability()) checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh);
   return checked;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "model/stage_input.hpp"
+
 namespace solidus::model {
 
 namespace {
@@ -35,20 +37,52 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
          "in an analysis without mechanics", "temperature_error");
 }
 
+void check_number_of_steps(const TimeSpec& t, double steps) {
+  if (steps > 1e8)
+    throw InputError(t.where, fmt::format("{:.3g} steps would be needed", steps), "at most 1e8");
+}
+
+coupling::StepOptions step_options(const TimeSpec& t, double step) {
+  coupling::StepOptions options;
+  options.step = step;
+  options.adaptive = t.adaptive;
+  options.min_step = t.min_step.value_or(0);
+  options.max_step = t.max_step.value_or(0);
+  options.growth = t.growth;
+  options.cut = t.cut;
+  options.easy_iterations = t.easy_iterations;
+  options.limits.control = t.error_control;
+  options.limits.temperature = t.temperature_error.value_or(1.0);
+  options.limits.solid_fraction = t.solid_fraction_change.value_or(0.1);
+  return options;
+}
+
+coupling::Stage stage(const TimeSpec& t, const StageRun& run) {
+  coupling::StepOptions step = step_options(t, first_step(*run.stage, t));
+  if (run.stage->min_step) step.min_step = *run.stage->min_step;
+  if (run.stage->max_step) step.max_step = *run.stage->max_step;
+  return {run.stage->name, run.number, run.cycle, run.end, step};
+}
+
 }  // namespace
 
 void check_time(const CaseSpec& spec) {
   const TimeSpec& t = spec.time;
   if (t.steady) return;
+  if (!spec.stages.empty()) {  // steps and durations are checked with the stages
+    check_limits(t, spec);
+    double steps = 0;
+    for (const StageRun& run : stage_runs(spec)) steps += run.stage->duration / first_step(*run.stage, t);
+    return check_number_of_steps(t, steps);
+  }
   if (!t.end || !t.step)
     throw InputError(t.where, fmt::format("the key '{}' is missing in [time]", t.end ? "step" : "end"),
-                     "end and step, or steady = true");
+                     "end and step, or [[stage]] sections, or steady = true");
   if (*t.step > *t.end) throw InputError(t.where, "the time step is longer than the whole time");
   if (t.min_step && *t.min_step > *t.step) throw InputError(t.where, "'min_step' is above 'step'");
   if (t.max_step && *t.max_step < *t.step) throw InputError(t.where, "'max_step' is below 'step'");
   check_limits(t, spec);
-  if (*t.end / *t.step > 1e8)
-    throw InputError(t.where, fmt::format("{:.3g} steps would be needed", *t.end / *t.step), "at most 1e8");
+  check_number_of_steps(t, *t.end / *t.step);
 }
 
 double displacement_error(const TimeSpec& t, double diagonal) {
@@ -60,16 +94,9 @@ coupling::TimeOptions time_options(const CaseSpec& spec) {
   const TimeSpec& t = spec.time;
   coupling::TimeOptions options;
   options.end = *t.end;
-  options.step.step = *t.step;
-  options.step.adaptive = t.adaptive;
-  options.step.min_step = t.min_step.value_or(0);
-  options.step.max_step = t.max_step.value_or(0);
-  options.step.growth = t.growth;
-  options.step.cut = t.cut;
-  options.step.easy_iterations = t.easy_iterations;
-  options.step.limits.control = t.error_control;
-  options.step.limits.temperature = t.temperature_error.value_or(1.0);
-  options.step.limits.solid_fraction = t.solid_fraction_change.value_or(0.1);
+  if (spec.stages.empty()) options.step = step_options(t, *t.step);
+  for (const StageRun& run : stage_runs(spec)) options.stages.push_back(stage(t, run));
+  options.output_at_stage_ends = spec.output.stage_ends;
   options.output_times = spec.output.times;
   options.checkpoint_every = spec.output.checkpoint_every.value_or(0);
   if (spec.output.every) {

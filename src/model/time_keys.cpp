@@ -10,10 +10,12 @@ Section<TimeSpec> time_keys() {
       .doc("Solve for the final equilibrium at once, without time.");
   s.quantity("end", &TimeSpec::end, "s")
       .positive()
-      .doc("The run goes from zero to this time; required unless steady.");
+      .doc("The run goes from zero to this time; required unless steady or in stages, which make the end.");
   s.quantity("step", &TimeSpec::step, "s")
       .positive()
-      .doc("The step asked for, where steps are adaptive the first one; required unless steady.");
+      .doc(
+          "The step asked for, where steps are adaptive the first one; required unless steady or given by "
+          "every stage.");
   s.key("adaptive", &TimeSpec::adaptive)
       .initially(false)
       .doc(

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 3";
+constexpr const char* k_format = "Solidus checkpoint 4";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -34,7 +34,7 @@ void each_number(C& c, const Visit& visit) {
   auto& e = c.energy;
   auto& l = c.stability;
   const auto all = [&visit](auto&... n) { (visit(n), ...); };
-  all(c.state.time, k.steps, c.rejected, c.state.mechanics.dt_before);
+  all(c.state.time, k.steps, c.rejected, c.state.mechanics.dt_before, k.stage.number, k.stage.time);
   all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction);
@@ -128,6 +128,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   c.state = layout;
   set_numbers(in, c);
   c.continuation.control.reason = in.text("reason");
+  c.continuation.stage.name = in.text("stage");
   const Places nodes = places_of(mesh.input_node);
   take_nodes(in, "temperature", nodes, c.state.heat.temperature);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
@@ -136,6 +137,10 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   take_nodes(in, "acceleration", nodes, c.state.mechanics.acceleration);
   take_nodes(in, "net_force", nodes, c.state.mechanics.net_force);
   take_nodes(in, "load", nodes, c.state.mechanics.load);
+  if (c.continuation.stage.number > 0) {
+    c.continuation.stage.displacement.resize(c.state.mechanics.displacement.size());
+    take_nodes(in, "stage_displacement", nodes, c.continuation.stage.displacement);
+  }
   if (in.text("rates") == k_known) {
     coupling::Rates& rates = c.continuation.rates;
     rates.temperature.resize(c.state.heat.temperature.size());
@@ -185,6 +190,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   out.text("format", k_format);
   for (const auto& [name, text] : fingerprint) out.text("case/" + name, text);
   out.text("reason", c.continuation.control.reason);
+  out.text("stage", c.continuation.stage.name);
   out.numbers("numbers", numbers_of(c));
 
   const auto owned = static_cast<std::size_t>(mesh.n_owned_nodes);
@@ -200,6 +206,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   nodal("acceleration", c.state.mechanics.acceleration);
   nodal("net_force", c.state.mechanics.net_force);
   nodal("load", c.state.mechanics.load);
+  if (c.continuation.stage.number > 0) nodal("stage_displacement", c.continuation.stage.displacement);
   const coupling::Rates& rates = c.continuation.rates;
   out.text("rates", rates.known() ? k_known : "unknown");
   if (rates.known()) {

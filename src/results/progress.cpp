@@ -68,6 +68,8 @@ void Progress::step(const coupling::StepRecord& record) {
   if (options_.heat)  // of all steps together, relative to the heat that moved
     text += fmt::format(" {:>8.1e}", exchanged_ > 0 ? std::abs(defect_) / exchanged_ : std::abs(defect_));
   text += fmt::format(" {:>12}  {}", duration_text(seconds_left(record.time)), record.reason);
+  if (!record.stage.empty()) text += ", " + record.stage;
+  if (record.cycle > 0) text += fmt::format(" {}", record.cycle);
   if (record.rejected > 0) text += fmt::format(" ({} rejected: {})", record.rejected, record.rejection);
   line(text);
   if (options_.terminal) draw_bar(record.time);

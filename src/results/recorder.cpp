@@ -13,10 +13,6 @@ bool dynamic(const coupling::Phases& phases) {
   return phases.mechanics != nullptr && phases.mechanics->dynamic();
 }
 
-StepTable step_table(const coupling::Phases& phases) {
-  return {.dynamics = dynamic(phases), .stability = phases.audits_stability()};
-}
-
 GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
                                       const Probes& probes) {
   return {.melting = phases.heat != nullptr && options.melting,
@@ -53,18 +49,23 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
   fields_.bodies().select(options_.fields);  // complains about a field there is not
   on_first_process([&] {
     std::vector<Column> columns{{"time", "s"}};
+    if (options_.stages) columns.insert(columns.end(), {{"stage", "1"}, {"cycle", "1"}});
     columns.insert(columns.end(), probes_.columns().begin(), probes_.columns().end());
     for (const Column& c : globals_.columns()) columns.push_back(c);
     if (options_.continue_from) {
       const double time = options_.continue_from->state.time;
       history_.emplace(folder.history(), columns, time);
-      steps_.emplace(folder.steps(), step_columns(step_table(phases)), time);
+      steps_.emplace(folder.steps(), step_columns(step_table()), time);
     } else {
       history_.emplace(folder.history(), columns);
-      steps_.emplace(folder.steps(), step_columns(step_table(phases)));
+      steps_.emplace(folder.steps(), step_columns(step_table()));
     }
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
+}
+
+StepTable Recorder::step_table() const {
+  return {.dynamics = dynamic(phases_), .stability = phases_.audits_stability(), .stages = options_.stages};
 }
 
 void Recorder::begin(const coupling::State& state) {
@@ -88,8 +89,10 @@ void Recorder::begin(const coupling::State& state) {
 void Recorder::step(const coupling::StepRecord& record, const coupling::State& state) {
   const double start = MPI_Wtime();
   globals_.add(record);
+  stage_ = record.stage_of_case;
+  cycle_ = record.cycle;
   fields_.update(state);
-  on_first_process([&] { steps_->add(step_row(record, step_table(phases_))); });
+  on_first_process([&] { steps_->add(step_row(record, step_table())); });
   add_history_row(state.time);
   if (record.output) write_fields(state);
   if (progress_) progress_->step(record);
@@ -124,6 +127,7 @@ void Recorder::end(const coupling::State& state) {
 
 std::vector<double> Recorder::history_row(double time) {
   std::vector<double> row = {time};
+  if (options_.stages) row.insert(row.end(), {static_cast<double>(stage_), static_cast<double>(cycle_)});
   for (const double v : probes_.values(fields_.bodies())) row.push_back(v);
   for (const double v : globals_.values()) row.push_back(v);
   return row;

@@ -26,6 +26,7 @@ struct RecorderOptions {
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
   bool melting = true;                      ///< a material can melt
+  bool stages = false;                      ///< the run has stages
   Fingerprint fingerprint;                  ///< of the case, for checkpoints
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
   Summary summary;  ///< what is known before the run: names, mesh, seconds of setting up
@@ -44,6 +45,7 @@ class Recorder : public coupling::Observer {
   void end(const coupling::State& state) override;
 
  private:
+  StepTable step_table() const;
   std::vector<double> history_row(double time);
   void add_history_row(double time);
   void write_fields(const coupling::State& state);
@@ -62,6 +64,7 @@ class Recorder : public coupling::Observer {
   std::optional<CsvTable> history_, steps_;  // on process 0
   std::optional<Progress> progress_;         // on process 0
   std::vector<double> last_row_;
+  int stage_ = 0, cycle_ = 0;  ///< of the last row, as in StepRecord
   double seconds_heat_ = 0, seconds_mechanics_ = 0, seconds_output_ = 0, began_ = 0;
 };
 

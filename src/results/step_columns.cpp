@@ -65,6 +65,7 @@ std::vector<Column> step_columns(StepTable table) {
                                    {"lyapunov_tolerance", "J"},
                                    {"entropy", "J/K"},
                                    {"entropy_production", "J/K"}});
+  if (table.stages) columns.insert(columns.end(), {{"stage", ""}, {"cycle", "1"}});
   return columns;
 }
 
@@ -109,6 +110,10 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
   if (table.stability)
     cells.insert(cells.end(), {r.stability.mechanical, r.stability.thermal, r.stability.tolerance,
                                r.stability.entropy, r.stability.entropy - r.energy.entropy_in});
+  if (table.stages) {
+    cells.emplace_back(r.stage);
+    cells.emplace_back(whole(r.cycle));
+  }
   return cells;
 }
 

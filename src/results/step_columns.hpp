@@ -13,6 +13,7 @@ namespace solidus::results {
 struct StepTable {
   bool dynamics = false;   ///< bodies have inertia: one column more
   bool stability = false;  ///< 𝓛 is followed: five more
+  bool stages = false;     ///< the run has stages: two more
 };
 std::vector<Column> step_columns(StepTable table = {});
 std::vector<Cell> step_row(const coupling::StepRecord& record, StepTable table = {});

@@ -53,8 +53,6 @@ TEST(StepControl, OutputTimesAreMetExactly) {
   while (!control.finished(time)) times.push_back(time = control.plan(time).time);
   EXPECT_TRUE(std::find(times.begin(), times.end(), 1.0) != times.end());
   EXPECT_EQ(times.back(), 2.0);
-  EXPECT_TRUE(control.is_landing(1.0));
-  EXPECT_FALSE(control.is_landing(0.4));
 }
 
 TEST(StepControl, ARejectedStepIsHalvedAndGrowsBackToWhatWasAsked) {

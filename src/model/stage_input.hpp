@@ -1,0 +1,43 @@
+/// Stages and cycles of a case, laid out in time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/continuation.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// One stage as it comes in the run.
+struct StageRun {
+  const StageSpec* stage = nullptr;
+  int number = 0;             ///< of the stage in the case, from one
+  int cycle = 0;              ///< how often its cycle has come round, from one; zero outside of cycles
+  double start = 0, end = 0;  ///< [s]
+};
+
+/// All stages in the order of the run; empty in a case without stages. The case must outlive them.
+std::vector<StageRun> stage_runs(const CaseSpec& spec);
+
+/// Whether something that names its stages holds in one of them; without names it holds in all, and without a
+/// stage always.
+bool holds(const std::vector<std::string>& stages, const StageRun* run);
+
+/// A table of the case, on the clock that the user chose.
+TimeFunction on_clock(const Function& function, Clock clock, const StageRun* run);
+
+/// The first step of a stage [s].
+double first_step(const StageSpec& stage, const TimeSpec& time);
+
+/// Checks stages and cycles by themselves and sets the end of the run where there are stages. Throws
+/// InputError.
+void resolve_stages(CaseSpec& spec);
+
+/// Checks that what names stages names those there are. Throws InputError.
+void check_stage_names(const CaseSpec& spec);
+
+/// Throws InputError unless the stage that a checkpoint of this time stands in is the same in the case.
+void check_stage_of_checkpoint(const CaseSpec& spec, const coupling::StageStart& stage, double time);
+
+}  // namespace solidus::model
