@@ -54,10 +54,12 @@ class ContactKinematics {
   virtual Index n_points() const = 0;
   /// What a point is whatever moves.
   struct Particle {
-    GlobalIndex number = 0;  ///< of all processes alike, and of runs on another number of them
-    bool counted = false;    ///< this process counts it in sums; over all processes every point once
-    Point position{};        ///< on the slave, reference configuration [m]
-    double weight = 0;       ///< w of every motion() [m²]
+    GlobalIndex number = 0;         ///< of all processes alike, and of runs on another number of them
+    bool counted = false;           ///< this process counts it in sums; over all processes every point once
+    Point position{};               ///< on the slave, reference configuration [m]
+    double weight = 0;              ///< w of every motion() [m²]
+    std::span<const Index> nodes;   ///< of the slave's face, local numbers
+    std::span<const double> share;  ///< their shape functions
   };
   virtual Particle particle(Index point) const = 0;
   /// Part of the slave surface that has a partner in the reference configuration, 0 to 1. Collective at

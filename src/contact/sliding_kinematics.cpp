@@ -71,9 +71,13 @@ void SlidingKinematics::add_points(AnalysisKind kind, const SlidingOptions& opti
 
 ContactKinematics::Particle SlidingKinematics::particle(Index point) const {
   const auto p = static_cast<std::size_t>(point);
-  const std::span<const Index> nodes = slave_.nodes(face_[p]);
-  return {face_[p] * k_points_of_a_face + number_[p], nodes[0] < mesh_.n_owned_nodes,
-          position_[p], weight_[p], nodes, std::span(shape_[p]).first(nodes.size())};
+  const auto nodes = slave_.nodes(face_[p]);
+  return {.number = face_[p] * k_points_of_a_face + number_[p],
+          .counted = nodes[0] < mesh_.n_owned_nodes,
+          .position = position_[p],
+          .weight = weight_[p],
+          .nodes = nodes,
+          .share = std::span(shape_[p]).first(nodes.size())};
 }
 
 Point SlidingKinematics::place_of(std::size_t point, const Face& face) const {

@@ -193,6 +193,34 @@ TEST(SlidingMotion, WithAveragedNormalsTurnsTheForceGraduallyOverABend) {
   EXPECT_LT(largest_turn(true), 2e-3);
 }
 
+TEST(SlidingMotion, BehindAGrooveTurnsTheNormalThroughTheWedgeWithoutAJump) {
+  const mesh::Mesh mesh = ridge(-0.2);
+  const Sliding sliding(mesh, false);
+  struct Last {
+    Partner partner;
+    Point normal{};
+  };
+  std::vector<Last> before(static_cast<std::size_t>(sliding->n_points()));
+  int in_wedge = 0;
+  for (int i = 0; i < 600; ++i) {
+    sliding->place(test::nodal_field(mesh, 2, [&](const Point&, bool upper) {
+      return std::vector{upper ? -1e-4 * i : 0.0, upper ? -0.05 : 0.0};
+    }));
+    for (Index p = 0; p < sliding->n_points(); ++p) {
+      const Partner partner = sliding->partner(p);
+      Last& last = before[static_cast<std::size_t>(p)];
+      if (partner.face >= 0 && last.partner.face >= 0) {
+        in_wedge += partner.region == Partner::Region::vertex;
+        EXPECT_LE(std::abs(partner.penetration - last.partner.penetration), 1.001e-4);
+        // A step turns the direction by no more than its length over the distance, 0.03 m and more.
+        EXPECT_LE(distance(partner.normal, last.normal), 1e-4 / 0.03);
+      }
+      last = {partner, partner.normal};
+    }
+  }
+  EXPECT_GT(in_wedge, 10);
+}
+
 TEST(SlidingMotion, HasNoPartnerBeyondTheFreeEndOfTheMaster) {
   const Strip strip(10);
   const Sliding sliding(strip.mesh, false);

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "contact/master_analytic.hpp"
+#include "sliding_bodies.hpp"
+
+namespace solidus::contact {
+namespace {
+
+using test::Asked;
+using Shape = RigidSurface::Shape;
+
+constexpr Point k_down{0, -1, 0}, k_up{0, 1, 0};
+
+TEST(RigidSurfaces, MeasurePenetrationFromTheirOutside) {
+  const AnalyticMaster plane(2, {.shape = Shape::plane, .point = {5, 1, 0}, .direction = {0, 2, 0}}, 1);
+  EXPECT_NEAR(plane.find({0, 0.9, 0}, k_down, -1).penetration, 0.1, 1e-15);
+  EXPECT_NEAR(plane.find({0, 1.3, 0}, k_down, -1).penetration, -0.3, 1e-15);
+  EXPECT_EQ(plane.find({0, 0.9, 0}, k_up, -1).face, -1) << "the slave looks away";
+  EXPECT_EQ(plane.find({0, 2.1, 0}, k_down, -1).face, -1) << "beyond the search distance";
+
+  const AnalyticMaster ball(3, {.shape = Shape::sphere, .point = {1, 0, 0}, .radius = 2}, 1);
+  EXPECT_NEAR(ball.find({1, 1.5, 0}, k_down, -1).penetration, 0.5, 1e-15);
+  EXPECT_EQ(ball.find({1, 0, 0}, k_down, -1).face, -1) << "the centre has no closest point";
+
+  const AnalyticMaster bore(
+      3, {.shape = Shape::cylinder, .direction = {1, 0, 0}, .radius = 2, .hollow = true}, 1);
+  const Partner p = bore.find({7, 2.25, 0}, k_up, -1);
+  EXPECT_NEAR(p.penetration, 0.25, 1e-15);
+  EXPECT_NEAR(distance(p.normal, k_down), 0, 1e-15);
+}
+
+TEST(RigidSurfaces, MoveByTheirTables) {
+  RigidSurface surface{.shape = Shape::plane, .point = {0, 1, 0}, .direction = {0, 1, 0}};
+  surface.motion.translation[1] = Table({0, 2}, {0, 0.4});
+  surface.motion.angle = Table({0, 2}, {0, std::numbers::pi / 2});
+  surface.motion.centre = {0, 1, 0};
+  AnalyticMaster plane(2, surface, 1);
+  plane.place({}, 2);
+  // Turned by a quarter about (0, 1), its outside is −x.
+  const Partner p = plane.find({0.2, 3, 0}, {1, 0, 0}, -1);
+  EXPECT_NEAR(p.penetration, 0.2, 1e-15);
+  plane.place({}, 1);
+  EXPECT_NEAR(plane.find({0, 1.2, 0}, {1, -1, 0}, -1).penetration, 0, 1e-15);
+}
+
+// A cylinder that turns under a body at rest by one radian in 200 steps.
+TEST(RigidSurfaces, ThatTurnUnderABodyAtRestSlipByTheArc) {
+  const mesh::Mesh mesh = test::two_blocks(mesh::Shape::quad4);
+  RigidSurface roll{
+      .shape = Shape::cylinder, .point = {0.15, -0.4, 0}, .direction = {0, 0, 1}, .radius = 0.5};
+  roll.motion.centre = roll.point;
+  roll.motion.angle = Table({0, 1}, {0, 1});
+  SlidingKinematics k(mesh, AnalysisKind::plane_strain, ContactSurface(mesh, "upper_bottom"),
+                      std::make_unique<AnalyticMaster>(2, roll, 0.1), {});
+  const std::vector<double> u(mesh.x.size() * 2, 0.0);
+  std::vector<PointState> states(static_cast<std::size_t>(k.n_points()));
+  std::vector<double> way(states.size());
+  const int steps = 200;
+  for (int i = 0; i <= steps; ++i) {
+    k.set_time(static_cast<double>(i) / steps);
+    k.place(u);
+    for (Index p = 0; p < k.n_points(); ++p) {
+      PointState& s = states[static_cast<std::size_t>(p)];
+      if (i == 0) s.traction = {};
+      const PointMotion m = k.motion(p, s, Asked::motion);
+      ASSERT_TRUE(m.partnered);
+      // The roll runs towards −x at its top: the partner falls behind in its own frame, towards +x.
+      const Point pushed = times(m.push, m.slip);
+      way[static_cast<std::size_t>(p)] += norm(pushed);
+      EXPECT_GE(pushed[0], 0);
+      EXPECT_NEAR(norm(pushed), norm(m.slip), 1e-15);
+      if (i > 0) {
+        EXPECT_NEAR(norm(m.carried), 3, 1e-13);
+        EXPECT_NEAR(dot(m.carried, m.master_normal), 0, 1e-13);
+      }
+      s.anchored = true;
+      s.anchor = m.anchor;
+      s.master_normal = m.master_normal;
+      s.traction = scale(3, Point{m.master_normal[1], -m.master_normal[0], 0});
+    }
+  }
+  // Each step counts the projected chord, sin δ instead of δ = 1/200: short by δ²/6.
+  for (double w : way) EXPECT_NEAR(w, 0.5, 0.5 / (6.0 * steps * steps) * 1.01);
+}
+
+TEST(RigidSurfaces, ActOnTheSlaveAloneAndNeedNoNodesOfTheirOwnInTheGraph) {
+  const mesh::Mesh mesh = test::two_blocks(mesh::Shape::hex8);
+  SlidingKinematics k(
+      mesh, AnalysisKind::solid, ContactSurface(mesh, "upper_bottom"),
+      std::make_unique<AnalyticMaster>(
+          3, RigidSurface{.shape = Shape::plane, .point = {0, 0, 0.101}, .direction = {0, 0, 1}}, 0.1),
+      {});
+  EXPECT_EQ(k.coverage(), 1);
+  for (Index p = 0; p < k.n_points(); ++p) {
+    const PointMotion m = k.motion(p, {}, Asked::rates);
+    EXPECT_EQ(static_cast<int>(m.nodes.size()), m.n_slave);
+    EXPECT_NEAR(m.penetration, 1e-3, 1e-15);
+  }
+  struct Count : ContactKinematics::CliqueSink {
+    int cliques = 0;
+    void add(std::span<const Index> nodes) override { cliques += nodes.size() == 4; }
+  } count;
+  EXPECT_TRUE(k.graph_outdated());
+  k.add_to_graph(count);
+  EXPECT_EQ(count.cliques, ContactSurface(mesh, "upper_bottom").n_faces());
+  EXPECT_FALSE(k.graph_outdated());
+}
+
+}  // namespace
+}  // namespace solidus::contact
