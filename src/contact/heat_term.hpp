@@ -1,68 +1,86 @@
 /// Heat between the two surfaces as a term of the thermal phase; an internal part of ContactPair.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "algebra/contribution.hpp"
 #include "algebra/coupled_matrix.hpp"
+#include "contact/heat_transfer.hpp"
 #include "contact/integration.hpp"
 
 namespace solidus::contact {
 
-/// The heat that each node gives off, as the sum of exchanges between pairs of nodes i, j of a pairing,
+/// The heat that each node gives off. With the surfaces' temperatures Θ_s = Σ N_i Θ_i and Θ_m = Σ N_j Θ_j at
+/// a point, h at their mean:
 ///
-///   r_i += q_ij,  r_j −= q_ij,   q_ij = c_ij (Θ_i − Θ_j) + e_ij (Θ_i⁴ − Θ_j⁴),
+///   nodal form       r_i += w N_i [h (Θ_i − Θ_m) + e (Θ_i⁴ − Σ_j N_j Θ_j⁴)]    on the slave
+///                    r_j −= w N_j [h (Θ_s − Θ_j) + e (Σ_i N_i Θ_i⁴ − Θ_j⁴)]    on the master
+///   consistent form  r_a += w B_a [h Σ_b B_b Θ_b + e Σ_b B_b Θ_b⁴]             B: N of the slave, −N of the
+///   master
 ///
-/// so heat is conserved to the last bit but rounding. Nodal form: i on the slave, j on the master,
-/// c_ij = Σ_p w h N_i N_j, e_ij = Σ_p w σ_r F N_i N_j. For linear shapes all c_ij >= 0: with it a matrix of
-/// non-negative type stays one (6.3.1). Consistent form, ∫ h B_i (Θ_s − Θ_m) dA: the same with all pairs of
-/// nodes and c_ij = −Σ_p w h B_i B_j (B: N of the slave, −N of the master; ΣB = 0).
+/// e = σ_r F. Both are sums of exchanges between pairs of nodes, so heat is conserved to rounding. In the
+/// nodal form the pairs are one of the slave and one of the master, with h N_i N_j >= 0 for linear shapes:
+/// with it a matrix of non-negative type stays one (6.3.1).
 ///
-/// The tangent takes 2 e_ij (Θ_i³ + Θ_j³) for radiation, the mean of the two derivatives: it keeps the matrix
-/// symmetric and, being off by O(Θ_i − Θ_j), costs iterations, not accuracy.
+/// The tangent takes 2 e N_i N_j (Θ_i³ + Θ_j³) for radiation, the mean of the two derivatives: it keeps the
+/// matrix symmetric and, being off by O(Θ_i − Θ_j), costs iterations, not accuracy. A law that changes with
+/// the temperature has its exact tangent, which is not symmetric.
 class HeatTerm : public algebra::Contribution {
  public:
-  /// @param radiation_factor σ_r F [W/(m² K⁴)]
-  /// @param nodal            the nodal form
-  HeatTerm(const mesh::Mesh& mesh, const ContactPoints& points, double radiation_factor, bool nodal);
-  /// Freezes h [W/(m² K)], [point].
-  void set_conductance(std::span<const double> conductance);
-
+  /// Keeps references to the points and the law.
+  /// @param nodal  the nodal form
+  HeatTerm(const mesh::Mesh& mesh, const ContactPoints& points, const HeatTransferLaw& law, bool nodal);
+  /// Freezes the configuration: g_N [m] and t_N [Pa], [point].
+  void place(std::span<const double> penetration, std::span<const double> pressure);
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
+  /// Whether the tangent is symmetric.
+  bool symmetric() const { return !law_.of_temperature(); }
 
   void add_to_graph(algebra::NodeGraph& graph) const override;
   void bind(const algebra::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
   void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
   /// Adds ∂r/∂u through the conductance of every point, the gap being g_N = g_N⁰ + Σ_a B_a u_a·n.
-  /// @param slope  ∂h/∂g_N, [point] [W/(m³ K)]
-  /// @param slots  of the displacement's matrix, [pairing][a][b]
-  void add_gap_tangent(std::span<const double> slope, std::span<const double> temperature,
+  /// @param pressure_slope  ∂t_N/∂g_N, [point] [Pa/m]
+  /// @param slots           of the displacement's matrix, [pairing][a][b]
+  void add_gap_tangent(std::span<const double> pressure_slope, std::span<const double> temperature,
                        std::span<const algebra::BlockMatrix::Slot> slots,
                        algebra::CoupledMatrix& matrix) const;
   /// From slave to master through the pairings that this process counts [W].
   double counted_heat(std::span<const double> temperature) const;
+  /// h [W/(m² K)] of every point at these temperatures; without any, at room temperature.
+  std::vector<double> conductances(std::span<const double> temperature) const;
   std::size_t bytes() const {
     return slots_.capacity() * sizeof(algebra::BlockMatrix::Slot) +
-           (conduction_.capacity() + radiation_.capacity()) * sizeof(double);
+           (fixed_.capacity() + opening_.capacity() + pressure_.capacity()) * sizeof(double);
   }
 
  private:
-  /// Sums −w f B_i B_j over the points into [pairing][i][j], i < j.
-  template <class Factor>
-  void exchange(std::vector<double>& coefficients, Factor factor) const;
-  /// Calls f(pairing, i, j, entry) for all pairs i < j that exchange heat.
+  /// What a point of a pairing sees.
+  struct AtPoint {
+    std::size_t point = 0;
+    const double* b = nullptr;                   ///< B of every node
+    double slave = 0, master = 0;                ///< Θ_s, Θ_m
+    double slave_fourth = 0, master_fourth = 0;  ///< Σ N Θ⁴
+    Conductance h;
+  };
+  /// Calls f(at) for the points of a pairing.
   template <class Function>
-  void for_pairs(const Pairing& pairing, Function f) const;
+  void for_points(const Pairing& pairing, std::span<const double> temperature, Function f) const;
+  /// Adds `weight` × what every node gives off when h is `h` and e is `e`.
+  void add_heat(const Pairing& pairing, const AtPoint& at, std::span<const double> temperature,
+                double weight_h, double weight_e, std::span<double> heat) const;
 
   Index n_owned_;
   const ContactPoints& points_;
+  const HeatTransferLaw& law_;
   bool nodal_;
   bool active_ = true;
-  std::vector<std::size_t> first_entry_;  ///< of each pairing in the coefficients and slots: n × n
-  std::vector<double> conduction_;        ///< c_ij [W/K]
-  std::vector<double> radiation_;         ///< e_ij [W/K⁴]; empty without radiation
+  std::vector<double> opening_, pressure_;  ///< [point]
+  std::vector<double> fixed_;               ///< h of a law that does not change with the temperature, [point]
+  std::vector<std::size_t> first_slot_;     ///< of each pairing
   std::vector<algebra::BlockMatrix::Slot> slots_;
 };
 

@@ -64,12 +64,11 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
   mechanics_ = std::make_unique<MechanicsTerm>(mesh, components_, points_, law_, spec_.stabilisation);
   if (spec_.heat) {
     heat_law_.emplace(*spec_.heat);
-    heat_ = std::make_unique<HeatTerm>(mesh, points_, heat_law_->radiation_factor(), spec_.nodal_heat);
+    heat_ = std::make_unique<HeatTerm>(mesh, points_, *heat_law_, spec_.nodal_heat);
   }
   const auto n = static_cast<std::size_t>(points_.n_points());
   penetration_.resize(n);
   pressure_.resize(n);
-  conductance_.resize(n);
   update(std::vector<double>(mesh.x.size() * static_cast<std::size_t>(components_), 0.0));
 }
 
@@ -96,18 +95,14 @@ void ContactPair::update(std::span<const double> displacement) {
       const double g = mechanics_->penetration(pairing, p, displacement);
       penetration_[i] = g;
       pressure_[i] = active_ ? law_.update(g).pressure : 0;
-      if (heat_law_ && !active_)
-        conductance_[i] = 0;
-      else if (heat_law_) conductance_[i] = heat_law_->conductance(-g, pressure_[i]);
     }
-  if (heat_) heat_->set_conductance(conductance_);
+  if (heat_) heat_->place(penetration_, pressure_);
 }
 
 void ContactPair::add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const {
   if (!heat_ || !active_) return;
   std::vector<double> slope(pressure_.size());
-  for (std::size_t i = 0; i < slope.size(); ++i)
-    slope[i] = -heat_law_->slope(-penetration_[i], pressure_[i], law_.penalty);
+  for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = law_.update(penetration_[i]).tangent;
   heat_->add_gap_tangent(slope, temperature, mechanics_->slots(), matrix);
 }
 
@@ -151,7 +146,9 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
   return sums;
 }
 
-ContactNodalFields ContactPair::nodal_fields() const {
+ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature) const {
+  const std::vector<double> of_points =
+      heat_ ? heat_->conductances(temperature) : std::vector<double>(pressure_.size(), 0.0);
   const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
   std::vector<double> weight(n, 0), opening(n, 0), pressure(n, 0), conductance(n, 0);
   for (const Pairing& pairing : points_.pairings) {
@@ -166,7 +163,7 @@ ContactNodalFields ContactPair::nodal_fields() const {
         weight[node] += w;
         opening[node] -= w * penetration_[i];
         pressure[node] += w * pressure_[i];
-        conductance[node] += w * conductance_[i];
+        conductance[node] += w * of_points[i];
       }
       b += pairing.n_nodes();
     }
@@ -193,7 +190,7 @@ std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature)
 }
 
 std::size_t ContactPair::bytes() const {
-  return points_.bytes() + 3 * pressure_.capacity() * sizeof(double) + mechanics_->bytes() +
+  return points_.bytes() + 2 * pressure_.capacity() * sizeof(double) + mechanics_->bytes() +
          (heat_ ? heat_->bytes() : 0);
 }
 

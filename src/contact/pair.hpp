@@ -53,7 +53,7 @@ class ContactPair {
   /// The term of the mechanical phase: r = ∫ t_N δg_N dA of the displacement it is called with, whatever the
   /// state of update().
   algebra::Contribution& mechanics();
-  /// The term of the thermal phase, with the conductances of the last update(); null without a heat law.
+  /// The term of the thermal phase, at the gaps and pressures of the last update(); null without a heat law.
   algebra::Contribution* heat();
 
   /// Gap, pressure and conductance of every point for a displacement: [local node][component], ghosts up to
@@ -71,7 +71,8 @@ class ContactPair {
   /// @param share of the last update() in the mean
   double work(std::span<const double> old_penetration, double share) const;
   /// Averages at nodes, at the last update(). Local.
-  ContactNodalFields nodal_fields() const;
+  /// @param temperature  [local node] [K]; empty: a law of it is taken at room temperature
+  ContactNodalFields nodal_fields(std::span<const double> temperature = {}) const;
   /// Heat that leaves the slave's and enters the master's surface around every owned node [W]: positive where
   /// the node loses heat; the sum over all is zero. [owned node].
   std::vector<double> nodal_heat(std::span<const double> temperature) const;
@@ -83,7 +84,6 @@ class ContactPair {
   double coverage() const { return points_.paired_measure / points_.slave_measure; }
   std::span<const double> penetration() const { return penetration_; }  ///< [point] [m]
   std::span<const double> pressure() const { return pressure_; }        ///< [point] [Pa]
-  std::span<const double> conductance() const { return conductance_; }  ///< [point] [W/(m² K)]
   std::size_t bytes() const;
 
  private:
@@ -94,7 +94,7 @@ class ContactPair {
   ContactPoints points_;
   NormalPenalty law_;
   std::optional<HeatTransferLaw> heat_law_;
-  std::vector<double> penetration_, pressure_, conductance_;
+  std::vector<double> penetration_, pressure_;
   std::unique_ptr<MechanicsTerm> mechanics_;
   std::unique_ptr<HeatTerm> heat_;
 };

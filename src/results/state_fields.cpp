@@ -84,7 +84,7 @@ void StateFields::update(const coupling::State& state) {
     }
     update_elements();
   }
-  if (!phases_.contacts.empty()) update_contacts();
+  if (!phases_.contacts.empty()) update_contacts(state.heat.temperature);
 }
 
 void StateFields::update_elements() {
@@ -108,14 +108,14 @@ void StateFields::update_elements() {
 }
 
 // A node of several pairs shows its closest partner; nodes away from the surfaces show zero.
-void StateFields::update_contacts() {
+void StateFields::update_contacts(std::span<const double> temperature) {
   std::vector<double>&gap = *by_name_["gap"], &pressure = *by_name_["contact_pressure"],
   &conductance = *by_name_["conductance"];
   for (std::vector<double>* field : {&gap, &pressure, &conductance})
     std::fill(field->begin(), field->end(), 0.0);
   std::vector<char> seen(gap.size(), 0);
   for (const contact::ContactPair* pair : phases_.contacts) {
-    const contact::ContactNodalFields fields = pair->nodal_fields();
+    const contact::ContactNodalFields fields = pair->nodal_fields(temperature);
     for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
       const auto i = static_cast<std::size_t>(fields.nodes[k]);
       if (!std::isfinite(fields.opening[k]) || (seen[i] != 0 && gap[i] <= fields.opening[k])) continue;

@@ -37,7 +37,7 @@ class StateFields {
   };
   std::vector<double>& add(std::string name, std::string unit, int components, Place place);
   void update_elements();
-  void update_contacts();
+  void update_contacts(std::span<const double> temperature);
 
   const mesh::Mesh& mesh_;
   const coupling::Phases& phases_;

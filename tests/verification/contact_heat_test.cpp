@@ -145,7 +145,7 @@ struct ClosedForm {
     for (int i = 0; i < 200; ++i) {
       q = 0.5 * (low + high);
       mechanics(q);
-      const double h = law.conductance(opening, pressure);
+      const double h = law.at(opening, pressure, 0.5 * (k_hot + k_cold)).value;
       (q * (k_l1 / k_k1 + k_l2 / k_k2 + 1 / h) > k_hot - k_cold ? high : low) = q;
     }
   }

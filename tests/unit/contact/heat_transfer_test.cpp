@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "base/types.hpp"
 
@@ -31,6 +34,10 @@ HeatTransferSpec gas_spec(double exponent) {
   return s;
 }
 
+double at(const HeatTransferLaw& law, double opening, double pressure, double temperature = 300) {
+  return law.at(opening, pressure, temperature).value;
+}
+
 TEST(HeatTransfer, IsContinuousWhereContactIsLost) {
   std::vector<HeatTransferSpec> laws{monograph_spec(), gas_spec(0.95), gas_spec(0.5)};
   HeatTransferSpec pressure_with_table = monograph_spec();
@@ -42,33 +49,33 @@ TEST(HeatTransfer, IsContinuousWhereContactIsLost) {
   laws.push_back(constant);
   for (const HeatTransferSpec& spec : laws) {
     const HeatTransferLaw law(spec);
-    const double at_zero = law.conductance(0, 0);
+    const double at_zero = at(law, 0, 0);
     // 1 nm of gap changes the steepest table by 1e-4; pressures of 1e-6 Pa conduct (3e-15)^0.5 h_co.
-    EXPECT_NEAR(law.conductance(1e-9, 0), at_zero, 1e-4 * at_zero);
-    EXPECT_NEAR(law.conductance(1e-12, 0), at_zero, 1e-7 * at_zero);
-    EXPECT_NEAR(law.conductance(-1e-15, 1e-6), at_zero, 1e-6 * at_zero);
+    EXPECT_NEAR(at(law, 1e-9, 0), at_zero, 1e-4 * at_zero);
+    EXPECT_NEAR(at(law, 1e-12, 0), at_zero, 1e-7 * at_zero);
+    EXPECT_NEAR(at(law, -1e-15, 1e-6), at_zero, 1e-6 * at_zero);
   }
 }
 
 TEST(HeatTransfer, AcrossAGapFollowsTheTableAndStaysConstantBeyondIt) {
   const HeatTransferLaw law(monograph_spec());
-  EXPECT_DOUBLE_EQ(law.conductance(3e-5, 0), 0.5 * (2300 + 350));
-  EXPECT_DOUBLE_EQ(law.conductance(5e-4, 0), 300);
-  EXPECT_DOUBLE_EQ(law.conductance(-1e-6, 1e7), 2300) << "exponent zero: no influence of the pressure";
+  EXPECT_DOUBLE_EQ(at(law, 3e-5, 0), 0.5 * (2300 + 350));
+  EXPECT_DOUBLE_EQ(at(law, 5e-4, 0), 300);
+  EXPECT_DOUBLE_EQ(at(law, -1e-6, 1e7), 2300) << "exponent zero: no influence of the pressure";
 }
 
 TEST(HeatTransfer, ThroughGasStartsAtTheConductanceOfAGapOfZero) {
   HeatTransferSpec s = gas_spec(0);
   s.open_conductance.reset();  // h_o = h_co
   const HeatTransferLaw law(s);
-  EXPECT_DOUBLE_EQ(law.open(0), 5000);
-  EXPECT_DOUBLE_EQ(law.open(2e-4), 0.06 / (2e-4 + 0.06 / 5000)) << "3.50";
+  EXPECT_DOUBLE_EQ(at(law, 0, 0), 5000);
+  EXPECT_DOUBLE_EQ(at(law, 2e-4, 0), 0.06 / (2e-4 + 0.06 / 5000)) << "3.50";
 }
 
 TEST(HeatTransfer, OfTheClosedInterfaceAddsSpotsToGas) {
   const HeatTransferLaw law(gas_spec(0.95));
-  EXPECT_DOUBLE_EQ(law.open(1e-4), 0.06 / (1e-4 + 0.06 / 1200));
-  EXPECT_DOUBLE_EQ(law.closed(3e7), 1200 + 5000 * std::pow(0.1, 0.95));
+  EXPECT_DOUBLE_EQ(at(law, 1e-4, 0), 0.06 / (1e-4 + 0.06 / 1200));
+  EXPECT_DOUBLE_EQ(at(law, -1e-9, 3e7), 1200 + 5000 * std::pow(0.1, 0.95));
 }
 
 TEST(HeatTransfer, OfALawThatJumpsOrLacksDataIsRefused) {
@@ -85,6 +92,173 @@ TEST(HeatTransfer, OfALawThatJumpsOrLacksDataIsRefused) {
   HeatTransferSpec bright = monograph_spec();
   bright.slave_emissivity = 1.5;
   EXPECT_THROW(HeatTransferLaw{bright}, InputError);
+}
+
+HeatTransferSpec spots_spec() {
+  HeatTransferSpec s;
+  s.contact_law = HeatTransferSpec::ContactLaw::spots;
+  s.asperities.roughness = 2e-6;
+  s.asperities.slope = 0.2;
+  s.asperities.conductivity = Table({300, 900}, {40, 25});
+  s.asperities.hardness_coefficient = 6.27e9;
+  s.asperities.hardness_exponent = -0.229;
+  s.hardness = 2.5e9;
+  s.gap_law = GapLaw::gas;
+  s.gas_conductivity = 0.03;
+  s.temperature_jump = 1.3e-9;
+  return s;
+}
+
+// Tables of the gap and of the pressure at two temperatures, which meet at contact at both.
+HeatTransferSpec family_spec() {
+  HeatTransferSpec s;
+  s.contact_law = HeatTransferSpec::ContactLaw::table;
+  s.gap_law = GapLaw::table;
+  s.families = {{400, Table({0, 1e7, 1e8}, {1000, 2000, 4000}), Table({0, 5e-5, 1e-4}, {1000, 400, 300})},
+                {800, Table({0, 2e7, 1e8}, {1600, 3000, 5000}), Table({0, 4e-5, 1e-4}, {1600, 500, 450})}};
+  return s;
+}
+
+std::vector<HeatTransferSpec> smooth_laws() {
+  std::vector<HeatTransferSpec> laws{monograph_spec(), gas_spec(0.95), gas_spec(0.5), spots_spec(),
+                                     family_spec()};
+  for (HeatTransferSpec& law : laws) {
+    law.smooth = true;
+    law.transition_gap = 5e-6;
+    law.transition_pressure = 2e5;
+  }
+  return laws;
+}
+
+TEST(HeatTransfer, ThroughSpotsAndGasIsTheSumOfBothAndGoesOnAcrossTheGap) {
+  const HeatTransferSpec s = spots_spec();
+  const HeatTransferLaw law(s);
+  const double gas = 0.03 / (s.asperities.separation(1e7 / 2.5e9).value + 1.3e-9 * 500);
+  EXPECT_DOUBLE_EQ(at(law, -1e-9, 1e7, 500), s.asperities.spots(1e7, 500).value + gas) << "3.46";
+  const double lost = s.asperities.separation(0).value;
+  EXPECT_DOUBLE_EQ(at(law, 0, 0, 500), 0.03 / (lost + 1.3e-9 * 500));
+  EXPECT_DOUBLE_EQ(at(law, 1e-4, 0, 500), 0.03 / (1e-4 + lost + 1.3e-9 * 500)) << "3.50 with its h_o";
+  EXPECT_NEAR(at(law, 1e-12, 0, 500), at(law, -1e-15, 1e-3, 500), 1e-6 * at(law, 0, 0, 500));
+}
+
+TEST(HeatTransfer, OfTablesThatChangeWithTheTemperatureIsLinearBetweenThem) {
+  const HeatTransferLaw law(family_spec());
+  EXPECT_TRUE(law.of_temperature());
+  EXPECT_DOUBLE_EQ(at(law, -1e-9, 1e7, 400), 2000);
+  EXPECT_DOUBLE_EQ(at(law, -1e-9, 1e7, 800), 2300);
+  EXPECT_DOUBLE_EQ(at(law, -1e-9, 1e7, 500), 2075);
+  EXPECT_DOUBLE_EQ(at(law, 4e-5, 0, 300), 520) << "the coldest table below its temperature";
+  EXPECT_DOUBLE_EQ(at(law, 4e-5, 0, 2000), 500);
+}
+
+TEST(HeatTransfer, HasTheDerivativesThatDifferencesShow) {
+  std::vector<HeatTransferSpec> laws = smooth_laws();
+  for (const HeatTransferSpec& smooth : smooth_laws()) {
+    laws.push_back(smooth);
+    laws.back().smooth = false;
+    laws.back().transition_gap.reset();
+    laws.back().transition_pressure.reset();
+  }
+  for (const HeatTransferSpec& spec : laws) {
+    const HeatTransferLaw law(spec);
+    for (double temperature : {420.0, 610.0})
+      for (double x : {0.13, 0.6, 3.0, 7.3}) {
+        const double p = x * 2e5, g = x * 5e-6, dp = 1e-4 * p, dg = 1e-4 * g, dt = 0.1;
+        const auto close = [](double derivative, double difference, double size) {
+          // Central differences of steps of 1e-4: 1e-8 of the value, and rounding of 1e-12.
+          EXPECT_NEAR(derivative, difference, 1e-6 * std::abs(difference) + 1e-11 * size);
+        };
+        const Conductance pressed = law.at(-1e-9, p, temperature), parted = law.at(g, 0, temperature);
+        close(pressed.by_pressure,
+              (at(law, -1e-9, p + dp, temperature) - at(law, -1e-9, p - dp, temperature)) / (2 * dp),
+              pressed.value / dp);
+        close(parted.by_opening,
+              (at(law, g + dg, 0, temperature) - at(law, g - dg, 0, temperature)) / (2 * dg),
+              parted.value / dg);
+        close(pressed.by_temperature,
+              (at(law, -1e-9, p, temperature + dt) - at(law, -1e-9, p, temperature - dt)) / (2 * dt),
+              pressed.value / dt);
+        close(parted.by_temperature,
+              (at(law, g, 0, temperature + dt) - at(law, g, 0, temperature - dt)) / (2 * dt),
+              parted.value / dt);
+      }
+  }
+}
+
+TEST(HeatTransfer, ThatIsSmoothHasASlopeThatDoesNotJumpFromContactToGap) {
+  for (const HeatTransferSpec& spec : smooth_laws()) {
+    const HeatTransferLaw law(spec);
+    HeatTransferSpec plain = spec;
+    plain.smooth = false;
+    plain.transition_gap.reset();
+    plain.transition_pressure.reset();
+    const HeatTransferLaw rough(plain);
+    const double penalty = 1e13, h = at(law, 0, 0, 500);
+    // Of the gap, through t_N = −ε_N g, on both sides of contact and of both ends of the transitions.
+    const auto slope = [&](double g) {
+      const Conductance c = law.at(g, std::max(0.0, -penalty * g), 500);
+      return c.by_opening - penalty * c.by_pressure;
+    };
+    // Steps of 1e-6 of the transitions change slopes by about as much of h over their widths.
+    const double gap = *spec.transition_gap, pressed = -*spec.transition_pressure / penalty;
+    EXPECT_NEAR(slope(-1e-6 * -pressed), 0, 1e-4 * h / -pressed);
+    EXPECT_NEAR(slope(1e-6 * gap), 0, 1e-4 * h / gap);
+    EXPECT_NEAR(slope(gap * (1 - 1e-6)), slope(gap * (1 + 1e-6)), 1e-4 * h / gap);
+    EXPECT_NEAR(slope(pressed * (1 - 1e-6)), slope(pressed * (1 + 1e-6)), 1e-4 * h / -pressed);
+    // Beyond the transitions it is the law itself.
+    EXPECT_EQ(at(law, 1.01 * gap, 0, 500), at(rough, 1.01 * gap, 0, 500));
+    EXPECT_EQ(at(law, -1e-9, 1.01 * *spec.transition_pressure, 500),
+              at(rough, -1e-9, 1.01 * *spec.transition_pressure, 500));
+    EXPECT_DOUBLE_EQ(h, at(rough, 0, 0, 500));
+  }
+}
+
+TEST(HeatTransfer, ThroughBothSidesAddsTheirResistances) {
+  const OneSided sides = HeatTransferLaw::one_sided(2300);
+  EXPECT_DOUBLE_EQ(1 / sides.slave + 1 / sides.master, 1 / 2300.0);
+}
+
+std::string refusal(const HeatTransferSpec& spec) {
+  try {
+    const HeatTransferLaw law(spec);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(HeatTransfer, SaysWhatALawLacks) {
+  HeatTransferSpec s = spots_spec();
+  s.asperities.slope = 0;
+  EXPECT_NE(refusal(s).find("slope of the asperities"), std::string::npos);
+  s = spots_spec();
+  s.hardness.reset();
+  EXPECT_NE(refusal(s).find("the gas between spots needs the hardness"), std::string::npos);
+  s = spots_spec();
+  s.open_conductance = 1000;
+  EXPECT_NE(refusal(s).find("follows from their roughness"), std::string::npos);
+  s = family_spec();
+  s.families[1].gap_table = Table({0, 1e-4}, {1500, 300});
+  EXPECT_NE(refusal(s).find("at 800 K"), std::string::npos) << refusal(s);
+  s = family_spec();
+  std::swap(s.families[0], s.families[1]);
+  EXPECT_NE(refusal(s).find("do not increase"), std::string::npos);
+  s = family_spec();
+  s.gap_table = Table(1000.0);
+  EXPECT_NE(refusal(s).find("given both"), std::string::npos);
+  s = family_spec();
+  s.gap_law = GapLaw::constant;
+  EXPECT_NE(refusal(s).find("which needs gap_law"), std::string::npos);
+  s = monograph_spec();
+  s.gap_table.reset();
+  EXPECT_NE(refusal(s).find("needs 'gap_conductance'"), std::string::npos);
+  s = monograph_spec();
+  s.gap_table = Table({0, 1e-6, 2e-6}, {2300, 100, 50});
+  s.smooth = true;
+  s.transition_gap = 1.5e-6;
+  EXPECT_EQ(refusal(s), "") << "falls all the way";
+  s.gap_table = Table({0, 1e-6, 2e-6}, {2300, 100, 500});
+  EXPECT_NE(refusal(s).find("bends too much"), std::string::npos);
 }
 
 TEST(HeatTransfer, RadiatesBetweenParallelGreySurfaces) {
