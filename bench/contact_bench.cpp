@@ -85,6 +85,18 @@ void place(benchmark::State& state, bool smoothing) {
   state.SetItemsProcessed(state.iterations() * kinematics.n_points());
 }
 
+// The tree of as many faces, as it is built when the surface has moved beyond the margin.
+void build_tree(benchmark::State& state) {
+  const Sheets sheets(static_cast<int>(std::lround(std::sqrt(static_cast<double>(state.range(0))))));
+  const std::vector<Face> faces = reference_faces(ContactSurface(sheets.mesh, "slave"));
+  for (auto _ : state) {
+    const SlidingSearch search(faces, sheets.size);
+    benchmark::DoNotOptimize(&search);
+  }
+  state.SetComplexityN(state.range(0));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(faces.size()));
+}
+
 void rates(benchmark::State& state, bool smoothing) {
   Sheets sheets(100);
   const SlidingKinematics kinematics = sheets.kinematics(smoothing);
@@ -112,6 +124,11 @@ BENCHMARK_CAPTURE(place, closest_point, false)
     ->Unit(benchmark::kMillisecond)
     ->Complexity(benchmark::oNLogN);
 BENCHMARK_CAPTURE(place, averaged_normals, true)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oNLogN);
+BENCHMARK(build_tree)
     ->RangeMultiplier(10)
     ->Range(1000, 1000000)
     ->Unit(benchmark::kMillisecond)
