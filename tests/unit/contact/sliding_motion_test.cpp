@@ -159,6 +159,39 @@ TEST(SlidingMotion, OnAFlatMasterCrossesFacesWithoutAJump) {
   }
 }
 
+TEST(SlidingMotion, CrossesEdgesAndVerticesOfAFlatMasterInThreeDimensionsWithoutAJump) {
+  for (mesh::Shape shape : {mesh::Shape::tet4, mesh::Shape::tet10, mesh::Shape::hex8, mesh::Shape::hex20})
+    for (bool smoothing : {false, true}) {
+      SCOPED_TRACE(mesh::name(shape));
+      const mesh::Mesh mesh = test::two_blocks(shape);
+      const Sliding sliding(mesh, smoothing, {.rule = IntegrationRule::nodal});
+      PointState old;
+      old.anchored = true;
+      old.master_normal = {0, 0, 1};
+      old.traction = {3, -4, 0};
+      int met = 0;
+      // Nodes of the slave pass right over nodes and edges of the master: at 0.1, 0.0667 from each other.
+      for (int i = 0; i <= 30; ++i) {
+        sliding->place(test::nodal_field(mesh, 3, [&](const Point&, bool upper) {
+          const double s = upper ? i / 30.0 : 0;
+          return std::vector{-0.1 * s, -0.2 / 3 * s, upper ? -1e-3 : 0.0};
+        }));
+        for (Index p = 0; p < sliding->n_points(); ++p) {
+          const Point x = sliding->particle(p).position;
+          const bool inside = x[0] - 0.1 * i / 30 >= 0 && x[1] - 0.2 / 3 * i / 30 >= 0;
+          const PointMotion m = sliding->motion(p, old, Asked::motion);
+          EXPECT_TRUE(m.partnered || !inside) << x[0] << " " << x[1] << " " << i;
+          if (!m.partnered) continue;
+          ++met;
+          EXPECT_NEAR(m.penetration, 1e-3, 1e-14);
+          const Point force = add_scaled(times(m.push, m.carried), 7, m.normal);
+          EXPECT_LT(distance(force, {3, -4, -7}), 1e-11);
+        }
+      }
+      EXPECT_GT(met, 100);
+    }
+}
+
 // A convex bend of the lower surface at x = 0.12.
 mesh::Mesh ridge(double slope) {
   mesh::Mesh mesh = test::two_blocks(mesh::Shape::quad4);
