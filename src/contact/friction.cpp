@@ -50,65 +50,70 @@ FrictionLaw::FrictionLaw(const FrictionSpec& spec, double tangential_penalty, do
   entropy_changes_ = stores() && coefficient_.hardening_depends_on_temperature();
 }
 
+/// Φ > 0 and μ > 0 at `low`; Φ < 0 or μ <= 0 at `high`: what is found between is the end of slip, or the slip
+/// at which the coefficient vanishes.
+template <class Radius>
+FrictionLaw::Slip FrictionLaw::find_slip(const FrictionInput& in, Radius radius, double first) const {
+  double low = 0, high = in.trial / penalty_, step = high, older_step = high;
+  bool vanishes = false;
+  Slip s{FrictionStatus::not_converged, first, {}, {}};
+  for (int i = 0; i < k_max_iterations; ++i) {
+    s.at = growth(in, s.gamma);
+    s.mu = radius(s.at.zeta);
+    const double value = in.trial - penalty_ * s.gamma - s.mu.value * in.pressure;
+    const double reach = s.at.zeta + s.at.trial * in.trial;  // what ζ is made of
+    const double terms = in.trial + in.pressure * (std::abs(s.mu.value) + std::abs(s.mu.zeta) * reach);
+    if (s.mu.value > 0 && std::isfinite(value) && std::abs(value) <= k_rounding * terms) {
+      s.status = FrictionStatus::converged;
+      return s;
+    }
+    if (value > 0 && s.mu.value > 0) {
+      low = s.gamma;
+    } else {
+      high = s.gamma;
+      vanishes = !(s.mu.value > 0);
+    }
+    if (high - low <= std::numeric_limits<double>::epsilon() * high) {
+      s.status = vanishes ? FrictionStatus::coefficient_vanishes : FrictionStatus::converged;
+      return s;
+    }
+    // Newton's method, unless it leaves the bracket or does not halve its step in two iterations.
+    double next = s.gamma + value / (penalty_ + s.mu.zeta * in.pressure * s.at.gamma);
+    if (!(next > low && next < high) || std::abs(next - s.gamma) > 0.5 * older_step)
+      next = 0.5 * (low + high);
+    older_step = step;
+    step = std::abs(next - s.gamma);
+    s.gamma = next;
+  }
+  return s;
+}
+
 template <class Radius>
 FrictionResponse FrictionLaw::solve(const FrictionInput& in, Radius radius) const {
   FrictionResponse r;
   r.traction = in.trial;
   r.internal_variable = in.internal_variable;
   r.temperature = in.temperature;
-  FrictionCoefficient::Value mu = radius(in.internal_variable);
-  r.coefficient = mu.value;
-  if (!(mu.value > 0)) {
+  r.coefficient = radius(in.internal_variable).value;
+  if (!(r.coefficient > 0)) {
     r.status = FrictionStatus::coefficient_vanishes;
     return r;
   }
-  const double overstress = in.trial - mu.value * in.pressure;
+  const double overstress = in.trial - r.coefficient * in.pressure;
   if (overstress <= 0) return r;
 
-  // Φ > 0 and μ > 0 at `low`; Φ < 0 or μ <= 0 at `high`: what is found between is the end of slip, or the
-  // slip at which the coefficient vanishes.
-  double low = 0, high = in.trial / penalty_, gamma = std::min(overstress / penalty_, high);
-  double step = high, older_step = high;
-  bool vanishes = false;
-  Growth at{};
-  r.status = FrictionStatus::not_converged;
-  for (int i = 0; i < k_max_iterations; ++i) {
-    at = growth(in, gamma);
-    mu = radius(at.zeta);
-    const double value = in.trial - penalty_ * gamma - mu.value * in.pressure;
-    const double terms =
-        in.trial + in.pressure * (std::abs(mu.value) + std::abs(mu.zeta) * (at.zeta + at.trial * in.trial));
-    if (mu.value > 0 && std::isfinite(value) && std::abs(value) <= k_rounding * terms) {
-      r.status = FrictionStatus::converged;
-      break;
-    }
-    if (value > 0 && mu.value > 0) {
-      low = gamma;
-    } else {
-      high = gamma;
-      vanishes = !(mu.value > 0);
-    }
-    if (high - low <= std::numeric_limits<double>::epsilon() * high) {
-      r.status = vanishes ? FrictionStatus::coefficient_vanishes : FrictionStatus::converged;
-      break;
-    }
-    // Newton's method, unless it leaves the bracket or does not halve its step in two iterations.
-    double next = gamma + value / (penalty_ + mu.zeta * in.pressure * at.gamma);
-    if (!(next > low && next < high) || std::abs(next - gamma) > 0.5 * older_step) next = 0.5 * (low + high);
-    older_step = step;
-    step = std::abs(next - gamma);
-    gamma = next;
-  }
-  const double hardening = mu.zeta * in.pressure, stiffness = penalty_ + hardening * at.gamma;
+  const Slip s = find_slip(in, radius, overstress / penalty_);
+  const double hardening = s.mu.zeta * in.pressure;
+  r.status = s.status;
   r.sticks = false;
-  r.stiffness = stiffness;
-  r.slip = gamma;
+  r.slip = s.gamma;
+  r.internal_variable = s.at.zeta;
+  r.stiffness = penalty_ + hardening * s.at.gamma;
   // ‖T‖ from the side that rounding of γ changes less.
-  r.traction = hardening * at.gamma > penalty_ ? in.trial - penalty_ * gamma : mu.value * in.pressure;
-  r.coefficient = in.pressure > 0 ? r.traction / in.pressure : mu.value;
-  r.internal_variable = at.zeta;
-  r.trial_slope = hardening * (at.gamma + penalty_ * at.trial) / stiffness;
-  r.pressure_slope = penalty_ * (mu.value + hardening * at.pressure) / stiffness;
+  r.traction = hardening * s.at.gamma > penalty_ ? in.trial - penalty_ * s.gamma : s.mu.value * in.pressure;
+  r.coefficient = in.pressure > 0 ? r.traction / in.pressure : s.mu.value;
+  r.trial_slope = hardening * (s.at.gamma + penalty_ * s.at.trial) / r.stiffness;
+  r.pressure_slope = penalty_ * (s.mu.value + hardening * s.at.pressure) / r.stiffness;
   return r;
 }
 

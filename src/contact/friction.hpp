@@ -97,9 +97,19 @@ class FrictionLaw {
     double zeta, gamma, trial, pressure;
   };
   Growth growth(const FrictionInput& in, double gamma) const;
+  /// The end of slip.
+  struct Slip {
+    FrictionStatus status;
+    double gamma;
+    Growth at;
+    FrictionCoefficient::Value mu;  ///< μ and its total derivative in ζ
+  };
   /// @param radius ζ_c -> μ and its total derivative
   template <class Radius>
   FrictionResponse solve(const FrictionInput& in, Radius radius) const;
+  /// @param first  the first iterate, in (0, ‖T^trial‖/ε_T]
+  template <class Radius>
+  Slip find_slip(const FrictionInput& in, Radius radius, double first) const;
   bool unique(const FrictionInput& in, const FrictionResponse& r) const;
   bool unique_between(const FrictionInput& in, const FrictionResponse& r, double from, double to,
                       int halvings) const;
