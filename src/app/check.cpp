@@ -1,5 +1,6 @@
 /// The verb `check`: everything but solving.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/verbs.hpp"
 #include "base/units.hpp"
@@ -34,6 +35,19 @@ const char* text(model::Physics physics) {
   return "";
 }
 
+/// Stages as they come first, and how often each cycle comes round.
+std::string stage_lines(const model::CaseSpec& spec) {
+  std::string out;
+  for (const model::StageRun& run : model::stage_runs(spec))
+    if (run.cycle <= 1)
+      out += fmt::format("\n  stage       {}: {:.6g} s to {:.6g} s in steps of {:.6g} s", run.stage->name,
+                         run.start, run.end, model::first_step(*run.stage, spec.time));
+  for (const model::CycleSpec& cycle : spec.cycles)
+    out += fmt::format("\n  cycle       {}: {} times {}", cycle.name, cycle.repeat,
+                       fmt::join(cycle.stages, ", "));
+  return out;
+}
+
 }  // namespace
 
 ExitCode check(const CaseArguments& arguments) {
@@ -58,11 +72,7 @@ ExitCode check(const CaseArguments& arguments) {
     out += fmt::format("\n  contact     {}: {} on {}", k.name, k.slave, k.master);
   for (const model::CouplingEstimate& estimate : checked.couplings)
     out += "\n  coupling    " + model::text(estimate);
-  for (const model::StageRun& run : model::stage_runs(spec)) {
-    const std::string cycle = run.cycle > 0 ? fmt::format(" {}", run.cycle) : "";
-    out += fmt::format("\n  stage       {}: {:.6g} s to {:.6g} s in steps of {:.6g} s",
-                       run.stage->name + cycle, run.start, run.end, model::first_step(*run.stage, spec.time));
-  }
+  out += stage_lines(spec);
   if (!spec.stages.empty())
     out += fmt::format("\n  time        {:.6g} s", *spec.time.end);
   else
