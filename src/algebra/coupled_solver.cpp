@@ -37,9 +37,8 @@ CoupledSolver::~CoupledSolver() = default;
 
 LinearReport CoupledSolver::solve(CoupledMatrix& a, std::span<const double> force,
                                   std::span<const double> heat, FieldWeights weights, std::span<double> u,
-                                  std::span<double> temperature) {
-  // A preconditioner that stays must not see the rows change their scale.
-  if (direct_ || solver_.stale()) weights_ = weights;
+                                  std::span<double> temperature, double forcing) {
+  weights_ = in_use(weights);
   Mat matrix = a.matrix(weights_.force, weights_.heat);
   if (direct_) {
     const MatReuse reuse = petsc_->assembled ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
@@ -54,10 +53,15 @@ LinearReport CoupledSolver::solve(CoupledMatrix& a, std::span<const double> forc
   std::transform(force.begin(), force.end(), right_.begin(), [&](double r) { return weights_.force * r; });
   std::transform(heat.begin(), heat.end(), right_.begin() + middle,
                  [&](double r) { return weights_.heat * r; });
-  const LinearReport report = solver_.solve(matrix, right_, solution_);
+  const LinearReport report = solver_.solve(matrix, right_, solution_, forcing);
   std::copy(solution_.begin(), solution_.begin() + middle, u.begin());
   std::copy(solution_.begin() + middle, solution_.end(), temperature.begin());
   return report;
+}
+
+FieldWeights CoupledSolver::in_use(FieldWeights weights) const {
+  // A preconditioner that stays must not see the rows change their scale.
+  return direct_ || solver_.stale() ? weights : weights_;
 }
 
 void CoupledSolver::forget() {

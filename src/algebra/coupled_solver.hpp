@@ -31,8 +31,12 @@ class CoupledSolver {
   /// Solves A {u, Θ} = {force, heat} on owned degrees of freedom; right-hand sides are zero where prescribed
   /// and summed where tied. Collective.
   /// @param weights  with which an iterative solver measures its residual; ignored by the direct one
+  /// @param forcing  as LinearSolver::solve()
   LinearReport solve(CoupledMatrix& a, std::span<const double> force, std::span<const double> heat,
-                     FieldWeights weights, std::span<double> u, std::span<double> temperature);
+                     FieldWeights weights, std::span<double> u, std::span<double> temperature,
+                     double forcing = 0);
+  /// Those that the next solve uses where it is given these: a preconditioner that stays keeps its own.
+  FieldWeights in_use(FieldWeights weights) const;
   /// As LinearSolver::forget().
   void forget();
   double seconds() const;

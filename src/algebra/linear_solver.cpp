@@ -19,6 +19,9 @@ constexpr double k_refine_above =
 constexpr double k_refuse_above = 1e-2;     ///< after refinement: Newton cannot work with such a direction
 constexpr int k_field_split_restart = 100;  ///< directions that FGMRES keeps
 constexpr int k_workspace_attempts = 3;     ///< MUMPS runs with more workspace each time
+/// A hierarchy is made anew, which costs as much as twenty iterations or more, where a solve takes half as
+/// many again as the first one with it and more than a few.
+constexpr double k_slower = 0.5, k_few = 5;
 
 SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components) {
   if (options.kind != SolverKind::automatic) return options.kind;
@@ -45,7 +48,8 @@ struct LinearSolver::Implementation {
   NullSpaceHandle near_null_space;
   SolverKind kind = SolverKind::automatic;  ///< as asked for; what runs may differ through PETSc options
   bool reuse_hierarchy = false;  ///< the preconditioner is set up again only when iterations have grown
-  int first_iterations = 0;      ///< with the hierarchy just set up
+  double first_rate = 0;         ///< iterations per digit with the hierarchy just set up
+  double tightest = 0;           ///< relative tolerance
   bool stale = true;             ///< set up again at the next solve
   int workspace = 35;            ///< MUMPS ICNTL(14), per cent
   Mat matrix = nullptr;          ///< whose operators the solver holds; owned by the BlockMatrix
@@ -55,7 +59,9 @@ struct LinearSolver::Implementation {
   void create(Mat a);
   void attach_modes(Mat a) const;
   bool is_direct() const;
+  void set_tolerance(double forcing);
   KSPConvergedReason run(Vec rhs, Vec solution, int& iterations);
+  void judge_hierarchy(Vec rhs, int n, bool failed);
   bool refine(LinearReport& report);
   void grow_workspace();
 };
@@ -128,6 +134,7 @@ void LinearSolver::Implementation::create(Mat a) {
   }
   if (!options.symmetric && kind != SolverKind::direct) check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
   check(KSPSetFromOptions(ksp), "KSPSetFromOptions");
+  check(KSPGetTolerances(ksp, &tightest, nullptr, nullptr, nullptr), "KSPGetTolerances");
   check(MatCreateVecs(a, x.out(), b.out()), "MatCreateVecs");
   check(VecDuplicate(b, residual.out()), "VecDuplicate");
   check(VecDuplicate(x, correction.out()), "VecDuplicate");
@@ -138,6 +145,11 @@ bool LinearSolver::Implementation::is_direct() const {
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<KSP>(ksp)), KSPPREONLY, &preonly),
         "PetscObjectTypeCompare");
   return preonly == PETSC_TRUE;
+}
+
+void LinearSolver::Implementation::set_tolerance(double forcing) {
+  check(KSPSetTolerances(ksp, std::max(forcing, tightest), PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT),
+        "KSPSetTolerances");
 }
 
 KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int& iterations) {
@@ -156,11 +168,20 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
   iterations += static_cast<int>(n);
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   check(KSPGetConvergedReason(ksp, &reason), "KSPGetConvergedReason");
-  if (reuse_hierarchy) {
-    if (stale) first_iterations = static_cast<int>(n);
-    stale = reason < 0 || static_cast<int>(n) > first_iterations + std::max(first_iterations / 2, 2);
-  }
+  if (reuse_hierarchy) judge_hierarchy(rhs, static_cast<int>(n), reason < 0);
   return reason;
+}
+
+/// Decides whether the hierarchy serves again. Tolerances differ from solve to solve: what counts are
+/// iterations per digit.
+void LinearSolver::Implementation::judge_hierarchy(Vec rhs, int n, bool failed) {
+  double start = 0, end = 0;
+  check(VecNorm(rhs, NORM_2, &start), "VecNorm");
+  check(KSPGetResidualNorm(ksp, &end), "KSPGetResidualNorm");
+  const double digits = end > 0 && end < start ? std::log10(start / end) : 0;
+  if (stale) first_rate = digits > 0 ? n / digits : 0;
+  const double expected = first_rate * digits;
+  stale = failed || n > expected + std::max(k_slower * expected, k_few);
 }
 
 /// Checks a direct solution against its residual, improves it once if needed, refuses it if that does not
@@ -215,11 +236,12 @@ void LinearSolver::use_rigid_body_modes(const mesh::Mesh& mesh, int components) 
         "MatNullSpaceCreateRigidBody");
 }
 
-LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x) {
-  return solve(a.matrix(), b, x);
+LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                                 double forcing) {
+  return solve(a.matrix(), b, x, forcing);
 }
 
-LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::span<double> x) {
+LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::span<double> x, double forcing) {
   Implementation& my = *implementation_;
   if (!my.ksp) my.create(matrix);
   if (my.matrix != matrix) {
@@ -231,11 +253,12 @@ LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::spa
     my.stale = true;
   }
   check(KSPSetOperators(my.ksp, matrix, matrix), "KSPSetOperators");
-  return solve_again(b, x);
+  return solve_again(b, x, forcing);
 }
 
-LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<double> x) {
+LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<double> x, double forcing) {
   Implementation& my = *implementation_;
+  my.set_tolerance(forcing);
   assert(my.matrix != nullptr);
   double* values = nullptr;
   check(VecGetArrayWrite(my.b, &values), "VecGetArrayWrite");

@@ -26,7 +26,7 @@ struct LinearSolverOptions {
   SolverKind kind = SolverKind::automatic;
   bool symmetric = true;
   bool transient_heat = false;        ///< diagonally strong: a cheap preconditioner serves
-  double relative_tolerance = 1e-10;  ///< iterative solvers only
+  double relative_tolerance = 1e-10;  ///< the tightest; iterative solvers only
   int max_iterations = 2000;
 };
 
@@ -44,12 +44,14 @@ class LinearSolver {
   void use_rigid_body_modes(const mesh::Mesh& mesh, int components);
   /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until
   /// iterations have grown by half) between calls. Collective.
-  LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x);
+  /// @param forcing  ‖b − A x‖/‖b‖ that will do (forcing.hpp); where it is below the relative tolerance, that
+  ///                 one holds. Iterative solvers only
+  LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x, double forcing = 0);
   /// The same of a PETSc matrix; the rigid-body modes are those of its first block where it is a MATNEST.
-  LinearReport solve(Mat matrix, std::span<const double> b, std::span<double> x);
+  LinearReport solve(Mat matrix, std::span<const double> b, std::span<double> x, double forcing = 0);
   /// Solves with the matrix of the last solve(), as it was then: its factorisation or hierarchy serves again.
   /// Collective.
-  LinearReport solve_again(std::span<const double> b, std::span<double> x);
+  LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing = 0);
   /// The next solve sets the preconditioner up.
   bool stale() const;
   /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/forcing.hpp"
+
 namespace solidus::algebra {
 
 namespace {
@@ -42,12 +44,11 @@ class Iteration {
  private:
   void evaluate();
   void constrain();
-  bool converged() const {
-    return norm_ <= options_.tolerance * reference_ || norm_ <= options_.absolute_tolerance;
-  }
+  /// The norm that ends the iteration.
+  double goal() const { return std::max(options_.tolerance * reference_, options_.absolute_tolerance); }
+  bool converged() const { return norm_ <= goal(); }
   bool chord_converges(double norm_before) const {
-    return norm_ * (k_chord_residual * norm_ / norm_before) <=
-           std::max(options_.tolerance * reference_, options_.absolute_tolerance);
+    return norm_ * (k_chord_residual * norm_ / norm_before) <= goal();
   }
   double measured() const { return reference_ > 0 ? norm_ / reference_ : norm_; }
   /// x = start + alpha × step and the residual there; returns step · r.
@@ -135,6 +136,7 @@ NewtonReport Iteration::run() {
   ties_ = &tangent->ties();
   constrain();
   bool chord = false;
+  Forcing forcing(options_.inexact);
   while (true) {
     report.residuals.push_back(measured());
     if (!std::isfinite(norm_)) {
@@ -153,7 +155,9 @@ NewtonReport Iteration::run() {
     if (!tangent && !chord) tangent = &system_.tangent();
     for (double& value : r_) value = -value;
     const auto step = std::span(step_).first(n_);
-    const LinearReport linear = chord ? solver_.solve_again(r_, step) : solver_.solve(*tangent, r_, step);
+    const double eta = forcing.next(norm_, goal() / norm_);
+    const LinearReport linear =
+        chord ? solver_.solve_again(r_, step, eta) : solver_.solve(*tangent, r_, step, eta);
     for (double& value : r_) value = -value;
     tangent = nullptr;
     ++report.iterations;

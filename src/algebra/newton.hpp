@@ -16,7 +16,8 @@ struct NewtonOptions {
   double absolute_tolerance = 0;  ///< or ‖r‖ <= this, in the units of the residual
   int max_iterations = 25;
   bool line_search = true;
-  bool chords = true;              ///< steps with the tangent before, where they will do
+  bool chords = true;   ///< steps with the tangent before, where they will do
+  bool inexact = true;  ///< iterative solvers go only as far as an iteration gains by (forcing.hpp)
   double line_search_slope = 0.8;  ///< accept α when |d·r(x+αd)| <= this × |d·r(x)|
 };
 

@@ -16,7 +16,8 @@ constexpr double k_stalls = 0.1;         ///< a residual above this share of the
 constexpr int k_full_steps = 15;         ///< before steps are halved for more than their numbers' sake
 constexpr std::size_t k_remembered = 5;  ///< residuals that a step may rise to
 constexpr int k_halvings = 8;
-constexpr double k_far_off = 1e6;  ///< a residual that rises so much even after halving ends the iteration
+constexpr double k_loosest = 1e-2;  ///< forcing term: assembly costs as much as ten linear iterations
+constexpr double k_far_off = 1e6;   ///< a residual that rises so much even after halving ends the iteration
 
 }  // namespace
 
@@ -68,10 +69,13 @@ CoupledResidual CoupledNewton::present() const {
   return {ratio(norm_, reference_), ratio(thermal_->unbalanced(), thermal_->moved())};
 }
 
-bool CoupledNewton::converged() const {
+double CoupledNewton::goal() const {
   const algebra::NewtonOptions& options = mechanics_.options().newton;
-  const double noise = std::max(options.absolute_tolerance, mechanics_.round_off());
-  return (norm_ <= options.tolerance * reference_ || norm_ <= noise) && thermal_->converged();
+  return std::max({options.tolerance * reference_, options.absolute_tolerance, mechanics_.round_off()});
+}
+
+bool CoupledNewton::converged() const {
+  return norm_ <= goal() && thermal_->converged();
 }
 
 algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState& old,
@@ -101,13 +105,25 @@ algebra::FieldWeights CoupledNewton::weights() {
   return {of_force > 0 ? 1.0 / of_force : 1.0, of_heat > 0 ? 1.0 / of_heat : 1.0};
 }
 
-bool CoupledNewton::find_direction(CoupledReport& report, std::string& failure) {
+double CoupledNewton::forcing_term(algebra::Forcing& forcing, const algebra::FieldWeights& weights) const {
+  const algebra::FieldWeights in_use = solver_.in_use(weights);
+  // In the norm of the linear solver.
+  const double force = in_use.force * norm_, heat = in_use.heat / weights.heat;
+  const auto left = [](double norm, double goal) { return goal > 0 ? norm / goal : 1.0; };
+  const double force_left = left(norm_, goal()),
+               heat_left = left(thermal_->unbalanced(), thermal_->tolerance() * thermal_->moved());
+  return forcing.next(std::max(force_left, heat_left),
+                      std::min(force / force_left, heat / heat_left) / std::hypot(force, heat));
+}
+
+bool CoupledNewton::find_direction(algebra::Forcing& forcing, CoupledReport& report, std::string& failure) {
   const algebra::FieldWeights scales = weights();
+  const double eta = forcing_term(forcing, scales);
   for (double& r : force_) r = -r;
   const auto n_u = force_.size(), n_t = further_.size();
   const std::span<double> owned_u = std::span(step_u_).first(n_u);
   const algebra::LinearReport linear = solver_.solve(matrix_, force_, thermal_->right_hand_side(), scales,
-                                                     owned_u, std::span(step_t_).first(n_t));
+                                                     owned_u, std::span(step_t_).first(n_t), eta);
   for (double& r : force_) r = -r;
   report.linear_iterations += linear.iterations;
   if (!linear.converged) {
@@ -179,6 +195,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
   const int max_iterations = std::max(mechanics_.options().newton.max_iterations, thermal_->max_iterations());
   pass.iterate_temperature = thermal_->temperature();
   CoupledReport report;
+  algebra::Forcing forcing(mechanics_.options().newton.inexact, k_loosest);
   in_equilibrium_ = false;
   CoupledResidual residual = evaluate(old, pass, x);
   while (true) {
@@ -192,7 +209,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
     }
     assemble(old, x, report.iterations);
     std::string failure;
-    const bool found = find_direction(report, failure);
+    const bool found = find_direction(forcing, report, failure);
     ++report.iterations;
     if (report.iterations > k_plain_steps &&
         residual.size() > k_stalls * report.residuals[report.residuals.size() - 2].size())

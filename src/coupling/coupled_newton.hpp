@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "algebra/coupled_solver.hpp"
+#include "algebra/forcing.hpp"
 #include "algebra/parallel.hpp"
 #include "coupling/phases.hpp"
 #include "heat/thermal_iteration.hpp"
@@ -75,11 +76,14 @@ class CoupledNewton {
   /// Of the last evaluation.
   CoupledResidual present() const;
   bool converged() const;
+  double goal() const;  ///< ‖r_u‖ that ends the iteration [N]
   /// The reciprocals of the heat out of balance and of the forces that the temperatures which balance it
   /// would cause: measured by the forces that bodies exchange, thermal stress would drown the heat.
   algebra::FieldWeights weights();
   /// δu and δΘ from the tangent; false when the linear solver fails, which `failure` names.
-  bool find_direction(CoupledReport& report, std::string& failure);
+  bool find_direction(algebra::Forcing& forcing, CoupledReport& report, std::string& failure);
+  /// How far the linear solver goes: to where the phase that is further off would end the iteration.
+  double forcing_term(algebra::Forcing& forcing, const algebra::FieldWeights& weights) const;
   /// Moves along the direction as far as it is any good.
   double move(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
               std::vector<double>& x, const CoupledReport& report);

@@ -277,6 +277,7 @@ algebra::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperat
   temperature_system_->tangent();
   algebra::NewtonOptions newton;
   newton.tolerance = options_.tolerance;
+  newton.inexact = false;  // an iteration costs as much as 25 of the linear solver, which takes as many
   newton.absolute_tolerance = temperature_system_->round_off();
   newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;
   const algebra::NewtonReport report =

@@ -215,6 +215,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .work = pass.work});
   stress_at_work_ = pass.work;
+  residual_is_known_ = false;
   round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
   if (inertia_) round_off_ += inertia_->round_off();
 }
@@ -237,6 +238,8 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
     for (std::size_t i = 0; i < r.size(); ++i) r[i] += inertial_[i];
   }
   add_residual_to_balance(r);
+  residual_.assign(r.begin(), r.end());
+  residual_is_known_ = true;
   return balance_.reference();
 }
 
@@ -352,8 +355,11 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
 MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
                                         const BlockWork& sums, MechanicalState& next) {
   // The residual at the solution: internal + contributions + inertia − loads, the support force where fixed.
-  std::vector<double> r(external_.size());
-  residual(x, r);
+  // Newton's iteration ends with it.
+  const bool known = residual_is_known_ && std::equal(x.begin(), x.end(), x_.begin(), x_.end());
+  std::vector<double> r = residual_;
+  r.resize(external_.size());
+  if (algebra::any_process(!known)) residual(x, r);
   double local[9] = {
       0, 0, 0, sums.internal_work, sums.dissipation, sums.plastic_dissipation, sums.plastic_work, 0, 0};
   if (stress_at_work_ != StressAtWork::kept) kept_ = {external_, r};
@@ -365,6 +371,7 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
   }
   if (inertia_) {
     for (std::size_t i = 0; i < r.size(); ++i) r[i] -= inertial_[i];
+    residual_is_known_ = false;  // inertial_ becomes another force
     const MotionWork motion = inertia_->conclude(x, r, external_, loads_->fixed(), next);
     // The support force of t_{n+1}, not the method's mean over the step.
     inertia_->mass().multiply(next.acceleration, components_, inertial_);

@@ -226,6 +226,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::vector<BlockHistory> start_;   ///< z* of the two-step method, one per block
   double round_off_ = 0;              ///< residual that is rounding [N]
   std::vector<double> x_;             ///< of the last residual
+  std::vector<double> residual_;      ///< there, [owned node][component]
+  bool residual_is_known_ = false;    ///< for what prepare() was last called with
   std::vector<double> forces_;        ///< internal forces, [local node][component]; ghost rows are scrap
   std::vector<double> external_;      ///< loads at t_{n+1}, [owned node][component]
   std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia

@@ -154,6 +154,8 @@ struct MechanicsSpec {
   double tolerance = 0;
   int max_iterations = 0;
   bool line_search = true;
+  bool inexact = true;
+  double linear_tolerance = 0;
   bool b_bar = true;
   mechanics::TimeIntegration integration = mechanics::TimeIntegration::backward_euler;
   algebra::SolverKind solver = algebra::SolverKind::automatic;

@@ -59,6 +59,8 @@ mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   options.newton.tolerance = spec.mechanics.tolerance;
   options.newton.max_iterations = spec.mechanics.max_iterations;
   options.newton.line_search = spec.mechanics.line_search;
+  options.newton.inexact = spec.mechanics.inexact;
+  options.linear_tolerance = spec.mechanics.linear_tolerance;
   options.b_bar = spec.mechanics.b_bar;
   options.integration = spec.mechanics.integration;
   options.mapping = spec.isentropic()     ? mechanics::Mapping::isentropic

@@ -60,6 +60,18 @@ Section<MechanicsSpec> mechanics_keys() {
   s.key("line_search", &MechanicsSpec::line_search)
       .initially(true)
       .doc("Shorten Newton's steps where they do not help.");
+  s.key("inexact_newton", &MechanicsSpec::inexact)
+      .initially(true)
+      .doc(
+          "An iterative solver goes only as far as the Newton iteration gains by (Eisenstat and Walker "
+          "1996); false: always to linear_tolerance. Newton's criterion is the same. Also of the "
+          "simultaneous scheme.");
+  s.key("linear_tolerance", &MechanicsSpec::linear_tolerance)
+      .initially(1e-8)
+      .positive()
+      .doc(
+          "Residual of a linear system over its right-hand side below which no iterative solver goes. Also "
+          "of the simultaneous scheme.");
   s.key("b_bar", &MechanicsSpec::b_bar)
       .initially(true)
       .doc("Mean volumetric strain per element in quads and hexahedra (Q1/P0, monograph 6.2): no locking.");

@@ -78,6 +78,32 @@ TEST(LinearSolver, EveryKindSolvesSymmetricAndUnsymmetricSystemsAgainAndAgain) {
     }
 }
 
+TEST(LinearSolver, IterativeSolversGoAsFarAsTheForcingTermButNotBelowTheirTolerance) {
+  System system;
+  system.fill(1.0, 0.0);
+  LinearSolver solver(system.grid.mesh,
+                      {.prefix = "test_", .kind = SolverKind::jacobi, .relative_tolerance = 1e-6});
+  const auto residual_after = [&](double forcing) {
+    EXPECT_TRUE(solver.solve(system.matrix, system.b, system.x, forcing).converged);
+    std::vector<double> local(static_cast<std::size_t>(system.grid.mesh.n_nodes())), product(system.owned());
+    std::copy(system.x.begin(), system.x.end(), local.begin());
+    GhostExchange(system.grid.mesh).update(local, 1);
+    system.matrix.multiply(local, product);
+    double squares[2] = {0, 0};
+    for (std::size_t i = 0; i < product.size(); ++i) {
+      squares[0] += (system.b[i] - product[i]) * (system.b[i] - product[i]);
+      squares[1] += system.b[i] * system.b[i];
+    }
+    return std::sqrt(global_sum(squares[0]) / global_sum(squares[1]));
+  };
+  const double loose = residual_after(1e-2), tightest = residual_after(1e-12), own = residual_after(0);
+  EXPECT_LE(loose, 1e-2);
+  EXPECT_GT(loose, 1e-5);
+  EXPECT_LE(tightest, 1e-6);
+  EXPECT_GT(tightest, 1e-9);
+  EXPECT_EQ(own, tightest);
+}
+
 TEST(LinearSolver, TooFewIterationsAreReportedWithPetscsReason) {
   System system;
   system.fill(1.0, 0.0);

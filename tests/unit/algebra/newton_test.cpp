@@ -138,6 +138,41 @@ TEST(Newton, SolverKindsAgree) {
   }
 }
 
+TEST(Newton, InexactStepsEndWithinTheToleranceAndTakeFewerLinearIterations) {
+  const Grid grid(9, 8);
+  const auto solve = [&](bool inexact, SolverKind kind, std::vector<double>& x) {
+    SpringGrid system = cubic(grid);
+    system.matrix().set_fixed(fix(grid, 30));
+    x.assign(static_cast<std::size_t>(grid.mesh.n_nodes()), 1.5);
+    const NewtonReport report = run(grid, system, x, {.tolerance = 1e-8, .inexact = inexact}, kind);
+    EXPECT_TRUE(report.converged) << report.reason;
+    EXPECT_LE(report.residuals.back(), 1e-8);
+    return report;
+  };
+  for (const SolverKind kind : {SolverKind::multigrid, SolverKind::jacobi}) {
+    std::vector<double> exact, inexact;
+    const NewtonReport far = solve(false, kind, exact), near = solve(true, kind, inexact);
+    EXPECT_LT(near.linear_iterations, far.linear_iterations);
+    // The reference is the norm of a load of 8 at every node, the tangent is 3 x² or more with x about 2.
+    const double reference = 8 * std::sqrt(72.0);
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      EXPECT_NEAR(inexact[i], exact[i], 2 * 1e-8 * reference / 6.75);
+  }
+}
+
+TEST(Newton, DirectSolversKnowNoInexactSteps) {
+  const Grid grid(5, 6);
+  std::vector<double> results[2];
+  for (const bool inexact : {false, true}) {
+    SpringGrid system = cubic(grid);
+    system.matrix().set_fixed(fix(grid, 7));
+    std::vector<double>& x = results[inexact ? 1 : 0];
+    x.assign(static_cast<std::size_t>(grid.mesh.n_nodes()), 1.5);
+    ASSERT_TRUE(run(grid, system, x, {.tolerance = 1e-10, .inexact = inexact}).converged);
+  }
+  EXPECT_EQ(results[0], results[1]);
+}
+
 /// arctan saturates: the plain iteration overshoots further each time once |x| > 1.39 (its classical limit).
 SpringGrid saturating(const Grid& grid) {
   return SpringGrid(

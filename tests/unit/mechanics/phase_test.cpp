@@ -137,10 +137,35 @@ TEST(Phase, SolversAgree) {
     body.conditions.gravity = {0, -9.81, 0};
     body.options.solver = kind;
     body.options.linear_tolerance = 1e-12;
+    body.options.newton.inexact = false;  // Newton's tolerance is not what is compared
     const Solved solved(body);
     if (reference.empty()) reference = solved.state.displacement;
     for (std::size_t i = 0; i < reference.size(); ++i)
       EXPECT_NEAR(solved.state.displacement[i], reference[i], 1e-9 * 4e-5);  // of the largest
+  }
+}
+
+TEST(Phase, InexactStepsEndWithinNewtonsTolerance) {
+  std::vector<double> exact;
+  int linear_iterations = 0;
+  for (const bool inexact : {false, true}) {
+    Body body = cube(Shape::tet4);
+    stand(body);
+    body.conditions.gravity = {0, -9.81, 0};
+    body.options.solver = algebra::SolverKind::jacobi;
+    body.options.newton.tolerance = 1e-6;
+    body.options.newton.inexact = inexact;
+    const Solved solved(body);
+    EXPECT_LE(solved.report.newton.residuals.back(), 1e-6);
+    if (!inexact) {
+      exact = solved.state.displacement;
+      linear_iterations = solved.report.newton.linear_iterations;
+      continue;
+    }
+    EXPECT_LT(solved.report.newton.linear_iterations, linear_iterations);
+    // Forces that are 1e-6 of the weight, on a body of a few elements.
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      EXPECT_NEAR(solved.state.displacement[i], exact[i], 1e-5 * 4e-5);
   }
 }
 
