@@ -49,22 +49,33 @@ struct BlockMatrix::Petsc {
 };
 
 BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph)
-    : mesh_(mesh), block_size_(block_size), petsc_(std::make_unique<Petsc>()) {
-  graph.compress(row_start_, columns_);
-  const auto bs = static_cast<std::size_t>(block_size);
-  values_.assign((columns_.size() + 1) * bs * bs, 0.0);
-  fixed_.assign(at(mesh.n_nodes()) * bs, 0);
-  diagonal_.resize(at(mesh.n_owned_nodes));
-  for (Index row = 0; row < mesh.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
+    : mesh_(mesh),
+      block_size_(block_size),
+      fixed_(at(mesh.n_nodes()) * static_cast<std::size_t>(block_size), 0),
+      petsc_(std::make_unique<Petsc>()) {
+  set_graph(std::move(graph));
+}
 
+void BlockMatrix::set_graph(NodeGraph graph) {
+  ++pattern_;
+  graph.compress(row_start_, columns_);
+  const auto bs = static_cast<std::size_t>(block_size_);
+  values_.assign((columns_.size() + 1) * bs * bs, 0.0);
+  diagonal_.resize(at(mesh_.n_owned_nodes));
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
   order_ghost_columns();
-  create_petsc_matrix();
+  set_fixed(std::move(fixed_));
+  if (ties_.empty())
+    create_petsc_matrix();
+  else
+    create_tied_matrix();
 }
 
 /// PETSc keeps the columns of a row in global order, owned ones and ghosts apart; ours are in local order.
 void BlockMatrix::order_ghost_columns() {
   const auto global = [&](Slot s) { return mesh_.global_node[at(columns_[static_cast<std::size_t>(s)])]; };
   ghost_start_.assign(1, 0);
+  ghost_slots_.clear();
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     const auto begin = ghost_slots_.size();
     for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
@@ -210,7 +221,10 @@ double BlockMatrix::mean_diagonal() const {
 /// with the numbers of their unknowns is all it needs.
 void BlockMatrix::tie(std::vector<std::vector<Index>> groups) {
   ties_ = Ties(mesh_, block_size_, std::move(groups));
-  if (ties_.empty()) return;
+  if (!ties_.empty()) create_tied_matrix();
+}
+
+void BlockMatrix::create_tied_matrix() {
   values_.resize(values_.size() + ties_.followers().size(), 0.0);
   std::vector<PetscInt> rows, columns;
   rows.reserve(values_.size());

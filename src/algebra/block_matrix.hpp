@@ -44,6 +44,12 @@ class BlockMatrix {
   BlockMatrix(const BlockMatrix&) = delete;
   BlockMatrix& operator=(const BlockMatrix&) = delete;
 
+  /// Another pattern, all zero: slots and PETSc's matrix are void, what is prescribed and tied stays.
+  /// Collective.
+  void set_graph(NodeGraph graph);
+  /// Counts the patterns: for whoever keeps slots.
+  int pattern() const { return pattern_; }
+
   int block_size() const { return block_size_; }
   /// The slot of a pair of local nodes, k_no_slot where the row is not owned. The pair must be in the graph
   /// (assert).
@@ -83,12 +89,14 @@ class BlockMatrix {
  private:
   void order_ghost_columns();
   void create_petsc_matrix();
+  void create_tied_matrix();
   void create_matrix_of_size();
   void copy_to_petsc();
   double mean_diagonal() const;
 
   const mesh::Mesh& mesh_;
   int block_size_;
+  int pattern_ = 0;
   std::vector<std::int64_t> row_start_;
   std::vector<Index> columns_;
   std::vector<Slot> diagonal_;

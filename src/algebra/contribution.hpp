@@ -20,8 +20,12 @@ struct Stage {
 class Contribution {
  public:
   virtual ~Contribution() = default;
-  /// Tells which nodes couple. Called once, before the matrix exists.
+  /// Tells which nodes couple, before the matrix exists: once, or again where graph_outdated().
   virtual void add_to_graph(NodeGraph& graph) const = 0;
+  /// Whether nodes may couple later that do not now. The same on every process.
+  virtual bool graph_may_change() const { return false; }
+  /// Whether the matrix that the term is bound to lacks places that it needs. This process's opinion.
+  virtual bool graph_outdated() const { return false; }
   /// Looks up slots once the matrix exists.
   virtual void bind(const BlockMatrix& matrix) = 0;
   /// r += the term at x (the phase solves r = 0 with r = internal − external, units: N for forces, W for
@@ -34,5 +38,8 @@ class Contribution {
   /// For terms that store.
   virtual void begin_stage(const Stage& /*stage*/, std::span<const double> /*x*/) {}
 };
+
+/// Whether a matrix with these terms must be made anew, on any process. Collective only where that may be.
+bool graph_outdated(std::span<Contribution* const> contributions);
 
 }  // namespace solidus::algebra

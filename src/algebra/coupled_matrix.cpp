@@ -22,10 +22,8 @@ CoupledMatrix::CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, 
     : mesh_(mesh),
       displacement_(displacement),
       temperature_(temperature),
-      force_((displacement.columns().size() + 1) * at(displacement.block_size()), 0.0),
-      heat_(force_.size(), 0.0),
       petsc_(std::make_unique<Petsc>()) {
-  create_rectangles();
+  set_zero();
 }
 
 CoupledMatrix::~CoupledMatrix() = default;
@@ -33,6 +31,11 @@ CoupledMatrix::~CoupledMatrix() = default;
 /// PETSc leaves out entries with a negative number and adds up those of the same place: what is prescribed
 /// and what is tied needs nothing else.
 void CoupledMatrix::create_rectangles() {
+  pattern_u_ = displacement_.pattern();
+  pattern_t_ = temperature_.pattern();
+  petsc_->nest.reset();
+  force_.assign((displacement_.columns().size() + 1) * at(displacement_.block_size()), 0.0);
+  heat_.assign(force_.size(), 0.0);
   const int n_components = components();
   const std::vector<char>&fixed_u = displacement_.fixed(), &fixed_t = temperature_.fixed();
   const auto displacement_number = [&](Index node, int i) -> PetscInt {
@@ -70,9 +73,14 @@ void CoupledMatrix::create_rectangles() {
   create(petsc_->heat, n_t, n_u, heat_rows, heat_columns);
 }
 
-void CoupledMatrix::set_zero() {
+bool CoupledMatrix::set_zero() {
+  if (pattern_u_ != displacement_.pattern() || pattern_t_ != temperature_.pattern()) {
+    create_rectangles();
+    return true;
+  }
   std::fill(force_.begin(), force_.end(), 0.0);
   std::fill(heat_.begin(), heat_.end(), 0.0);
+  return false;
 }
 
 void CoupledMatrix::multiply_heat(std::span<const double> x, std::span<double> y) const {

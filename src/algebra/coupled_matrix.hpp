@@ -31,8 +31,9 @@ class CoupledMatrix {
   BlockMatrix& temperature() { return temperature_; }
   int components() const { return displacement_.block_size(); }
 
-  /// Of the rectangular blocks.
-  void set_zero();
+  /// Of the rectangular blocks, made anew where the pattern of a diagonal one has changed; then true.
+  /// Collective.
+  bool set_zero();
   /// ∂r_u/∂Θ of a pair (row node, column node), `components` numbers; slots of `displacement`, also the one
   /// without a row.
   double* force_by_temperature(Slot s) { return force_.data() + (s + 1) * components(); }
@@ -55,6 +56,7 @@ class CoupledMatrix {
   const mesh::Mesh& mesh_;
   BlockMatrix& displacement_;
   BlockMatrix& temperature_;
+  int pattern_u_ = 0, pattern_t_ = 0;
   std::vector<double> force_, heat_;  ///< a scrap block, then a block per slot
   struct Petsc;
   std::unique_ptr<Petsc> petsc_;

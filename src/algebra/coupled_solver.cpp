@@ -68,6 +68,11 @@ void CoupledSolver::forget() {
   solver_.forget();
 }
 
+void CoupledSolver::reset() {
+  solver_.reset();
+  petsc_->assembled.reset();
+}
+
 double CoupledSolver::seconds() const {
   return solver_.seconds_setup() + solver_.seconds_solve();
 }

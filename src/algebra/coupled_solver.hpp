@@ -39,6 +39,8 @@ class CoupledSolver {
   FieldWeights in_use(FieldWeights weights) const;
   /// As LinearSolver::forget().
   void forget();
+  /// As LinearSolver::reset().
+  void reset();
   double seconds() const;
 
  private:

@@ -300,6 +300,11 @@ void LinearSolver::forget() {
   // The analysis of LDLᵀ looks at the pattern alone, and so stays. A hierarchy that is only set up again
   // keeps its interpolation and goes on with its random numbers; LU permutes by values: these are made anew.
   if (!my.ksp || (my.kind == SolverKind::direct && my.options.symmetric)) return;
+  reset();
+}
+
+void LinearSolver::reset() {
+  Implementation& my = *implementation_;
   my.ksp.reset();
   my.matrix = nullptr;
   my.stale = true;

@@ -56,6 +56,8 @@ class LinearSolver {
   bool stale() const;
   /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).
   void forget();
+  /// The next matrix has another pattern: nothing stays.
+  void reset();
   double seconds_setup() const;
   double seconds_solve() const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "contact/face.hpp"
 
@@ -9,11 +10,8 @@ namespace solidus::contact {
 
 namespace {
 
-constexpr std::size_t k_max_nodes = 2 * k_max_face_nodes;
-
-const double* shape_at(const ContactPoints& points, const Pairing& pairing, Index p) {
-  return points.shape.data() + pairing.first_shape +
-         static_cast<std::size_t>(p - pairing.first_point) * static_cast<std::size_t>(pairing.n_nodes());
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
 }
 
 }  // namespace
@@ -36,95 +34,159 @@ std::vector<algebra::BlockMatrix::Slot> pairing_slots(const ContactPoints& point
   return slots;
 }
 
-MechanicsTerm::MechanicsTerm(const mesh::Mesh& mesh, int components, const ContactPoints& points,
-                             const NormalPenalty& law, double stabilisation)
+/// Points in a row that share their nodes, and what their tangents add up to.
+struct MechanicsTerm::Run {
+  Index first = -1;
+  std::vector<Index> nodes;
+  std::vector<double> k;          ///< [b][c][i][j]
+  std::vector<Tensor> geometric;  ///< [b][c]; scratch of one point
+};
+
+MechanicsTerm::MechanicsTerm(const mesh::Mesh& mesh, int components, Placement& placement,
+                             ContactGraph& graph, const PointLaw& law, const ContactStep& step,
+                             double stabilisation, bool symmetric)
     : n_owned_(mesh.n_owned_nodes),
       components_(components),
-      points_(points),
+      placement_(placement),
+      kinematics_(placement.kinematics()),
+      graph_(graph),
       law_(law),
-      stabilisation_(stabilisation) {}
+      step_(step),
+      stabilisation_(stabilisation),
+      symmetric_(symmetric),
+      status_(at(kinematics_.n_points()), PointStatus::open) {}
 
 void MechanicsTerm::add_to_graph(algebra::NodeGraph& graph) const {
-  add_pairings_to_graph(points_, graph);
+  version_ = graph_.add_to(graph);
 }
 
 void MechanicsTerm::bind(const algebra::BlockMatrix& matrix) {
-  slots_ = pairing_slots(points_, n_owned_, matrix);
-}
-
-double MechanicsTerm::penetration(const Pairing& pairing, Index p, std::span<const double> u) const {
-  const double* b = shape_at(points_, pairing, p);
-  const Index* nodes = points_.nodes.data() + pairing.first_node;
-  const Point& n = points_.normal[static_cast<std::size_t>(p)];
-  double g = points_.initial_penetration[static_cast<std::size_t>(p)];
-  for (int a = 0; a < pairing.n_nodes(); ++a) {
-    const double* ua = u.data() + static_cast<std::ptrdiff_t>(nodes[a]) * components_;
-    double along = 0;
-    for (int i = 0; i < components_; ++i) along += ua[i] * n[static_cast<std::size_t>(i)];
-    g += b[a] * along;
-  }
-  return g;
+  slots_.bind(matrix, n_owned_, kinematics_.n_points());
 }
 
 void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r) {
+  changes_ = 0;
+  failure_ = FrictionStatus::converged;
   if (!active_) return;
-  for (const Pairing& pairing : points_.pairings) {
-    const Index* nodes = points_.nodes.data() + pairing.first_node;
-    for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
-      const double pressure = law_.update(penetration(pairing, p, x)).pressure;
-      if (pressure == 0) continue;
-      const double* b = shape_at(points_, pairing, p);
-      const Point& n = points_.normal[static_cast<std::size_t>(p)];
-      const double force = points_.weight[static_cast<std::size_t>(p)] * pressure;
-      for (int a = 0; a < pairing.n_nodes(); ++a) {
-        if (nodes[a] >= n_owned_) continue;
-        double* ra = r.data() + static_cast<std::ptrdiff_t>(nodes[a]) * components_;
-        for (int i = 0; i < components_; ++i) ra[i] += force * b[a] * n[static_cast<std::size_t>(i)];
-      }
+  placement_.place(step_.time, x);
+  const auto n = static_cast<std::size_t>(components_);
+  for (Index p = 0; p < kinematics_.n_points(); ++p) {
+    const PointState& from = step_.from[at(p)];
+    const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
+    const PointForces f = law_.forces(motion, from);
+    if (f.status != status_[at(p)]) ++changes_;
+    status_[at(p)] = f.status;
+    if (f.friction.status != FrictionStatus::converged && failure_ == FrictionStatus::converged)
+      failure_ = f.friction.status;
+    Point force = scale(f.normal.balance_pressure, motion.normal);
+    if (law_.friction) force = add(force, times(motion.push, f.traction));
+    if (f.friction.status != FrictionStatus::converged)
+      force[0] = std::numeric_limits<double>::quiet_NaN();
+    else if (f.status == PointStatus::open && f.normal.balance_pressure == 0)
+      continue;
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
+      if (motion.nodes[b] >= n_owned_) continue;
+      double* rb = r.data() + at(motion.nodes[b]) * n;
+      const double share = motion.weight * motion.share[b];
+      for (std::size_t i = 0; i < n; ++i) rb[i] += share * force[i];
     }
   }
 }
 
 template <int dim>
-void MechanicsTerm::add_pairing_tangent(const Pairing& pairing, std::span<const double> x,
-                                        const algebra::BlockMatrix::Slot* slots,
-                                        algebra::BlockMatrix& matrix) const {
-  const auto n = static_cast<std::size_t>(pairing.n_nodes());
-  std::array<double, k_max_nodes * k_max_nodes * dim * dim> k;
-  std::fill_n(k.begin(), n * n * dim * dim, 0.0);
-  for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
-    const auto response = law_.update(penetration(pairing, p, x));
-    const double w = points_.weight[static_cast<std::size_t>(p)];
-    const double* b = shape_at(points_, pairing, p);
-    const Point& normal = points_.normal[static_cast<std::size_t>(p)];
-    std::array<double, dim * dim> point;  // w (ε_N n⊗n + stabilisation)
+void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) {
+  const PointForces f = law_.forces(motion, step_.from[at(point)]);
+  if (!f.normal.closed && stabilisation_ == 0) return;
+  const std::size_t n = motion.nodes.size();
+  const double w = motion.weight;
+  std::array<double, dim * dim> slope;
+  Tensor by_trial{};
+  Point by_penetration = scale(f.normal.balance_tangent, motion.normal);
+  const bool frictional = law_.friction.has_value() && f.normal.closed;
+  if (frictional) {
+    by_trial = times(motion.push, f.traction_by_trial);
+    if (!symmetric_)
+      by_penetration =
+          add_scaled(by_penetration, f.normal.tangent, times(motion.push, f.traction_by_pressure));
+  }
+  const double stabilisation = stabilisation_ * law_.normal.penalty;
+  for (std::size_t c = 0; c < n; ++c) {
+    const Point& g = motion.penetration_rate[c];
+    Tensor trial_rate{};
+    if (frictional) {
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+          trial_rate[i][j] = law_.friction->tangential_penalty() * motion.slip_rate[c][i][j];
+          if (!motion.carried_rate.empty()) trial_rate[i][j] += motion.carried_rate[c][i][j];
+        }
+      trial_rate = times(by_trial, trial_rate);
+    }
     for (std::size_t i = 0; i < dim; ++i)
       for (std::size_t j = 0; j < dim; ++j)
-        point[i * dim + j] =
-            w * (response.tangent * normal[i] * normal[j] + (i == j ? stabilisation_ * law_.penalty : 0.0));
-    for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t c = 0; c < n; ++c) {
-        double* block = k.data() + (a * n + c) * dim * dim;
-        for (std::size_t i = 0; i < dim * dim; ++i) block[i] += b[a] * b[c] * point[i];
-      }
+        slope[i * dim + j] = w * (by_penetration[i] * g[j] + trial_rate[i][j] +
+                                  (i == j ? stabilisation * motion.share[c] : 0.0));
+    for (std::size_t b = 0; b < n; ++b) {
+      double* block = run.k.data() + (b * n + c) * dim * dim;
+      for (std::size_t e = 0; e < dim * dim; ++e) block[e] += motion.share[b] * slope[e];
+    }
   }
+  if (!kinematics_.partners_change() || !f.normal.closed) return;
+  run.geometric.assign(n * n, Tensor{});
+  kinematics_.add_geometric_tangent(point, f.normal.balance_pressure, f.traction, run.geometric);
+  for (std::size_t e = 0; e < n * n; ++e)
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t j = 0; j < dim; ++j) run.k[(e * dim + i) * dim + j] += run.geometric[e][i][j];
+}
+
+template <int dim>
+void MechanicsTerm::flush(Run& run, algebra::BlockMatrix& matrix) {
+  const std::size_t n = run.nodes.size();
+  const auto entry = [&](std::size_t b, std::size_t c, std::size_t i, std::size_t j) -> double& {
+    return run.k[((b * n + c) * dim + i) * dim + j];
+  };
+  if (symmetric_)
+    for (std::size_t b = 0; b < n; ++b)
+      for (std::size_t c = 0; c <= b; ++c)
+        for (std::size_t i = 0; i < dim; ++i)
+          for (std::size_t j = 0; j < dim; ++j) {
+            const double mean = 0.5 * (entry(b, c, i, j) + entry(c, b, j, i));
+            entry(b, c, i, j) = entry(c, b, j, i) = mean;
+          }
+  const std::span<const SlotCache::Slot> slots = slots_.slots(run.first, run.nodes);
   for (std::size_t e = 0; e < n * n; ++e) {
     double* target = matrix.block(slots[e]);
-    const double* block = k.data() + e * dim * dim;
+    const double* block = run.k.data() + e * dim * dim;
     for (std::size_t i = 0; i < dim * dim; ++i) target[i] += block[i];
   }
 }
 
+template <int dim>
+void MechanicsTerm::add_tangents(algebra::BlockMatrix& matrix) {
+  Run run;
+  for (Index p = 0; p < kinematics_.n_points(); ++p) {
+    const PointState& from = step_.from[at(p)];
+    const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::rates);
+    if (!motion.partnered || std::none_of(motion.nodes.begin(), motion.nodes.end(),
+                                          [this](Index node) { return node < n_owned_; }))
+      continue;
+    if (!std::equal(motion.nodes.begin(), motion.nodes.end(), run.nodes.begin(), run.nodes.end())) {
+      if (run.first >= 0) flush<dim>(run, matrix);
+      run.first = p;
+      run.nodes.assign(motion.nodes.begin(), motion.nodes.end());
+      run.k.assign(run.nodes.size() * run.nodes.size() * dim * dim, 0.0);
+    }
+    add_point<dim>(motion, p, run);
+  }
+  if (run.first >= 0) flush<dim>(run, matrix);
+}
+
 void MechanicsTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {
   if (!active_) return;
-  const algebra::BlockMatrix::Slot* slots = slots_.data();
-  for (const Pairing& pairing : points_.pairings) {
-    if (components_ == 2)
-      add_pairing_tangent<2>(pairing, x, slots, matrix);
-    else
-      add_pairing_tangent<3>(pairing, x, slots, matrix);
-    slots += static_cast<std::ptrdiff_t>(pairing.n_nodes()) * pairing.n_nodes();
-  }
+  placement_.place(step_.time, x);
+  if (components_ == 2)
+    add_tangents<2>(matrix);
+  else
+    add_tangents<3>(matrix);
 }
 
 }  // namespace solidus::contact

@@ -4,44 +4,80 @@
 #include <vector>
 
 #include "algebra/contribution.hpp"
+#include "contact/graph.hpp"
 #include "contact/integration.hpp"
-#include "contact/normal.hpp"
+#include "contact/placement.hpp"
+#include "contact/point_law.hpp"
+#include "contact/slot_cache.hpp"
+#include "mesh/mesh.hpp"
 
 namespace solidus::contact {
 
-/// r_a = Σ_p w t_N B_a n, with B the shape functions of the slave and minus those of the master, so that
-/// g_N = g_N⁰ + Σ_a B_a u_a·n and the virtual work of contact is t_N δg_N. Tangent: Σ w ε_N B_a B_b n⊗n over
-/// closed points, symmetric, exact away from g_N = 0.
+/// What a step starts from, shared by the parts of a pair.
+struct ContactStep {
+  std::vector<PointState> from;      ///< at t_n, with the multipliers of now; one per point
+  double dt = 0;                     ///< [s]
+  double time = 0;                   ///< t_{n+1} [s]
+  double begun = 0;                  ///< t_n [s]
+  std::vector<double> displacement;  ///< u_n, [local node][component] [m]
+};
+
+/// r_b = Σ_p w B_b (t_N n + F T) of the displacement it is called with, from the step's start, and the exact
+/// derivative away from g_N = 0 and the edge of the slip cone:
+///
+///   K_bc = Σ_p w B_b { n ⊗ t_N' ∂g_N/∂x_c + F [ ∂T/∂T^trial (∂T̄_n/∂x_c + ε_T ∂ΔG/∂x_c) + ∂T/∂t_N ⊗ t_N'
+///   ∂g_N/∂x_c ] }
+///          + geometric terms of the kinematics
+///
+/// T̄_n: T_n as the kinematics carry it. With `symmetric` ∂T/∂t_N is left out, and of the rest the symmetric
+/// part is taken; the symmetric part of the whole would be indefinite wherever points slip.
+///
+/// Where the friction law finds no state the residual is not a number: Newton's method shortens its step.
 class MechanicsTerm : public algebra::Contribution {
  public:
-  /// Keeps references to the points and the law.
-  MechanicsTerm(const mesh::Mesh& mesh, int components, const ContactPoints& points, const NormalPenalty& law,
-                double stabilisation);
-  void add_to_graph(algebra::NodeGraph& graph) const override;
-  void bind(const algebra::BlockMatrix& matrix) override;
+  /// Keeps references.
+  MechanicsTerm(const mesh::Mesh& mesh, int components, Placement& placement, ContactGraph& graph,
+                const PointLaw& law, const ContactStep& step, double stabilisation, bool symmetric);
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
+
+  bool graph_may_change() const override { return graph_.may_change(); }
+  bool graph_outdated() const override { return active_ && graph_.outdated(version_); }
+  void add_to_graph(algebra::NodeGraph& graph) const override;
+  void bind(const algebra::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
   void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
 
-  /// g_N of point `p` of a pairing at the displacement [m].
-  double penetration(const Pairing& pairing, Index p, std::span<const double> displacement) const;
-  /// Of the matrix it is bound to, [pairing][a][b].
-  std::span<const algebra::BlockMatrix::Slot> slots() const { return slots_; }
-  std::size_t bytes() const { return slots_.capacity() * sizeof(algebra::BlockMatrix::Slot); }
+  /// How many points changed between open, sticking and slipping from the last but one residual to the last.
+  Index changes() const { return changes_; }
+  /// The first failure of the friction law at the last residual.
+  FrictionStatus failure() const { return failure_; }
+  std::size_t bytes() const { return slots_.bytes() + status_.capacity(); }
 
  private:
+  struct Run;
   template <int dim>
-  void add_pairing_tangent(const Pairing& pairing, std::span<const double> x,
-                           const algebra::BlockMatrix::Slot* slots, algebra::BlockMatrix& matrix) const;
+  void add_tangents(algebra::BlockMatrix& matrix);
+  template <int dim>
+  void add_point(const PointMotion& motion, Index point, Run& run);
+  template <int dim>
+  void flush(Run& run, algebra::BlockMatrix& matrix);
 
   Index n_owned_;
   int components_;
-  const ContactPoints& points_;
-  const NormalPenalty& law_;
+  Placement& placement_;
+  const ContactKinematics& kinematics_;
+  ContactGraph& graph_;
+  const PointLaw& law_;
+  const ContactStep& step_;
   double stabilisation_;
+  bool symmetric_;
   bool active_ = true;
-  std::vector<algebra::BlockMatrix::Slot> slots_;  ///< [pairing][a][b]
+  mutable int version_ = 0;  ///< of the graph it has
+  SlotCache slots_;
+  std::vector<PointStatus> status_;  ///< at the last residual
+  Index changes_ = 0;
+  FrictionStatus failure_ = FrictionStatus::converged;
 };
 
 /// Couples all nodes of every pairing with each other.

@@ -1,6 +1,7 @@
 #include "contact/pair.hpp"
 
 #include <fmt/format.h>
+#include <petscsys.h>
 
 #include <algorithm>
 #include <array>
@@ -8,32 +9,32 @@
 #include <limits>
 
 #include "algebra/parallel.hpp"
+#include "contact/fixed_kinematics.hpp"
 #include "contact/heat_term.hpp"
-#include "contact/mechanics_term.hpp"
+#include "contact/master_mesh.hpp"
 #include "contact/penalty.hpp"
+#include "contact/sliding_kinematics.hpp"
 
 namespace solidus::contact {
 
 namespace {
 
-ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec,
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec, double reach,
                           const ContactSurface& slave, const ContactSurface& master) {
-  if (spec.slave == spec.master)
-    throw InputError(spec.where,
-                     fmt::format("contact '{}': slave and master are the same surface", spec.name));
   IntegrationOptions options;
   options.rule = spec.integration;
   options.gauss_degree = spec.gauss_degree;
-  options.search_distance = spec.search_distance.value_or(0.1 * slave.extent());
+  options.search_distance = reach;
   ContactPoints points = integrate(mesh, kind, slave, master, options);
   if (points.paired_measure <= 0)
     throw InputError(spec.where,
                      fmt::format("contact '{}': no part of surface '{}' faces surface '{}' within {:.3g} m",
                                  spec.name, spec.slave, spec.master, options.search_distance),
                      "two surfaces that look at each other; or a larger search distance");
-  const double touching = spec.touching.value_or(1e-6 * slave.mean_face_size());
-  for (double& g : points.initial_penetration)
-    if (std::abs(g) <= touching) g = 0;
   return points;
 }
 
@@ -53,26 +54,70 @@ double find_penalty(const mesh::Mesh& mesh, const ContactSpec& spec, const Conta
   return spec.penalty * stiffness;
 }
 
+/// Forces of a state on the master, in the current configuration.
+Point force_on_master(const PointMotion& motion, const PointState& state, double pressure) {
+  return add_scaled(times(motion.push, state.traction), pressure, motion.normal);
+}
+
 }  // namespace
 
 ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec spec,
                          std::span<const double> body_modulus)
     : mesh_(mesh), spec_(std::move(spec)), components_(displacement_components(kind)) {
   const ContactSurface slave(mesh, spec_.slave), master(mesh, spec_.master);
-  points_ = find_points(mesh, kind, spec_, slave, master);
-  law_.penalty = find_penalty(mesh, spec_, slave, master, body_modulus);
-  mechanics_ = std::make_unique<MechanicsTerm>(mesh, components_, points_, law_, spec_.stabilisation);
+  make_kinematics(kind, slave, master);
+  make_laws(slave, find_penalty(mesh, spec_, slave, master, body_modulus));
+  surface_nodes_ = slave.all_nodes();
+  surface_nodes_.insert(surface_nodes_.end(), master.all_nodes().begin(), master.all_nodes().end());
+  std::sort(surface_nodes_.begin(), surface_nodes_.end());
+  surface_nodes_.erase(std::unique(surface_nodes_.begin(), surface_nodes_.end()), surface_nodes_.end());
+  std::erase_if(surface_nodes_, [&](Index node) { return node >= mesh.n_owned_nodes; });
+  placement_ = std::make_unique<Placement>(*kinematics_);
+  graph_ = std::make_unique<ContactGraph>(*kinematics_);
+  mechanics_ =
+      std::make_unique<MechanicsTerm>(mesh, components_, *placement_, *graph_, law_, step_,
+                                      spec_.stabilisation, spec_.friction && spec_.friction->symmetric);
   if (spec_.heat) {
     heat_law_.emplace(*spec_.heat);
-    heat_ = std::make_unique<HeatTerm>(mesh, points_, *heat_law_, spec_.nodal_heat);
+    const auto& points = dynamic_cast<const FixedKinematics&>(*kinematics_).points();
+    heat_ = std::make_unique<HeatTerm>(mesh, points, *heat_law_, spec_.nodal_heat);
   }
-  const auto n = static_cast<std::size_t>(points_.n_points());
-  penetration_.resize(n);
-  pressure_.resize(n);
-  update(std::vector<double>(mesh.x.size() * static_cast<std::size_t>(components_), 0.0));
+  restore({}, std::vector<double>(mesh.x.size() * static_cast<std::size_t>(components_), 0.0), 0);
 }
 
 ContactPair::~ContactPair() = default;
+
+void ContactPair::make_kinematics(AnalysisKind kind, const ContactSurface& slave,
+                                  const ContactSurface& master) {
+  if (spec_.slave == spec_.master)
+    throw InputError(spec_.where,
+                     fmt::format("contact '{}': slave and master are the same surface", spec_.name));
+  touching_ = spec_.touching.value_or(1e-6 * slave.mean_face_size());
+  const double reach = spec_.search_distance.value_or(0.1 * slave.extent());
+  if (spec_.formulation == Formulation::small_sliding) {
+    kinematics_ =
+        std::make_unique<FixedKinematics>(find_points(mesh_, kind, spec_, reach, slave, master), components_);
+    return;
+  }
+  const bool nodal = spec_.integration == IntegrationRule::nodal;
+  kinematics_ = std::make_unique<SlidingKinematics>(
+      mesh_, kind, slave,
+      std::make_unique<MeshMaster>(components_, master,
+                                   MeshMasterOptions{.search_distance = reach, .smoothing = spec_.smoothing}),
+      SlidingOptions{.rule = nodal ? IntegrationRule::nodal : IntegrationRule::gauss,
+                     .gauss_degree = spec_.gauss_degree});
+}
+
+void ContactPair::make_laws(const ContactSurface& slave, double penalty) {
+  law_.normal = {spec_.normal, penalty};
+  allowed_penetration_ = spec_.penetration_tolerance * slave.mean_face_size();
+  if (!spec_.friction) return;
+  const FrictionSpec& friction = *spec_.friction;
+  law_.friction.emplace(friction,
+                        friction.tangential_penalty.value_or(friction.tangential_penalty_factor * penalty),
+                        spec_.interface_heat_capacity);
+  law_.wear = spec_.wear;
+}
 
 void ContactPair::activate(bool on) {
   active_ = on;
@@ -80,107 +125,240 @@ void ContactPair::activate(bool on) {
   if (heat_) heat_->activate(on);
 }
 
-algebra::Contribution& ContactPair::mechanics() {
-  return *mechanics_;
-}
-
 algebra::Contribution* ContactPair::heat() {
   return heat_.get();
 }
 
+bool ContactPair::symmetric() const {
+  return spec_.friction ? spec_.friction->symmetric : kinematics_->symmetric();
+}
+
+ContactState ContactPair::initial_state() const {
+  Placement start(*kinematics_);
+  const std::vector<double> rest(mesh_.x.size() * static_cast<std::size_t>(components_), 0.0);
+  start.place(0, rest);
+  placement_->forget();
+  ContactState state;
+  state.points.resize(at(kinematics_->n_points()));
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    PointState& point = state.points[at(p)];
+    const ContactKinematics::Particle particle = kinematics_->particle(p);
+    point.number = particle.number;
+    point.counted = particle.counted;
+    const PointMotion motion = kinematics_->motion(p, {}, ContactKinematics::Asked::motion);
+    if (!motion.partnered) continue;
+    point.anchored = true;
+    point.anchor = motion.anchor;
+    point.master_normal = motion.master_normal;
+    if (std::abs(motion.penetration) <= touching_) point.offset = -motion.penetration;
+    point.penetration = motion.penetration + point.offset;
+    if (point.penetration < 0) continue;
+    point.status = law_.friction ? PointStatus::sticks : PointStatus::slips;
+    point.pressure = point.balance_pressure = law_.normal.penalty * point.penetration;
+  }
+  return state;
+}
+
+void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
+  step_.from = old.points.empty() ? initial_state().points : old.points;
+  step_.dt = pass.dt;
+  step_.time = pass.time;
+  step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());
+  step_.begun = time_;
+  law_.isentropic = pass.isentropic;
+  law_.share = pass.share;
+  if (law_.friction && !pass.temperature.empty()) find_interface_temperatures(pass.temperature);
+}
+
+/// Where the interface has no temperature yet, the mean of the two sides.
+void ContactPair::find_interface_temperatures(std::span<const double> temperature) {
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    PointState& from = step_.from[at(p)];
+    if (from.temperature > 0 || partners_.partnered[at(p)] == 0) continue;
+    const auto nodes = partners_.nodes_of(p);
+    const auto share = partners_.share_of(p);
+    double side[2] = {0, 0};
+    for (std::size_t b = 0; b < nodes.size(); ++b)
+      side[b < static_cast<std::size_t>(partners_.n_slave[at(p)]) ? 0 : 1] +=
+          share[b] * temperature[at(nodes[b])];
+    const bool meshed = nodes.size() > static_cast<std::size_t>(partners_.n_slave[at(p)]);
+    from.temperature = meshed ? 0.5 * (side[0] - side[1]) : side[0];
+  }
+}
+
 void ContactPair::update(std::span<const double> displacement) {
-  for (const Pairing& pairing : points_.pairings)
-    for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      const double g = mechanics_->penetration(pairing, p, displacement);
-      penetration_[i] = g;
-      pressure_[i] = active_ ? law_.update(g).pressure : 0;
-    }
-  if (heat_) heat_->place(penetration_, pressure_);
+  displacement_.assign(displacement.begin(), displacement.end());
+  time_ = step_.time;
+  placement_->place(time_, displacement_);
+  const bool fixed = !kinematics_->partners_change() && partners_.n_points() > 0;
+  if (!fixed) partners_.clear();
+  now_.points.resize(step_.from.size());
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const PointState& from = step_.from[at(p)];
+    const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
+    const PointForces forces = active_ ? law_.forces(motion, from) : PointForces{};
+    now_.points[at(p)] = law_.next(motion, from, forces);
+    if (!active_) now_.points[at(p)].anchored = false;
+    if (!fixed) partners_.add(motion, kinematics_->particle(p).counted);
+  }
+  place_heat();
+}
+
+void ContactPair::restore(const ContactState& state, std::span<const double> displacement, double time) {
+  step_.from = state.points.empty() ? initial_state().points : state.points;
+  step_.time = step_.begun = time;
+  step_.dt = 0;
+  step_.displacement.assign(displacement.begin(), displacement.end());
+  const ContactState stands{step_.from};
+  update(displacement);
+  // Of the motion alone: what the last step did is in the state.
+  for (std::size_t p = 0; p < now_.points.size(); ++p) {
+    const double penetration = now_.points[p].penetration;
+    now_.points[p] = stands.points[p];
+    now_.points[p].penetration = penetration;
+    if (active_) continue;
+    now_.points[p].status = PointStatus::open;
+    now_.points[p].pressure = now_.points[p].balance_pressure = now_.points[p].multiplier = 0;
+    now_.points[p].traction = {};
+    now_.points[p].anchored = false;
+  }
+  place_heat();
+}
+
+void ContactPair::place_heat() {
+  if (!heat_) return;
+  std::vector<double> penetration, pressure;
+  for (const PointState& point : now_.points) {
+    penetration.push_back(point.penetration);
+    pressure.push_back(point.pressure);
+  }
+  heat_->place(penetration, pressure);
+}
+
+void ContactPair::augment() {
+  if (law_.normal.kind != NormalKind::augmented_lagrangian) return;
+  for (std::size_t p = 0; p < step_.from.size(); ++p) {
+    step_.from[p].multiplier = now_.points[p].pressure;
+    step_.from[p].traction = now_.points[p].traction;
+  }
+}
+
+double ContactPair::excess() const {
+  double largest = 0;
+  if (active_ && law_.normal.kind == NormalKind::augmented_lagrangian)
+    for (const PointState& point : now_.points)
+      if (point.status != PointStatus::open) largest = std::max(largest, std::abs(point.penetration));
+  return algebra::global_max(largest) / allowed_penetration_;
+}
+
+std::string ContactPair::trouble() const {
+  const FrictionStatus failure = mechanics_->failure();
+  if (algebra::any_process(failure != FrictionStatus::converged)) {
+    const double worst = algebra::global_max(static_cast<double>(failure));
+    return fmt::format("contact '{}': {}", spec_.name,
+                       reason(static_cast<FrictionStatus>(std::lround(worst))));
+  }
+  const GlobalIndex n = changes();
+  if (n == 0) return {};
+  return fmt::format("contact '{}': {} points still change between open, sticking and slipping", spec_.name,
+                     n);
+}
+
+GlobalIndex ContactPair::changes() const {
+  return std::llround(algebra::global_sum(static_cast<double>(mechanics_->changes())));
 }
 
 void ContactPair::add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const {
   if (!heat_ || !active_) return;
-  std::vector<double> slope(pressure_.size());
-  for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = law_.update(penetration_[i]).tangent;
-  heat_->add_gap_tangent(slope, temperature, mechanics_->slots(), matrix);
+  const auto& points = dynamic_cast<const FixedKinematics&>(*kinematics_).points();
+  std::vector<double> slope(now_.points.size());
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const PointState& from = step_.from[at(p)];
+    slope[at(p)] =
+        law_.forces(kinematics_->motion(p, from, ContactKinematics::Asked::motion), from).normal.tangent;
+  }
+  heat_->add_gap_tangent(slope, temperature,
+                         pairing_slots(points, mesh_.n_owned_nodes, matrix.displacement()), matrix);
 }
 
-double ContactPair::work(std::span<const double> old_penetration, double share) const {
+double ContactPair::force_times_increment(const std::vector<PointState>& states,
+                                          std::span<const double> displacement, double time,
+                                          std::span<const double> increment) {
+  placement_->place(time, displacement);
+  const auto n = static_cast<std::size_t>(components_);
   double work = 0;
-  for (const Pairing& pairing : points_.pairings) {
-    if (!pairing.counted || !active_) continue;
-    for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      const double before = old_penetration[i], now = penetration_[i];
-      const double pressure = share * law_.update(now).pressure + (1 - share) * law_.update(before).pressure;
-      work += points_.weight[i] * pressure * (now - before);
-    }
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const PointState& state = states[at(p)];
+    if (!kinematics_->particle(p).counted) continue;
+    if (state.balance_pressure == 0 && state.status == PointStatus::open) continue;
+    const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
+    const Point force = force_on_master(motion, state, state.balance_pressure);
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        work += motion.weight * motion.share[b] * force[i] * increment[at(motion.nodes[b]) * n + i];
   }
+  return work;
+}
+
+double ContactPair::work(double share) {
+  if (!active_) return 0;
+  std::vector<double> increment = displacement_;
+  for (std::size_t i = 0; i < increment.size(); ++i) increment[i] -= step_.displacement[i];
+  double work = 0;
+  if (share != 1)
+    work += (1 - share) * force_times_increment(step_.from, step_.displacement, step_.begun, increment);
+  if (share != 0) work += share * force_times_increment(now_.points, displacement_, time_, increment);
+  placement_->place(time_, displacement_);
   return algebra::global_sum(work);
 }
 
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
-  double points = 0, closed = 0, area = 0, force = 0, energy = 0;
-  for (const Pairing& pairing : points_.pairings) {
-    if (!pairing.counted) continue;
-    for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      const auto response = law_.update(penetration_[i]);
-      points += 1;
-      if (!response.closed || !active_) continue;
-      closed += 1;
-      area += points_.weight[i];
-      force += points_.weight[i] * response.pressure;
-      energy += points_.weight[i] * response.energy;
+  placement_->place(time_, displacement_);
+  std::array<double, 16> s{};
+  const auto n = static_cast<std::size_t>(components_);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics_->particle(p);
+    if (!particle.counted) continue;
+    const PointState& state = now_.points[at(p)];
+    const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
+    const double w = particle.weight;
+    s[0] += 1;
+    s[1] += w * (active_ ? law_.stored(state) : 0.0);
+    s[2] += w * state.work;
+    s[3] += w * state.dissipation;
+    if (state.status == PointStatus::open) continue;
+    s[4] += 1;
+    s[5] += state.status == PointStatus::sticks ? 1 : 0;
+    s[6] += w;
+    s[7] += w * state.pressure;
+    s[8] += w * norm(state.traction);
+    Point x = particle.position;
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        x[i] += particle.share[b] * displacement_[at(particle.nodes[b]) * n + i];
+    const Point force = scale(w, force_on_master(motion, state, state.pressure));
+    const Point moment = cross(x, force);
+    for (std::size_t i = 0; i < 3; ++i) {
+      s[9 + i] += force[i];
+      s[12 + i] += moment[i];
     }
   }
+  s[15] = heat_ && !temperature.empty() ? heat_->counted_heat(temperature) : 0.0;
+  MPI_Allreduce(MPI_IN_PLACE, s.data(), static_cast<int>(s.size()), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   ContactSums sums;
-  sums.points = static_cast<GlobalIndex>(std::llround(algebra::global_sum(points)));
-  sums.closed_points = static_cast<GlobalIndex>(std::llround(algebra::global_sum(closed)));
-  sums.closed_area = algebra::global_sum(area);
-  sums.force = algebra::global_sum(force);
-  sums.energy = algebra::global_sum(energy);
-  const double heat = heat_ && !temperature.empty() ? heat_->counted_heat(temperature) : 0.0;
-  sums.heat = algebra::global_sum(heat);
+  sums.points = std::llround(s[0]);
+  sums.energy = s[1];
+  sums.work = s[2];
+  sums.dissipation = s[3];
+  sums.closed_points = std::llround(s[4]);
+  sums.sticking_points = std::llround(s[5]);
+  sums.closed_area = s[6];
+  sums.force = s[7];
+  sums.friction = s[8];
+  sums.resultant = {s[9], s[10], s[11]};
+  sums.moment = {s[12], s[13], s[14]};
+  sums.heat = s[15];
   return sums;
-}
-
-ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature) const {
-  const std::vector<double> of_points =
-      heat_ ? heat_->conductances(temperature) : std::vector<double>(pressure_.size(), 0.0);
-  const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
-  std::vector<double> weight(n, 0), opening(n, 0), pressure(n, 0), conductance(n, 0);
-  for (const Pairing& pairing : points_.pairings) {
-    const double* b = points_.shape.data() + pairing.first_shape;
-    for (Index p = pairing.first_point; p < pairing.first_point + pairing.n_points; ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      for (int a = 0; a < pairing.n_nodes(); ++a) {
-        const auto node =
-            static_cast<std::size_t>(points_.nodes[pairing.first_node + static_cast<std::size_t>(a)]);
-        if (node >= n) continue;
-        const double w = points_.weight[i] * b[a] * b[a];
-        weight[node] += w;
-        opening[node] -= w * penetration_[i];
-        pressure[node] += w * pressure_[i];
-        conductance[node] += w * of_points[i];
-      }
-      b += pairing.n_nodes();
-    }
-  }
-  ContactNodalFields fields;
-  fields.nodes = points_.nodes;
-  std::sort(fields.nodes.begin(), fields.nodes.end());
-  fields.nodes.erase(std::unique(fields.nodes.begin(), fields.nodes.end()), fields.nodes.end());
-  std::erase_if(fields.nodes, [&](Index node) { return node >= mesh_.n_owned_nodes; });
-  for (Index node : fields.nodes) {
-    const auto i = static_cast<std::size_t>(node);
-    const double w = weight[i] > 0 ? weight[i] : std::numeric_limits<double>::quiet_NaN();
-    fields.opening.push_back(opening[i] / w);
-    fields.pressure.push_back(pressure[i] / w);
-    fields.conductance.push_back(conductance[i] / w);
-  }
-  return fields;
 }
 
 std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature) const {
@@ -190,8 +368,8 @@ std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature)
 }
 
 std::size_t ContactPair::bytes() const {
-  return points_.bytes() + 2 * pressure_.capacity() * sizeof(double) + mechanics_->bytes() +
-         (heat_ ? heat_->bytes() : 0);
+  return partners_.bytes() + (now_.points.capacity() + step_.from.capacity()) * sizeof(PointState) +
+         mechanics_->bytes() + (heat_ ? heat_->bytes() : 0);
 }
 
 }  // namespace solidus::contact

@@ -1,4 +1,8 @@
 /// A pair of surfaces that may touch and part: forces and heat between them as terms of the two phases.
+///
+/// A mechanical pass goes begin(state at t_n) – Newton's iteration with mechanics() – update(solution);
+/// state() is then the history at t_{n+1}, which the scheme keeps or throws away. Points do not know each
+/// other, and every process brings the points that its nodes can meet to the same state.
 #pragma once
 
 #include <memory>
@@ -7,31 +11,51 @@
 
 #include "algebra/contribution.hpp"
 #include "algebra/coupled_matrix.hpp"
-#include "contact/integration.hpp"
-#include "contact/normal.hpp"
+#include "contact/mechanics_term.hpp"
+#include "contact/partners.hpp"
 #include "contact/spec.hpp"
 
 namespace solidus::contact {
 
-class MechanicsTerm;
 class HeatTerm;
 
 /// Sums over a pair, all processes (axisymmetric: of the whole revolution; plane strain: per metre).
 struct ContactSums {
-  GlobalIndex points = 0, closed_points = 0;
-  double force = 0;        ///< ∫ t_N dA [N]
+  GlobalIndex points = 0, closed_points = 0, sticking_points = 0;
+  double force = 0;     ///< ∫ t_N dA [N]
+  double friction = 0;  ///< ∫ ‖T‖ dA [N]
+  Point resultant{};    ///< ∫ (t_N n + F T) dA, the force on the master [N]; on the slave it is the reverse
+  Point moment{};       ///< its moment about the origin [N m]
   double closed_area = 0;  ///< area of the closed points [m²]
-  double energy = 0;       ///< ∫ ½ ε_N ⟨g_N⟩² dA [J]
+  double energy = 0;       ///< in the springs, normal and tangential [J]
+  double work = 0;         ///< of friction so far, ∫ ∫ ‖T‖ dγ dA [J]
+  double dissipation = 0;  ///< of friction so far [J]; the work less this is what hardening stores
   double heat = 0;         ///< from slave to master [W]
 };
 
-/// Averages around the nodes of both surfaces, [owned node of the surface]; NaN at nodes without a point
-/// (the surface has no partner there). Weighted with w N_a².
+/// Averages around the nodes of both surfaces, [owned node of the surface]; NaN at nodes without a point that
+/// has a partner. Weighted with w N_a²; what points remember of friction, with w N_a over all points of the
+/// slave, which keeps its integral, NaN on the master.
 struct ContactNodalFields {
   std::vector<Index> nodes;         ///< local numbers of owned nodes, slave's and master's, sorted
   std::vector<double> opening;      ///< [m], negative: penetration
   std::vector<double> pressure;     ///< t_N [Pa]
   std::vector<double> conductance;  ///< h without radiation [W/(m² K)]; zero without heat
+  /// With friction, else empty: 0 open, 1 sticks, 2 slips; and F T, on the master [Pa].
+  std::vector<double> status;
+  std::vector<Point> traction;
+  /// With friction, else empty: what points remember. μ is that of ζ_c and Θ_c.
+  std::vector<double> slip, internal_variable, coefficient, dissipation, wear_depth;
+  std::vector<double> temperature;  ///< Θ_c [K]
+};
+
+/// What a pass of the mechanical phase starts from.
+struct ContactPass {
+  double time = 0, dt = 0;               ///< t_{n+1} and the step [s]
+  std::span<const double> displacement;  ///< u_n, [local node][component] [m]
+  std::span<const double> temperature;   ///< Θ_n, [local node] [K]; empty: unknown
+  bool isentropic = false;               ///< the pass holds the entropy of the interface, not Θ_c
+  double share = 1;                      ///< s of normal.hpp
 };
 
 class ContactPair {
@@ -46,55 +70,98 @@ class ContactPair {
   ContactPair& operator=(const ContactPair&) = delete;
 
   /// Off: open at every point, without force, heat, energy or stabilisation, whatever the gap; gaps are still
-  /// measured. Between steps; holds from the next update() on.
+  /// measured. Friction's history stays, but slip is counted anew after it. Between steps; holds from the
+  /// next update() or restore() on.
   void activate(bool on);
   bool active() const { return active_; }
 
-  /// The term of the mechanical phase: r = ∫ t_N δg_N dA of the displacement it is called with, whatever the
-  /// state of update().
-  algebra::Contribution& mechanics();
-  /// The term of the thermal phase, at the gaps and pressures of the last update(); null without a heat law.
+  /// The term of the mechanical phase, of the displacement it is called with and the start of the step,
+  /// whatever the state of update().
+  algebra::Contribution& mechanics() { return *mechanics_; }
+  /// The term of the thermal phase, with the configuration of the last update(); null without a heat law.
   algebra::Contribution* heat();
+  /// Whether the derivative of mechanics() is symmetric.
+  bool symmetric() const;
 
-  /// Gap, pressure and conductance of every point for a displacement: [local node][component], ghosts up to
-  /// date [m]. Local, no communication.
+  /// The history of bodies that have not moved.
+  ContactState initial_state() const;
+  /// A step sets out from `old`; empty: initial_state(). Local, no communication.
+  void begin(const ContactState& old, const ContactPass& pass);
+  /// Forces and history of every point for a displacement, and what heat sees of them: [local
+  /// node][component], ghosts up to date [m]. Local, no communication.
   void update(std::span<const double> displacement);
+  /// Stands as the update() did that ended in `state` (empty: initial_state()) at this displacement and time.
+  /// Local.
+  void restore(const ContactState& state, std::span<const double> displacement, double time);
+  /// Of the last update() or restore().
+  const ContactState& state() const { return now_; }
+
+  /// Uzawa's step of the augmented Lagrangian: the forces of the last update() become the multipliers.
+  void augment();
+  /// The largest penetration at closed points of the last update(), as a share of what is allowed; zero
+  /// where there is no augmented Lagrangian. Collective.
+  double excess() const;
+
+  /// Drops what the pattern of matrices remembers (coupling/scheme.hpp, forget()).
+  void forget() { graph_->forget(); }
+  /// What the last residual says of an iteration that fails, for messages: empty, or with the pair's name.
+  /// Collective.
+  std::string trouble() const;
+  /// Points that changed between open, sticking and slipping at the last residual. Collective.
+  GlobalIndex changes() const;
 
   /// Adds the derivative of the heat with respect to the displacement, through the conductances of the last
-  /// update(); nothing without a heat law. The mechanical term must be bound to the displacement's matrix.
+  /// update(); nothing without a heat law.
   void add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const;
 
   /// Sums at the last update(); `temperature` [local node] or empty (heat = 0). Collective.
   ContactSums sums(std::span<const double> temperature) const;
-  /// Work that closes the gaps from an earlier penetration to that of the last update(), by the mean of the
-  /// pressures at both [J]. Collective.
+  /// Work that the bodies do on contact from the start of the step to the last update(), by the mean of the
+  /// forces at both [J]. Collective.
   /// @param share of the last update() in the mean
-  double work(std::span<const double> old_penetration, double share) const;
-  /// Averages at nodes, at the last update(). Local.
-  /// @param temperature  [local node] [K]; empty: a law of it is taken at room temperature
-  ContactNodalFields nodal_fields(std::span<const double> temperature = {}) const;
+  double work(double share);
+  /// Averages at nodes, at the last update(); without temperatures, conductances at room temperature. Local.
+  ContactNodalFields nodal_fields(std::span<const double> temperature) const;
   /// Heat that leaves the slave's and enters the master's surface around every owned node [W]: positive where
   /// the node loses heat; the sum over all is zero. [owned node].
   std::vector<double> nodal_heat(std::span<const double> temperature) const;
 
   const ContactSpec& spec() const { return spec_; }
-  const ContactPoints& points() const { return points_; }
-  double penalty() const { return law_.penalty; }  ///< ε_N [Pa/m]
-  /// Part of the slave surface that has a partner, 0 to 1.
-  double coverage() const { return points_.paired_measure / points_.slave_measure; }
-  std::span<const double> penetration() const { return penetration_; }  ///< [point] [m]
-  std::span<const double> pressure() const { return pressure_; }        ///< [point] [Pa]
+  double penalty() const { return law_.normal.penalty; }  ///< ε_N [Pa/m]
+  const ContactKinematics& kinematics() const { return *kinematics_; }
+  const PointLaw& law() const { return law_; }
+  /// Of the last update().
+  const PartnerList& partners() const { return partners_; }
+  /// Part of the slave surface that has a partner at the start, 0 to 1.
+  double coverage() const { return kinematics_->coverage(); }
   std::size_t bytes() const;
 
  private:
+  void make_kinematics(AnalysisKind kind, const ContactSurface& slave, const ContactSurface& master);
+  void make_laws(const ContactSurface& slave, double penalty);
+  void place_heat();
+  void find_interface_temperatures(std::span<const double> temperature);
+  /// ∫ f · ΔΣ B_b u_b of the points' forces at a displacement, this process's part [J].
+  double force_times_increment(const std::vector<PointState>& states, std::span<const double> displacement,
+                               double time, std::span<const double> increment);
+
   const mesh::Mesh& mesh_;
   ContactSpec spec_;
   int components_;
   bool active_ = true;
-  ContactPoints points_;
-  NormalPenalty law_;
+  double touching_ = 0;             ///< initial gaps up to this are none [m]
+  double allowed_penetration_ = 0;  ///< [m]; augmented Lagrangian
+  std::unique_ptr<ContactKinematics> kinematics_;
+  std::unique_ptr<Placement> placement_;
+  std::unique_ptr<ContactGraph> graph_;
+  PointLaw law_;
   std::optional<HeatTransferLaw> heat_law_;
-  std::vector<double> penetration_, pressure_;
+  ContactStep step_;
+  ContactState now_;
+  std::vector<double> displacement_;  ///< of now_
+  double time_ = 0;                   ///< likewise
+  PartnerList partners_;
+  std::vector<Index> surface_nodes_;  ///< owned nodes of both surfaces, sorted
   std::unique_ptr<MechanicsTerm> mechanics_;
   std::unique_ptr<HeatTerm> heat_;
 };

@@ -5,15 +5,32 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "contact/friction.hpp"
 #include "contact/heat_transfer.hpp"
 #include "contact/integration.hpp"
+#include "contact/normal.hpp"
+#include "contact/wear.hpp"
 
 namespace solidus::contact {
+
+enum class Formulation {
+  small_sliding,  ///< partners found once, in the reference configuration (fixed_kinematics.hpp)
+  large_sliding   ///< closest points on the current configuration
+};
 
 struct ContactSpec {
   std::string name;    ///< for messages and column names
   std::string slave;   ///< surface that is integrated over; the finer or softer one
   std::string master;  ///< surface that it is projected on
+  Formulation formulation = Formulation::small_sliding;
+  bool smoothing = false;  ///< averaged normals of the master (large sliding)
+  NormalKind normal = NormalKind::penalty;
+  /// Of the augmented Lagrangian: the penetration that may be left, as a share of the mean size of the
+  /// slave's faces.
+  double penetration_tolerance = 1e-6;
+  std::optional<FrictionSpec> friction;  ///< absent: none
+  std::optional<WearSpec> wear;          ///< absent: no depth of wear; needs friction
+  double interface_heat_capacity = 0;    ///< C_co [J/(m² K)]
   /// ε_N [Pa/m], or the factor on the local stiffness E/h (`penalty_is_factor`).
   double penalty = 10;
   bool penalty_is_factor = true;

@@ -4,12 +4,19 @@
 
 #include <vector>
 
+#include "base/types.hpp"
 #include "contact/vector.hpp"
 
 namespace solidus::contact {
 
+enum class PointStatus { open, sticks, slips };
+
 /// The history of one point of the slave surface: it travels with the slave's particle, whatever it meets.
 struct PointState {
+  GlobalIndex number = 0;  ///< ContactKinematics::Particle: of all processes alike
+  bool counted = false;    ///< this process writes it to checkpoints
+  PointStatus status = PointStatus::open;
+  double offset = 0;       ///< closes an initial gap that counts as touching: added to g_N [m]
   double penetration = 0;  ///< g_N [m] (3.5)
   double pressure = 0;     ///< t_N [Pa]
   /// What t_N counts as in the balance of forces at t_n [Pa]: the same, but with the energy-conserving
@@ -23,6 +30,7 @@ struct PointState {
   bool anchored = false;  ///< had a partner at t_n, touching it or not: `anchor` holds
   double internal_variable = 0;  ///< ζ_c, in the units of the law (friction.hpp)
   double slip = 0;               ///< ∫ γ_c dt [m]
+  double work = 0;               ///< ∫ ‖T‖ γ_c dt, of which the dissipation is a part [J/m²]
   double dissipation = 0;        ///< ∫ D_c,mech dt [J/m²] (3.58)
   double wear_depth = 0;         ///< by Archard's law [m]
   // The interface as a body of its own.

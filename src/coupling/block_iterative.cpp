@@ -10,6 +10,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
+#include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
@@ -69,12 +70,13 @@ BlockIterative::BlockIterative(Phases phases, IterationOptions options)
 }
 
 void BlockIterative::synchronise(const State& state) {
-  for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
+  restore_contacts(phases_, state);
 }
 
 void BlockIterative::forget() {
   phases_.mechanics->forget();
   phases_.heat->forget();
+  for (contact::ContactPair* pair : phases_.contacts) pair->forget();
 }
 
 StepEffort BlockIterative::advance(const State& old, State& trial, double time, double dt) {
@@ -103,6 +105,7 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
   }
   trial.heat = std::move(it.now.heat);
   trial.mechanics = std::move(it.now.mechanics);
+  trial.contacts = std::move(it.now.contacts);
   effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
   summarise(phases_, trial, effort);
   return effort;

@@ -2,35 +2,27 @@
 
 namespace solidus::coupling {
 
-ContactWork::ContactWork(const Phases& phases) : phases_(phases), stored_(stored()) {
-  for (const contact::ContactPair* pair : phases.contacts)
-    begin_.emplace_back(pair->penetration().begin(), pair->penetration().end());
-  last_ = begin_;
-}
+ContactWork::ContactWork(const Phases& phases) : phases_(phases), begin_(energy()) {}
 
-double ContactWork::stored() const {
-  double energy = 0;
-  for (const contact::ContactPair* pair : phases_.contacts) energy += pair->sums({}).energy;
+ContactWork::Energy ContactWork::energy() const {
+  Energy energy;
+  for (const contact::ContactPair* pair : phases_.contacts) {
+    const contact::ContactSums sums = pair->sums({});
+    energy.stored += sums.energy + (sums.work - sums.dissipation);
+    energy.dissipated += sums.dissipation;
+  }
   return energy;
 }
 
 void ContactWork::add(double share, double factor) {
-  for (std::size_t i = 0; i < last_.size(); ++i) {
-    const contact::ContactPair& pair = *phases_.contacts[i];
-    work_ += factor * pair.work(last_[i], share);
-    last_[i].assign(pair.penetration().begin(), pair.penetration().end());
-  }
+  for (contact::ContactPair* pair : phases_.contacts) work_ += factor * pair->work(share);
 }
 
-void ContactWork::restart(double carried) {
-  for (std::size_t i = 0; i < last_.size(); ++i)
-    for (std::size_t p = 0; p < last_[i].size(); ++p)
-      last_[i][p] = begin_[i][p] + carried * (last_[i][p] - begin_[i][p]);
-}
-
-void ContactWork::book(EnergyAudit& energy) const {
-  energy.contact = stored() - stored_;
-  energy.numerical += work_ - energy.contact;
+void ContactWork::book(EnergyAudit& audit) const {
+  const Energy now = energy();
+  audit.contact = now.stored - begin_.stored;
+  audit.friction = now.dissipated - begin_.dissipated;
+  audit.numerical += work_ - audit.contact - audit.friction;
 }
 
 }  // namespace solidus::coupling

@@ -81,7 +81,9 @@ bool CoupledNewton::converged() const {
 algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState& old,
                                                 std::span<const double> x, int iteration) {
   mechanics_.tangent();
-  matrix_.set_zero();
+  if (thermal_->follow_graph())
+    for (mechanics::CoupledKernel* kernel : kernels_) kernel->bind_heat(thermal_->matrix());
+  if (matrix_.set_zero()) solver_.reset();
   thermal_->assemble(iteration);
   for (mechanics::CoupledKernel* kernel : kernels_)
     kernel->add_coupling(phases_.structural->form(), old.displacement, x, thermal_->temperature(), matrix_);

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
@@ -17,12 +18,13 @@ DoublePass::DoublePass(Phases phases) : phases_(std::move(phases)) {
 }
 
 void DoublePass::synchronise(const State& state) {
-  for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
+  restore_contacts(phases_, state);
 }
 
 void DoublePass::forget() {
   phases_.mechanics->forget();
   phases_.heat->forget();
+  for (contact::ContactPair* pair : phases_.contacts) pair->forget();
 }
 
 StepEffort DoublePass::advance(const State& old, State& trial, double time, double dt) {

@@ -1,6 +1,7 @@
 /// What a running simulation tells to whoever writes results or shows progress.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,20 +24,25 @@ struct PhaseEffort {
 struct EnergyAudit {
   double stored_heat = 0;  ///< change of sensible and latent heat
   double structural = 0;   ///< change of the structural energy W + M + Θ S
-  double contact = 0;      ///< change of the energy in contact penalties
-  double kinetic = 0;      ///< change of the kinetic energy
-  double numerical = 0;    ///< what the time integration of inertia and of contact penalties dissipates
-  double work = 0;         ///< work of loads and supports on the bodies
-  double unbalanced = 0;   ///< work of the forces that Newton's iteration left, a part of the defect
-  double heat_in = 0;      ///< through boundaries and from sources
-  double entropy_in = 0;   ///< that came with it, at the temperatures of the bodies there [J/K]
+  double contact = 0;  ///< change of the energy in contact penalties, and of what friction's hardening stores
+  double kinetic = 0;  ///< change of the kinetic energy
+  double friction = 0;    ///< what friction dissipates
+  double numerical = 0;   ///< what the time integration of inertia and of contact penalties dissipates
+  double work = 0;        ///< work of loads and supports on the bodies
+  double unbalanced = 0;  ///< work of the forces that Newton's iteration left, a part of the defect
+  double heat_in = 0;     ///< through boundaries and from sources
+  double entropy_in = 0;  ///< that came with it, at the temperatures of the bodies there [J/K]
   double heat_exchanged =
       0;  ///< what the defect is measured against: the sum of magnitudes of heat moved in the step
   double viscous_dissipation = 0;  ///< heat of the flowing melt (2.114)
   double plastic_dissipation = 0;  ///< heat of plastic flow (2.117)
   double plastic_work = 0;         ///< work of the deviator on plastic flow
   double hardening() const { return plastic_work - plastic_dissipation; }  ///< what hardening stores
-  double defect() const { return stored_heat + structural + contact + kinetic + numerical - work - heat_in; }
+  double frictional_heat = 0;  ///< what of the friction the thermal phase took up
+  double defect() const {
+    return stored_heat + structural + contact + kinetic + numerical + friction - frictional_heat - work -
+           heat_in;
+  }
   /// The same of two steps in a row.
   EnergyAudit& operator+=(const EnergyAudit& next);
 };
@@ -55,6 +61,11 @@ struct ContactSummary {
   int closed_points = 0, points = 0;
   double heat = 0;   ///< from slave to master [W]
   double force = 0;  ///< resultant normal force [N]
+  int sticking_points = 0;
+  double friction = 0;                   ///< ∫ ‖T‖ dA [N]
+  std::array<double, 3> resultant = {};  ///< force on the master [N]
+  std::array<double, 3> moment = {};     ///< of it about the origin [N m]
+  double dissipation = 0;                ///< of friction, since the start [J]
 };
 
 /// What a scheme reports of a step it took.

@@ -2,6 +2,9 @@
 
 #include <mpi.h>
 
+#include "base/errors.hpp"
+#include "coupling/contact_states.hpp"
+
 namespace solidus::coupling {
 
 namespace {
@@ -18,8 +21,24 @@ void add(const algebra::NewtonReport& newton, double seconds, PhaseEffort& effor
 bool mechanical_pass(const Phases& phases, const State& old, State& trial,
                      const mechanics::MechanicalPass& pass, StepEffort& effort) {
   const double start = MPI_Wtime();
-  const mechanics::PhaseReport report = phases.mechanics->solve(old.mechanics, trial.mechanics, pass);
-  for (contact::ContactPair* pair : phases.contacts) pair->update(trial.mechanics.displacement);
+  begin_contacts(phases, old.contacts, old.mechanics, pass);
+  mechanics::PhaseReport report;
+  mechanics::MechanicalPass turn = pass;
+  mechanics::MechanicalState next;
+  for (int n_turns = 1;; ++n_turns) {
+    try {
+      const mechanics::PhaseReport of_turn = phases.mechanics->solve(old.mechanics, next, turn);
+      add(of_turn.newton, 0, effort.mechanics);
+      report = of_turn;
+    } catch (const StepRejected& rejected) {
+      reject_with_contacts(phases, rejected);
+    }
+    for (contact::ContactPair* pair : phases.contacts) pair->update(next.displacement);
+    if (penetrations_small(phases, n_turns)) break;
+    turn.start = next.displacement;
+  }
+  trial.mechanics = std::move(next);
+  trial.contacts = contact_states(phases);
 
   effort.energy.kinetic = report.work.kinetic;
   effort.energy.numerical = report.work.numerical;
@@ -30,7 +49,7 @@ bool mechanical_pass(const Phases& phases, const State& old, State& trial,
   effort.energy.plastic_work = report.work.plastic_work;
   effort.least_dissipation = report.work.least_dissipation;
   effort.largest_dissipation = report.work.largest_dissipation;
-  add(report.newton, MPI_Wtime() - start, effort.mechanics);
+  effort.mechanics.seconds += MPI_Wtime() - start;
   return report.newton.converged;
 }
 
@@ -51,6 +70,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   } else {
     // Deformation exchanges nothing with heat: the first law is that of the thermal phase alone.
     effort.energy.work = effort.energy.contact = effort.energy.kinetic = effort.energy.numerical = 0;
+    effort.energy.friction = 0;
   }
   add(report.newton, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;

@@ -28,8 +28,15 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   effort.contacts.clear();
   for (const contact::ContactPair* pair : phases.contacts) {
     const contact::ContactSums sums = pair->sums(state.heat.temperature);
-    effort.contacts.push_back(
-        {static_cast<int>(sums.closed_points), static_cast<int>(sums.points), sums.heat, sums.force});
+    effort.contacts.push_back({.closed_points = static_cast<int>(sums.closed_points),
+                               .points = static_cast<int>(sums.points),
+                               .heat = sums.heat,
+                               .force = sums.force,
+                               .sticking_points = static_cast<int>(sums.sticking_points),
+                               .friction = sums.friction,
+                               .resultant = sums.resultant,
+                               .moment = sums.moment,
+                               .dissipation = sums.dissipation});
   }
 }
 

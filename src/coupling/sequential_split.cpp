@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
@@ -15,12 +16,13 @@ SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping) : ph
 
 void SequentialSplit::synchronise(const State& state) {
   if (phases_.mechanics == nullptr) return;  // without deformation the gaps stay as they were made
-  for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
+  restore_contacts(phases_, state);
 }
 
 void SequentialSplit::forget() {
   if (phases_.mechanics != nullptr) phases_.mechanics->forget();
   if (phases_.heat != nullptr) phases_.heat->forget();
+  for (contact::ContactPair* pair : phases_.contacts) pair->forget();
 }
 
 StepEffort SequentialSplit::advance(const State& old, State& trial, double time, double dt) {

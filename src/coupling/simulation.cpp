@@ -95,9 +95,9 @@ void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& fro
   if (staged) {
     stage_begins_(p.stage, p.stage_start);
     scheme_->conditions_changed();
-    scheme_->forget();
   }
   scheme_->synchronise(p.committed);
+  scheme_->forget();  // as after a checkpoint of this state
 }
 
 Outcome Simulation::stopped(const Stop& why, Progress& p, Outcome outcome) {

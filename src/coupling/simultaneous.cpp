@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/errors.hpp"
+#include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/stability_audit.hpp"
 #include "material/time_integration.hpp"
@@ -59,7 +61,12 @@ SimultaneousScheme::SimultaneousScheme(Phases phases, SimultaneousOptions option
 }
 
 void SimultaneousScheme::synchronise(const State& state) {
-  for (contact::ContactPair* pair : phases_.contacts) pair->update(state.mechanics.displacement);
+  restore_contacts(phases_, state);
+}
+
+void SimultaneousScheme::forget() {
+  newton_->forget();
+  for (contact::ContactPair* pair : phases_.contacts) pair->forget();
 }
 
 void SimultaneousScheme::drop_carried() {
@@ -82,7 +89,8 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
 
 StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt) {
   newton_->thermal().begin(old.heat, time, dt);
-  return stage(old.mechanics, {.time = time, .dt = dt, .temperature = old.heat.temperature}, trial);
+  return stage(old.mechanics, old.contacts, {.time = time, .dt = dt, .temperature = old.heat.temperature},
+               trial);
 }
 
 StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double time, double dt,
@@ -91,17 +99,16 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   const double middle = time - dt + share;
   State first;
   newton_->thermal().begin(old.heat, middle, share);
-  const StepEffort of_first =
-      stage(old.mechanics, {.time = middle, .dt = share, .temperature = old.heat.temperature}, first);
+  const StepEffort of_first = stage(
+      old.mechanics, old.contacts, {.time = middle, .dt = share, .temperature = old.heat.temperature}, first);
 
   contact.add(1, carried);
-  contact.restart(carried);
   for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->carry(carried, first.heat.temperature);
   const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
   newton_->thermal().begin_stage(old.heat, first.heat, carried, time, share);
   StepEffort effort = stage(
-      start, {.time = time, .dt = share, .temperature = old.heat.temperature, .iterate = &first.mechanics},
-      trial);
+      start, second_start(old.contacts, first.contacts, carried),
+      {.time = time, .dt = share, .temperature = old.heat.temperature, .iterate = &first.mechanics}, trial);
   drop_carried();
   add_first_stage(effort.energy, of_first.energy, carried);
   effort.mechanics.iterations += of_first.mechanics.iterations;
@@ -113,13 +120,26 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   return effort;
 }
 
-StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
-                                     State& trial) {
+StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
+                                     const std::vector<contact::ContactState>& contacts,
+                                     mechanics::MechanicalPass pass, State& trial) {
   const double start = MPI_Wtime();
   pass.iterate_temperature = newton_->thermal().temperature();
+  begin_contacts(phases_, contacts, old, pass);
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
-  report_ = newton_->solve(old, pass, x);
+  int iterations = 0, linear_iterations = 0;
+  for (int turn = 1;; ++turn) {
+    try {
+      report_ = newton_->solve(old, pass, x);
+    } catch (const StepRejected& rejected) {
+      reject_with_contacts(phases_, rejected);
+    }
+    iterations += report_.iterations;
+    linear_iterations += report_.linear_iterations;
+    if (penetrations_small(phases_, turn)) break;
+  }
+  trial.contacts = contact_states(phases_);
   const mechanics::MechanicalWork work =
       phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
   const heat::HeatBalance balance = newton_->thermal().conclude(trial.heat);
@@ -141,8 +161,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old, mech
   effort.largest_dissipation = work.largest_dissipation;
   const CoupledResidual& end = report_.residuals.back();
   // One iteration for both fields, booked with the mechanical phase.
-  effort.mechanics = {report_.iterations, report_.linear_iterations, end.force, MPI_Wtime() - start};
-  effort.heat = {report_.iterations, 0, end.heat, 0.0};
+  effort.mechanics = {iterations, linear_iterations, end.force, MPI_Wtime() - start};
+  effort.heat = {iterations, 0, end.heat, 0.0};
   return effort;
 }
 

@@ -35,7 +35,7 @@ class SimultaneousScheme final : public CouplingScheme {
   SimultaneousScheme(Phases phases, SimultaneousOptions options = {});
 
   void synchronise(const State& state) override;
-  void forget() override { newton_->forget(); }
+  void forget() override;
   void conditions_changed() override { newton_.emplace(phases_, options_.solver); }
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
 
@@ -46,7 +46,8 @@ class SimultaneousScheme final : public CouplingScheme {
   StepEffort backward_euler(const State& old, State& trial, double time, double dt);
   StepEffort two_stages(const State& old, State& trial, double time, double dt, ContactWork& contact);
   /// Mechanics from `old`, heat as thermal() has begun.
-  StepEffort stage(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass, State& trial);
+  StepEffort stage(const mechanics::MechanicalState& old, const std::vector<contact::ContactState>& contacts,
+                   mechanics::MechanicalPass pass, State& trial);
   void drop_carried();
 
   Phases phases_;

@@ -1,6 +1,9 @@
 /// The whole committed state of a run: what a step starts from and a checkpoint keeps, and nothing else.
 #pragma once
 
+#include <vector>
+
+#include "contact/state.hpp"
 #include "heat/thermal_state.hpp"
 #include "mechanics/mechanical_state.hpp"
 
@@ -10,6 +13,8 @@ struct State {
   double time = 0;                       ///< [s]
   heat::ThermalState heat;               ///< empty without a thermal phase
   mechanics::MechanicalState mechanics;  ///< empty without a mechanical phase
+  /// One per pair; empty, or one that is empty: bodies that have not moved yet.
+  std::vector<contact::ContactState> contacts;
 };
 
 }  // namespace solidus::coupling

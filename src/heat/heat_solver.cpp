@@ -47,6 +47,11 @@ void HeatSolver::forget() {
     if (solver) solver->forget();
 }
 
+void HeatSolver::reset() {
+  for (auto* solver : {quick_.get(), strong_.get()})
+    if (solver) solver->reset();
+}
+
 double HeatSolver::seconds() const {
   double total = 0;
   for (const auto* solver : {quick_.get(), strong_.get()})

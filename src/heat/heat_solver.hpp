@@ -21,6 +21,8 @@ class HeatSolver {
   algebra::LinearSolver& strong();
   /// As algebra::LinearSolver::forget().
   void forget();
+  /// As algebra::LinearSolver::reset().
+  void reset();
   double seconds() const;
 
  private:

@@ -29,15 +29,9 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   add_conduction(materials);
   add_conditions(conditions);
 
-  algebra::NodeGraph graph(mesh);
-  for (const mesh::Block& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-  for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
-  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, std::move(graph));
+  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, graph());
   matrix_->set_fixed(fixed_);
-  for (const auto& block : conduction_) block->bind(*matrix_);
-  for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
-  for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
-
+  bind();
   local_.resize(mesh.x.size());
   supplied_.resize(mesh.x.size());
   contributed_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
@@ -45,6 +39,26 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
 }
 
 HeatSystem::~HeatSystem() = default;
+
+algebra::NodeGraph HeatSystem::graph() const {
+  algebra::NodeGraph graph(mesh_);
+  for (const mesh::Block& block : mesh_.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+  for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
+  return graph;
+}
+
+void HeatSystem::bind() {
+  for (const auto& block : conduction_) block->bind(*matrix_);
+  for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
+  for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
+}
+
+bool HeatSystem::follow_graph() {
+  if (!algebra::graph_outdated(contributions_)) return false;
+  matrix_->set_graph(graph());
+  bind();
+  return true;
+}
 
 void HeatSystem::add_conditions(const Conditions& conditions) {
   const auto add_surface = [&](const auto& condition) {

@@ -43,6 +43,8 @@ class HeatSystem {
   /// Fills the matrix with ∂r/∂Θ; `exact` includes the slope of the conductivity (unsymmetric).
   void assemble(std::span<const double> temperature, bool exact);
   algebra::BlockMatrix& matrix() { return *matrix_; }
+  /// Gives the matrix another pattern where a contribution asks for it; then true. Collective.
+  bool follow_graph();
 
   /// Heat into the bodies at the last residual() by every surface and source, over all processes [W].
   struct Power {
@@ -79,6 +81,8 @@ class HeatSystem {
   };
   void add_prescribed(const std::vector<PrescribedTemperature>& conditions);
   void add_sources(const std::vector<Source>& sources);
+  algebra::NodeGraph graph() const;
+  void bind();
   void add_conduction(const std::vector<material::Material>& materials);
   void add_conditions(const Conditions& conditions);
   double add_flows(std::span<const double> temperature);

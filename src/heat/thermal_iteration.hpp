@@ -39,6 +39,8 @@ class ThermalIteration {
   double tolerance() const { return phase_.options_.tolerance; }
   int max_iterations() const { return phase_.options_.max_iterations; }
 
+  /// Makes the matrix anew where nodes meet that did not before; then true. Collective.
+  bool follow_graph() { return phase_.follow_graph(); }
   /// ∂F/∂Θ with the exact conductivity and the storage, plateaus held. May move the plateaus (and F) of a
   /// start that lies far off. `iteration` counts from zero.
   algebra::BlockMatrix& assemble(int iteration);

@@ -128,6 +128,13 @@ void ThermalPhase::set_conditions(const Conditions& conditions) {
   solver_->forget();
 }
 
+bool ThermalPhase::follow_graph() {
+  if (!system_->follow_graph()) return false;
+  for (const auto& block : points_) block->bind(system_->matrix());
+  solver_->reset();
+  return true;
+}
+
 void ThermalPhase::forget() {
   solver_->forget();
 }
@@ -171,6 +178,7 @@ ThermalState ThermalPhase::start(const ThermalState& old, double time) {
 
 PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
   assert(old.temperature.size() == mesh_.x.size() && pass.dt > 0);
+  follow_graph();
   solver_->begin(true);
   system_->exchange(!pass.adiabatic);
   ThermalState next;
@@ -257,6 +265,7 @@ void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, con
 
 PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
   assert(start.temperature.size() == mesh_.x.size());
+  follow_graph();
   system_->set_time(time);
   system_->exchange(true);
   solver_->begin(false);

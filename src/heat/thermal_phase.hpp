@@ -135,6 +135,8 @@ class ThermalPhase {
 
  private:
   friend class ThermalIteration;
+  /// Makes the matrix anew where a contribution asks for it; then true. Collective.
+  bool follow_graph();
   /// Throws StepRejected like require() unless `newton_steps` limits the iteration.
   algebra::NewtonReport solve_temperature(std::span<double> temperature, int newton_steps = 0);
   void keep_reactions(std::span<const double> residual);

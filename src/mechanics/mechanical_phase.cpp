@@ -91,13 +91,21 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 
 MechanicalPhase::~MechanicalPhase() = default;
 
-void MechanicalPhase::create_matrix() {
+algebra::NodeGraph MechanicalPhase::graph() const {
   algebra::NodeGraph graph(mesh_);
   for (const mesh::Block& block : mesh_.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
-  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, std::move(graph));
+  return graph;
+}
+
+void MechanicalPhase::create_matrix() {
+  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, graph());
   matrix_->set_fixed(loads_->fixed());
   matrix_->tie(loads_->ties());
+  bind();
+}
+
+void MechanicalPhase::bind() {
   for (const auto& block : blocks_) block->bind(*matrix_);
   if (inertia_) inertia_->bind(*matrix_);
   for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
@@ -263,6 +271,11 @@ void MechanicalPhase::add_residual_to_balance(std::span<const double> r) {
 
 algebra::BlockMatrix& MechanicalPhase::tangent() {
   const Stopwatch watch(seconds_assembly_);
+  if (algebra::graph_outdated(contributions_)) {
+    matrix_->set_graph(graph());
+    solver_->reset();
+    bind();
+  }
   matrix_->set_zero();
   for (const auto& block : blocks_) block->add_tangent(x_, *matrix_);
   if (inertia_) inertia_->add_tangent(*matrix_);
@@ -294,6 +307,7 @@ void MechanicalPhase::begin(const MechanicalState& old, const MechanicalPass& pa
 
 std::vector<double> MechanicalPhase::start(const MechanicalState& old, const MechanicalPass& pass) const {
   std::vector<double> x = pass.iterate != nullptr ? pass.iterate->displacement : old.displacement;
+  if (!pass.start.empty()) x.assign(pass.start.begin(), pass.start.end());
   loads_->prescribe(pass.time, x);
   return x;
 }

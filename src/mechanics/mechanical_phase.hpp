@@ -114,6 +114,7 @@ struct MechanicalPass {
   const MechanicalState* iterate = nullptr;
   int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
   StressAtWork work = StressAtWork::end;
+  std::span<const double> start{};  ///< of Newton's iteration, instead of the iterate's displacement
 };
 
 class MechanicalPhase : private algebra::NonlinearSystem {
@@ -141,6 +142,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   MechanicalState initial_state();
   /// Whether the bodies have inertia.
   bool dynamic() const { return inertia_ != nullptr; }
+  /// The share of t_{n+1} in the mean of the forces that a step works with in the balance of momentum.
+  double force_share() const { return inertia_ ? inertia_->motion().force_share() : 1.0; }
   /// The share of t_{n+1} in the mean of the forces whose work a step does (Motion::work_share).
   double work_share() const { return inertia_ ? inertia_->motion().work_share : 1.0; }
 
@@ -198,7 +201,9 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   double seconds_solver() const { return solver_->seconds_setup() + solver_->seconds_solve(); }
 
  private:
+  algebra::NodeGraph graph() const;
   void create_matrix();
+  void bind();
   void create_solver();
   void set_in_motion(MechanicalState& state);
   void add_residual_to_balance(std::span<const double> r);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -167,12 +168,34 @@ std::string probe_unit(const CaseSpec& spec, const ProbeSpec& probe) {
   return field_info(first->field).unit;
 }
 
-/// The unit of an integral follows from the dimension of its group, which only the mesh knows.
-bool has_integral(const CaseSpec& spec, const ProbeSpec& probe) {
-  const auto integral = [](const ProbeSpec& p) { return p.kind == ProbeSpec::Kind::integral; };
-  if (probe.kind != ProbeSpec::Kind::difference) return integral(probe);
+/// The unit of an integral follows from the dimension of its group, which only the mesh knows; which global
+/// columns there are, the phases.
+bool has_unit_of_the_run(const CaseSpec& spec, const ProbeSpec& probe) {
+  const auto later = [](const ProbeSpec& p) {
+    return p.kind == ProbeSpec::Kind::integral || p.kind == ProbeSpec::Kind::global;
+  };
+  if (probe.kind != ProbeSpec::Kind::difference) return later(probe);
   return std::any_of(spec.probes.begin(), spec.probes.end(),
-                     [&](const ProbeSpec& p) { return p.name == probe.of[0] && integral(p); });
+                     [&](const ProbeSpec& p) { return p.name == probe.of[0] && later(p); });
+}
+
+void check_profiles(const CaseSpec& spec) {
+  check_names(spec.profiles, "[[profile]]");
+  for (const ProfileSpec& p : spec.profiles) {
+    const bool plain = std::all_of(p.name.begin(), p.name.end(), [](unsigned char c) {
+      return std::isalnum(c) != 0 || c == '_' || c == '-';
+    });
+    if (!plain || p.name == "history" || p.name == "steps")
+      throw InputError(p.where, fmt::format("a file cannot be called '{}.csv' here", p.name),
+                       "letters, digits, _ and -; not history and steps");
+    if (p.columns.empty())
+      throw InputError(p.where, fmt::format("the profile '{}' has no [[profile.column]]", p.name));
+    check_names(p.columns, "[[profile.column]]");
+    for (const ProfileColumnSpec& c : p.columns)
+      if (!units::compatible(c.unit, field_info(c.field).unit))
+        throw InputError(c.where, fmt::format("the column '{}' cannot be given in '{}'", c.name, c.unit),
+                         "a unit of " + units::dimension_name(field_info(c.field).unit));
+  }
 }
 
 void check_probes(const CaseSpec& spec) {
@@ -202,13 +225,12 @@ void check_probes(const CaseSpec& spec) {
     if (p.body && std::find(bodies.begin(), bodies.end(), *p.body) == bodies.end())
       throw InputError(p.where, fmt::format("the probe '{}' is on an unknown body '{}'", p.name, *p.body),
                        one_of(bodies, *p.body));
-    const bool of_contact = p.field == "gap" || p.field == "conductance" || p.field == "contact_pressure";
-    if (of_contact && spec.contacts.empty())
+    if (!p.field.empty() && field_info(p.field).of_contact && spec.contacts.empty())
       throw InputError(
           p.where,
           fmt::format("the probe '{}' reads the field '{}', but nothing is in contact", p.name, p.field),
           "a [[contact]], or another field");
-    if (!has_integral(spec, p) && !units::compatible(p.unit, probe_unit(spec, p)))
+    if (!has_unit_of_the_run(spec, p) && !units::compatible(p.unit, probe_unit(spec, p)))
       throw InputError(p.where, fmt::format("the probe '{}' cannot be given in '{}'", p.name, p.unit),
                        "a unit of " + units::dimension_name(probe_unit(spec, p)));
   }
@@ -301,7 +323,8 @@ void check_case(const CaseSpec& spec) {
   check_coupling(spec);
   check_dynamics(spec);
   check_probes(spec);
-  probes(spec);  // components that their fields do not have
+  check_profiles(spec);
+  probes(spec), profiles(spec);  // components that their fields do not have
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
     throw InputError(spec.time.where, "more than a million outputs are asked for",
                      "a longer `every` in [output]");

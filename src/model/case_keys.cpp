@@ -69,6 +69,7 @@ const Section<CaseSpec>& case_keys() {
     s.section("dynamics", &CaseSpec::dynamics, dynamics_keys());
     s.section("coupling", &CaseSpec::coupling, coupling_keys());
     s.sections("probe", &CaseSpec::probes, probe_keys());
+    s.sections("profile", &CaseSpec::profiles, profile_keys());
     s.section("output", &CaseSpec::output, output_keys());
     return s;
   }();

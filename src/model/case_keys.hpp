@@ -24,6 +24,7 @@ Section<MechanicsSpec> mechanics_keys();
 Section<DynamicsSpec> dynamics_keys();
 Section<CouplingSpec> coupling_keys();
 Section<ProbeSpec> probe_keys();
+Section<ProfileSpec> profile_keys();
 Section<OutputSpec> output_keys();
 
 }  // namespace solidus::model

@@ -15,6 +15,7 @@
 #include "coupling/step_limits.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "model/friction_spec.hpp"
 
 namespace solidus::model {
 
@@ -139,6 +140,11 @@ struct MechanicalConditionSpec {
 /// A contact pair; model/contact_input.hpp makes the contact room's specification of it.
 struct ContactSpec {
   std::string name, slave, master;
+  contact::Formulation formulation = contact::Formulation::small_sliding;
+  bool smoothing = false;
+  enum class Normal { automatic, penalty, augmented_lagrangian, energy_conserving };
+  Normal normal = Normal::automatic;
+  double penetration_tolerance = 0;
   std::optional<double> penalty;  ///< ε_N [N/m³]; absent: from the factor
   double penalty_factor = 0;      ///< ε_N = factor × E / height of the slave's elements
   double stabilisation = 0;       ///< share of ε_N added to the tangent only
@@ -146,7 +152,10 @@ struct ContactSpec {
   int gauss_degree = 0;
   std::optional<double> search_distance, touching;  ///< [m]
   std::optional<contact::HeatTransferSpec> heat;    ///< absent: no heat passes
-  std::vector<std::string> stages;                  ///< in which it holds; empty: all
+  std::optional<FrictionSpec> friction;             ///< absent: none
+  std::optional<WearSpec> wear;
+  InterfaceSpec interface;
+  std::vector<std::string> stages;  ///< in which it holds; empty: all
   SourceLocation where;
 };
 
@@ -204,7 +213,7 @@ struct CouplingSpec {
 };
 
 struct ProbeSpec {
-  enum class Kind { point, mean, minimum, maximum, integral, difference };
+  enum class Kind { point, mean, minimum, maximum, integral, difference, global };
   std::string name;
   Kind kind = Kind::point;
   std::string field, component;     ///< component empty: a scalar field
@@ -212,7 +221,20 @@ struct ProbeSpec {
   std::optional<std::string> body;  ///< the body the point belongs to, where bodies touch
   std::string group;                ///< of a mean, minimum, maximum, integral
   std::vector<std::string> of;      ///< two probes: first minus second
+  std::string global;               ///< a column of history.csv, without its unit
+  double factor = 1;                ///< of a global one
   std::string unit;                 ///< for display
+  SourceLocation where;
+};
+
+struct ProfileColumnSpec {
+  std::string name, field, component, unit;
+  SourceLocation where;
+};
+
+struct ProfileSpec {
+  std::string name, group, length_unit;
+  std::vector<ProfileColumnSpec> columns;
   SourceLocation where;
 };
 
@@ -242,6 +264,7 @@ struct CaseSpec {
   std::optional<DynamicsSpec> dynamics;  ///< absent: no inertia
   CouplingSpec coupling;
   std::vector<ProbeSpec> probes;
+  std::vector<ProfileSpec> profiles;
   OutputSpec output;
 
   int dimension() const { return analysis.kind == AnalysisKind::solid ? 3 : 2; }

@@ -129,11 +129,37 @@ Section<contact::HeatTransferSpec> contact_heat_keys() {
 Section<ContactSpec> contact_keys() {
   using C = ContactSpec;
   using contact::IntegrationRule;
-  Section<C> s("contact",
-               "Two surfaces that may touch and part: unilateral contact without friction, small sliding.");
+  Section<C> s("contact", "Two surfaces that may touch, slide and part: unilateral contact.");
   s.key("name", &C::name).doc("A name of your choice.");
   s.key("slave", &C::slave).doc("Surface group that is integrated over: the finer or softer one.");
   s.key("master", &C::master).doc("Surface group that it is projected on.");
+  using contact::Formulation;
+  s.choice("formulation", &C::formulation,
+           {{"small_sliding", Formulation::small_sliding,
+             "partners found once, where the bodies are at the start: for surfaces that move little along "
+             "each other"},
+            {"large_sliding", Formulation::large_sliding, "closest points where the bodies are"}})
+      .initially("small_sliding")
+      .doc("Who touches whom.");
+  s.key("smoothing", &C::smoothing)
+      .initially(false)
+      .doc("Averaged normals of the master, with large sliding: no jumps of the force from face to face.");
+  using Normal = C::Normal;
+  s.choice("normal", &C::normal,
+           {{"automatic", Normal::automatic, "penalty; with [dynamics] energy_conserving"},
+            {"penalty", Normal::penalty, "pressure = penalty x penetration (3.43)"},
+            {"augmented_lagrangian", Normal::augmented_lagrangian,
+             "the same with multipliers, until the penetration is within its tolerance"},
+            {"energy_conserving", Normal::energy_conserving,
+             "mean over the step by the difference quotient of the energy (5.19)"}})
+      .initially("automatic")
+      .doc("How pressure follows penetration.");
+  s.key("penetration_tolerance", &C::penetration_tolerance)
+      .initially(1e-6)
+      .positive()
+      .doc(
+          "Penetration that the augmented Lagrangian leaves, as a share of the mean size of the slave's "
+          "faces.");
   s.quantity("penalty", &C::penalty, "N/m3")
       .positive()
       .doc("Pressure per penetration; without it from `penalty_factor`.");
@@ -166,6 +192,9 @@ Section<ContactSpec> contact_keys() {
       .at_least(0)
       .doc("Initial gaps and penetrations up to this size count as touching; without it rounding only.");
   s.section("heat", &C::heat, contact_heat_keys());
+  s.section("friction", &C::friction, friction_keys());
+  s.section("wear", &C::wear, wear_keys());
+  s.section("interface", &C::interface, interface_keys());
   s.key("stages", &C::stages)
       .or_one()
       .initially(Value::list())

@@ -27,7 +27,15 @@ constexpr FieldInfo k_fields[] = {{"temperature", "K"},
                                   {"flow_stress", "Pa"},
                                   {"contact_pressure", "Pa", k_scalar, true},
                                   {"gap", "m", k_scalar, true},
-                                  {"conductance", "W/m2/K", k_scalar, true}};
+                                  {"conductance", "W/m2/K", k_scalar, true},
+                                  {"friction_traction", "Pa", k_vector, true},
+                                  {"contact_status", "1", k_scalar, true},
+                                  {"slip", "m", k_scalar, true},
+                                  {"internal_variable", "N/m", k_scalar, true},
+                                  {"friction_coefficient", "1", k_scalar, true},
+                                  {"friction_dissipation", "J/m2", k_scalar, true},
+                                  {"wear_depth", "m", k_scalar, true},
+                                  {"interface_temperature", "K", k_scalar, true}};
 
 }  // namespace
 

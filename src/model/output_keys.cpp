@@ -20,7 +20,9 @@ Section<ProbeSpec> probe_keys() {
             {"minimum", P::Kind::minimum, "its least value in a group"},
             {"maximum", P::Kind::maximum, "its greatest value in a group"},
             {"integral", P::Kind::integral, "its integral over a group"},
-            {"difference", P::Kind::difference, "the difference of two other probes"}})
+            {"difference", P::Kind::difference, "the difference of two other probes"},
+            {"global", P::Kind::global,
+             "a column that history.csv has anyway, under another name, times a factor"}})
       .initially("point")
       .doc("What is taken.");
   s.key("field", &P::field).choices(field_names(true)).when("kind", k_sampling).doc("The field.");
@@ -34,7 +36,47 @@ Section<ProbeSpec> probe_keys() {
       .when("kind", {"mean", "minimum", "maximum", "integral"})
       .doc("Group of the mesh: a body or a surface.");
   s.key("of", &P::of).when("kind", {"difference"}).doc("Two probes: the first minus the second.");
-  s.key("unit", &P::unit).doc("Unit of the column: \"degC\", \"mm\"; \"1\" for a fraction.");
+  s.key("global", &P::global)
+      .when("kind", {"global"})
+      .doc("The column's name, without its unit: \"cycle\", \"contact_force\", ...");
+  s.key("factor", &P::factor)
+      .initially(1.0)
+      .when("kind", {"global"})
+      .doc("What it is multiplied with: 0.01 for the force on 10 mm of a body in plane strain.");
+  s.key("unit", &P::unit)
+      .doc(
+          "Unit of the column: \"degC\", \"mm\"; \"1\" for a fraction; of kind = \"global\" also \"\", the "
+          "number as it is under its mere name.");
+  s.place(&P::where);
+  return s;
+}
+
+namespace {
+
+Section<ProfileColumnSpec> profile_column_keys() {
+  using C = ProfileColumnSpec;
+  Section<C> s("column", "A column of the table.");
+  s.key("name", &C::name).doc("Header of the column; the unit is added in brackets.");
+  s.key("field", &C::field).choices(field_names(true)).doc("The field, one at nodes.");
+  s.key("component", &C::component)
+      .initially("")
+      .doc("Component of a vector or tensor, as in [[probe]]; \"magnitude\" of a vector.");
+  s.key("unit", &C::unit).doc("Unit of the column.");
+  s.place(&C::where);
+  return s;
+}
+
+}  // namespace
+
+Section<ProfileSpec> profile_keys() {
+  using P = ProfileSpec;
+  Section<P> s("profile",
+               "A table NAME.csv of fields along a group of nodes: a row a node, with its coordinates. It is "
+               "written with the fields, and holds the last moment.");
+  s.key("name", &P::name).doc("A name of your choice: that of the file.");
+  s.key("group", &P::group).doc("Group of the mesh: a surface, a body, points.");
+  s.key("length_unit", &P::length_unit).initially("mm").doc("Unit of the coordinates.");
+  s.sections("column", &P::columns, profile_column_keys());
   s.place(&P::where);
   return s;
 }

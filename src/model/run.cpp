@@ -61,7 +61,8 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
     a.contacts.push_back(
         std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
     a.phases.contacts.push_back(a.contacts.back().get());
-    if (a.contacts.back()->coverage() < 0.999)
+    const bool slides = a.contacts.back()->spec().formulation == contact::Formulation::large_sliding;
+    if (!slides && a.contacts.back()->coverage() < 0.999)
       logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
                     a.contacts.back()->spec().name, 100 * a.contacts.back()->coverage(),
                     a.contacts.back()->spec().slave);
@@ -70,10 +71,15 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
 
 void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
   std::vector<algebra::Contribution*> contributions;
-  for (const auto& pair : a.contacts) contributions.push_back(&pair->mechanics());
+  mechanics::MechanicsOptions options = mechanics_options(spec);
+  for (const auto& pair : a.contacts) {
+    contributions.push_back(&pair->mechanics());
+    options.symmetric = options.symmetric && pair->symmetric();
+    a.initial.contacts.push_back(pair->initial_state());
+  }
   a.mechanics = std::make_unique<mechanics::MechanicalPhase>(
       a.mesh, spec.analysis.kind, a.materials, initial_temperature,
-      mechanical_conditions(spec, a.first_stage()), mechanics_options(spec), contributions);
+      mechanical_conditions(spec, a.first_stage()), std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
   a.initial.mechanics = a.mechanics->initial_state();
 }
@@ -205,6 +211,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   results::RecorderOptions r;
   r.kind = spec.analysis.kind;
   r.probes = probes(spec);
+  r.profiles = profiles(spec);
   r.fields = spec.output.fields;
   r.stages = !spec.stages.empty();
   r.progress = options.progress;
@@ -317,9 +324,7 @@ CheckedRun check_run(const Case& c) {
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
   build(c.spec, a);
-  const results::StateFields fields(a.mesh, a.phases);
-  const results::Probes found(a.mesh, c.spec.analysis.kind, probes(c.spec), fields.bodies());
-  fields.bodies().select(c.spec.output.fields);
+  results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (const StageRun& stage : a.stages)
     if (stage.cycle <= 1) apply(c.spec, stage, {}, a);
   CheckedRun checked{results::count(a.mesh), {}};

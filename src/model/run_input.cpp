@@ -10,7 +10,9 @@ namespace solidus::model {
 
 namespace {
 
-results::Sampled sampled(const CaseSpec& spec, const ProbeSpec& probe) {
+/// @param probe  ProbeSpec or ProfileColumnSpec
+template <class S>
+results::Sampled sampled(const CaseSpec& spec, const S& probe) {
   results::Sampled result;
   result.column = {probe.name, probe.unit};
   result.field = probe.field;
@@ -66,7 +68,21 @@ std::vector<results::Probe> probes(const CaseSpec& spec) {
         result.emplace_back(results::LinearProbe{
             {probe.name, probe.unit}, {{1.0, probe.of[0]}, {-1.0, probe.of[1]}}, probe.where});
         break;
+      case ProbeSpec::Kind::global:
+        result.emplace_back(
+            results::GlobalProbe{{probe.name, probe.unit}, probe.global, probe.factor, probe.where});
+        break;
     }
+  }
+  return result;
+}
+
+std::vector<results::Profile> profiles(const CaseSpec& spec) {
+  std::vector<results::Profile> result;
+  for (const ProfileSpec& profile : spec.profiles) {
+    result.push_back({profile.name, profile.group, profile.length_unit, {}, profile.where});
+    for (const ProfileColumnSpec& column : profile.columns)
+      result.back().columns.push_back(sampled(spec, column));
   }
   return result;
 }

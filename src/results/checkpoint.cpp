@@ -10,6 +10,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
+#include "results/checkpoint_contacts.hpp"
 #include "results/checkpoint_tables.hpp"
 #include "results/output_error.hpp"
 
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 4";
+constexpr const char* k_format = "Solidus checkpoint 5";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -38,8 +39,9 @@ void each_number(C& c, const Visit& visit) {
   all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction);
-  all(e.stored_heat, e.structural, e.contact, e.kinetic, e.numerical, e.work, e.heat_in, e.entropy_in,
-      e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation, e.plastic_work);
+  all(e.stored_heat, e.structural, e.contact, e.kinetic, e.friction, e.frictional_heat, e.numerical, e.work,
+      e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation,
+      e.plastic_work);
   all(l.mechanical, l.thermal, l.entropy);
 }
 
@@ -159,6 +161,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     if (!mechanics.stress.empty())
       take_history(in, name, name + "/stress", mesh.blocks[b], mechanics.stress[b]);
   }
+  take_contacts(in, c.state.contacts);
   return c;
 }
 
@@ -228,6 +231,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
       out.rows<double>(name + "/stress", stress.n_points * stress.n_components, pack_history(block, stress));
     }
   }
+  write_contacts(out, c.state.contacts);
   out.finish([&] {
     std::error_code error;
     if (fs::exists(latest(), error)) fs::rename(latest(), previous(), error);

@@ -260,7 +260,7 @@ std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Rea
   std::vector<double> sums(samples_.size(), 0.0), peaks(samples_.size(), 0.0);
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     const Sample& sample = samples_[s];
-    if (sample.reduce == Reduce::linear) continue;
+    if (sample.reduce == Reduce::linear || sample.reduce == Reduce::global) continue;
     const Field* field = fields.find(sample.field);
     if (field == nullptr) throw std::invalid_argument("probes: no field '" + sample.field + "'");
     const double sign = sample.reduce == Reduce::minimum ? -1.0 : 1.0;

@@ -13,15 +13,32 @@ bool dynamic(const coupling::Phases& phases) {
   return phases.mechanics != nullptr && phases.mechanics->dynamic();
 }
 
+/// @param taken  columns that probes give
 GlobalHistory::Options global_columns(const coupling::Phases& phases, const RecorderOptions& options,
-                                      const Probes& probes) {
-  return {.melting = phases.heat != nullptr && options.melting,
-          .contact = !phases.contacts.empty(),
-          .mechanics = phases.mechanics != nullptr,
-          .taken = probes.columns(),
-          .plastic = phases.mechanics != nullptr && phases.mechanics->plastic(),
-          .dynamics = dynamic(phases),
-          .stability = phases.audits_stability()};
+                                      const std::vector<Column>& taken) {
+  GlobalHistory::Options columns{.melting = phases.heat != nullptr && options.melting,
+                                 .contact = !phases.contacts.empty(),
+                                 .mechanics = phases.mechanics != nullptr,
+                                 .taken = taken,
+                                 .plastic = phases.mechanics != nullptr && phases.mechanics->plastic(),
+                                 .dynamics = dynamic(phases),
+                                 .stability = phases.audits_stability()};
+  if (phases.mechanics != nullptr)
+    for (const contact::ContactPair* pair : phases.contacts)
+      columns.pairs.push_back({pair->spec().name, pair->spec().friction.has_value(), options.kind});
+  return columns;
+}
+
+std::vector<Reading> with_stage(std::vector<Reading> readings, int stage, int cycle) {
+  readings.insert(readings.begin(), {{{"stage", "1"}, static_cast<double>(stage)},
+                                     {{"cycle", "1"}, static_cast<double>(cycle)}});
+  return readings;
+}
+
+// The columns of history.csv beside time and probes, all with the value zero: what probes may repeat.
+std::vector<Reading> global_readings(const coupling::Phases& phases, const RecorderOptions& options) {
+  std::vector<Reading> readings = GlobalHistory(global_columns(phases, options, {})).all();
+  return options.stages ? with_stage(std::move(readings), 0, 0) : readings;
 }
 
 int process() {
@@ -32,6 +49,14 @@ int process() {
 
 }  // namespace
 
+void check_output(const mesh::Mesh& mesh, const coupling::Phases& phases, const RecorderOptions& options) {
+  const StateFields fields(mesh, phases);
+  const Probes probes(mesh, options.kind, options.probes, fields.bodies(), global_readings(phases, options));
+  for (const Profile& profile : options.profiles)
+    const ProfileTable table(mesh, options.kind, profile, fields.bodies());
+  fields.bodies().select(options.fields);
+}
+
 Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupling::Phases& phases,
                    RecorderOptions options)
     : folder_(folder),
@@ -40,12 +65,14 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       options_(std::move(options)),
       rank_(process()),
       fields_(mesh, phases),
-      probes_(mesh, options_.kind, options_.probes, fields_.bodies()),
-      globals_(global_columns(phases, options_, probes_)),
+      probes_(mesh, options_.kind, options_.probes, fields_.bodies(), global_readings(phases, options_)),
+      globals_(global_columns(phases, options_, probes_.columns())),
       output_(options_.continue_from ? FieldOutput(folder, mesh, options_.continue_from->state.time)
                                      : FieldOutput(folder, mesh)),
       checkpoints_(folder.root()),
       began_(MPI_Wtime()) {
+  for (const Profile& profile : options_.profiles)
+    profiles_.emplace_back(mesh, options_.kind, profile, fields_.bodies());
   fields_.bodies().select(options_.fields);  // complains about a field there is not
   on_first_process([&] {
     std::vector<Column> columns{{"time", "s"}};
@@ -62,6 +89,10 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
     }
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
+}
+
+std::vector<Reading> Recorder::readings() const {
+  return options_.stages ? with_stage(globals_.all(), stage_, cycle_) : globals_.all();
 }
 
 StepTable Recorder::step_table() const {
@@ -128,7 +159,7 @@ void Recorder::end(const coupling::State& state) {
 std::vector<double> Recorder::history_row(double time) {
   std::vector<double> row = {time};
   if (options_.stages) row.insert(row.end(), {static_cast<double>(stage_), static_cast<double>(cycle_)});
-  for (const double v : probes_.values(fields_.bodies())) row.push_back(v);
+  for (const double v : probes_.values(fields_.bodies(), readings())) row.push_back(v);
   for (const double v : globals_.values()) row.push_back(v);
   return row;
 }
@@ -140,6 +171,7 @@ void Recorder::add_history_row(double time) {
 
 void Recorder::write_fields(const coupling::State& state) {
   output_.write(state.time, fields_.bodies().select(options_.fields), fields_.surfaces());
+  for (const ProfileTable& profile : profiles_) profile.write(folder_.root(), fields_.bodies());
 }
 
 void Recorder::write_summary_file(const std::string& outcome, const coupling::State& state) {

@@ -11,6 +11,7 @@
 #include "results/checkpoint.hpp"
 #include "results/field_output.hpp"
 #include "results/probes.hpp"
+#include "results/profile.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
 #include "results/state_fields.hpp"
@@ -22,6 +23,7 @@ namespace solidus::results {
 struct RecorderOptions {
   AnalysisKind kind = AnalysisKind::plane_strain;
   std::vector<Probe> probes;
+  std::vector<Profile> profiles;
   std::vector<std::string> fields;   ///< to write; empty: all
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
@@ -31,6 +33,9 @@ struct RecorderOptions {
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
   Summary summary;  ///< what is known before the run: names, mesh, seconds of setting up
 };
+
+/// Throws what Recorder would: InputError for probes, profiles and fields that do not fit. Collective.
+void check_output(const mesh::Mesh& mesh, const coupling::Phases& phases, const RecorderOptions& options);
 
 class Recorder : public coupling::Observer {
  public:
@@ -46,6 +51,7 @@ class Recorder : public coupling::Observer {
 
  private:
   StepTable step_table() const;
+  std::vector<Reading> readings() const;
   std::vector<double> history_row(double time);
   void add_history_row(double time);
   void write_fields(const coupling::State& state);
@@ -58,6 +64,7 @@ class Recorder : public coupling::Observer {
   int rank_ = 0;
   StateFields fields_;
   Probes probes_;
+  std::vector<ProfileTable> profiles_;
   GlobalHistory globals_;
   FieldOutput output_;
   CheckpointFolder checkpoints_;

@@ -1,11 +1,32 @@
 #include "results/state_fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 namespace solidus::results {
 
 namespace {
+
+struct FieldName {
+  const char *name, *unit;
+};
+// Of contact surfaces; and what friction adds up, which a surface keeps when its partner has gone.
+constexpr FieldName k_contact[] = {{"gap", "m"}, {"contact_pressure", "Pa"}, {"conductance", "W/m2/K"}};
+constexpr FieldName k_remembered[] = {{"slip", "m"},
+                                      {"internal_variable", "N/m"},
+                                      {"friction_coefficient", "1"},
+                                      {"friction_dissipation", "J/m2"},
+                                      {"wear_depth", "m"}};
+
+bool rubs(const contact::ContactPair* pair) {
+  return pair->spec().friction.has_value();
+}
+
+bool with_friction(const coupling::Phases& phases) {
+  return phases.mechanics != nullptr && std::any_of(phases.contacts.begin(), phases.contacts.end(), rubs);
+}
 
 // Copies [element][component] of one block behind what is there already.
 template <std::size_t n>
@@ -49,18 +70,25 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
   FieldSet contact;
   for (const auto& v : values_)
     if (v->place == Place::node) contact.add({v->name, v->unit, v->components, v->place, v->values});
-  for (const auto& [name, unit] :
-       {std::pair{"gap", "m"}, {"contact_pressure", "Pa"}, {"conductance", "W/m2/K"}}) {
-    const std::vector<double>& values = add(name, unit, 1, Place::node);
-    contact.add({name, unit, 1, Place::node, values});
-    bodies_.add({name, unit, 1, Place::node, values});
+  const auto add_everywhere = [&](const FieldName& field, int components) {
+    const std::vector<double>& values = add(field.name, field.unit, components, Place::node);
+    values_.back()->of_contact = true;
+    contact.add({field.name, field.unit, components, Place::node, values});
+    bodies_.add({field.name, field.unit, components, Place::node, values});
+  };
+  for (const FieldName& field : k_contact) add_everywhere(field, 1);
+  if (with_friction(phases)) {
+    add_everywhere({"friction_traction", "Pa"}, phases.mechanics->components());
+    for (const FieldName& field : k_remembered) add_everywhere(field, 1);
+    add_everywhere({"contact_status", "1"}, 1);
+    if (phases.heat != nullptr) add_everywhere({"interface_temperature", "K"}, 1);
   }
   for (const contact::ContactPair* pair : phases.contacts)
     for (const std::string& surface : {pair->spec().slave, pair->spec().master}) surfaces_[surface] = contact;
 }
 
 std::vector<double>& StateFields::add(std::string name, std::string unit, int components, Place place) {
-  auto v = std::make_unique<Values>(Values{std::move(name), std::move(unit), components, place, {}});
+  auto v = std::make_unique<Values>(Values{std::move(name), std::move(unit), components, place, {}, false});
   v->values.assign(value_count(mesh_, place, components), 0.0);
   by_name_[v->name] = &v->values;
   values_.push_back(std::move(v));
@@ -109,23 +137,46 @@ void StateFields::update_elements() {
 
 // A node of several pairs shows its closest partner; nodes away from the surfaces show zero.
 void StateFields::update_contacts(std::span<const double> temperature) {
+  for (const auto& v : values_)
+    if (v->of_contact) std::fill(v->values.begin(), v->values.end(), 0.0);
   std::vector<double>&gap = *by_name_["gap"], &pressure = *by_name_["contact_pressure"],
   &conductance = *by_name_["conductance"];
-  for (std::vector<double>* field : {&gap, &pressure, &conductance})
-    std::fill(field->begin(), field->end(), 0.0);
   std::vector<char> seen(gap.size(), 0);
   for (const contact::ContactPair* pair : phases_.contacts) {
     const contact::ContactNodalFields fields = pair->nodal_fields(temperature);
+    std::vector<char> closest(fields.nodes.size(), 0);
     for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
       const auto i = static_cast<std::size_t>(fields.nodes[k]);
       if (!std::isfinite(fields.opening[k]) || (seen[i] != 0 && gap[i] <= fields.opening[k])) continue;
-      seen[i] = 1;
+      seen[i] = closest[k] = 1;
       gap[i] = fields.opening[k];
       pressure[i] = fields.pressure[k];
       conductance[i] = fields.conductance[k];
     }
+    if (phases_.mechanics != nullptr && rubs(pair)) update_friction(fields, closest);
   }
-  for (std::vector<double>* field : {&gap, &pressure, &conductance}) ghosts_.update(*field, 1);
+  for (const auto& v : values_)
+    if (v->of_contact) ghosts_.update(v->values, v->components);
+}
+
+// What surfaces remember of several pairs: the largest. Of the contact that is there: the closest partner's.
+void StateFields::update_friction(const contact::ContactNodalFields& fields, std::span<const char> closest) {
+  const std::array<const std::vector<double>*, std::size(k_remembered)> remembered = {
+      &fields.slip, &fields.internal_variable, &fields.coefficient, &fields.dissipation, &fields.wear_depth};
+  std::vector<double>&traction = *by_name_["friction_traction"], &status = *by_name_["contact_status"];
+  const auto interface = by_name_.find("interface_temperature");
+  const auto components = static_cast<std::size_t>(phases_.mechanics->components());
+  for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
+    const auto i = static_cast<std::size_t>(fields.nodes[k]);
+    for (std::size_t f = 0; f < remembered.size(); ++f) {
+      double& value = (*by_name_[k_remembered[f].name])[i];
+      value = std::fmax(value, (*remembered[f])[k]);  // NaN where the node has none
+    }
+    if (closest[k] == 0) continue;
+    status[i] = fields.status[k];
+    if (interface != by_name_.end()) (*interface->second)[i] = fields.temperature[k];
+    for (std::size_t c = 0; c < components; ++c) traction[i * components + c] = fields.traction[k][c];
+  }
 }
 
 }  // namespace solidus::results

@@ -14,8 +14,10 @@ namespace solidus::results {
 /// temperature [K], solid_fraction, displacement [m], with inertia velocity [m/s] and acceleration [m/s²] at
 /// nodes; stress, von_mises, pressure [Pa], viscous_strain, dissipation [W/m³] in elements, where a material
 /// flows plastically also plastic_strain, equivalent_plastic_strain, back_stress, flow_stress [Pa]; and on
-/// contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)]. Those exist that the analysis
-/// has.
+/// contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)], and with friction
+/// friction_traction [Pa] on the master, contact_status (0 open, 1 sticks, 2 slips), interface_temperature
+/// [K], and what surfaces remember: slip, wear_depth [m], internal_variable ζ_c [N/m] (of work; slip is
+/// `slip`), friction_coefficient, friction_dissipation [J/m²]. Those exist that the analysis has.
 class StateFields {
  public:
   StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases);
@@ -34,10 +36,13 @@ class StateFields {
     int components;
     Place place;
     std::vector<double> values;
+    bool of_contact;
   };
   std::vector<double>& add(std::string name, std::string unit, int components, Place place);
   void update_elements();
   void update_contacts(std::span<const double> temperature);
+  /// @param closest  of each node of the fields: it shows this pair
+  void update_friction(const contact::ContactNodalFields& fields, std::span<const char> closest);
 
   const mesh::Mesh& mesh_;
   const coupling::Phases& phases_;

@@ -21,6 +21,33 @@ coupling::ContactSummary total(const std::vector<coupling::ContactSummary>& cont
   return sum;
 }
 
+void add_pair(const PairColumns& pair, const coupling::ContactSummary& sums, std::vector<Reading>& to) {
+  const auto add = [&](const std::string& what, const char* unit, double value) {
+    to.push_back({{pair.name + "_" + what, unit}, value});
+  };
+  add("normal_force", "N", sums.force);
+  if (pair.friction) {
+    add("friction_force", "N", sums.friction);
+    add("sticking_fraction", "1",
+        sums.closed_points > 0 ? static_cast<double>(sums.sticking_points) / sums.closed_points : 0.0);
+    add("friction_dissipation", "J", sums.dissipation);
+  }
+  // Around an axis forces balance in every radial direction, and moments altogether.
+  switch (pair.kind) {
+    case AnalysisKind::axisymmetric:
+      add("force_z", "N", sums.resultant[1]);
+      break;
+    case AnalysisKind::plane_strain:
+      for (std::size_t i = 0; i < 2; ++i) add(std::string("force_") + "xy"[i], "N", sums.resultant[i]);
+      add("moment_z", "N m", sums.moment[2]);
+      break;
+    case AnalysisKind::solid:
+      for (std::size_t i = 0; i < 3; ++i) add(std::string("force_") + "xyz"[i], "N", sums.resultant[i]);
+      for (std::size_t i = 0; i < 3; ++i) add(std::string("moment_") + "xyz"[i], "N m", sums.moment[i]);
+      break;
+  }
+}
+
 }  // namespace
 
 std::vector<Column> step_columns(StepTable table) {
@@ -117,9 +144,9 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
   return cells;
 }
 
-std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
-  std::vector<std::pair<Column, double>> all = {{{"T_min", "degC"}, last_.min_temperature - k_zero_celsius},
-                                                {{"T_max", "degC"}, last_.max_temperature - k_zero_celsius}};
+std::vector<Reading> GlobalHistory::all() const {
+  std::vector<Reading> all = {{{"T_min", "degC"}, last_.min_temperature - k_zero_celsius},
+                              {{"T_max", "degC"}, last_.max_temperature - k_zero_celsius}};
   const auto add = [&all](const char* name, const char* unit, double value) {
     all.push_back({{name, unit}, value});
   };
@@ -131,6 +158,9 @@ std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
     add("contact_heat", "W", contact.heat);
     add("contact_force", "N", contact.force);
   }
+  for (std::size_t i = 0; i < options_.pairs.size(); ++i)
+    add_pair(options_.pairs[i], i < last_.contacts.size() ? last_.contacts[i] : coupling::ContactSummary{},
+             all);
   add("stored_heat", "J", sum_.stored_heat);
   add("heat_in", "J", sum_.heat_in);
   if (options_.mechanics) {
@@ -156,6 +186,11 @@ std::vector<std::pair<Column, double>> GlobalHistory::entries() const {
   }
   add("heat_exchanged", "J", sum_.heat_exchanged);
   add("energy_defect", "J", sum_.defect());
+  return all;
+}
+
+std::vector<Reading> GlobalHistory::entries() const {
+  std::vector<Reading> all = this->all();
   std::erase_if(all, [this](const auto& entry) {
     return std::any_of(options_.taken.begin(), options_.taken.end(),
                        [&](const Column& c) { return c.header() == entry.first.header(); });

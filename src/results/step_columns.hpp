@@ -1,9 +1,11 @@
 /// What the tables say about steps: the columns of steps.csv and the global columns of history.csv.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "base/types.hpp"
 #include "coupling/observer.hpp"
 #include "results/csv.hpp"
 
@@ -18,6 +20,13 @@ struct StepTable {
 std::vector<Column> step_columns(StepTable table = {});
 std::vector<Cell> step_row(const coupling::StepRecord& record, StepTable table = {});
 
+/// The columns of one contact pair in history.csv; their names begin with the pair's.
+struct PairColumns {
+  std::string name;
+  bool friction = false;
+  AnalysisKind kind = AnalysisKind::plane_strain;
+};
+
 /// The columns of history.csv that concern the whole model: temperatures, solid fraction, contact, and the
 /// first law and dissipation summed over the steps since the start. Which of them exist follows from the
 /// analysis.
@@ -30,6 +39,7 @@ class GlobalHistory {
     bool plastic = false;    ///< a material can flow plastically
     bool dynamics = false;   ///< bodies have inertia
     bool stability = false;  ///< 𝓛 is followed
+    std::vector<PairColumns> pairs = {};
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 
@@ -41,14 +51,15 @@ class GlobalHistory {
   void add(const coupling::StepEffort& step);
   /// In the order of columns().
   std::vector<double> values() const;
+  /// All there are, those that probes of the same header give included.
+  std::vector<Reading> all() const;
   const coupling::EnergyAudit& energy() const { return sum_; }
   const coupling::StabilityAudit& stability() const { return stability_; }
   /// |sum of defects| / sum of heat exchanged; zero when no heat moved.
   double relative_defect() const;
 
  private:
-  /// Column and value, in order.
-  std::vector<std::pair<Column, double>> entries() const;
+  std::vector<Reading> entries() const;  ///< those that are shown
 
   Options options_;
   coupling::StepEffort last_;

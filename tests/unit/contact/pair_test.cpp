@@ -176,7 +176,7 @@ TEST(NodalFields, OfAUniformApproachAreUniformOnBothSides) {
         u[last_axis(mesh)] = upper ? -approach : 0;
         return u;
       }));
-      const ContactNodalFields fields = pair.nodal_fields();
+      const ContactNodalFields fields = pair.nodal_fields({});
       for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
         EXPECT_NEAR(fields.opening[i], -approach, 1e-16);
         EXPECT_NEAR(fields.pressure[i], approach > 0 ? 1e10 * approach : 0, 1e-4);
@@ -315,11 +315,9 @@ TEST(InterfaceHeat, InNodalFormKeepsTheMatrixOfNonNegativeTypeForLinearShapes) {
     pair.heat()->bind(matrix);
     pair.heat()->add_tangent(warm(mesh), matrix);
     double largest = 0;
-    for (const Pairing& p : pair.points().pairings)
-      for (int a = 0; a < p.n_nodes(); ++a)
-        for (int b = 0; b < p.n_nodes(); ++b) {
-          const Index row = pair.points().nodes[p.first_node + static_cast<std::size_t>(a)];
-          const Index column = pair.points().nodes[p.first_node + static_cast<std::size_t>(b)];
+    for (Index p = 0; p < pair.partners().n_points(); ++p)
+      for (const Index row : pair.partners().nodes_of(p))
+        for (const Index column : pair.partners().nodes_of(p)) {
           if (row != column && row < mesh.n_owned_nodes)
             largest = std::max(largest, *matrix.block(matrix.slot(row, column)));
         }

@@ -176,5 +176,24 @@ TEST(ComponentIndex, KnowsTheNamesOfTheAnalysis) {
   EXPECT_THROW(component_index("x", 1, solid), std::invalid_argument);
 }
 
+TEST_F(Block, GlobalRepeatsAColumnOfTheRunTimesAFactor) {
+  const std::vector<Reading> globals = {{{"cycle", "1"}, 7}, {{"contact_force", "N"}, 98000}};
+  const GlobalProbe pass{{"pass", ""}, "cycle", 1, {}};
+  const GlobalProbe force{{"normal_force", "kN"}, "contact_force", 0.01, {}};
+  const LinearProbe both{{"none", "N"}, {{1, "normal_force"}, {-1, "normal_force"}}, {}};
+  const Probes probes(mesh, AnalysisKind::plane_strain, {pass, force, both}, fields, globals);
+  EXPECT_EQ(probes.columns()[0].header(), "pass");
+  EXPECT_EQ(probes.columns()[1].header(), "normal_force[kN]");
+  const std::vector<double> values = probes.values(fields, globals);
+  EXPECT_EQ(values[0], 7);
+  EXPECT_NEAR(values[1], 0.98, 1e-15);
+  EXPECT_EQ(values[2], 0);
+}
+
+TEST_F(Block, GlobalSaysWhichColumnsThereAre) {
+  EXPECT_NE(message(GlobalProbe{{"pass", ""}, "cycle", 1, {}}).find("history.csv has no column 'cycle'"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace solidus::results

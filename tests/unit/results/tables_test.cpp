@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <limits>
+#include <map>
 #include <regex>
 
 #include "results/csv.hpp"
@@ -299,6 +300,34 @@ TEST(GlobalHistory, HasNoColumnsOfPhysicsThatIsNotThere) {
     EXPECT_NE(column.name, "work");
     EXPECT_NE(column.name, "solid_fraction");
   }
+}
+
+TEST(GlobalHistory, ShowsTheForcesOfEveryPair) {
+  GlobalHistory history(
+      {.pairs = {{"brake", true, AnalysisKind::plane_strain}, {"rest", false, AnalysisKind::solid}}});
+  coupling::StepEffort step;
+  coupling::ContactSummary brake;
+  brake.closed_points = 8;
+  brake.sticking_points = 2;
+  brake.force = 100;
+  brake.friction = 30;
+  brake.resultant = {30, -100, 0};
+  brake.moment = {0, 0, 5};
+  brake.dissipation = 0.25;
+  coupling::ContactSummary rest;
+  rest.resultant = {1, 2, 3};
+  step.contacts = {brake, rest};
+  history.add(step);
+  std::map<std::string, double> shown;
+  for (const auto& [column, value] : history.all()) shown[column.header()] = value;
+  EXPECT_EQ(shown.at("brake_normal_force[N]"), 100);
+  EXPECT_EQ(shown.at("brake_friction_force[N]"), 30);
+  EXPECT_EQ(shown.at("brake_sticking_fraction[1]"), 0.25);
+  EXPECT_EQ(shown.at("brake_friction_dissipation[J]"), 0.25);
+  EXPECT_EQ(shown.at("brake_force_y[N]"), -100);
+  EXPECT_EQ(shown.at("brake_moment_z[N m]"), 5);
+  EXPECT_EQ(shown.at("rest_force_z[N]"), 3);
+  EXPECT_EQ(shown.count("rest_friction_force[N]"), 0u);
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+/// Which nodes a contact pair may couple: recorded for the matrices of both phases, so that they agree.
+#pragma once
+
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+#include "contact/kinematics.hpp"
+
+namespace solidus::contact {
+
+class ContactGraph {
+ public:
+  /// Keeps a reference.
+  explicit ContactGraph(ContactKinematics& kinematics) : kinematics_(kinematics) {}
+
+  bool may_change() const { return kinematics_.partners_change(); }
+  /// Whether a matrix with the cliques of this version lacks places, or another matrix has newer ones.
+  bool outdated(int version) const { return version != version_ || kinematics_.graph_outdated(); }
+  /// Adds the cliques, recorded anew where nodes meet that did not. Returns their version.
+  int add_to(algebra::NodeGraph& graph);
+  /// The next add_to() records anew, so that it depends on the present placement alone (checkpoints).
+  void forget() {
+    if (may_change()) version_ = 0;
+  }
+
+ private:
+  ContactKinematics& kinematics_;
+  int version_ = 0;   ///< zero: nothing recorded
+  int recorded_ = 0;  ///< versions so far
+  std::vector<std::vector<Index>> cliques_;
+};
+
+}  // namespace solidus::contact

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "contact/heat_term.hpp"
+#include "contact/pair.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+/// Of points that meet somebody, on both sides: opening, pressure, conductance, status and the three
+/// components of the traction.
+constexpr std::size_t k_met = 7;
+/// Of all points, on the slave: slip, ζ_c, μ, dissipation, wear, Θ_c.
+constexpr std::size_t k_kept = 6;
+
+/// Weighted sums around the owned nodes, and averages.
+template <std::size_t n_values>
+class NodalAverage {
+ public:
+  explicit NodalAverage(std::size_t n_nodes) : weight_(n_nodes, 0), sum_(n_nodes) {}
+  void add(Index node, double weight, const std::array<double, n_values>& values) {
+    const auto i = static_cast<std::size_t>(node);
+    if (i >= weight_.size()) return;
+    weight_[i] += weight;
+    for (std::size_t k = 0; k < n_values; ++k) sum_[i][k] += weight * values[k];
+  }
+  /// Not a number where there is none.
+  std::array<double, n_values> at(Index node) const {
+    const auto i = static_cast<std::size_t>(node);
+    std::array<double, n_values> mean = sum_[i];
+    const double w = weight_[i] > 0 ? weight_[i] : std::numeric_limits<double>::quiet_NaN();
+    for (double& value : mean) value /= w;
+    return mean;
+  }
+
+ private:
+  std::vector<double> weight_;
+  std::vector<std::array<double, n_values>> sum_;
+};
+
+}  // namespace
+
+ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature) const {
+  placement_->place(time_, displacement_);
+  const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
+  const std::vector<double> conductance =
+      heat_ ? heat_->conductances(temperature) : std::vector<double>(now_.points.size(), 0.0);
+  NodalAverage<k_met> met(n);
+  NodalAverage<k_kept> kept(n);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const PointState& state = now_.points[static_cast<std::size_t>(p)];
+    if (law_.friction) {
+      const double mu = law_.friction->coefficient().value(state.internal_variable, state.temperature).value;
+      const ContactKinematics::Particle particle = kinematics_->particle(p);
+      for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+        kept.add(particle.nodes[b], particle.weight * particle.share[b],
+                 {state.slip, state.internal_variable, mu, state.dissipation, state.wear_depth,
+                  state.temperature});
+    }
+    const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
+    if (!motion.partnered) continue;
+    const Point traction = times(motion.push, state.traction);
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b)
+      met.add(motion.nodes[b], motion.weight * motion.share[b] * motion.share[b],
+              {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)],
+               static_cast<double>(state.status), traction[0], traction[1], traction[2]});
+  }
+  ContactNodalFields fields;
+  fields.nodes = surface_nodes_;
+  for (const Index node : fields.nodes) {
+    const auto m = met.at(node);
+    fields.opening.push_back(m[0]);
+    fields.pressure.push_back(m[1]);
+    fields.conductance.push_back(m[2]);
+    if (!law_.friction) continue;
+    fields.status.push_back(m[3]);
+    fields.traction.push_back({m[4], m[5], m[6]});
+    const auto k = kept.at(node);
+    fields.slip.push_back(k[0]);
+    fields.internal_variable.push_back(k[1]);
+    fields.coefficient.push_back(k[2]);
+    fields.dissipation.push_back(k[3]);
+    fields.wear_depth.push_back(k[4]);
+    fields.temperature.push_back(k[5]);
+  }
+  return fields;
+}
+
+}  // namespace solidus::contact

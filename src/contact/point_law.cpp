@@ -1,0 +1,62 @@
+#include "contact/point_law.hpp"
+
+namespace solidus::contact {
+
+PointForces PointLaw::forces(const PointMotion& motion, const PointState& from) const {
+  PointForces f;
+  if (!motion.partnered) return f;
+  f.normal = normal.update(motion.penetration + from.offset,
+                           {from.anchored, from.penetration, from.balance_pressure, from.multiplier}, share);
+  if (!f.normal.closed) return f;
+  f.status = friction ? PointStatus::sticks : PointStatus::slips;
+  if (!friction) return f;
+
+  const Point trial = add_scaled(motion.carried, friction->tangential_penalty(), motion.slip);
+  f.trial = norm(trial);
+  const FrictionInput in{f.trial, f.normal.pressure, from.internal_variable, from.temperature};
+  f.friction = isentropic ? friction->isentropic(in) : friction->update(in);
+  if (!f.friction.sticks) f.status = PointStatus::slips;
+  const double radial = f.trial > 0 ? f.friction.traction / f.trial : 1.0;
+  f.traction = scale(radial, trial);
+  const Point m = f.trial > 0 ? scale(1 / f.trial, trial) : Point{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j)
+      f.traction_by_trial[i][j] = (f.friction.trial_slope - radial) * m[i] * m[j];
+    f.traction_by_trial[i][i] += radial;
+  }
+  f.traction_by_pressure = scale(f.friction.pressure_slope, m);
+  return f;
+}
+
+PointState PointLaw::next(const PointMotion& motion, const PointState& from, const PointForces& f) const {
+  PointState to = from;
+  to.status = f.status;
+  to.pressure = f.normal.pressure;
+  to.balance_pressure = f.normal.balance_pressure;
+  to.multiplier = normal.kind == NormalKind::augmented_lagrangian ? f.normal.pressure : 0.0;
+  to.traction = f.traction;
+  to.anchored = motion.partnered;
+  if (motion.partnered) {
+    to.penetration = motion.penetration + from.offset;
+    to.anchor = motion.anchor;
+    to.master_normal = motion.master_normal;
+  }
+  if (!friction || f.status == PointStatus::open) return to;
+  to.internal_variable = f.friction.internal_variable;
+  to.temperature = f.friction.temperature;
+  to.slip += f.friction.slip;
+  to.dissipation += f.friction.dissipation;
+  to.work += f.friction.slip * f.friction.traction;
+  if (wear) to.wear_depth += wear->depth_increment(f.normal.pressure, f.friction.slip, to.temperature);
+  return to;
+}
+
+double PointLaw::stored(const PointState& state) const {
+  if (!state.anchored) return 0;
+  double energy = normal.energy(state.penetration);
+  if (friction && normal.kind != NormalKind::augmented_lagrangian)
+    energy += 0.5 * dot(state.traction, state.traction) / friction->tangential_penalty();
+  return energy;
+}
+
+}  // namespace solidus::contact

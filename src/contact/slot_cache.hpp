@@ -1,0 +1,37 @@
+/// Places of a contact term in a matrix, kept while the nodes that meet stay the same.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+
+namespace solidus::contact {
+
+/// Points come in runs that share their nodes; a run is known by its first point.
+class SlotCache {
+ public:
+  using Slot = algebra::BlockMatrix::Slot;
+
+  /// Slots are those of this matrix from here on.
+  void bind(const algebra::BlockMatrix& matrix, Index n_owned, Index n_points) {
+    matrix_ = &matrix;
+    n_owned_ = n_owned;
+    runs_.assign(static_cast<std::size_t>(n_points), {});
+  }
+  /// Slots of all pairs of the nodes, [row][column]; rows of other processes have none. Valid until the next
+  /// call for the same point.
+  std::span<const Slot> slots(Index first_point, std::span<const Index> nodes);
+  std::size_t bytes() const;
+
+ private:
+  struct Run {
+    std::vector<Index> nodes;
+    std::vector<Slot> slots;
+  };
+  const algebra::BlockMatrix* matrix_ = nullptr;
+  Index n_owned_ = 0;
+  std::vector<Run> runs_;  ///< [first point]
+};
+
+}  // namespace solidus::contact

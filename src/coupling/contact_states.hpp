@@ -1,0 +1,27 @@
+/// The histories of all contact pairs together: between the states of a run and the pairs.
+#pragma once
+
+#include "coupling/phases.hpp"
+
+namespace solidus::coupling {
+
+/// A mechanical pass sets out: pairs from `contacts` at t_n (State::contacts).
+void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
+                    const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass);
+/// Of the last update of the pairs.
+std::vector<contact::ContactState> contact_states(const Phases& phases);
+/// Pairs stand as in `state`.
+void restore_contacts(const Phases& phases, const State& state);
+/// y_n + carried (Y_1 − y_n) of all that integrates: the start of the second stage of Alexander's method.
+std::vector<contact::ContactState> second_start(const std::vector<contact::ContactState>& old,
+                                                const std::vector<contact::ContactState>& stage,
+                                                double carried);
+
+/// After equilibrium: true when the penetrations that are left are as small as the augmented Lagrangian wants
+/// them; else the multipliers follow the pressures and the phase must be solved again. Throws StepRejected
+/// after too many turns. Collective.
+bool penetrations_small(const Phases& phases, int turn);
+/// The same error with what the pairs have to say. Collective.
+[[noreturn]] void reject_with_contacts(const Phases& phases, const StepRejected& rejected);
+
+}  // namespace solidus::coupling

@@ -1,0 +1,72 @@
+#include "results/checkpoint_contacts.hpp"
+
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+namespace solidus::results {
+
+namespace {
+
+std::string table(std::size_t pair) {
+  return fmt::format("contact_{}", pair);
+}
+
+/// Everything that a point remembers, in a fixed order: written and read by the same list.
+template <class Point, class Visit>
+void each_number(Point& p, const Visit& visit) {
+  const auto all = [&visit](auto&... n) { (visit(n), ...); };
+  all(p.offset, p.penetration, p.pressure, p.balance_pressure, p.multiplier);
+  for (std::size_t i = 0; i < 3; ++i) all(p.traction[i], p.anchor[i], p.master_normal[i]);
+  all(p.internal_variable, p.slip, p.work, p.dissipation, p.wear_depth, p.temperature, p.plastic_entropy);
+}
+
+std::vector<double> numbers_of(const contact::PointState& p) {
+  std::vector<double> numbers{static_cast<double>(p.status), p.anchored ? 1.0 : 0.0};
+  each_number(p, [&](double n) { numbers.push_back(n); });
+  return numbers;
+}
+
+void set_numbers(contact::PointState& p, std::span<const double> numbers) {
+  p.status = static_cast<contact::PointStatus>(numbers[0]);
+  p.anchored = numbers[1] != 0;
+  std::size_t i = 2;
+  each_number(p, [&](double& n) { n = numbers[i++]; });
+}
+
+}  // namespace
+
+void write_contacts(TableWriter& out, const std::vector<contact::ContactState>& contacts) {
+  const auto width = static_cast<int>(numbers_of({}).size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    std::vector<std::int64_t> keys;
+    std::vector<double> values;
+    for (const contact::PointState& point : contacts[i].points) {
+      if (!point.counted) continue;
+      keys.push_back(point.number);
+      const std::vector<double> numbers = numbers_of(point);
+      values.insert(values.end(), numbers.begin(), numbers.end());
+    }
+    out.rows<std::int64_t>(table(i) + "/point", 1, keys);
+    out.rows<double>(table(i) + "/values", width, values);
+  }
+}
+
+void take_contacts(TableReader& in, std::vector<contact::ContactState>& contacts) {
+  const std::size_t width = numbers_of({}).size();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    std::vector<contact::PointState>& points = contacts[i].points;
+    std::unordered_map<std::int64_t, std::size_t> places;
+    for (std::size_t p = 0; p < points.size(); ++p) places.emplace(points[p].number, p);
+    std::size_t taken = 0;
+    in.each(table(i) + "/point", table(i) + "/values", [&](std::int64_t number, std::span<const double> row) {
+      const auto place = places.find(number);
+      if (place == places.end() || row.size() != width) return;
+      set_numbers(points[place->second], row);
+      ++taken;
+    });
+    in.require(taken == points.size(), table(i));
+  }
+}
+
+}  // namespace solidus::results
