@@ -41,6 +41,24 @@ inline contact::ContactSpec rubbing(contact::FrictionSpec friction, double penal
   return s;
 }
 
+/// Prescribes where every node of a body goes, at given times: straight from one to the next.
+inline void move_rigidly(mesh::Mesh& mesh, const std::string& body, const std::vector<double>& times,
+                         const std::function<mesh::Point(mesh::Point, double time)>& place,
+                         mechanics::Conditions& conditions) {
+  const std::vector<Index> nodes = mesh.node_sets.at(body);
+  for (const Index node : nodes) {
+    const std::string name = body + " node " + std::to_string(node);
+    mesh.node_sets[name] = {node};
+    const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
+    for (int i = 0; i < mesh.dimension; ++i) {
+      std::vector<double> u;
+      for (const double time : times)
+        u.push_back(place(x, time)[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(i)]);
+      conditions.displacements.push_back({name, i, Table(times, std::move(u))});
+    }
+  }
+}
+
 inline contact::FrictionSpec coulomb(double coefficient) {
   return contact::friction_spec({coefficient});
 }
@@ -115,6 +133,16 @@ class Rubbing {
       if (particle.counted) sum += particle.weight * f(contact.points[p]);
     }
     return algebra::global_sum(sum);
+  }
+  /// ½ u · f_int of the bodies: their elastic energy, where all materials are elastic and all loads are
+  /// prescribed displacements [J].
+  double elastic_energy() {
+    std::vector<double> of_contact(phase->reactions().size(), 0.0);
+    pair.mechanics().add_residual(state.displacement, of_contact);
+    double energy = 0;
+    for (std::size_t i = 0; i < of_contact.size(); ++i)
+      energy += 0.5 * state.displacement[i] * (phase->reactions()[i] - of_contact[i]);
+    return algebra::global_sum(energy);
   }
   /// The average over the slave.
   double mean(const std::function<double(const contact::PointState&)>& f) const {
