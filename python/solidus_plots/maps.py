@@ -2,6 +2,7 @@
 
 import matplotlib.pyplot as plt
 from matplotlib.collections import LineCollection
+from matplotlib.transforms import ScaledTranslation
 from matplotlib.tri import Triangulation
 import numpy as np
 
@@ -215,7 +216,9 @@ def deformed_mesh(spec, section, folder):
     _bare(axes, mirror)
     axes.set_ylabel("z [mm]" if mirror else "y [mm]")
     axes.set_title(spec.get("title", "Deformed mesh") + f" at {grid.time:g} s, displacements × {factor:g}")
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.09), ncol=len(handles))
+    below = axes.transAxes + ScaledTranslation(0, -0.5, figure.dpi_scale_trans)  # half an inch: under the label
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=below,
+                ncol=len(handles))
     if mirror:
         for x, text, side in ((0.02, "original", "left"), (0.98, "deformed", "right")):
             axes.text(x, 0.985, text, transform=axes.transAxes, ha=side, va="top", **style.REMARK)

@@ -81,10 +81,14 @@ void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& fro
     p.stage_start = from->stage;
   }
   std::vector<double> landings = options_.output_times;
+  const bool asked_at_end = std::any_of(landings.begin(), landings.end(), [&](double t) {
+    return std::abs(t - stage.end) <= k_same_time * stage.step.step;
+  });
   std::erase_if(landings, [&](double t) { return t >= stage.end - k_same_time * stage.step.step; });
   p.outputs = landings;
   landings.push_back(stage.end);
-  if (options_.output_at_stage_ends || &stage == &options_.stages.back()) p.outputs.push_back(stage.end);
+  if (asked_at_end || options_.output_at_stage_ends || &stage == &options_.stages.back())
+    p.outputs.push_back(stage.end);
   std::sort(p.outputs.begin(), p.outputs.end());
   p.control.emplace(stage.step, p.committed.time, std::move(landings));
   if (!anew && from->options == stage.step) p.control->resume(from->control);
