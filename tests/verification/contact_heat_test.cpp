@@ -186,8 +186,10 @@ void expand(double gap0, double alpha, bool closes) {
   exact.solve();
   EXPECT_EQ(closes, exact.pressure > 0);
   // Opening and pressure are measured against the elongation and the stress that it would take to hold it.
-  for (double g : pair.penetration()) EXPECT_NEAR(g, -exact.opening, 1e-7 * exact.elongation(exact.q));
-  for (double p : pair.pressure()) EXPECT_NEAR(p, exact.pressure, 1e-6 * exact.pressure);
+  for (const contact::PointState& point : pair.state().points) {
+    EXPECT_NEAR(point.penetration, -exact.opening, 1e-7 * exact.elongation(exact.q));
+    EXPECT_NEAR(point.pressure, exact.pressure, 1e-6 * exact.pressure);
+  }
   EXPECT_NEAR(flux, exact.q, 1e-6 * exact.q);
   EXPECT_LT(deviation(mesh, thermal, k_hot - exact.q * k_l1 / k_k1, k_cold + exact.q * k_l2 / k_k2),
             1e-6 * k_hot);

@@ -92,8 +92,9 @@ Fit shrink(Shape shape, int n, bool swapped) {
   const double p = exact_pressure(pair.penalty());
   Fit fit;
   fit.coverage = pair.coverage();
-  fit.mean_error = std::abs(pair.sums({}).force / pair.points().paired_measure / p - 1);
-  for (double t_n : pair.nodal_fields().pressure)
+  const contact::ContactSums sums = pair.sums({});
+  fit.mean_error = std::abs(sums.force / sums.closed_area / p - 1);
+  for (double t_n : pair.nodal_fields({}).pressure)
     fit.worst_error = std::max(fit.worst_error, std::abs(t_n / p - 1));
   fit.worst_error = algebra::global_max(fit.worst_error);
   return fit;
