@@ -1,87 +1,134 @@
 /// Heat between the two surfaces as a term of the thermal phase; an internal part of ContactPair.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "algebra/contribution.hpp"
 #include "algebra/coupled_matrix.hpp"
+#include "contact/graph.hpp"
 #include "contact/heat_transfer.hpp"
-#include "contact/integration.hpp"
+#include "contact/interface_thermodynamics.hpp"
+#include "contact/partners.hpp"
+#include "contact/slot_cache.hpp"
+#include "mesh/mesh.hpp"
 
 namespace solidus::contact {
+
+/// What the mechanical phase has left at a point.
+struct HeatPoint {
+  double penetration = 0;        ///< g_N [m]
+  double pressure = 0;           ///< t_N [Pa]
+  double pressure_slope = 0;     ///< ∂t_N/∂g_N [Pa/m]
+  bool has_temperature = false;  ///< friction acts: Θ_c is balanced, from `step`
+  InterfaceStep step;
+};
+
+/// What the interface took in a step, over the points that this process counts [J].
+struct InterfaceHeat {
+  double dissipated = 0;  ///< Σ w D_c,mech Δt
+  double stored = 0;      ///< Σ w Θ_c (S^e_c − S^e_c,n)
+};
 
 /// The heat that each node gives off. With the surfaces' temperatures Θ_s = Σ N_i Θ_i and Θ_m = Σ N_j Θ_j at
 /// a point, h at their mean:
 ///
 ///   nodal form       r_i += w N_i [h (Θ_i − Θ_m) + e (Θ_i⁴ − Σ_j N_j Θ_j⁴)]    on the slave
 ///                    r_j −= w N_j [h (Θ_s − Θ_j) + e (Σ_i N_i Θ_i⁴ − Θ_j⁴)]    on the master
-///   consistent form  r_a += w B_a [h Σ_b B_b Θ_b + e Σ_b B_b Θ_b⁴]             B: N of the slave, −N of the
-///   master
+///   consistent form  r_a += w B_a [h Σ_b B_b Θ_b + e Σ_b B_b Θ_b⁴]              B: N of the slave, −N of the
+///                                                                               master
 ///
 /// e = σ_r F. Both are sums of exchanges between pairs of nodes, so heat is conserved to rounding. In the
 /// nodal form the pairs are one of the slave and one of the master, with h N_i N_j >= 0 for linear shapes:
 /// with it a matrix of non-negative type stays one (6.3.1).
 ///
+/// Where friction acts, the heat is that of the balance of the interface (3.65, 5.33), Θ_c eliminated at the
+/// point (interface_thermodynamics.hpp): Q_1 and Q_2 leave the bodies, and what they differ from conduction
+/// alone goes to the nodes by their shape functions, in both forms:
+///
+///   r_i += w N_i [Q_1 − h (Θ_s − Θ_m)],   r_j += w N_j [Q_2 + h (Θ_s − Θ_m)]
+///
+/// Without storage in the interface that is D_c,mech alone, split as h_1 : h_2, which changes no matrix. With
+/// C_co it is a capacity spread over the nodes of a face: the matrix stays of non-negative type where C_co/Δt
+/// is small beside the conductance k/l of an element.
+///
+/// A master without nodes (a rigid surface) takes no heat.
+///
 /// The tangent takes 2 e N_i N_j (Θ_i³ + Θ_j³) for radiation, the mean of the two derivatives: it keeps the
-/// matrix symmetric and, being off by O(Θ_i − Θ_j), costs iterations, not accuracy. A law that changes with
-/// the temperature has its exact tangent, which is not symmetric.
+/// matrix symmetric and, being off by O(Θ_i − Θ_j), costs iterations, not accuracy. All else is exact; a law
+/// that changes with the temperature makes it unsymmetric.
 class HeatTerm : public algebra::Contribution {
  public:
-  /// Keeps references to the points and the law.
+  /// Keeps references.
   /// @param nodal  the nodal form
-  HeatTerm(const mesh::Mesh& mesh, const ContactPoints& points, const HeatTransferLaw& law, bool nodal);
-  /// Freezes the configuration: g_N [m] and t_N [Pa], [point].
-  void place(std::span<const double> penetration, std::span<const double> pressure);
+  HeatTerm(const mesh::Mesh& mesh, const PartnerList& partners, ContactGraph& graph,
+           const HeatTransferLaw& law, bool nodal);
+  /// Freezes the configuration, [point]; the partners are those of the list now.
+  void place(std::vector<HeatPoint> points);
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
   /// Whether the tangent is symmetric.
   bool symmetric() const { return !law_.of_temperature(); }
 
+  bool graph_may_change() const override { return graph_.may_change(); }
+  bool graph_outdated() const override { return active_ && graph_.outdated(version_); }
   void add_to_graph(algebra::NodeGraph& graph) const override;
   void bind(const algebra::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
   void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
-  /// Adds ∂r/∂u through the conductance of every point, the gap being g_N = g_N⁰ + Σ_a B_a u_a·n.
-  /// @param pressure_slope  ∂t_N/∂g_N, [point] [Pa/m]
-  /// @param slots           of the displacement's matrix, [pairing][a][b]
-  void add_gap_tangent(std::span<const double> pressure_slope, std::span<const double> temperature,
-                       std::span<const algebra::BlockMatrix::Slot> slots,
-                       algebra::CoupledMatrix& matrix) const;
-  /// From slave to master through the pairings that this process counts [W].
+  /// Adds ∂r/∂u through the conductance of every point, the gap being g_N = g_N⁰ + Σ_a B_a u_a·n with the
+  /// normals given, [point]. Without what friction's heat changes with the displacement.
+  void add_gap_tangent(std::span<const Point> normal, std::span<const double> temperature,
+                       algebra::CoupledMatrix& matrix);
+  /// Half of what the slave gives off and the master takes, through the points that this process counts [W]:
+  /// from slave to master by conduction and radiation.
   double counted_heat(std::span<const double> temperature) const;
   /// h [W/(m² K)] of every point at these temperatures; without any, at room temperature.
   std::vector<double> conductances(std::span<const double> temperature) const;
+  /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.
+  std::vector<double> interface_temperatures(std::span<const double> temperature) const;
+  InterfaceHeat interface_heat(std::span<const double> temperature) const;
   std::size_t bytes() const {
-    return slots_.capacity() * sizeof(algebra::BlockMatrix::Slot) +
-           (fixed_.capacity() + opening_.capacity() + pressure_.capacity()) * sizeof(double);
+    return slots_.bytes() + points_.capacity() * sizeof(HeatPoint) + fixed_.capacity() * sizeof(double);
   }
 
  private:
-  /// What a point of a pairing sees.
+  /// What a point sees.
   struct AtPoint {
-    std::size_t point = 0;
-    const double* b = nullptr;                   ///< B of every node
+    Index point = 0;
+    std::span<const Index> nodes;
+    std::span<const double> b;                   ///< B of every node
+    std::size_t n_slave = 0;                     ///< nodes
     double slave = 0, master = 0;                ///< Θ_s, Θ_m
     double slave_fourth = 0, master_fourth = 0;  ///< Σ N Θ⁴
     Conductance h;
+    double radiation = 0;  ///< e
+    bool has_temperature = false;
+    InterfaceResponse interface;  ///< with a temperature
   };
-  /// Calls f(at) for the points of a pairing.
-  template <class Function>
-  void for_points(const Pairing& pairing, std::span<const double> temperature, Function f) const;
-  /// Adds `weight` × what every node gives off when h is `h` and e is `e`.
-  void add_heat(const Pairing& pairing, const AtPoint& at, std::span<const double> temperature,
-                double weight_h, double weight_e, std::span<double> heat) const;
+  struct Run;
+  AtPoint see(Index point, std::span<const double> temperature) const;
+  /// Adds `weight_h` × h' + `weight_e` × e' of what every node gives off by conduction and radiation.
+  void add_exchange(const AtPoint& at, std::span<const double> temperature, double weight_h, double weight_e,
+                    std::span<double> heat) const;
+  /// Adds per-side fluxes by the shape functions.
+  static void add_sides(const AtPoint& at, const std::array<double, 2>& flux, std::span<double> heat);
+  /// What the fluxes of the balance change with h at fixed Θ_s, Θ_m, beyond conduction.
+  static std::array<double, 2> flux_by_conductance(const AtPoint& at);
+  void add_point_tangent(const AtPoint& at, std::span<const double> x, std::span<double> k) const;
 
   Index n_owned_;
-  const ContactPoints& points_;
+  const PartnerList& partners_;
+  ContactGraph& graph_;
   const HeatTransferLaw& law_;
   bool nodal_;
   bool active_ = true;
-  std::vector<double> opening_, pressure_;  ///< [point]
-  std::vector<double> fixed_;               ///< h of a law that does not change with the temperature, [point]
-  std::vector<std::size_t> first_slot_;     ///< of each pairing
-  std::vector<algebra::BlockMatrix::Slot> slots_;
+  mutable int version_ = 0;  ///< of the graph it has
+  std::vector<HeatPoint> points_;
+  std::vector<double> fixed_;  ///< h of a law that does not change with the temperature, [point]
+  SlotCache slots_, displacement_slots_;
+  const algebra::BlockMatrix* displacement_ = nullptr;  ///< that displacement_slots_ know
 };
 
 }  // namespace solidus::contact

@@ -16,24 +16,6 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-void add_pairings_to_graph(const ContactPoints& points, algebra::NodeGraph& graph) {
-  for (const Pairing& p : points.pairings)
-    graph.add_cliques(std::span(points.nodes).subspan(p.first_node, static_cast<std::size_t>(p.n_nodes())),
-                      p.n_nodes());
-}
-
-std::vector<algebra::BlockMatrix::Slot> pairing_slots(const ContactPoints& points, Index n_owned,
-                                                      const algebra::BlockMatrix& matrix) {
-  std::vector<algebra::BlockMatrix::Slot> slots;
-  for (const Pairing& p : points.pairings) {
-    const auto nodes = std::span(points.nodes).subspan(p.first_node, static_cast<std::size_t>(p.n_nodes()));
-    for (Index row : nodes)
-      for (Index column : nodes)
-        slots.push_back(row < n_owned ? matrix.slot(row, column) : algebra::BlockMatrix::k_no_slot);
-  }
-  return slots;
-}
-
 /// Points in a row that share their nodes, and what their tangents add up to.
 struct MechanicsTerm::Run {
   Index first = -1;

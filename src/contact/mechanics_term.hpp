@@ -80,10 +80,4 @@ class MechanicsTerm : public algebra::Contribution {
   FrictionStatus failure_ = FrictionStatus::converged;
 };
 
-/// Couples all nodes of every pairing with each other.
-void add_pairings_to_graph(const ContactPoints& points, algebra::NodeGraph& graph);
-/// Slots of all pairs of nodes of every pairing, [pairing][a][b]; rows of other processes are k_no_slot.
-std::vector<algebra::BlockMatrix::Slot> pairing_slots(const ContactPoints& points, Index n_owned,
-                                                      const algebra::BlockMatrix& matrix);
-
 }  // namespace solidus::contact

@@ -79,8 +79,7 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
                                       spec_.stabilisation, spec_.friction && spec_.friction->symmetric);
   if (spec_.heat) {
     heat_law_.emplace(*spec_.heat);
-    const auto& points = dynamic_cast<const FixedKinematics&>(*kinematics_).points();
-    heat_ = std::make_unique<HeatTerm>(mesh, points, *heat_law_, spec_.nodal_heat);
+    heat_ = std::make_unique<HeatTerm>(mesh, partners_, *graph_, *heat_law_, spec_.nodal_heat);
   }
   restore({}, std::vector<double>(mesh.x.size() * static_cast<std::size_t>(components_), 0.0), 0);
 }
@@ -193,6 +192,8 @@ void ContactPair::update(std::span<const double> displacement) {
   const bool fixed = !kinematics_->partners_change() && partners_.n_points() > 0;
   if (!fixed) partners_.clear();
   now_.points.resize(step_.from.size());
+  std::vector<HeatPoint> heat;
+  before_heat_.resize(now_.points.size());
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
@@ -200,8 +201,57 @@ void ContactPair::update(std::span<const double> displacement) {
     now_.points[at(p)] = law_.next(motion, from, forces);
     if (!active_) now_.points[at(p)].anchored = false;
     if (!fixed) partners_.add(motion, kinematics_->particle(p).counted);
+    before_heat_[at(p)] = now_.points[at(p)].temperature;
+    if (heat_) heat.push_back(heat_point(from, now_.points[at(p)], forces));
   }
-  place_heat();
+  if (heat_) heat_->place(std::move(heat));
+}
+
+HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
+                                  const PointForces& forces) const {
+  HeatPoint point{.penetration = now.penetration,
+                  .pressure = now.pressure,
+                  .pressure_slope = forces.normal.tangent,
+                  .has_temperature = law_.friction && step_.dt > 0 && from.temperature > 0,
+                  .step = {}};
+  point.step = {step_.dt, spec_.interface_heat_capacity, from.temperature, forces.friction.structural_entropy,
+                forces.friction.dissipation};
+  return point;
+}
+
+InterfaceSums ContactPair::settle(std::span<const double> temperature) {
+  InterfaceSums sums;
+  if (!heat_ || !law_.friction) return sums;
+  const std::vector<double> settled = heat_->interface_temperatures(temperature);
+  const InterfaceHeat heat = heat_->interface_heat(temperature);
+  sums.dissipated = heat.dissipated;
+  sums.stored = heat.stored;
+  const FrictionLaw& law = *law_.friction;
+  for (std::size_t p = 0; p < settled.size(); ++p) {
+    const PointState& from = step_.from[p];
+    PointState& now = now_.points[p];
+    if (!(from.temperature > 0)) continue;
+    now.temperature = settled[p];
+    const double made = plastic_entropy_increment(law, now.slip - from.slip, now.pressure, now.temperature);
+    now.plastic_entropy = from.plastic_entropy + made;
+    const ContactKinematics::Particle particle = kinematics_->particle(static_cast<Index>(p));
+    if (!particle.counted) continue;
+    const double w = particle.weight, between = before_heat_[p];
+    const double energy = interface_energy(law, from.temperature, from.internal_variable);
+    const double entropy = interface_entropy(law, from.temperature, from.internal_variable);
+    sums.hardening += w * (now.work - from.work - now.dissipation + from.dissipation);
+    sums.energy += w * (interface_energy(law, now.temperature, now.internal_variable) - energy);
+    sums.entropy += w * (interface_entropy(law, now.temperature, now.internal_variable) - entropy);
+    sums.mechanical_energy += w * (interface_energy(law, between, now.internal_variable) - energy);
+    sums.mechanical_entropy += w * (interface_entropy(law, between, now.internal_variable) - entropy);
+    sums.plastic_entropy += w * made;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof(sums) / sizeof(double), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return sums;
+}
+
+bool ContactPair::symmetric_heat() const {
+  return !heat_ || heat_->symmetric();
 }
 
 void ContactPair::restore(const ContactState& state, std::span<const double> displacement, double time) {
@@ -212,27 +262,19 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   const ContactState stands{step_.from};
   update(displacement);
   // Of the motion alone: what the last step did is in the state.
+  std::vector<HeatPoint> heat;
   for (std::size_t p = 0; p < now_.points.size(); ++p) {
     const double penetration = now_.points[p].penetration;
     now_.points[p] = stands.points[p];
     now_.points[p].penetration = penetration;
+    heat.push_back(heat_point(step_.from[p], now_.points[p], {}));
     if (active_) continue;
     now_.points[p].status = PointStatus::open;
     now_.points[p].pressure = now_.points[p].balance_pressure = now_.points[p].multiplier = 0;
     now_.points[p].traction = {};
     now_.points[p].anchored = false;
   }
-  place_heat();
-}
-
-void ContactPair::place_heat() {
-  if (!heat_) return;
-  std::vector<double> penetration, pressure;
-  for (const PointState& point : now_.points) {
-    penetration.push_back(point.penetration);
-    pressure.push_back(point.pressure);
-  }
-  heat_->place(penetration, pressure);
+  if (heat_) heat_->place(std::move(heat));
 }
 
 void ContactPair::augment() {
@@ -270,15 +312,10 @@ GlobalIndex ContactPair::changes() const {
 
 void ContactPair::add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const {
   if (!heat_ || !active_) return;
-  const auto& points = dynamic_cast<const FixedKinematics&>(*kinematics_).points();
-  std::vector<double> slope(now_.points.size());
-  for (Index p = 0; p < kinematics_->n_points(); ++p) {
-    const PointState& from = step_.from[at(p)];
-    slope[at(p)] =
-        law_.forces(kinematics_->motion(p, from, ContactKinematics::Asked::motion), from).normal.tangent;
-  }
-  heat_->add_gap_tangent(slope, temperature,
-                         pairing_slots(points, mesh_.n_owned_nodes, matrix.displacement()), matrix);
+  std::vector<Point> normal(now_.points.size());
+  for (Index p = 0; p < kinematics_->n_points(); ++p)
+    normal[at(p)] = kinematics_->motion(p, step_.from[at(p)], ContactKinematics::Asked::motion).normal;
+  heat_->add_gap_tangent(normal, temperature, matrix);
 }
 
 double ContactPair::force_times_increment(const std::vector<PointState>& states,

@@ -18,6 +18,19 @@
 namespace solidus::contact {
 
 class HeatTerm;
+struct HeatPoint;
+
+/// What the interface took, stored and made in a step, all processes.
+struct InterfaceSums {
+  double dissipated = 0;          ///< D_c,mech [J]
+  double stored = 0;              ///< Σ Θ_c (S^e_c − S^e_c,n), the heat that did not reach the bodies [J]
+  double hardening = 0;           ///< work of friction less what it dissipates [J]
+  double energy = 0;              ///< change of E_c without springs [J] (3.69)
+  double entropy = 0;             ///< change of S^e_c [J/K]
+  double mechanical_energy = 0;   ///< the same up to the end of the mechanical phase [J]
+  double mechanical_entropy = 0;  ///< [J/K]
+  double plastic_entropy = 0;     ///< change of S^p_c [J/K] (3.53c)
+};
 
 /// Sums over a pair, all processes (axisymmetric: of the whole revolution; plane strain: per metre).
 struct ContactSums {
@@ -82,6 +95,8 @@ class ContactPair {
   algebra::Contribution* heat();
   /// Whether the derivative of mechanics() is symmetric.
   bool symmetric() const;
+  /// Whether that of heat() is.
+  bool symmetric_heat() const;
 
   /// The history of bodies that have not moved.
   ContactState initial_state() const;
@@ -95,6 +110,10 @@ class ContactPair {
   void restore(const ContactState& state, std::span<const double> displacement, double time);
   /// Of the last update() or restore().
   const ContactState& state() const { return now_; }
+
+  /// After the thermal phase: Θ_c and S^p_c of every point, at the temperatures found [local node]; state()
+  /// has them then. Zero without friction or heat. Collective.
+  InterfaceSums settle(std::span<const double> temperature);
 
   /// Uzawa's step of the augmented Lagrangian: the forces of the last update() become the multipliers.
   void augment();
@@ -139,7 +158,7 @@ class ContactPair {
  private:
   void make_kinematics(AnalysisKind kind, const ContactSurface& slave, const ContactSurface& master);
   void make_laws(const ContactSurface& slave, double penalty);
-  void place_heat();
+  HeatPoint heat_point(const PointState& from, const PointState& now, const PointForces& forces) const;
   void find_interface_temperatures(std::span<const double> temperature);
   /// ∫ f · ΔΣ B_b u_b of the points' forces at a displacement, this process's part [J].
   double force_times_increment(const std::vector<PointState>& states, std::span<const double> displacement,
@@ -160,6 +179,7 @@ class ContactPair {
   ContactState now_;
   std::vector<double> displacement_;  ///< of now_
   double time_ = 0;                   ///< likewise
+  std::vector<double> before_heat_;   ///< Θ_c that the mechanical phase left, [point]
   PartnerList partners_;
   std::vector<Index> surface_nodes_;  ///< owned nodes of both surfaces, sorted
   std::unique_ptr<MechanicsTerm> mechanics_;

@@ -103,6 +103,7 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
     contact.add(phases_.mechanics->work_share());
     contact.book(effort.energy);
   }
+  book_interface(effort.energy, phases_.structural != nullptr);
   trial.heat = std::move(it.now.heat);
   trial.mechanics = std::move(it.now.mechanics);
   trial.contacts = std::move(it.now.contacts);

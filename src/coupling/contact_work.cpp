@@ -25,4 +25,15 @@ void ContactWork::book(EnergyAudit& audit) const {
   audit.numerical += work_ - audit.contact - audit.friction;
 }
 
+void book_interface(EnergyAudit& audit, bool mechanical) {
+  const contact::InterfaceSums& sums = audit.interface;
+  if (!mechanical) {  // the first law is that of the bodies' heat
+    audit.frictional_heat = sums.dissipated - sums.stored;
+    return;
+  }
+  audit.frictional_heat = sums.dissipated;
+  audit.contact += sums.energy - sums.hardening;
+  audit.numerical += sums.stored + sums.hardening - sums.energy;
+}
+
 }  // namespace solidus::coupling

@@ -32,4 +32,10 @@ class ContactWork {
   double work_ = 0;  ///< [J]
 };
 
+/// After mechanical booking and the thermal pass: friction's heat, and the interface's own energy (3.69) in
+/// place of the hardening that the mechanical phase has stored. What the balance in entropy (5.33) takes
+/// beyond the change of E_c, of second order in the step, is numerical.
+/// @param mechanical  false where deformation and heat exchange nothing: then friction's heat alone
+void book_interface(EnergyAudit& energy, bool mechanical);
+
 }  // namespace solidus::coupling

@@ -28,6 +28,7 @@ StabilityAudit& StabilityAudit::operator+=(const StabilityAudit& next) {
   mechanical += next.mechanical;
   thermal += next.thermal;
   entropy += next.entropy;
+  frictional_entropy += next.frictional_entropy;
   tolerance += next.tolerance;
   return *this;
 }

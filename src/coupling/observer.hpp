@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/pair.hpp"
 #include "coupling/continuation.hpp"
 
 namespace solidus::coupling {
@@ -38,7 +39,8 @@ struct EnergyAudit {
   double plastic_dissipation = 0;  ///< heat of plastic flow (2.117)
   double plastic_work = 0;         ///< work of the deviator on plastic flow
   double hardening() const { return plastic_work - plastic_dissipation; }  ///< what hardening stores
-  double frictional_heat = 0;  ///< what of the friction the thermal phase took up
+  double frictional_heat = 0;        ///< what of the friction the thermal phase took up
+  contact::InterfaceSums interface;  ///< of the last thermal pass; sums of a step, not of a run
   double defect() const {
     return stored_heat + structural + contact + kinetic + numerical + friction - frictional_heat - work -
            heat_in;
@@ -51,7 +53,8 @@ struct EnergyAudit {
 /// [J].
 struct StabilityAudit {
   double mechanical = 0, thermal = 0;  ///< increments of 𝓛 over the two phases (4.34, 4.39)
-  double entropy = 0;                  ///< change of S^E + S^pc [J/K]
+  double entropy = 0;                  ///< change of S^E + S^pc, and of S^e_c at interfaces [J/K]
+  double frictional_entropy = 0;       ///< change of S^p_c, which 𝓛 does not hold [J/K]
   double tolerance = 0;                ///< growth that residuals and rounding explain
   double increment() const { return mechanical + thermal; }
   StabilityAudit& operator+=(const StabilityAudit& next);

@@ -16,6 +16,16 @@ void add(const algebra::NewtonReport& newton, double seconds, PhaseEffort& effor
   effort.seconds += seconds;
 }
 
+void add(const contact::InterfaceSums& pair, EnergyAudit& energy) {
+  contact::InterfaceSums& sum = energy.interface;
+  for (double contact::InterfaceSums::*part :
+       {&contact::InterfaceSums::dissipated, &contact::InterfaceSums::stored,
+        &contact::InterfaceSums::hardening, &contact::InterfaceSums::energy, &contact::InterfaceSums::entropy,
+        &contact::InterfaceSums::mechanical_energy, &contact::InterfaceSums::mechanical_entropy,
+        &contact::InterfaceSums::plastic_entropy})
+    sum.*part += pair.*part;
+}
+
 }  // namespace
 
 bool mechanical_pass(const Phases& phases, const State& old, State& trial,
@@ -72,6 +82,9 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
     effort.energy.work = effort.energy.contact = effort.energy.kinetic = effort.energy.numerical = 0;
     effort.energy.friction = 0;
   }
+  effort.energy.interface = {};
+  for (contact::ContactPair* pair : phases.contacts) add(pair->settle(trial.heat.temperature), effort.energy);
+  if (phases.mechanics != nullptr) trial.contacts = contact_states(phases);
   add(report.newton, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;
 }

@@ -29,6 +29,7 @@ StepEffort SequentialSplit::advance(const State& old, State& trial, double time,
   StepEffort effort;
   if (phases_.mechanics != nullptr) mechanical_phase(old, trial, time, dt, effort);
   if (phases_.heat != nullptr) thermal_pass(phases_, old, trial, {.time = time, .dt = dt}, effort);
+  book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, trial, effort);
   summarise(phases_, trial, effort);
   return effort;

@@ -12,14 +12,17 @@ StabilityAudit stability_audit(const Phases& phases, const State& old, const Sta
   const double ambient = *phases.ambient_temperature;
   const heat::EntropyChange stored = phases.heat->entropy_change(old.heat, trial.heat);
   const mechanics::StructuralChange structural = phases.structural->change(trial.heat.temperature);
-  r.entropy = stored.change + structural.entropy;
+  const contact::InterfaceSums& interface = energy.interface;
+  r.entropy = stored.change + structural.entropy + interface.entropy;
+  r.frictional_entropy = interface.plastic_entropy;
 
   const double outside =
       energy.kinetic + energy.contact - energy.work;  // changes in the mechanical phase only
   const double whole = energy.stored_heat + energy.structural + outside - ambient * r.entropy;
   if (booking == Booking::by_phase) {
     const mechanics::StructuralChange phase = phases.structural->mechanical_change();
-    r.mechanical = phase.energy - ambient * phase.entropy + outside;
+    const double later = interface.energy - interface.mechanical_energy;  // in the thermal phase
+    r.mechanical = phase.energy + outside - later - ambient * (phase.entropy + interface.mechanical_entropy);
     r.thermal = whole - r.mechanical;
   } else {
     r.mechanical = whole;

@@ -149,9 +149,24 @@ void check_conditions(const CaseSpec& spec) {
   }
 }
 
+/// Friction makes heat: it needs a way out of the interface, and a scheme that knows it.
+void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
+  if (!c.friction || !spec.coupled()) return;
+  if (!c.heat)
+    throw InputError(c.where, fmt::format("friction of the contact '{}' makes heat, but none passes", c.name),
+                     "a section [contact.heat], or physics = \"mechanics\"");
+  using Scheme = CouplingSpec::Scheme;
+  if (spec.coupling.scheme == Scheme::simultaneous || spec.coupling.scheme == Scheme::double_pass)
+    throw InputError(
+        c.friction->where,
+        fmt::format("the heat of friction of the contact '{}' is not part of this scheme", c.name),
+        "scheme = \"isentropic\", \"isothermal\" or \"block_iterative\"");
+}
+
 void check_contacts(const CaseSpec& spec) {
   check_names(spec.contacts, "[[contact]]");
   for (const auto& c : spec.contacts) {
+    check_friction_heat(spec, c);
     if (c.slave == c.master)
       throw InputError(c.where, fmt::format("the contact '{}' has one surface on both sides", c.name));
     if (c.heat && c.heat->exponent > 0 && !c.heat->hardness)

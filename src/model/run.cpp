@@ -89,9 +89,11 @@ void build_heat(const CaseSpec& spec, const std::vector<double>& body_temperatur
   for (const auto& pair : a.contacts)
     if (pair->heat() != nullptr) contributions.push_back(pair->heat());
   if (a.structural) contributions.push_back(a.structural.get());
-  a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
-                                                thermal_conditions(spec, a.first_stage()), heat_options(spec),
-                                                contributions);
+  heat::HeatOptions options = heat_options(spec);
+  for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->symmetric_heat();
+  a.heat =
+      std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
+                                           thermal_conditions(spec, a.first_stage()), options, contributions);
   a.phases.heat = a.heat.get();
   a.initial.heat = a.heat->initial_state(body_temperature);
 }

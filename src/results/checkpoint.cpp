@@ -42,7 +42,7 @@ void each_number(C& c, const Visit& visit) {
   all(e.stored_heat, e.structural, e.contact, e.kinetic, e.friction, e.frictional_heat, e.numerical, e.work,
       e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation,
       e.plastic_work);
-  all(l.mechanical, l.thermal, l.entropy);
+  all(l.mechanical, l.thermal, l.entropy, l.frictional_entropy);
 }
 
 std::vector<double> numbers_of(const Checkpoint& c) {

@@ -135,8 +135,9 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
                              r.energy.defect()};
   if (table.dynamics) cells.emplace_back(r.energy.kinetic);
   if (table.stability)
-    cells.insert(cells.end(), {r.stability.mechanical, r.stability.thermal, r.stability.tolerance,
-                               r.stability.entropy, r.stability.entropy - r.energy.entropy_in});
+    cells.insert(cells.end(),
+                 {r.stability.mechanical, r.stability.thermal, r.stability.tolerance, r.stability.entropy,
+                  r.stability.entropy + r.stability.frictional_entropy - r.energy.entropy_in});
   if (table.stages) {
     cells.emplace_back(r.stage);
     cells.emplace_back(whole(r.cycle));
@@ -182,7 +183,7 @@ std::vector<Reading> GlobalHistory::all() const {
     add("lyapunov_mechanical", "J", last_.stability.mechanical);
     add("lyapunov_thermal", "J", last_.stability.thermal);
     add("entropy", "J/K", stability_.entropy);
-    add("entropy_production", "J/K", stability_.entropy - sum_.entropy_in);
+    add("entropy_production", "J/K", stability_.entropy + stability_.frictional_entropy - sum_.entropy_in);
   }
   add("heat_exchanged", "J", sum_.heat_exchanged);
   add("energy_defect", "J", sum_.defect());

@@ -118,6 +118,38 @@ TEST(TwoBars, WithRadiationBesideConductionBalanceTheFourthPowers) {
   EXPECT_LT(worst, 1e-6 * k_hot);
 }
 
+TEST(TwoBars, WithTablesOfTheTemperatureConductAtItsMeanAcrossTheInterface) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  contact::ContactSpec spec = test::interface();
+  spec.heat = HeatLaw{};
+  spec.heat->contact_law = HeatLaw::ContactLaw::table;
+  spec.heat->gap_law = HeatLaw::GapLaw::table;
+  spec.heat->families = {{300, Table(500.0), Table({0, 1e-4}, {500, 100})},
+                         {900, Table(4000.0), Table({0, 1e-4}, {4000, 200})}};
+  for (const bool nodal : {true, false}) {
+    spec.nodal_heat = nodal;
+    contact::ContactPair pair(mesh, AnalysisKind::plane_strain, spec, std::vector<double>{70e9, 210e9});
+    heat::HeatOptions options;
+    options.tolerance = 1e-12;
+    options.symmetric = false;
+    options.integration = nodal ? heat::Integration::closed : heat::Integration::open;
+    heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, bars(), ends(mesh), options, {pair.heat()});
+    heat::ThermalState state = phase.initial_state(std::vector<double>{600, 600});
+    const heat::PhaseReport report = phase.solve_steady(heat::ThermalState(state), state, 1);
+    EXPECT_LE(report.newton.iterations, 6) << "quadratic, with the exact tangent";
+    // q (R_1 + R_2 + 1/h) = ΔΘ with h of the mean of the two interface temperatures, by bisection.
+    double low = 0, high = (k_hot - k_cold) / (k_l1 / k_k1 + k_l2 / k_k2);
+    for (int i = 0; i < 200; ++i) {
+      const double q = 0.5 * (low + high);
+      const double a = k_hot - q * k_l1 / k_k1, b = k_cold + q * k_l2 / k_k2;
+      const double h = 500 + 3500 * (0.5 * (a + b) - 300) / 600;
+      (h * (a - b) < q ? high : low) = q;
+    }
+    EXPECT_LT(deviation(mesh, state, k_hot - low * k_l1 / k_k1, k_cold + low * k_l2 / k_k2), 1e-6 * k_hot);
+    EXPECT_NEAR(pair.sums(state.temperature).heat, low * 0.3, 1e-8 * low * 0.3);
+  }
+}
+
 // Two bars that expand and close the gap between them. Both stand on rigid ends; sideways they are held, so
 // the problem is one-dimensional with the strain ε_y = (1+ν)/(1−ν) α (Θ − Θ_ref) + σ/M, M the oedometer
 // modulus. Unknowns q and the pressure p (or the opening g), with h = h_o(g) or h_o(0) + h_co (p/H)^ε.

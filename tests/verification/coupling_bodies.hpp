@@ -94,6 +94,7 @@ class Assembly {
     mechanics_options.newton.tolerance = c.mechanics_tolerance;
     mechanics_options.mapping = c.mapping;
     mechanics_options.dynamics = c.dynamics;
+    mechanics_options.symmetric = !pair_ || pair_->symmetric();
     mechanics_.emplace(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options, mechanical);
     if (c.form)
       thermal.push_back(
@@ -104,6 +105,7 @@ class Assembly {
     heat_options.sensible = c.sensible;
     heat_options.tolerance = 1e-12;
     heat_options.solver = algebra::SolverKind::direct;
+    heat_options.symmetric = !pair_ || pair_->symmetric_heat();
     heat_.emplace(c.mesh, c.kind, c.materials, c.thermal, heat_options, thermal);
 
     coupling::Phases phases;

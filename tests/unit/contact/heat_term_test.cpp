@@ -1,0 +1,147 @@
+/// Heat of friction as a term of the thermal phase: where a pair has slid in a step.
+#include "contact/heat_term.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "bodies.hpp"
+#include "contact/pair.hpp"
+
+namespace solidus::contact {
+namespace {
+
+using mesh::Shape;
+
+constexpr double k_dt = 0.2;
+
+ContactSpec rubbing(bool nodal, double heat_capacity, bool of_temperature) {
+  ContactSpec s;
+  s.name = "interface";
+  s.slave = "lower_top";
+  s.master = "upper_bottom";
+  s.penalty = 1e11;
+  s.penalty_is_factor = false;
+  s.nodal_heat = nodal;
+  s.heat = HeatTransferSpec{};
+  if (of_temperature) {
+    s.heat->contact_law = HeatTransferSpec::ContactLaw::table;
+    s.heat->gap_law = HeatTransferSpec::GapLaw::table;
+    s.heat->families = {{300, Table({0, 1e8}, {500, 2000}), Table({0, 1e-4}, {500, 100})},
+                        {900, Table({0, 1e8}, {4000, 9000}), Table({0, 1e-4}, {4000, 200})}};
+  } else {
+    s.heat->conductance = 3000;
+  }
+  s.friction = FrictionSpec{};
+  s.friction->coefficient.terms = {Table(0.2), Table({300, 900}, {0.3, 0.1})};
+  s.friction->coefficient.unit = 1e4;
+  s.interface_heat_capacity = heat_capacity;
+  return s;
+}
+
+// The upper block closes the gap on a part of the interface and slides.
+std::vector<double> sliding(const mesh::Mesh& mesh) {
+  return test::nodal_field(mesh, mesh.dimension, [&](const Point& x, bool upper) {
+    std::vector<double> u(static_cast<std::size_t>(mesh.dimension), 0.0);
+    if (upper) {
+      u[0] = 1e-3;
+      u.back() = -1e-4 * std::sin(15 * x[0]);
+    }
+    return u;
+  });
+}
+
+std::vector<double> warm(const mesh::Mesh& mesh) {
+  return test::nodal_field(mesh, 1, [](const Point& x, bool upper) {
+    return std::vector<double>{(upper ? 500.0 : 700.0) + 50 * std::sin(12 * x[0] + 5 * x[1])};
+  });
+}
+
+void slide(const mesh::Mesh& mesh, ContactPair& pair, std::span<const double> temperature) {
+  const std::vector<double> rest(mesh.x.size() * static_cast<std::size_t>(mesh.dimension), 0.0);
+  pair.begin({}, {.time = k_dt, .dt = k_dt, .displacement = rest, .temperature = temperature});
+  pair.update(sliding(mesh));
+}
+
+double tangent_defect(const mesh::Mesh& mesh, algebra::Contribution& term, const std::vector<double>& x) {
+  algebra::NodeGraph graph(mesh);
+  term.add_to_graph(graph);
+  algebra::BlockMatrix matrix(mesh, 1, std::move(graph));
+  term.bind(matrix);
+  term.add_tangent(x, matrix);
+  const double h = 1e-2;
+  std::vector<double> d(x.size()), up = x, down = x;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    d[i] = std::sin(31 * mesh.x[i][0] + 17 * mesh.x[i][1] + 13 * mesh.x[i][2]);
+    up[i] += h * d[i];
+    down[i] -= h * d[i];
+  }
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  std::vector<double> r_up(n, 0), r_down(n, 0), product(n, 0);
+  term.add_residual(up, r_up);
+  term.add_residual(down, r_down);
+  matrix.multiply(d, product);
+  double defect = 0, size = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    defect = std::max(defect, std::abs((r_up[i] - r_down[i]) / (2 * h) - product[i]));
+    size = std::max(size, std::abs(product[i]));
+  }
+  return algebra::global_max(defect) / algebra::global_max(size);
+}
+
+TEST(FrictionalHeat, HasTheTangentThatFiniteDifferencesShow) {
+  for (const Shape shape : {Shape::quad4, Shape::hex8})
+    for (const bool nodal : {true, false})
+      for (const double capacity : {0.0, 800.0})
+        for (const bool of_temperature : {true, false}) {
+          const mesh::Mesh mesh = test::two_blocks(shape);
+          const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+          ContactPair pair(mesh, kind, rubbing(nodal, capacity, of_temperature));
+          slide(mesh, pair, warm(mesh));
+          EXPECT_EQ(pair.symmetric_heat(), !of_temperature);
+          // Steps of 0.01 K: 1e-8 by curvature, 1e-9 by rounding of what is exchanged.
+          EXPECT_LT(tangent_defect(mesh, *pair.heat(), warm(mesh)), 1e-7)
+              << mesh::name(shape) << nodal << capacity << of_temperature;
+        }
+}
+
+TEST(FrictionalHeat, ReachesTheBodiesButForWhatTheInterfaceStores) {
+  for (const bool nodal : {true, false})
+    for (const double capacity : {0.0, 800.0})
+      for (const Shape shape : {Shape::quad4, Shape::hex8}) {
+        const mesh::Mesh mesh = test::two_blocks(shape);
+        const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+        ContactPair pair(mesh, kind, rubbing(nodal, capacity, false));
+        const std::vector<double> temperature = warm(mesh);
+        slide(mesh, pair, temperature);
+        double heat = 0, size = 0;
+        for (const double q : pair.nodal_heat(temperature)) {
+          heat -= q * k_dt;
+          size += std::abs(q) * k_dt;
+        }
+        const InterfaceSums sums = pair.settle(temperature);
+        EXPECT_GT(sums.dissipated, 0);
+        EXPECT_NE(sums.stored, 0) << "hardening stores entropy";
+        EXPECT_NEAR(algebra::global_sum(heat), sums.dissipated - sums.stored,
+                    1e-12 * algebra::global_sum(size));
+      }
+}
+
+TEST(FrictionalHeat, RaisesTheInterfaceAboveBothBodies) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = rubbing(true, 0, false);
+  s.friction->coefficient.terms = {Table(0.2)};
+  ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+  const std::vector<double> equal(mesh.x.size(), 400.0);
+  slide(mesh, pair, equal);
+  pair.settle(equal);
+  for (const PointState& point : pair.state().points) {
+    // (h_1 + h_2) (Θ_c − Θ) = D with h_1 = h_2 = 2 h.
+    if (point.status == PointStatus::open) continue;
+    EXPECT_NEAR(point.temperature - 400, point.dissipation / k_dt / (4 * 3000.0), 1e-9 * point.temperature);
+  }
+}
+
+}  // namespace
+}  // namespace solidus::contact

@@ -1,0 +1,186 @@
+/// Heat of friction between two bodies that slide, with the temperature Θ_c of their interface.
+///
+///              ───► v, pressed by δ
+///   ┌──────────────────────────┐
+///   │ upper, e_2               │    All nodes of the upper body move with v, those of the lower one stand
+///   ├──────────────────────────┤    still; along y both are free but for their ends, so pressure and
+///   │ lower, e_1               │    friction are uniform and heat flows in one dimension.
+///   └──────────────────────────┘
+///
+/// Two half spaces that rub with the power q and share one temperature at the interface: it rises by
+/// 2 q √(t/π)/(e_1 + e_2), and they take the heat in the ratio of their effusivities e = √(k ρ c) (Carslaw
+/// and Jaeger 1959, 2.9; Jaeger 1942).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "contact_bodies.hpp"
+#include "coupling_bodies.hpp"
+#include "csv.hpp"
+
+namespace solidus {
+namespace {
+
+using mechanics::Mapping;
+using mechanics::StructuralForm;
+using verification::Coupled;
+
+constexpr double k_width = 0.01, k_length = 0.05;  // [m]
+constexpr double k_speed = 0.1;                    // [m/s]
+constexpr double k_capacity = 7800.0 * 500.0;      // of test::elastic [J/(m³ K)]
+
+contact::ContactSpec rubbing(double conductance) {
+  contact::ContactSpec s = test::interface();
+  s.heat = contact::HeatTransferSpec{};
+  s.heat->conductance = conductance;
+  s.friction = contact::FrictionSpec{};
+  s.friction->coefficient.terms = {Table(0.3)};
+  return s;
+}
+
+Coupled sliding(int elements, double k1, double k2, double start, double end) {
+  Coupled c;
+  c.mesh = test::distribute_blocks(test::raw_blocks(
+      {{k_width, k_length}, {k_width, k_length}, {2, elements}, {2, elements}, 0.0}, mesh::Shape::quad4));
+  c.materials = {test::elastic(2e11, 0.0, 0, k1), test::elastic(2e11, 0.0, 0, k2)};
+  c.start = {start, start};
+  c.hold("lower", 0);
+  c.hold("upper", 0, Table({0, end}, {0, k_speed * end}));
+  c.hold("lower_y_min", 1);
+  c.hold("upper_y_max", 1, -2e-5);
+  return c;
+}
+
+// Heat content over the start of one body, by its nodes [J/m].
+double warmed(const Coupled& c, const char* body, const std::vector<double>& temperature, double start) {
+  double sum = 0;
+  std::vector<char> inside(c.mesh.x.size(), 0);
+  for (const Index n : c.mesh.node_sets.at(body)) inside[static_cast<std::size_t>(n)] = 1;
+  for (const mesh::Block& block : c.mesh.blocks)
+    for (Index e = 0; e < block.n_counted; ++e) {
+      const Index* nodes = block.element(e);
+      if (inside[static_cast<std::size_t>(nodes[0])] == 0) continue;
+      const auto& a = c.mesh.x[static_cast<std::size_t>(nodes[0])];
+      const auto& b = c.mesh.x[static_cast<std::size_t>(nodes[2])];
+      double mean = 0;
+      for (int i = 0; i < 4; ++i) mean += 0.25 * temperature[static_cast<std::size_t>(nodes[i])];
+      sum += std::abs((b[0] - a[0]) * (b[1] - a[1])) * k_capacity * (mean - start);
+    }
+  return algebra::global_sum(sum);
+}
+
+double surface(const mesh::Mesh& mesh, const char* name, const std::vector<double>& temperature) {
+  double sum = 0, n = 0;
+  for (const Index node : mesh.surfaces.at(name).nodes)
+    if (node < mesh.n_owned_nodes) {
+      sum += temperature[static_cast<std::size_t>(node)];
+      n += 1;
+    }
+  return algebra::global_sum(sum) / algebra::global_sum(n);
+}
+
+TEST(FrictionHeat, IsSharedByHalfSpacesAsTheirEffusivitiesAndFlashesAsTheClosedForm) {
+  const double k1 = 160, k2 = 40, start = 300, end = 1;  // diffusion lengths of 6 and 3 mm
+  Coupled c = sliding(100, k1, k2, start, end);
+  c.contact = rubbing(1e8);
+  const double e1 = std::sqrt(k1 * k_capacity), e2 = std::sqrt(k2 * k_capacity);
+  double power = 0, time = 0, worst = 0, dissipated = 0;
+  auto file = verification::csv("contact_flash", "time[s],lower[K],upper[K],exact[K]");
+  const auto run = verification::march(c, end, 200, [&](const coupling::State& state, const auto& effort) {
+    power = effort.energy.interface.dissipated / (state.time - time) / k_width;
+    dissipated += effort.energy.interface.dissipated;
+    time = state.time;
+    const double exact = start + 2 * power * std::sqrt(time / std::numbers::pi) / (e1 + e2);
+    const double lower = surface(c.mesh, "lower_top", state.heat.temperature);
+    const double upper = surface(c.mesh, "upper_bottom", state.heat.temperature);
+    file << time << ',' << lower << ',' << upper << ',' << exact << '\n';
+    if (time > 0.2)
+      worst = std::max(
+          {worst, std::abs(lower - exact) / (exact - start), std::abs(upper - exact) / (exact - start)});
+  });
+  const double pressure = 2e11 * 2e-5 / (2 * k_length);
+  EXPECT_NEAR(power, 0.3 * pressure * k_speed, 0.1 * power)
+      << "mu p v; the penalty takes part of the approach";
+  const double lower = warmed(c, "lower", run.end.heat.temperature, start);
+  const double upper = warmed(c, "upper", run.end.heat.temperature, start);
+  RecordProperty("flash", fmt::format("{:.2e}", worst));
+  RecordProperty("ratio", fmt::format("{:.5f}, closed form {:.5f}", lower / upper, e1 / e2));
+  EXPECT_NEAR(lower + upper, dissipated, 1e-9 * dissipated) << "all of it reaches the bodies";
+  // Backward Euler of 200 steps and elements of 0.5 mm against diffusion lengths of 3 to 6 mm.
+  EXPECT_NEAR(lower / upper, e1 / e2, 5e-3 * e1 / e2);
+  EXPECT_LT(worst, 1e-2);
+}
+
+TEST(FrictionHeat, GoesHalfAndHalfWhereTheInterfaceResistsMoreThanTheBodies) {
+  Coupled c = sliding(20, 160, 40, 300, 0.05);
+  c.contact = rubbing(1);
+  const auto run = verification::march(c, 0.05, 5);
+  const double lower = warmed(c, "lower", run.end.heat.temperature, 300);
+  const double upper = warmed(c, "upper", run.end.heat.temperature, 300);
+  EXPECT_NEAR(lower, upper, 1e-3 * upper) << "h_1 = h_2";
+}
+
+// A coefficient that hardens, the less the hotter; heat capacity in the interface.
+contact::ContactSpec hardening(double heat_capacity) {
+  contact::ContactSpec s = rubbing(2e4);
+  s.friction->coefficient.terms = {Table(0.05), Table({300, 900}, {0.7, 0.1})};
+  s.friction->coefficient.unit = 2e5;  // of the order of the normal work of a run
+  s.interface_heat_capacity = heat_capacity;
+  return s;
+}
+
+Coupled hardening_run(Mapping mapping, bool nodal, double heat_capacity) {
+  Coupled c = sliding(10, 40, 20, 600, 0.1);
+  c.mapping = mapping;
+  c.form = StructuralForm::entropy;
+  c.ambient = 300;
+  c.integration = nodal ? heat::Integration::closed : heat::Integration::open;
+  c.contact = hardening(heat_capacity);
+  c.contact->nodal_heat = nodal;
+  return c;
+}
+
+TEST(FrictionHeat, ClosesTheFirstLawAndNeverDissipatesLessThanNothing) {
+  for (const bool nodal : {true, false})
+    for (const double capacity : {0.0, 500.0})
+      for (const Mapping mapping : {Mapping::isothermal, Mapping::isentropic}) {
+        const Coupled c = hardening_run(mapping, nodal, capacity);
+        double heat = 0;
+        const auto run = verification::march(c, 0.1, 20, [&](const coupling::State&, const auto& effort) {
+          heat += effort.energy.interface.dissipated;
+          EXPECT_GE(effort.energy.interface.dissipated, 0);
+          EXPECT_GE(effort.energy.interface.plastic_entropy, 0);
+        });
+        ASSERT_GT(heat, 0);
+        // The first step also puts the pressure on at once, of whose work backward Euler loses half.
+        for (std::size_t n = 1; n < run.steps.size(); ++n)
+          EXPECT_LT(std::abs(run.steps[n].defect()), 1e-8 * run.steps[n].heat_exchanged)
+              << nodal << ' ' << capacity << ", step " << n;
+      }
+}
+
+TEST(FrictionHeat, OfTemperatureDependentHardeningKeepsTheEstimateWithIsentropicPhasesOnly) {
+  auto file = verification::csv("contact_lyapunov",
+                                "step,isothermal_mechanical[J/m],isothermal_thermal[J/"
+                                "m],isentropic_mechanical[J/m],isentropic_thermal[J/m]");
+  const auto isothermal = verification::march(hardening_run(Mapping::isothermal, true, 500), 0.1, 20);
+  const auto isentropic = verification::march(hardening_run(Mapping::isentropic, true, 500), 0.1, 20);
+  int grows = 0;
+  for (std::size_t n = 0; n < isothermal.stability.size(); ++n) {
+    const auto &a = isothermal.stability[n], &b = isentropic.stability[n];
+    file << n + 1 << ',' << a.mechanical << ',' << a.thermal << ',' << b.mechanical << ',' << b.thermal
+         << '\n';
+    if (a.mechanical > 10 * a.tolerance) ++grows;
+    EXPECT_LE(b.mechanical, b.tolerance) << "5.9a, step " << n;
+    EXPECT_LE(b.increment(), b.tolerance) << "of both phases, step " << n;
+    // What the thermal phase gives back of the dissipation: 1 − Θ_a/Θ_c of it, not more.
+    EXPECT_LE(b.thermal, isentropic.steps[n].interface.dissipated) << "step " << n;
+  }
+  RecordProperty("steps_that_grow", grows);
+  EXPECT_GE(grows, 5) << "5.13a";
+}
+
+}  // namespace
+}  // namespace solidus
