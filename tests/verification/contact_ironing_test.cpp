@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -75,7 +76,9 @@ test::Rubbing make_ironing(Shape shape, int n, contact::FrictionSpec friction, D
 }
 
 struct Curve {
-  double press = 0, drag = 0;   ///< mean forces in the middle of the way [N]
+  std::vector<double> way;                    ///< [m]
+  std::vector<std::array<double, 2>> of_way;  ///< press and drag [N]
+  double press = 0, drag = 0;                 ///< mean forces in the middle of the way [N]
   double ripple = 0, jump = 0;  ///< deviation from the mean there, change from step to step, over the mean
   int cuts = 0, iterations = 0;
 };
@@ -83,21 +86,19 @@ struct Curve {
 Curve iron(Shape shape, int n, const contact::FrictionSpec& friction, int steps, Die die = Die::mesh) {
   test::Rubbing ironing = make_ironing(shape, n, friction, die);
   const std::size_t up = shape == Shape::quad4 ? 1 : 2;
-  auto csv = verification::table(
-      fmt::format("contact_ironing_{}_{}{}", mesh::name(shape), n, die == Die::mesh ? "" : "_cylinder"),
-      "way,press,drag");
   ironing.advance(1, 4);
   std::vector<double> press, drag;
+  Curve c;
   for (int i = 1; i <= steps; ++i) {
     ironing.advance(1 + static_cast<double>(i) / steps, 1);
     const contact::ContactSums s = ironing.sums();
     const double way = (ironing.time - 1) * k_way;
-    csv << fmt::format("{},{},{}\n", way, s.resultant[up], -s.resultant[0]);
+    c.way.push_back(way);
+    c.of_way.push_back({s.resultant[up], -s.resultant[0]});
     if (way < 0.3 * k_way || way > 0.7 * k_way) continue;
     press.push_back(s.resultant[up]);
     drag.push_back(-s.resultant[0]);
   }
-  Curve c;
   const auto count = static_cast<double>(press.size());
   c.press = std::accumulate(press.begin(), press.end(), 0.0) / count;
   c.drag = std::accumulate(drag.begin(), drag.end(), 0.0) / count;
@@ -126,6 +127,16 @@ TEST(Ironing, InThePlaneGivesForcesThatConvergeAndAreSmooth) {
   EXPECT_LT(fine.ripple, middle.ripple);
   EXPECT_LT(middle.ripple, coarse.ripple);
   EXPECT_LT(fine.jump, 0.01);
+  auto csv =
+      verification::table("contact_ironing",
+                          "way[mm],press_6[kN/mm],press_12[kN/mm],press_24[kN/mm],drag_6[kN/mm],drag_12[kN/"
+                          "mm],drag_24[kN/mm]");
+  for (std::size_t i = 0; i < fine.way.size(); ++i) {
+    csv << 1e3 * fine.way[i];
+    for (const std::size_t k : {0U, 1U})
+      for (const Curve* curve : {&coarse, &middle, &fine}) csv << "," << 1e-6 * curve->of_way[i][k];
+    csv << "\n";
+  }
   // An analytic cylinder in place of twenty flat faces in 80°.
   const Curve cylinder = with(12, Die::cylinder);
   EXPECT_NEAR(cylinder.press, middle.press, 0.03 * middle.press);
