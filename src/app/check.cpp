@@ -69,7 +69,7 @@ ExitCode check(const CaseArguments& arguments) {
   for (const auto& m : spec.mechanical_conditions)
     out += fmt::format("\n  mechanics   {} on {}", m.name, m.group);
   for (const auto& k : spec.contacts)
-    out += fmt::format("\n  contact     {}: {} on {}", k.name, k.slave, k.master);
+    out += fmt::format("\n  contact     {}: {} on {}", k.name, k.sides()[0], k.sides()[1]);
   for (const model::CouplingEstimate& estimate : checked.couplings)
     out += "\n  coupling    " + model::text(estimate);
   out += stage_lines(spec);

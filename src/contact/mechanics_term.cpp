@@ -4,7 +4,8 @@
 #include <array>
 #include <limits>
 
-#include "contact/face.hpp"
+#include "algebra/parallel.hpp"
+#include "base/log.hpp"
 
 namespace solidus::contact {
 
@@ -16,6 +17,21 @@ std::size_t at(Index i) {
 
 }  // namespace
 
+/// What a residual found, this process's part.
+struct MechanicsTerm::Count {
+  double points = 0, closed = 0, sticking = 0, penetration = 0, pressure = 0;
+
+  void add(const PointState& from, const PointMotion& motion, const PointForces& forces) {
+    if (!from.counted) return;
+    points += 1;
+    if (forces.status == PointStatus::open) return;
+    closed += 1;
+    if (forces.status == PointStatus::sticks) sticking += 1;
+    penetration = std::max(penetration, motion.penetration);
+    pressure = std::max(pressure, forces.normal.pressure);
+  }
+};
+
 /// Points in a row that share their nodes, and what their tangents add up to.
 struct MechanicsTerm::Run {
   Index first = -1;
@@ -24,10 +40,11 @@ struct MechanicsTerm::Run {
   std::vector<Tensor> geometric;  ///< [b][c]; scratch of one point
 };
 
-MechanicsTerm::MechanicsTerm(const mesh::Mesh& mesh, int components, Placement& placement,
+MechanicsTerm::MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components, Placement& placement,
                              ContactGraph& graph, const PointLaw& law, const ContactStep& step,
                              double stabilisation, bool symmetric)
-    : n_owned_(mesh.n_owned_nodes),
+    : name_(std::move(name)),
+      n_owned_(mesh.n_owned_nodes),
       components_(components),
       placement_(placement),
       kinematics_(placement.kinematics()),
@@ -52,12 +69,14 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
   if (!active_) return;
   placement_.place(step_.time, x);
   const auto n = static_cast<std::size_t>(components_);
+  Count count;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
     const PointForces f = law_.forces(motion, from);
-    if (f.status != status_[at(p)]) ++changes_;
+    if (f.status != status_[at(p)] && from.counted) ++changes_;
     status_[at(p)] = f.status;
+    count.add(from, motion, f);
     if (f.friction.status != FrictionStatus::converged && failure_ == FrictionStatus::converged)
       failure_ = f.friction.status;
     Point force = scale(f.normal.balance_pressure, motion.normal);
@@ -73,6 +92,17 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
       for (std::size_t i = 0; i < n; ++i) rb[i] += share * force[i];
     }
   }
+  if (logging::level() == logging::Level::debug) log(count);
+}
+
+void MechanicsTerm::log(const Count& count) const {
+  logging::debug(
+      "contact '{}': {:.0f} of {:.0f} points closed, {:.0f} stick, {:.0f} changed; penetration up to {:.3g} "
+      "m, "
+      "pressure up to {:.3g} Pa",
+      name_, algebra::global_sum(count.closed), algebra::global_sum(count.points),
+      algebra::global_sum(count.sticking), algebra::global_sum(static_cast<double>(changes_)),
+      algebra::global_max(count.penetration), algebra::global_max(count.pressure));
 }
 
 template <int dim>

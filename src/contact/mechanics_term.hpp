@@ -1,6 +1,7 @@
 /// Contact forces as a term of the mechanical phase; an internal part of ContactPair.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "algebra/contribution.hpp"
@@ -36,8 +37,10 @@ struct ContactStep {
 class MechanicsTerm : public algebra::Contribution {
  public:
   /// Keeps references.
-  MechanicsTerm(const mesh::Mesh& mesh, int components, Placement& placement, ContactGraph& graph,
-                const PointLaw& law, const ContactStep& step, double stabilisation, bool symmetric);
+  /// @param name  of the pair, for the log: with level debug every residual leaves a line
+  MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components, Placement& placement,
+                ContactGraph& graph, const PointLaw& law, const ContactStep& step, double stabilisation,
+                bool symmetric);
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
 
@@ -56,6 +59,8 @@ class MechanicsTerm : public algebra::Contribution {
 
  private:
   struct Run;
+  struct Count;
+  void log(const Count& count) const;
   template <int dim>
   void add_tangents(algebra::BlockMatrix& matrix);
   template <int dim>
@@ -63,6 +68,7 @@ class MechanicsTerm : public algebra::Contribution {
   template <int dim>
   void flush(Run& run, algebra::BlockMatrix& matrix);
 
+  std::string name_;
   Index n_owned_;
   int components_;
   Placement& placement_;

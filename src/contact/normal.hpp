@@ -1,7 +1,7 @@
 /// Normal contact (monograph 3.41a, 3.42a, 3.43), as a point law in the penetration g_N at t_{n+1}:
 ///
 ///   penalty               t_N = ε_N ⟨g_N⟩                                          W_c = ½ ε_N ⟨g_N⟩²
-///   augmented Lagrangian  t_N = ⟨λ_N + ε_N g_N⟩, λ_N ← t_N until g_N is small      W_c = ½ ε_N ⟨g_N⟩²
+///   augmented Lagrangian  t_N = ⟨λ_N + ε_N g_N⟩, λ_N grows until g_N is small      W_c = ½ ε_N ⟨g_N⟩²
 ///   energy-conserving     t_N = ½ ε_N (⟨g_1⟩² − ⟨g_0⟩²)/(g_1 − g_0)   (5.19)       W_c = ½ ε_N ⟨g_N⟩²
 ///
 /// t_N [Pa]   contact pressure, positive

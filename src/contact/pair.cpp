@@ -39,19 +39,30 @@ ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const Conta
 }
 
 double find_penalty(const mesh::Mesh& mesh, const ContactSpec& spec, const ContactSurface& slave,
-                    const ContactSurface& master, std::span<const double> modulus) {
+                    const ContactSurface* master, std::span<const double> modulus) {
   if (!(spec.penalty > 0))
     throw InputError(spec.where, fmt::format("contact '{}': the penalty is not positive", spec.name));
   if (!spec.penalty_is_factor) return spec.penalty;
   double stiffness = 0;
   if (modulus.size() == mesh.bodies.size())
-    stiffness = std::max(local_stiffness(mesh, slave, modulus), local_stiffness(mesh, master, modulus));
+    stiffness = std::max(local_stiffness(mesh, slave, modulus),
+                         master != nullptr ? local_stiffness(mesh, *master, modulus) : 0.0);
   if (!(stiffness > 0))
     throw InputError(
         spec.where,
         fmt::format("contact '{}': a penalty factor needs the stiffness of the bodies", spec.name),
         "a penalty in Pa/m");
   return spec.penalty * stiffness;
+}
+
+void choose_roles(const mesh::Mesh& mesh, std::span<const double> modulus, ContactSpec& spec) {
+  constexpr double k_alike = 0.05;  // sizes of faces
+  const ContactSurface first(mesh, spec.slave), second(mesh, spec.master);
+  const double ratio = first.mean_face_size() / second.mean_face_size();
+  bool swap = ratio > 1 + k_alike;
+  if (std::abs(ratio - 1) <= k_alike && modulus.size() == mesh.bodies.size())
+    swap = local_stiffness(mesh, first, modulus) > (1 + k_alike) * local_stiffness(mesh, second, modulus);
+  if (swap) std::swap(spec.slave, spec.master);
 }
 
 /// Forces of a state on the master, in the current configuration.
@@ -64,18 +75,22 @@ Point force_on_master(const PointMotion& motion, const PointState& state, double
 ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec spec,
                          std::span<const double> body_modulus)
     : mesh_(mesh), spec_(std::move(spec)), components_(displacement_components(kind)) {
-  const ContactSurface slave(mesh, spec_.slave), master(mesh, spec_.master);
-  make_kinematics(kind, slave, master);
-  make_laws(slave, find_penalty(mesh, spec_, slave, master, body_modulus));
+  if (spec_.choose_roles) choose_roles(mesh, body_modulus, spec_);
+  const ContactSurface slave(mesh, spec_.slave);
+  std::optional<ContactSurface> master;
+  if (!spec_.rigid_master) master.emplace(mesh, spec_.master);
+  make_kinematics(kind, slave, master ? &*master : nullptr);
+  make_laws(slave, find_penalty(mesh, spec_, slave, master ? &*master : nullptr, body_modulus));
   surface_nodes_ = slave.all_nodes();
-  surface_nodes_.insert(surface_nodes_.end(), master.all_nodes().begin(), master.all_nodes().end());
+  if (master)
+    surface_nodes_.insert(surface_nodes_.end(), master->all_nodes().begin(), master->all_nodes().end());
   std::sort(surface_nodes_.begin(), surface_nodes_.end());
   surface_nodes_.erase(std::unique(surface_nodes_.begin(), surface_nodes_.end()), surface_nodes_.end());
   std::erase_if(surface_nodes_, [&](Index node) { return node >= mesh.n_owned_nodes; });
   placement_ = std::make_unique<Placement>(*kinematics_);
   graph_ = std::make_unique<ContactGraph>(*kinematics_);
   mechanics_ =
-      std::make_unique<MechanicsTerm>(mesh, components_, *placement_, *graph_, law_, step_,
+      std::make_unique<MechanicsTerm>(spec_.name, mesh, components_, *placement_, *graph_, law_, step_,
                                       spec_.stabilisation, spec_.friction && spec_.friction->symmetric);
   if (spec_.heat) {
     heat_law_.emplace(*spec_.heat);
@@ -87,22 +102,30 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
 ContactPair::~ContactPair() = default;
 
 void ContactPair::make_kinematics(AnalysisKind kind, const ContactSurface& slave,
-                                  const ContactSurface& master) {
+                                  const ContactSurface* master) {
   if (spec_.slave == spec_.master)
     throw InputError(spec_.where,
                      fmt::format("contact '{}': slave and master are the same surface", spec_.name));
+  const bool slides = spec_.formulation == Formulation::large_sliding;
+  if (master == nullptr && !slides)
+    throw InputError(spec_.where, fmt::format("contact '{}': a rigid surface with small sliding", spec_.name),
+                     "formulation = \"large_sliding\"");
   touching_ = spec_.touching.value_or(1e-6 * slave.mean_face_size());
   const double reach = spec_.search_distance.value_or(0.1 * slave.extent());
-  if (spec_.formulation == Formulation::small_sliding) {
-    kinematics_ =
-        std::make_unique<FixedKinematics>(find_points(mesh_, kind, spec_, reach, slave, master), components_);
+  if (!slides) {
+    kinematics_ = std::make_unique<FixedKinematics>(find_points(mesh_, kind, spec_, reach, slave, *master),
+                                                    components_);
     return;
   }
+  std::unique_ptr<Master> met;
+  if (master != nullptr)
+    met = std::make_unique<MeshMaster>(
+        components_, *master, MeshMasterOptions{.search_distance = reach, .smoothing = spec_.smoothing});
+  else
+    met = std::make_unique<AnalyticMaster>(components_, *spec_.rigid_master, reach);
   const bool nodal = spec_.integration == IntegrationRule::nodal;
   kinematics_ = std::make_unique<SlidingKinematics>(
-      mesh_, kind, slave,
-      std::make_unique<MeshMaster>(components_, master,
-                                   MeshMasterOptions{.search_distance = reach, .smoothing = spec_.smoothing}),
+      mesh_, kind, slave, std::move(met),
       SlidingOptions{.rule = nodal ? IntegrationRule::nodal : IntegrationRule::gauss,
                      .gauss_degree = spec_.gauss_degree});
 }
@@ -277,19 +300,44 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   if (heat_) heat_->place(std::move(heat));
 }
 
+std::vector<double> ContactPair::nodal_penetration() const {
+  std::vector<double> weight(mesh_.x.size(), 0.0), mean(mesh_.x.size(), 0.0);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const PointState& point = now_.points[at(p)];
+    if (point.status == PointStatus::open) continue;
+    const ContactKinematics::Particle particle = kinematics_->particle(p);
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b) {
+      const double w = particle.weight * particle.share[b] * particle.share[b];
+      weight[at(particle.nodes[b])] += w;
+      mean[at(particle.nodes[b])] += w * point.penetration;
+    }
+  }
+  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = weight[i] > 0 ? mean[i] / weight[i] : 0.0;
+  algebra::GhostExchange(mesh_).update(mean, 1);
+  return mean;
+}
+
 void ContactPair::augment() {
-  if (law_.normal.kind != NormalKind::augmented_lagrangian) return;
-  for (std::size_t p = 0; p < step_.from.size(); ++p) {
-    step_.from[p].multiplier = now_.points[p].pressure;
-    step_.from[p].traction = now_.points[p].traction;
+  if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return;
+  const std::vector<double> penetration = nodal_penetration();
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    PointState& from = step_.from[at(p)];
+    const ContactKinematics::Particle particle = kinematics_->particle(p);
+    double mean = 0;
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      mean += particle.share[b] * penetration[at(particle.nodes[b])];
+    if (now_.points[at(p)].status == PointStatus::open)
+      from.multiplier = 0;
+    else
+      from.multiplier = std::max(0.0, from.multiplier + law_.normal.penalty * mean);
+    from.traction = now_.points[at(p)].traction;
   }
 }
 
 double ContactPair::excess() const {
+  if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return 0;
   double largest = 0;
-  if (active_ && law_.normal.kind == NormalKind::augmented_lagrangian)
-    for (const PointState& point : now_.points)
-      if (point.status != PointStatus::open) largest = std::max(largest, std::abs(point.penetration));
+  for (const double g : nodal_penetration()) largest = std::max(largest, std::abs(g));
   return algebra::global_max(largest) / allowed_penetration_;
 }
 
@@ -347,6 +395,21 @@ double ContactPair::work(double share) {
   if (share != 0) work += share * force_times_increment(now_.points, displacement_, time_, increment);
   placement_->place(time_, displacement_);
   return algebra::global_sum(work);
+}
+
+double ContactPair::rigid_work(double share) {
+  if (!spec_.rigid_master || !active_) return 0;
+  placement_->place(time_, displacement_);
+  double together = 0;
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const PointState &from = step_.from[at(p)], &to = now_.points[at(p)];
+    if (!to.counted || !from.anchored || !to.anchored) continue;
+    const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
+    const double pressure = share * to.balance_pressure + (1 - share) * from.balance_pressure;
+    const Point traction = add_scaled(scale(share, to.traction), 1 - share, motion.carried);
+    together += motion.weight * (pressure * (to.penetration - from.penetration) + dot(traction, motion.slip));
+  }
+  return algebra::global_sum(together) - work(share);
 }
 
 ContactSums ContactPair::sums(std::span<const double> temperature) const {

@@ -64,11 +64,11 @@ struct ContactNodalFields {
 
 /// What a pass of the mechanical phase starts from.
 struct ContactPass {
-  double time = 0, dt = 0;               ///< t_{n+1} and the step [s]
-  std::span<const double> displacement;  ///< u_n, [local node][component] [m]
-  std::span<const double> temperature;   ///< Θ_n, [local node] [K]; empty: unknown
-  bool isentropic = false;               ///< the pass holds the entropy of the interface, not Θ_c
-  double share = 1;                      ///< s of normal.hpp
+  double time = 0, dt = 0;                 ///< t_{n+1} and the step [s]
+  std::span<const double> displacement{};  ///< u_n, [local node][component] [m]
+  std::span<const double> temperature{};   ///< Θ_n, [local node] [K]; empty: unknown
+  bool isentropic = false;                 ///< the pass holds the entropy of the interface, not Θ_c
+  double share = 1;                        ///< s of normal.hpp
 };
 
 class ContactPair {
@@ -115,10 +115,13 @@ class ContactPair {
   /// has them then. Zero without friction or heat. Collective.
   InterfaceSums settle(std::span<const double> temperature);
 
-  /// Uzawa's step of the augmented Lagrangian: the forces of the last update() become the multipliers.
+  /// Uzawa's step of the augmented Lagrangian: the multipliers grow by what the mean penetrations around the
+  /// slave's nodes ask for, λ += ε_N Σ N_a ḡ_a, and friction sets out from the tractions of the last
+  /// update(). Points are more than the unknowns of a face can bring to zero one by one: the means are not.
+  /// Collective.
   void augment();
-  /// The largest penetration at closed points of the last update(), as a share of what is allowed; zero
-  /// where there is no augmented Lagrangian. Collective.
+  /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a
+  /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
   double excess() const;
 
   /// Drops what the pattern of matrices remembers (coupling/scheme.hpp, forget()).
@@ -139,6 +142,8 @@ class ContactPair {
   /// forces at both [J]. Collective.
   /// @param share of the last update() in the mean
   double work(double share);
+  /// Work that a rigid master does on contact meanwhile: ∫ (t_N Δg_N + T·ΔG) dA less work(). Collective.
+  double rigid_work(double share);
   /// Averages at nodes, at the last update(); without temperatures, conductances at room temperature. Local.
   ContactNodalFields nodal_fields(std::span<const double> temperature) const;
   /// Heat that leaves the slave's and enters the master's surface around every owned node [W]: positive where
@@ -156,10 +161,12 @@ class ContactPair {
   std::size_t bytes() const;
 
  private:
-  void make_kinematics(AnalysisKind kind, const ContactSurface& slave, const ContactSurface& master);
+  void make_kinematics(AnalysisKind kind, const ContactSurface& slave, const ContactSurface* master);
   void make_laws(const ContactSurface& slave, double penalty);
   HeatPoint heat_point(const PointState& from, const PointState& now, const PointForces& forces) const;
   void find_interface_temperatures(std::span<const double> temperature);
+  /// Of the augmented Lagrangian: ḡ_a, weighted with w N_a², [local node] [m]. Collective.
+  std::vector<double> nodal_penetration() const;
   /// ∫ f · ΔΣ B_b u_b of the points' forces at a displacement, this process's part [J].
   double force_times_increment(const std::vector<PointState>& states, std::span<const double> displacement,
                                double time, std::span<const double> increment);

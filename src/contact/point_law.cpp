@@ -2,6 +2,11 @@
 
 namespace solidus::contact {
 
+/// A point that slipped stands on the slip cone at the start of the next step, up to rounding. There the
+/// derivative has two sides; the one of slip that goes on keeps Newton's first step from taking the whole way
+/// for elastic.
+constexpr double k_on_the_cone = 1e-6;
+
 PointForces PointLaw::forces(const PointMotion& motion, const PointState& from) const {
   PointForces f;
   if (!motion.partnered) return f;
@@ -16,6 +21,14 @@ PointForces PointLaw::forces(const PointMotion& motion, const PointState& from) 
   const FrictionInput in{f.trial, f.normal.pressure, from.internal_variable, from.temperature};
   f.friction = isentropic ? friction->isentropic(in) : friction->update(in);
   if (!f.friction.sticks) f.status = PointStatus::slips;
+  if (f.friction.sticks && from.status == PointStatus::slips &&
+      f.trial >= (1 - k_on_the_cone) * f.friction.coefficient * f.normal.pressure && f.trial > 0) {
+    FrictionInput beyond = in;
+    beyond.trial = (1 + 2 * k_on_the_cone) * in.trial;
+    const FrictionResponse slipping = isentropic ? friction->isentropic(beyond) : friction->update(beyond);
+    f.friction.trial_slope = slipping.trial_slope;
+    f.friction.pressure_slope = slipping.pressure_slope;
+  }
   const double radial = f.trial > 0 ? f.friction.traction / f.trial : 1.0;
   f.traction = scale(radial, trial);
   const Point m = f.trial > 0 ? scale(1 / f.trial, trial) : Point{};
@@ -33,7 +46,7 @@ PointState PointLaw::next(const PointMotion& motion, const PointState& from, con
   to.status = f.status;
   to.pressure = f.normal.pressure;
   to.balance_pressure = f.normal.balance_pressure;
-  to.multiplier = normal.kind == NormalKind::augmented_lagrangian ? f.normal.pressure : 0.0;
+  to.multiplier = f.normal.closed ? from.multiplier : 0.0;
   to.traction = f.traction;
   to.anchored = motion.partnered;
   if (motion.partnered) {

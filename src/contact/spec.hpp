@@ -8,6 +8,7 @@
 #include "contact/friction.hpp"
 #include "contact/heat_transfer.hpp"
 #include "contact/integration.hpp"
+#include "contact/master_analytic.hpp"
 #include "contact/normal.hpp"
 #include "contact/wear.hpp"
 
@@ -21,7 +22,11 @@ enum class Formulation {
 struct ContactSpec {
   std::string name;    ///< for messages and column names
   std::string slave;   ///< surface that is integrated over; the finer or softer one
-  std::string master;  ///< surface that it is projected on
+  std::string master;  ///< surface that it is projected on; with `rigid_master` only a name for messages
+  /// The slave becomes the surface with the smaller faces, of two alike the softer one, else the first.
+  bool choose_roles = false;
+  /// Instead of a surface of the mesh, with large sliding.
+  std::optional<RigidSurface> rigid_master;
   Formulation formulation = Formulation::small_sliding;
   bool smoothing = false;  ///< averaged normals of the master (large sliding)
   NormalKind normal = NormalKind::penalty;

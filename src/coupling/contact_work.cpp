@@ -15,7 +15,11 @@ ContactWork::Energy ContactWork::energy() const {
 }
 
 void ContactWork::add(double share, double factor) {
-  for (contact::ContactPair* pair : phases_.contacts) work_ += factor * pair->work(share);
+  for (contact::ContactPair* pair : phases_.contacts) {
+    const double rigid = pair->rigid_work(share);
+    rigid_ += factor * rigid;
+    work_ += factor * (pair->work(share) + rigid);
+  }
 }
 
 void ContactWork::book(EnergyAudit& audit) const {
@@ -23,6 +27,7 @@ void ContactWork::book(EnergyAudit& audit) const {
   audit.contact = now.stored - begin_.stored;
   audit.friction = now.dissipated - begin_.dissipated;
   audit.numerical += work_ - audit.contact - audit.friction;
+  audit.work += rigid_;
 }
 
 void book_interface(EnergyAudit& audit, bool mechanical) {

@@ -18,7 +18,8 @@ class ContactWork {
   /// The work of the last pass on contact, of forces that are the mean of those at its start and end with the
   /// share of the end; counted `factor` times. Collective.
   void add(double share = 1, double factor = 1);
-  /// Sets what is stored and dissipated and adds what was lost. Collective.
+  /// Sets what is stored and dissipated and adds what was lost; the work of rigid masters is work on the
+  /// bodies. Collective.
   void book(EnergyAudit& energy) const;
 
  private:
@@ -29,7 +30,8 @@ class ContactWork {
 
   const Phases& phases_;
   Energy begin_;
-  double work_ = 0;  ///< [J]
+  double work_ = 0;   ///< [J]
+  double rigid_ = 0;  ///< the part of it that rigid masters do [J]
 };
 
 /// After mechanical booking and the thermal pass: friction's heat, and the interface's own energy (3.69) in

@@ -167,7 +167,13 @@ void check_contacts(const CaseSpec& spec) {
   check_names(spec.contacts, "[[contact]]");
   for (const auto& c : spec.contacts) {
     check_friction_heat(spec, c);
-    if (c.slave == c.master)
+    const bool named = !c.slave.empty() || !c.master.empty();
+    const bool complete =
+        c.surfaces.empty() ? !c.slave.empty() && !c.master.empty() : c.surfaces.size() == 2 && !named;
+    if (!complete)
+      throw InputError(c.where, fmt::format("the contact '{}' does not name its two surfaces", c.name),
+                       "slave = \"...\" and master = \"...\", or surfaces = [\"...\", \"...\"]");
+    if (c.sides()[0] == c.sides()[1])
       throw InputError(c.where, fmt::format("the contact '{}' has one surface on both sides", c.name));
     if (c.heat && c.heat->exponent > 0 && !c.heat->hardness)
       throw InputError(c.heat->where, "'hardness' is missing: an exponent needs it",

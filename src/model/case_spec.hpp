@@ -2,6 +2,7 @@
 /// (docs/guide/case_file.md).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -140,6 +141,10 @@ struct MechanicalConditionSpec {
 /// A contact pair; model/contact_input.hpp makes the contact room's specification of it.
 struct ContactSpec {
   std::string name, slave, master;
+  std::vector<std::string> surfaces;  ///< both, where the program chooses who is the slave
+  std::array<std::string, 2> sides() const {
+    return surfaces.empty() ? std::array{slave, master} : std::array{surfaces[0], surfaces[1]};
+  }
   contact::Formulation formulation = contact::Formulation::small_sliding;
   bool smoothing = false;
   enum class Normal { automatic, penalty, augmented_lagrangian, energy_conserving };

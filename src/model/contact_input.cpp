@@ -40,8 +40,9 @@ std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec) {
   for (const ContactSpec& c : spec.contacts) {
     contact::ContactSpec pair;
     pair.name = c.name;
-    pair.slave = c.slave;
-    pair.master = c.master;
+    pair.slave = c.sides()[0];
+    pair.master = c.sides()[1];
+    pair.choose_roles = !c.surfaces.empty();
     pair.formulation = c.formulation;
     pair.smoothing = c.smoothing;
     pair.normal = normal_kind(c.normal, spec.dynamics.has_value());

@@ -131,8 +131,15 @@ Section<ContactSpec> contact_keys() {
   using contact::IntegrationRule;
   Section<C> s("contact", "Two surfaces that may touch, slide and part: unilateral contact.");
   s.key("name", &C::name).doc("A name of your choice.");
-  s.key("slave", &C::slave).doc("Surface group that is integrated over: the finer or softer one.");
-  s.key("master", &C::master).doc("Surface group that it is projected on.");
+  s.key("slave", &C::slave)
+      .initially("")
+      .doc("Surface group that is integrated over: the finer or softer one.");
+  s.key("master", &C::master).initially("").doc("Surface group that it is projected on.");
+  s.key("surfaces", &C::surfaces)
+      .initially(Value::list())
+      .doc(
+          "Both groups instead of `slave` and `master`: the one with the smaller faces becomes the slave, of "
+          "two alike the softer one.");
   using contact::Formulation;
   s.choice("formulation", &C::formulation,
            {{"small_sliding", Formulation::small_sliding,

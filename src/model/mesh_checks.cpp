@@ -91,8 +91,8 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
     require(mesh, c.group, c.kind == MechanicalConditionSpec::Kind::displacement ? -1 : surface, c.where,
             "mechanical condition '" + c.name + "'");
   for (const auto& c : spec.contacts) {
-    require(mesh, c.slave, surface, c.where, "slave of contact '" + c.name + "'");
-    require(mesh, c.master, surface, c.where, "master of contact '" + c.name + "'");
+    require(mesh, c.sides()[0], surface, c.where, "slave of contact '" + c.name + "'");
+    require(mesh, c.sides()[1], surface, c.where, "master of contact '" + c.name + "'");
   }
   for (const auto& p : spec.probes)
     if (!p.group.empty()) require(mesh, p.group, -1, p.where, "probe '" + p.name + "'");

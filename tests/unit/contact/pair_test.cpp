@@ -353,6 +353,23 @@ TEST(ContactPair, RefusesSurfacesThatDoNotMeet) {
   EXPECT_THROW(ContactPair(mesh, AnalysisKind::plane_strain, s), InputError) << "no stiffness known";
 }
 
+TEST(ContactPair, MakesTheFinerSurfaceTheSlaveAndOfTwoAlikeTheSofterOne) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);  // 5 faces below, 3 above
+  ContactSpec s = spec();
+  s.choose_roles = true;
+  for (const bool reversed : {false, true}) {
+    s.slave = reversed ? "upper_bottom" : "lower_top";
+    s.master = reversed ? "lower_top" : "upper_bottom";
+    EXPECT_EQ(ContactPair(mesh, AnalysisKind::plane_strain, s).spec().slave, "lower_top");
+  }
+  const mesh::Mesh alike =
+      test::distribute_blocks(test::raw_blocks({{0.3, 0.1}, {0.3, 0.1}, {4, 2}, {4, 2}, 0}, Shape::quad4));
+  EXPECT_EQ(ContactPair(alike, AnalysisKind::plane_strain, s, std::vector{70e9, 210e9}).spec().slave,
+            "lower_top");
+  EXPECT_EQ(ContactPair(alike, AnalysisKind::plane_strain, s, std::vector{210e9, 70e9}).spec().slave,
+            "upper_bottom");
+}
+
 TEST(ContactPair, TakesSmallInitialGapsAsTouchingWhenToldTo) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-5);
   ContactSpec s = spec();

@@ -1,0 +1,267 @@
+/// Contact through the steps of a scheme: history, energy, graphs that change, restart.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../../verification/contact_bodies.hpp"
+#include "../contact/friction_laws.hpp"
+#include "algebra/parallel.hpp"
+#include "coupling/contact_states.hpp"
+#include "coupling/contact_work.hpp"
+#include "coupling/isothermal.hpp"
+
+namespace solidus {
+namespace {
+
+using mesh::Shape;
+
+/// Mechanics alone with one contact pair, stepped by a scheme.
+struct Rubbed {
+  std::vector<material::Material> materials;
+  contact::ContactPair pair;
+  mechanics::MechanicalPhase phase;
+  coupling::Phases phases;
+  coupling::IsothermalSplit scheme;
+  coupling::State state;
+
+  Rubbed(const mesh::Mesh& mesh, AnalysisKind kind, const contact::ContactSpec& spec,
+         const mechanics::Conditions& conditions, mechanics::MechanicsOptions options)
+      : materials{test::elastic(70e9, 0.3), test::elastic(70e9, 0.3)},
+        pair(mesh, kind, spec, std::vector<double>{70e9, 70e9}),
+        phase(mesh, kind, materials, std::vector<double>(mesh.x.size(), 300.0), conditions,
+              for_pair(std::move(options), pair), {&pair.mechanics()}),
+        phases{.mechanics = &phase,
+               .contacts = {&pair},
+               .temperature = std::vector<double>(mesh.x.size(), 300.0),
+               .ambient_temperature = {}},
+        scheme(phases) {
+    state.mechanics = phase.initial_state();
+    state.contacts = {pair.initial_state()};
+  }
+  Rubbed(const Rubbed&) = delete;
+
+  coupling::StepEffort step(double dt) {
+    coupling::State trial = state;
+    const double time = state.time + dt;
+    const coupling::StepEffort effort = scheme.advance(state, trial, time, dt);
+    trial.time = time;
+    state = std::move(trial);
+    return effort;
+  }
+
+ private:
+  static mechanics::MechanicsOptions for_pair(mechanics::MechanicsOptions options,
+                                              const contact::ContactPair& pair) {
+    options.symmetric = pair.symmetric();
+    return options;
+  }
+};
+
+/// The lower block stands; the upper one is pressed by 20 MPa and pulled along at 20 mm/s.
+mechanics::Conditions pulled() {
+  mechanics::Conditions c;
+  c.displacements.push_back({"lower_y_min", 0, 0.0});
+  c.displacements.push_back({"lower_y_min", 1, 0.0});
+  c.displacements.push_back({"upper_y_max", 0, Table({0, 10}, {0, 0.2})});
+  c.pressures.push_back({"upper_y_max", Table({0, 1}, {0, 20e6})});
+  c.plane_faces = {{"upper_y_max"}};
+  return c;
+}
+
+contact::ContactSpec rubbing() {
+  contact::ContactSpec s = test::interface();
+  s.formulation = contact::Formulation::large_sliding;
+  s.search_distance = 0.02;
+  s.penalty = 1e13;
+  s.penalty_is_factor = false;
+  s.friction = contact::friction_spec({0.2, 0.05}, 1e6);
+  return s;
+}
+
+TEST(ContactInDynamics, QuotientKeepsTheEnergyOfAnImpactThatThePenaltyDoesNot) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-5);
+  mechanics::Conditions c;
+  c.displacements.push_back({"lower_y_min", 0, 0.0});
+  c.displacements.push_back({"lower_y_min", 1, 0.0});
+  mechanics::MechanicsOptions options = test::strict_mechanics();
+  options.dynamics = mechanics::DynamicsOptions{.motion = mechanics::Motion::trapezoidal(),
+                                                .initial_velocity = {{0, 0, 0}, {0, -2, 0}}};
+  const auto drift = [&](contact::NormalKind kind) {
+    contact::ContactSpec s = test::interface();
+    s.normal = kind;
+    Rubbed run(mesh, AnalysisKind::plane_strain, s, c, options);
+    // ½ ρ v² of the upper block, 0.3 m × 0.2 m.
+    const double thrown = 0.5 * 7800 * 0.3 * 0.2 * 4;
+    const double start = run.pair.sums({}).energy;
+    double energy = 0, largest = 0, pressed = 0;
+    for (int k = 0; k < 250; ++k) {
+      const mechanics::MechanicalState old = run.state.mechanics;
+      const mechanics::MechanicalPass pass{
+          .time = run.state.time + 2e-6, .dt = 2e-6, .temperature = run.phases.temperature};
+      coupling::begin_contacts(run.phases, run.state.contacts, old, pass);
+      const mechanics::PhaseReport report = run.phase.solve(old, run.state.mechanics, pass);
+      run.pair.update(run.state.mechanics.displacement);
+      run.state.contacts = coupling::contact_states(run.phases);
+      run.state.time = pass.time;
+      energy += report.work.kinetic + report.work.internal_work;
+      const contact::ContactSums sums = run.pair.sums({});
+      pressed = std::max(pressed, sums.force);
+      largest = std::max(largest, std::abs(energy + sums.energy - start));
+    }
+    EXPECT_GT(pressed, 0);
+    EXPECT_EQ(run.pair.sums({}).closed_points, 0) << "it has bounced off";
+    return largest / thrown;
+  };
+  // Newton's iteration ends at 1e-12 of the forces.
+  EXPECT_LT(drift(contact::NormalKind::energy_conserving), 1e-8);
+  EXPECT_GT(drift(contact::NormalKind::penalty), 1e-4);
+}
+
+TEST(ContactWork, IsWhatTheForcesInTheBalanceDoWhereBodiesSlideAcrossFaces) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  Rubbed run(mesh, AnalysisKind::plane_strain, rubbing(), pulled(), test::strict_mechanics());
+  double dissipated = 0;
+  for (int k = 0; k < 4; ++k) {
+    const mechanics::MechanicalState old = run.state.mechanics;
+    const mechanics::MechanicalPass pass{
+        .time = run.state.time + 1, .dt = 1, .temperature = run.phases.temperature};
+    run.scheme.synchronise(run.state);
+    coupling::ContactWork contact(run.phases);
+    coupling::begin_contacts(run.phases, run.state.contacts, old, pass);
+    const mechanics::MechanicalWork work = run.phase.solve(old, run.state.mechanics, pass).work;
+    run.pair.update(run.state.mechanics.displacement);
+    run.state.contacts = coupling::contact_states(run.phases);
+    run.state.time = pass.time;
+    contact.add();
+    coupling::EnergyAudit audit;
+    contact.book(audit);
+    const double on_contact =
+        work.external_work + work.support_work + work.residual_work - work.internal_work;
+    EXPECT_NEAR(run.pair.work(1), on_contact, 1e-9 * std::abs(work.support_work));
+    EXPECT_NEAR(audit.contact + audit.friction + audit.numerical, on_contact,
+                1e-9 * std::abs(work.support_work));
+    EXPECT_GT(audit.friction, 0);
+    dissipated += audit.friction;
+  }
+  const contact::ContactSums sums = run.pair.sums({});
+  EXPECT_NEAR(sums.dissipation, dissipated, 1e-12 * dissipated);
+  // Of hardening friction a part of the work is stored: D = γ μ_0 t_N < γ μ t_N (3.58).
+  EXPECT_LT(sums.dissipation, sums.work);
+}
+
+TEST(ContactWork, OfARigidPlaneIsItsForceTimesItsWay) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 0.1);
+  contact::ContactSpec s = rubbing();
+  s.master = "plane";
+  s.rigid_master.emplace();
+  s.rigid_master->point = {0, 0.1, 0};
+  s.rigid_master->direction = {0, -1, 0};
+  // Down by 0.1 mm, then along by 1 mm.
+  s.rigid_master->motion.translation = {Table({1, 2}, {0, 1e-3}), Table({0, 1}, {0, -1e-4}), Table(0.0)};
+  mechanics::Conditions c;
+  for (const char* held : {"lower_y_min", "upper"})
+    for (int i = 0; i < 2; ++i) c.displacements.push_back({held, i, 0.0});
+  Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
+  run.scheme.synchronise(run.state);
+  double down = 0, along = 0;
+  for (int k = 0; k < 8; ++k) {
+    const coupling::StepEffort effort = run.step(0.25);
+    const auto& force = effort.contacts[0].resultant;
+    const double work = k < 4 ? 1e-4 / 4 * force[1] : -1e-3 / 4 * force[0];
+    EXPECT_NEAR(effort.energy.work, work, 1e-9 * std::abs(work));
+    (k < 4 ? down : along) += effort.energy.work;
+  }
+  EXPECT_GT(down, 0);
+  EXPECT_GT(along, 0);
+}
+
+TEST(LargeSliding, GivesMatricesNewPlacesInTheMiddleOfARun) {
+  const mesh::Mesh mesh =
+      test::distribute_blocks(test::raw_blocks({{0.3, 0.1}, {0.3, 0.2}, {20, 2}, {16, 2}, 0}, Shape::quad4));
+  contact::ContactSpec s = rubbing();
+  s.friction = contact::friction_spec({0.2});
+  mechanics::Conditions c = pulled();
+  Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
+  run.step(1);
+  const int pattern = run.phase.matrix().pattern();
+  // 100 mm at once, over a face of the master of the same length and two of the slave.
+  run.step(5);
+  EXPECT_GT(run.phase.matrix().pattern(), pattern);
+  const contact::ContactSums sums = run.pair.sums({});
+  EXPECT_NEAR(sums.resultant[1], 20e6 * 0.3, 1e-9 * sums.force);
+  EXPECT_NEAR(sums.friction, 0.2 * sums.force, 1e-9 * sums.force);
+}
+
+TEST(ContactHistory, LeavesAStepThatIsTakenAgainTheSameBits) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  const auto make = [&] {
+    return std::make_unique<Rubbed>(mesh, AnalysisKind::plane_strain, rubbing(), pulled(),
+                                    test::strict_mechanics());
+  };
+  const auto whole = make(), rest = make();
+  whole->scheme.synchronise(whole->state);
+  for (int k = 0; k < 3; ++k) whole->step(1);
+  // A checkpoint: the run goes on from the state alone, whoever takes the steps.
+  const coupling::State saved = whole->state;
+  whole->scheme.forget();
+  whole->step(1);
+  whole->step(1);
+
+  rest->state = saved;
+  rest->scheme.synchronise(saved);
+  rest->scheme.forget();
+  // A step that is thrown away leaves no trace.
+  coupling::State thrown_away = saved;
+  rest->scheme.advance(saved, thrown_away, saved.time + 2, 2);
+  rest->scheme.synchronise(saved);
+  rest->scheme.forget();
+  rest->step(1);
+  rest->step(1);
+
+  // MUMPS on several processes adds up in the order in which messages come.
+  int n_processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const double rounding = n_processes == 1 ? 0.0 : 1e-9;
+  double largest = 0;
+  for (const double u : whole->state.mechanics.displacement) largest = std::max(largest, std::abs(u));
+  for (std::size_t i = 0; i < whole->state.mechanics.displacement.size(); ++i)
+    ASSERT_NEAR(whole->state.mechanics.displacement[i], rest->state.mechanics.displacement[i],
+                rounding * largest);
+  const auto &a = whole->state.contacts[0].points, &b = rest->state.contacts[0].points;
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    EXPECT_NEAR(a[p].traction[0], b[p].traction[0], rounding * 20e6);
+    EXPECT_NEAR(a[p].internal_variable, b[p].internal_variable, rounding * 1e6);
+    EXPECT_NEAR(a[p].slip, b[p].slip, rounding);
+    EXPECT_EQ(a[p].status, b[p].status);
+  }
+}
+
+TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  mechanics::Conditions c = test::symmetric_supports(2);
+  c.pressures.push_back({"upper_y_max", 1e8});
+  contact::ContactSpec s = test::interface();
+  s.penalty = 1;  // a soft one: the penetration is as large as the strain of an element
+  for (const auto formulation : {contact::Formulation::small_sliding, contact::Formulation::large_sliding}) {
+    s.formulation = formulation;
+    s.normal = contact::NormalKind::augmented_lagrangian;
+    s.penetration_tolerance = 1e-8;
+    Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
+    const coupling::StepEffort effort = run.step(1);
+    EXPECT_GE(effort.mechanics.iterations, 2);
+    const contact::ContactNodalFields fields = run.pair.nodal_fields({});
+    const bool fixed = formulation == contact::Formulation::small_sliding;
+    for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
+      // Gauss points that do not know where the master's faces end see the mean, not every point, closed;
+      // they leave the pressure an error of quadrature.
+      EXPECT_LE(std::abs(fields.opening[i]), fixed ? 1e-8 * 0.06 : 1e-6 * 0.06);
+      EXPECT_NEAR(fields.pressure[i], 1e8, (fixed ? 1e-7 : 1e-2) * 1e8);
+    }
+    // The next step starts from the multipliers and has nothing to do.
+    EXPECT_LE(run.step(1).mechanics.iterations, 2);
+  }
+}
+
+}  // namespace
+}  // namespace solidus
