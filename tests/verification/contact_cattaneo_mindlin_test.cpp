@@ -89,10 +89,10 @@ PartialSlip pull(int n, contact::Formulation formulation) {
   const double a = std::sqrt(4 * p * radius / (std::numbers::pi * modulus));
   const double c = a * std::sqrt(1 - q / (k_friction * p)), p0 = 2 * p / (std::numbers::pi * a);
   PartialSlip r{.element = k_zone / (0.6 * n) / a, .share = q / (k_friction * p)};
-  auto csv = verification::table(
-      fmt::format("contact_cattaneo_mindlin_{}_{}",
-                  formulation == contact::Formulation::small_sliding ? "small" : "large", n),
-      "x/a,pressure/p0,traction/(mu_p0),exact_pressure,exact_traction");
+  std::ofstream csv;
+  if (n == 60 && formulation == contact::Formulation::large_sliding)
+    csv = verification::table("contact_cattaneo_mindlin",
+                              "x/a,pressure/p0,traction/(mu_p0),exact_pressure,exact_traction");
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
   double closed = 0, sticking = 0;
   for (std::size_t i = 0; i < bodies.contact.points.size(); ++i) {
