@@ -39,7 +39,8 @@ struct PointMotion {
   /// T_n of `old` in the tangent plane at the new partner: turned by the smallest rotation that takes the old
   /// reference normal of the master to the new one [Pa]. The trial traction is carried + ε_T ΔG (5.30).
   Point carried{};
-  Point anchor{};         ///< Ȳ_{n+1} [m]: PointState::anchor of the next step
+  Point anchor{};  ///< Ȳ_{n+1}, of an open point plus its opening along ν^ref [m]: PointState::anchor of the
+                   ///< next step
   Point master_normal{};  ///< ν^ref at the partner (3.10a): PointState::master_normal of the next step
   // Asked for with the tangent:
   std::span<const Point> penetration_rate;  ///< ∂g_N/∂x_b

@@ -127,8 +127,11 @@ PointMotion SlidingKinematics::motion(Index point, const PointState& old, Asked 
   m.share = std::span(share_).first(n_nodes_);
   m.penetration = partner.penetration;
   m.normal = scale(-1, partner.normal);
-  m.anchor = frame_.reference_y;
   m.master_normal = plane_normal(partner, frame_);
+  // An open point keeps its own place as the master sees it: above a round corner it is ahead of the closest
+  // point, and would else slip less than it moves in the step that closes it.
+  const double opening = std::max(-partner.penetration, 0.0);
+  m.anchor = contact::add_scaled(frame_.reference_y, opening, m.master_normal);
   m.push = push_forward(frame_, m.master_normal, partner.normal);
   if (asked == Asked::rates) {
     find_rates(partner);
