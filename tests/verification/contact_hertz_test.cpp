@@ -1,0 +1,131 @@
+/// Hertz's line and point contacts (contact_hertz.hpp) on meshes that do not match.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "contact_hertz.hpp"
+
+namespace solidus {
+namespace {
+
+using contact::Formulation;
+using contact::NormalKind;
+using mesh::Shape;
+using test::Hertz;
+using test::HertzCase;
+using Bodies = HertzCase::Bodies;
+
+struct Named {
+  std::string name;
+  Bodies bodies;
+  Formulation formulation;
+};
+const Named k_cases[] = {
+    {"small_sliding_on_block", Bodies::round_on_block, Formulation::small_sliding},
+    {"large_sliding_on_block", Bodies::round_on_block, Formulation::large_sliding},
+    {"on_rigid_plane", Bodies::round_on_rigid, Formulation::large_sliding},
+    {"rigid_in_block", Bodies::rigid_in_block, Formulation::large_sliding},
+};
+
+/// Relative errors.
+struct Errors {
+  double pressure, half_width, edge, deviation;
+};
+
+Errors errors(const Hertz& hertz) {
+  const Hertz::Measured m = hertz.measure();
+  const double a = hertz.exact_half_width();
+  return {m.pressure / hertz.exact_pressure() - 1, m.half_width / a - 1, m.edge / a - 1, m.deviation};
+}
+
+void compare(AnalysisKind kind, const std::string& name) {
+  auto table = verification::table("contact_hertz_" + name, "bodies,n,p0,half_width,edge,deviation");
+  auto convergence = verification::table(
+      "contact_hertz_" + name + "_convergence",
+      "elements,small_sliding_on_block,large_sliding_on_block,on_rigid_plane,rigid_in_block");
+  std::map<int, std::vector<double>> deviations;
+  for (const Named& c : k_cases) {
+    SCOPED_TRACE(c.name);
+    for (const int n : {16, 32, 64}) {
+      Hertz hertz({.bodies = c.bodies, .kind = kind, .formulation = c.formulation, .n = n});
+      hertz.run->step(1);
+      const Errors e = errors(hertz);
+      table << fmt::format("{},{},{:.2e},{:.2e},{:.2e},{:.2e}\n", c.name, n, e.pressure, e.half_width, e.edge,
+                           e.deviation);
+      deviations[n].push_back(e.deviation);
+      if (n < 64) continue;
+      EXPECT_NEAR(e.pressure, 0, 0.03);
+      EXPECT_NEAR(e.half_width, 0, 0.03);
+      // 25 elements under half the contact: the last closed point is within one of them.
+      EXPECT_NEAR(e.edge, 0, 1 / 25.0);
+    }
+  }
+  for (std::size_t i = 0; i < std::size(k_cases); ++i)
+    EXPECT_LT(deviations[64][i], 0.6 * deviations[16][i]) << k_cases[i].name;
+  for (const auto& [n, values] : deviations) {
+    convergence << n;
+    for (double d : values) convergence << "," << d;
+    convergence << "\n";
+  }
+}
+
+TEST(HertzLine, HasPressureAndHalfWidthWithinThreePercentAndConverges) {
+  compare(AnalysisKind::plane_strain, "line");
+}
+
+TEST(HertzPoint, HasPressureAndRadiusWithinThreePercentAndConverges) {
+  compare(AnalysisKind::axisymmetric, "point");
+}
+
+TEST(Hertz, HasTheEllipseOfPressureInBothFormulations) {
+  for (const auto kind : {AnalysisKind::plane_strain, AnalysisKind::axisymmetric}) {
+    Hertz small({.kind = kind, .formulation = Formulation::small_sliding, .n = 48});
+    Hertz large({.kind = kind, .formulation = Formulation::large_sliding, .n = 48});
+    small.run->step(1);
+    large.run->step(1);
+    const double a = small.exact_half_width(), p0 = small.exact_pressure();
+    const auto of_small = small.profile(), of_large = large.profile();
+    const bool line = kind == AnalysisKind::plane_strain;
+    auto table = verification::table(line ? "contact_hertz_line_pressure" : "contact_hertz_point_pressure",
+                                     "x[a],exact,small_sliding,large_sliding");
+    for (std::size_t i = 0; i < std::min(of_small.size(), of_large.size()); ++i) {
+      const double x = of_small[i].first / a;
+      if (x > 1.3) break;
+      table << x << "," << std::sqrt(std::max(0.0, 1 - x * x)) << "," << of_small[i].second / p0 << ","
+            << of_large[i].second / p0 << "\n";
+      EXPECT_NEAR(of_small[i].second, of_large[i].second, 0.02 * p0);
+    }
+  }
+}
+
+TEST(Hertz, HoldsForAllPlaneElementsAndWithTheAugmentedLagrangian) {
+  for (const auto kind : {AnalysisKind::plane_strain, AnalysisKind::axisymmetric})
+    for (const Shape shape : {Shape::tri3, Shape::quad4, Shape::tri6, Shape::quad8}) {
+      const bool quadratic = shape == Shape::tri6 || shape == Shape::quad8;
+      for (const auto normal : {NormalKind::penalty, NormalKind::augmented_lagrangian}) {
+        const bool augmented = normal == NormalKind::augmented_lagrangian;
+        // Uzawa's steps shrink slowest where a point near the edge stands for little of a curved face: a
+        // stiffer penalty saves them.
+        Hertz hertz({.bodies = Bodies::round_on_rigid,
+                     .kind = kind,
+                     .shape = shape,
+                     .n = quadratic ? 24 : 48,
+                     .normal = normal,
+                     .stiffness = quadratic && augmented ? 15 : 1.5});
+        const std::string name =
+            fmt::format("{}_{}_{}", mesh::name(shape), kind == AnalysisKind::plane_strain ? "line" : "point",
+                        augmented ? "augmented" : "penalty");
+        SCOPED_TRACE(name);
+        hertz.run->step(1);
+        const Errors e = errors(hertz);
+        RecordProperty(
+            name, fmt::format("{:+.1e} {:+.1e} turns {}", e.pressure, e.half_width, hertz.run->turns.size()));
+        EXPECT_NEAR(e.pressure, 0, 0.03);
+        EXPECT_NEAR(e.half_width, 0, 0.03);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace solidus
