@@ -4,7 +4,7 @@
 
 The first column of a table is the abscissa. Columns called exact… are drawn as black lines, the others as points of one colour each.
 Tables called …order… or …convergence… are drawn on logarithmic axes, with a line of the slope that the last two points have;
-…radius… over a logarithmic abscissa, with the limit of stability.
+…radius… over a logarithmic abscissa, with the limit of stability; …newton… with the residual on a logarithmic axis.
 """
 
 import sys
@@ -58,6 +58,17 @@ def draw_radius(axes, headers, values):
     axes.set_ylabel("spectral radius")
 
 
+def draw_newton(axes, headers, values):
+    """Residuals over iterations, and beside them how many contact points changed their status."""
+    counts = axes.twinx()
+    counts.bar(values[:, 0], values[:, 2], width=0.5, color="0.85", zorder=1)
+    counts.set_ylabel(label(headers[2]))
+    counts.grid(False)
+    axes.set_zorder(counts.get_zorder() + 1)
+    axes.patch.set_visible(False)
+    axes.semilogy(values[:, 0], values[:, 1], "o-", markersize=4, label=label(headers[1]), color=style.COLOURS[0])
+
+
 def draw(path, folder):
     try:
         headers, values = read(path)
@@ -70,6 +81,8 @@ def draw(path, folder):
         draw_convergence(axes, headers, values)
     elif "radius" in path.stem:
         draw_radius(axes, headers, values)
+    elif "newton" in path.stem:
+        draw_newton(axes, headers, values)
     else:
         draw_curves(axes, headers, values)
     axes.set_xlabel(label(headers[0]))
