@@ -14,8 +14,10 @@ class ContactGraph {
   explicit ContactGraph(ContactKinematics& kinematics) : kinematics_(kinematics) {}
 
   bool may_change() const { return kinematics_.partners_change(); }
-  /// Whether a matrix with the cliques of this version lacks places, or another matrix has newer ones.
-  bool outdated(int version) const { return version != version_ || kinematics_.graph_outdated(); }
+  /// Whether another matrix has newer cliques than this version, or forget() asks for some.
+  bool renewed(int version) const { return version != version_; }
+  /// The same, or whether a matrix with the cliques of this version lacks places.
+  bool outdated(int version) const { return renewed(version) || kinematics_.graph_outdated(); }
   /// Adds the cliques, recorded anew where nodes meet that did not. Returns their version.
   int add_to(algebra::NodeGraph& graph);
   /// The next add_to() records anew, so that it depends on the present placement alone (checkpoints).

@@ -45,7 +45,9 @@ class MechanicsTerm : public algebra::Contribution {
   void activate(bool on) { active_ = on; }
 
   bool graph_may_change() const override { return graph_.may_change(); }
-  bool graph_outdated() const override { return active_ && graph_.outdated(version_); }
+  bool graph_outdated() const override {
+    return active_ ? graph_.outdated(version_) : graph_.renewed(version_);
+  }
   void add_to_graph(algebra::NodeGraph& graph) const override;
   void bind(const algebra::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
