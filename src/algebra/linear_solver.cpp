@@ -292,6 +292,8 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   check(VecGetArrayRead(my.x, &solution), "VecGetArrayRead");
   std::copy_n(solution, n, x.data());
   check(VecRestoreArrayRead(my.x, &solution), "VecRestoreArrayRead");
+  // MUMPS refuses the next factorisation once one has met a singular matrix: the next step gets a new one.
+  if (direct && reason == KSP_DIVERGED_PC_FAILED) reset();
   return report;
 }
 

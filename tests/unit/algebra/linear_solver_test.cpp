@@ -78,6 +78,21 @@ TEST(LinearSolver, EveryKindSolvesSymmetricAndUnsymmetricSystemsAgainAndAgain) {
     }
 }
 
+TEST(LinearSolver, ASingularMatrixIsReportedAndTheNextOneSolved) {
+  for (bool symmetric : {true, false}) {
+    System system;
+    LinearSolver solver(system.grid.mesh,
+                        {.prefix = "test_", .kind = SolverKind::direct, .symmetric = symmetric});
+    system.fill(1.0, 0.0);
+    EXPECT_TRUE(solver.solve(system.matrix, system.b, system.x).converged);
+    system.fill(0.0, 0.0);
+    EXPECT_FALSE(solver.solve(system.matrix, system.b, system.x).converged);
+    system.fill(1.0, 0.0);
+    EXPECT_TRUE(solver.solve(system.matrix, system.b, system.x).converged);
+    EXPECT_LT(system.error(), 1e-10);
+  }
+}
+
 TEST(LinearSolver, IterativeSolversGoAsFarAsTheForcingTermButNotBelowTheirTolerance) {
   System system;
   system.fill(1.0, 0.0);
