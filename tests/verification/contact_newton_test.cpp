@@ -91,7 +91,9 @@ TEST(NewtonOnContact, IsQuadraticInHertzsContactOnceTheActiveSetSettles) {
     EXPECT_LT(linear.residuals[linear.settled() + 1], k_rounding);
 
     Hertz large({.kind = kind, .formulation = Formulation::large_sliding, .n = 32}, plain_newton());
-    large.run->step(1);
+    // In two halves: without line search the way from touching to full load in one step is left to luck.
+    large.run->step(0.5);
+    large.run->step(0.5);
     EXPECT_GE(expect_quadratic(large.run->turns.front()), 1);
     if (kind == AnalysisKind::plane_strain)
       write(large.run->turns.front(), verification::table("contact_newton_hertz", header));
