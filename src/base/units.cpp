@@ -66,6 +66,7 @@ constexpr std::array k_dimensions{
     Dimension{"m", "a length", "15 mm"},
     Dimension{"m2", "an area", "2 cm2"},
     Dimension{"s", "a time", "90 s"},
+    Dimension{"rad", "an angle", "30 degree"},
     Dimension{"K", "a temperature", "20 degC"},
     Dimension{"kg", "a mass", "2 kg"},
     Dimension{"kg/m3", "a density", "7800 kg/m3"},

@@ -102,6 +102,9 @@ void check_mechanics(const CaseSpec& spec, Admissibility& a) {
             : c.kind == Kind::traction && !std::all_of(c.traction.begin(), c.traction.end(), steady);
     if (varies) a.violations.push_back(fmt::format("the load '{}' varies", c.name));
   }
+  for (const auto& s : spec.rigid_surfaces)
+    if (moves(s.ux) || moves(s.uy) || moves(s.uz) || moves(s.rotation))
+      a.violations.push_back(fmt::format("the rigid surface '{}' moves", s.name));
 }
 
 void check_integration(const CaseSpec& spec, Admissibility& a) {

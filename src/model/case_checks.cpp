@@ -9,6 +9,7 @@
 #include "model/case_file.hpp"
 #include "model/dynamics_input.hpp"
 #include "model/field_list.hpp"
+#include "model/rigid_surface_input.hpp"
 #include "model/run_input.hpp"
 #include "model/stage_input.hpp"
 #include "model/time_input.hpp"
@@ -165,6 +166,8 @@ void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
 
 void check_contacts(const CaseSpec& spec) {
   check_names(spec.contacts, "[[contact]]");
+  check_names(spec.rigid_surfaces, "[[rigid_surface]]");
+  check_rigid_surfaces(spec);
   for (const auto& c : spec.contacts) {
     check_friction_heat(spec, c);
     const bool named = !c.slave.empty() || !c.master.empty();

@@ -64,6 +64,7 @@ const Section<CaseSpec>& case_keys() {
     s.sections("thermal_condition", &CaseSpec::thermal_conditions, thermal_condition_keys());
     s.sections("mechanical_condition", &CaseSpec::mechanical_conditions, mechanical_condition_keys());
     s.sections("contact", &CaseSpec::contacts, contact_keys());
+    s.sections("rigid_surface", &CaseSpec::rigid_surfaces, rigid_surface_keys());
     s.section("heat", &CaseSpec::heat, heat_keys());
     s.section("mechanics", &CaseSpec::mechanics, mechanics_keys());
     s.section("dynamics", &CaseSpec::dynamics, dynamics_keys());

@@ -19,6 +19,7 @@ Section<BodySpec> body_keys();
 Section<ThermalConditionSpec> thermal_condition_keys();
 Section<MechanicalConditionSpec> mechanical_condition_keys();
 Section<ContactSpec> contact_keys();
+Section<RigidSurfaceSpec> rigid_surface_keys();
 Section<heat::HeatOptions> heat_keys();
 Section<MechanicsSpec> mechanics_keys();
 Section<DynamicsSpec> dynamics_keys();

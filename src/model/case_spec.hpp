@@ -164,6 +164,21 @@ struct ContactSpec {
   SourceLocation where;
 };
 
+/// A tool without a mesh; model/rigid_surface_input.hpp makes the contact room's surface of it.
+struct RigidSurfaceSpec {
+  std::string name;
+  contact::RigidSurface::Shape shape = contact::RigidSurface::Shape::plane;
+  std::vector<double> point;         ///< [m]
+  std::vector<double> normal, axis;  ///< any length > 0; axis empty: that of the analysis
+  double radius = 0;                 ///< [m]
+  bool hollow = false;
+  std::optional<Function> ux, uy, uz;   ///< [m] of time
+  std::optional<Function> rotation;     ///< [rad] of time
+  std::vector<double> rotation_centre;  ///< [m]; empty: `point`
+  std::vector<double> rotation_axis;    ///< empty: that of the analysis or of the cylinder
+  SourceLocation where;
+};
+
 struct MechanicsSpec {
   double tolerance = 0;
   int max_iterations = 0;
@@ -264,6 +279,7 @@ struct CaseSpec {
   std::vector<ThermalConditionSpec> thermal_conditions;
   std::vector<MechanicalConditionSpec> mechanical_conditions;
   std::vector<ContactSpec> contacts;
+  std::vector<RigidSurfaceSpec> rigid_surfaces;
   heat::HeatOptions heat;
   MechanicsSpec mechanics;
   std::optional<DynamicsSpec> dynamics;  ///< absent: no inertia
@@ -272,6 +288,12 @@ struct CaseSpec {
   std::vector<ProfileSpec> profiles;
   OutputSpec output;
 
+  /// Null where none has this name.
+  const RigidSurfaceSpec* rigid_surface(const std::string& name) const {
+    for (const RigidSurfaceSpec& s : rigid_surfaces)
+      if (s.name == name) return &s;
+    return nullptr;
+  }
   int dimension() const { return analysis.kind == AnalysisKind::solid ? 3 : 2; }
   bool has_heat() const { return analysis.physics != Physics::mechanics; }
   bool has_mechanics() const { return analysis.physics != Physics::heat; }

@@ -1,6 +1,7 @@
 #include "model/contact_input.hpp"
 
 #include "model/friction_input.hpp"
+#include "model/rigid_surface_input.hpp"
 
 namespace solidus::model {
 
@@ -42,6 +43,8 @@ std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec) {
     pair.name = c.name;
     pair.slave = c.sides()[0];
     pair.master = c.sides()[1];
+    if (const RigidSurfaceSpec* master = spec.rigid_surface(c.master))
+      pair.rigid_master = rigid_surface(*master, spec.analysis.kind);
     pair.choose_roles = !c.surfaces.empty();
     pair.formulation = c.formulation;
     pair.smoothing = c.smoothing;

@@ -25,12 +25,15 @@ std::vector<std::string> group_names(const RawMesh& mesh, int dimension) {
 }
 
 /// @param dimension that the group must have; −1: any
+/// @param also names that would do, too, for messages
 void require(const RawMesh& mesh, const std::string& name, int dimension, const SourceLocation& where,
-             const std::string& user) {
+             const std::string& user, const std::vector<std::string>& also = {}) {
   const auto group = mesh.groups.find(name);
-  if (group == mesh.groups.end())
-    throw InputError(where, fmt::format("the mesh has no group '{}' ({})", name, user),
-                     one_of(group_names(mesh, dimension), name));
+  if (group == mesh.groups.end()) {
+    std::vector<std::string> names = group_names(mesh, dimension);
+    names.insert(names.end(), also.begin(), also.end());
+    throw InputError(where, fmt::format("the mesh has no group '{}' ({})", name, user), one_of(names, name));
+  }
   if (dimension >= 0 && group->second.dimension != dimension)
     throw InputError(where,
                      fmt::format("the group '{}' is {} ({})", name,
@@ -90,10 +93,18 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
   for (const auto& c : spec.mechanical_conditions)
     require(mesh, c.group, c.kind == MechanicalConditionSpec::Kind::displacement ? -1 : surface, c.where,
             "mechanical condition '" + c.name + "'");
+  std::vector<std::string> tools;
+  for (const auto& s : spec.rigid_surfaces) tools.push_back(s.name);
   for (const auto& c : spec.contacts) {
     require(mesh, c.sides()[0], surface, c.where, "slave of contact '" + c.name + "'");
-    require(mesh, c.sides()[1], surface, c.where, "master of contact '" + c.name + "'");
+    if (spec.rigid_surface(c.sides()[1]) == nullptr)
+      require(mesh, c.sides()[1], surface, c.where, "master of contact '" + c.name + "'", tools);
   }
+  for (const auto& s : spec.rigid_surfaces)
+    if (mesh.groups.count(s.name) > 0)
+      throw InputError(s.where,
+                       fmt::format("the rigid surface '{}' is called like a group of the mesh", s.name),
+                       "a name of its own");
   for (const auto& p : spec.probes)
     if (!p.group.empty()) require(mesh, p.group, -1, p.where, "probe '" + p.name + "'");
 }

@@ -58,7 +58,8 @@ mesh::Mesh load_mesh(const CaseSpec& spec) {
   std::vector<std::string> bodies, replicated;
   for (const BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
   for (const ContactSpec& contact : spec.contacts)
-    for (const std::string& surface : contact.sides()) replicated.push_back(surface);
+    for (const std::string& surface : contact.sides())
+      if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
   return mesh::distribute(raw, bodies, replicated);
 }
 

@@ -84,7 +84,8 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
     if (phases.heat != nullptr) add_everywhere({"interface_temperature", "K"}, 1);
   }
   for (const contact::ContactPair* pair : phases.contacts)
-    for (const std::string& surface : {pair->spec().slave, pair->spec().master}) surfaces_[surface] = contact;
+    for (const std::string& surface : {pair->spec().slave, pair->spec().master})
+      if (surface == pair->spec().slave || !pair->spec().rigid_master) surfaces_[surface] = contact;
 }
 
 std::vector<double>& StateFields::add(std::string name, std::string unit, int components, Place place) {

@@ -1,0 +1,17 @@
+/// From [[rigid_surface]] to the analytic masters of contact.
+#pragma once
+
+#include "contact/master_analytic.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// In axisymmetry the surface's line in the plane of radius and axis: a cylinder is a plane at its radius, a
+/// sphere a circle. Expects what check_rigid_surfaces() lets through.
+contact::RigidSurface rigid_surface(const RigidSurfaceSpec& spec, AnalysisKind kind);
+
+/// Shapes and motions that the analysis has, and contacts that can work with them.
+/// Throws InputError with the place of the first that is not.
+void check_rigid_surfaces(const CaseSpec& spec);
+
+}  // namespace solidus::model
