@@ -65,6 +65,20 @@ void check_radius(const CaseSpec& spec, const RawMesh& mesh) {
                      "x >= 0 in an axisymmetric analysis");
 }
 
+void check_rigid_names(const CaseSpec& spec, const RawMesh& mesh) {
+  for (const RigidSurfaceSpec& s : spec.rigid_surfaces) {
+    if (mesh.groups.count(s.name) > 0)
+      throw InputError(s.where,
+                       fmt::format("the rigid surface '{}' is called like a group of the mesh", s.name),
+                       "a name of its own");
+    if (std::none_of(spec.contacts.begin(), spec.contacts.end(),
+                     [&](const ContactSpec& c) { return c.master == s.name; }))
+      throw InputError(s.where,
+                       fmt::format("no [[contact]] has the rigid surface '{}' as its master", s.name),
+                       fmt::format("a contact with master = \"{}\", or no such section", s.name));
+  }
+}
+
 }  // namespace
 
 void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
@@ -100,11 +114,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
     if (spec.rigid_surface(c.sides()[1]) == nullptr)
       require(mesh, c.sides()[1], surface, c.where, "master of contact '" + c.name + "'", tools);
   }
-  for (const auto& s : spec.rigid_surfaces)
-    if (mesh.groups.count(s.name) > 0)
-      throw InputError(s.where,
-                       fmt::format("the rigid surface '{}' is called like a group of the mesh", s.name),
-                       "a name of its own");
+  check_rigid_names(spec, mesh);
   for (const auto& p : spec.probes)
     if (!p.group.empty()) require(mesh, p.group, -1, p.where, "probe '" + p.name + "'");
 }

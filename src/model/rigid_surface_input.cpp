@@ -143,10 +143,6 @@ void check_rigid_surfaces(const CaseSpec& spec) {
   for (const RigidSurfaceSpec& s : spec.rigid_surfaces) {
     check_shape(s, spec.analysis.kind, spec.dimension());
     check_motion(s, spec.analysis.kind, spec.dimension());
-    if (std::none_of(spec.contacts.begin(), spec.contacts.end(),
-                     [&](const ContactSpec& c) { return c.master == s.name; }))
-      throw InputError(s.where, fmt::format("no [[contact]] has {} as its master", text(s)),
-                       "a contact with master = \"" + s.name + "\", or no such section");
   }
 }
 

@@ -10,7 +10,8 @@ namespace solidus::model {
 /// sphere a circle. Expects what check_rigid_surfaces() lets through.
 contact::RigidSurface rigid_surface(const RigidSurfaceSpec& spec, AnalysisKind kind);
 
-/// Shapes and motions that the analysis has, and contacts that can work with them.
+/// Shapes and motions that the analysis has, and contacts that can work with them; names are checked with the
+/// mesh (mesh_checks.hpp).
 /// Throws InputError with the place of the first that is not.
 void check_rigid_surfaces(const CaseSpec& spec);
 

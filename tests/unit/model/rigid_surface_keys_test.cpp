@@ -165,8 +165,6 @@ TEST(RigidSurfaceKeys, NamesMustFit) {
   EXPECT_NO_THROW(raw_mesh(spec));
   spec.contacts[0].slave = "tool", spec.contacts[0].master = "y_max";
   EXPECT_THAT(refusal(spec), HasSubstr("where its slave may be"));
-  EXPECT_THAT(refusal(with_tool(k_plane, "", "plane_strain", "mechanics", "y_min")),
-              HasSubstr("as its master"));
   const auto says = [](const CaseSpec& wrong) -> std::string {
     try {
       raw_mesh(wrong);
@@ -178,6 +176,7 @@ TEST(RigidSurfaceKeys, NamesMustFit) {
   EXPECT_THAT(says(with_tool(k_plane, "", "plane_strain", "mechanics", "toll")),
               HasSubstr("did you mean 'tool'?"));
   spec = with_tool(k_plane, "", "plane_strain", "mechanics", "y_min");
+  EXPECT_THAT(says(spec), HasSubstr("as its master"));
   spec.rigid_surfaces[0].name = "y_min";
   EXPECT_THAT(says(spec), HasSubstr("called like a group"));
 }
