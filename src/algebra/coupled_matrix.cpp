@@ -19,10 +19,7 @@ struct CoupledMatrix::Petsc {
 };
 
 CoupledMatrix::CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, BlockMatrix& temperature)
-    : mesh_(mesh),
-      displacement_(displacement),
-      temperature_(temperature),
-      petsc_(std::make_unique<Petsc>()) {
+    : mesh_(mesh), displacement_(displacement), temperature_(temperature), petsc_(std::make_unique<Petsc>()) {
   set_zero();
 }
 

@@ -55,7 +55,7 @@ struct ContactPoints {
   std::vector<Point> normal;    ///< n, from the slave to the master
   std::vector<Point> position;  ///< on the slave, reference configuration [m]
   std::vector<double> initial_penetration;  ///< g_N at u = 0 [m]
-  std::vector<GlobalIndex> number;          ///< of all processes alike: slave face × k_points_of_a_face + place
+  std::vector<GlobalIndex> number;  ///< of all processes alike: slave face × k_points_of_a_face + place
 
   double slave_measure = 0;   ///< whole slave surface, axisymmetric with 2πr [m²]; over all processes
   double paired_measure = 0;  ///< the part that found a partner [m²]; over all processes

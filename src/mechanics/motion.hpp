@@ -40,8 +40,8 @@ struct Motion {
   double velocity(double v, double a, double a_new, double dt) const {
     return v + dt * ((1.0 - gamma) * a + gamma * a_new);
   }
-  /// Of forces that act as a mean over the step (contact/normal.hpp): their share at t_{n+1} in what changes the
-  /// velocity. With it a force that has ended leaves nothing that grows.
+  /// Of forces that act as a mean over the step (contact/normal.hpp): their share at t_{n+1} in what changes
+  /// the velocity. With it a force that has ended leaves nothing that grows.
   double force_share() const { return alpha_f > 0 ? 1 - alpha_f : gamma; }
   /// Whether a step needs the forces and the stress of t_n.
   bool remembers() const { return work_share < 1 || alpha_f > 0; }

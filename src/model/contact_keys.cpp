@@ -134,7 +134,9 @@ Section<ContactSpec> contact_keys() {
   s.key("slave", &C::slave)
       .initially("")
       .doc("Surface group that is integrated over: the finer or softer one.");
-  s.key("master", &C::master).initially("").doc("Surface group that it is projected on, or a [[rigid_surface]].");
+  s.key("master", &C::master)
+      .initially("")
+      .doc("Surface group that it is projected on, or a [[rigid_surface]].");
   s.key("surfaces", &C::surfaces)
       .initially(Value::list())
       .doc(

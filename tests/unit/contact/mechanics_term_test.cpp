@@ -190,8 +190,7 @@ INSTANTIATE_TEST_SUITE_P(Of, FrictionForces,
                                          Formulated{Formulation::large_sliding, Shape::hex8}),
                          [](const auto& of) {
                            return std::string(mesh::name(of.param.shape)) +
-                                  (of.param.formulation == Formulation::large_sliding ? "Sliding"
-                                                                                        : "Fixed");
+                                  (of.param.formulation == Formulation::large_sliding ? "Sliding" : "Fixed");
                          });
 
 TEST(NormalLaw, QuotientDoesExactlyTheWorkThatTheSpringGains) {
