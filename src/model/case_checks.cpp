@@ -164,12 +164,21 @@ void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
         "scheme = \"isentropic\", \"isothermal\" or \"block_iterative\"");
 }
 
+/// What an interface stores shows in the heat of friction alone.
+void check_interface(const CaseSpec& spec, const ContactSpec& c) {
+  if (c.interface.heat_capacity == 0 || (c.friction && spec.coupled())) return;
+  throw InputError(
+      c.where, fmt::format("the interface of the contact '{}' stores heat, but friction makes none", c.name),
+      "[contact.friction] with physics = \"thermomechanical\", or no [contact.interface]");
+}
+
 void check_contacts(const CaseSpec& spec) {
   check_names(spec.contacts, "[[contact]]");
   check_names(spec.rigid_surfaces, "[[rigid_surface]]");
   check_rigid_surfaces(spec);
   for (const auto& c : spec.contacts) {
     check_friction_heat(spec, c);
+    check_interface(spec, c);
     const bool named = !c.slave.empty() || !c.master.empty();
     const bool complete =
         c.surfaces.empty() ? !c.slave.empty() && !c.master.empty() : c.surfaces.size() == 2 && !named;

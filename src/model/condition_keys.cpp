@@ -2,6 +2,23 @@
 
 namespace solidus::model {
 
+namespace {
+
+/// When a condition holds, and what its tables of time count from.
+template <class C>
+void add_stage_keys(Section<C>& s) {
+  s.key("stages", &C::stages)
+      .or_one()
+      .initially(Value::list())
+      .doc("The stages in which it holds; empty: in all.");
+  s.choice("time", &C::clock,
+           {{"run", Clock::run, "the start of the run"}, {"stage", Clock::stage, "the start of each stage"}})
+      .initially("run")
+      .doc("What tables of time count from.");
+}
+
+}  // namespace
+
 Section<ThermalConditionSpec> thermal_condition_keys() {
   using C = ThermalConditionSpec;
   Section<C> s("thermal_condition",
@@ -43,14 +60,7 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
       .of({Argument::time})
       .when("kind", {"source"})
       .doc("Heat released per volume and time.");
-  s.key("stages", &C::stages)
-      .or_one()
-      .initially(Value::list())
-      .doc("The stages in which it holds; empty: in all.");
-  s.choice("time", &C::clock,
-           {{"run", Clock::run, "the start of the run"}, {"stage", Clock::stage, "the start of each stage"}})
-      .initially("run")
-      .doc("What tables of time count from.");
+  add_stage_keys(s);
   s.place(&C::where);
   return s;
 }
@@ -99,14 +109,7 @@ Section<MechanicalConditionSpec> mechanical_condition_keys() {
           "Count displacements from where each node is when the stage begins: 0 holds it there. Otherwise "
           "from "
           "the mesh.");
-  s.key("stages", &C::stages)
-      .or_one()
-      .initially(Value::list())
-      .doc("The stages in which it holds; empty: in all.");
-  s.choice("time", &C::clock,
-           {{"run", Clock::run, "the start of the run"}, {"stage", Clock::stage, "the start of each stage"}})
-      .initially("run")
-      .doc("What tables of time count from.");
+  add_stage_keys(s);
   s.place(&C::where);
   return s;
 }

@@ -152,7 +152,8 @@ Section<ContactSpec> contact_keys() {
       .doc("Who touches whom.");
   s.key("smoothing", &C::smoothing)
       .initially(false)
-      .doc("Averaged normals of the master, with large sliding: no jumps of the force from face to face.");
+      .when("formulation", {"large_sliding"})
+      .doc("Averaged normals of the master: no jumps of the force from face to face.");
   using Normal = C::Normal;
   s.choice("normal", &C::normal,
            {{"automatic", Normal::automatic, "penalty; with [dynamics] energy_conserving"},
@@ -166,6 +167,7 @@ Section<ContactSpec> contact_keys() {
   s.key("penetration_tolerance", &C::penetration_tolerance)
       .initially(1e-6)
       .positive()
+      .when("normal", {"augmented_lagrangian"})
       .doc(
           "Penetration that the augmented Lagrangian leaves, as a share of the mean size of the slave's "
           "faces.");
@@ -189,7 +191,7 @@ Section<ContactSpec> contact_keys() {
             {"nodal", IntegrationRule::nodal, "at the slave's nodes"},
             {"gauss", IntegrationRule::gauss, "at Gauss points of the slave's faces"}})
       .initially("segments")
-      .doc("Where contact is integrated.");
+      .doc("Where contact is integrated; large sliding takes Gauss points for segments.");
   s.key("gauss_degree", &C::gauss_degree)
       .initially(4)
       .range(1, 5)

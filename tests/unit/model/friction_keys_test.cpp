@@ -5,6 +5,7 @@
 #include "base/document.hpp"
 #include "base/errors.hpp"
 #include "model/friction_input.hpp"
+#include "small_case.hpp"
 
 namespace solidus::model {
 namespace {
@@ -97,6 +98,22 @@ TEST(WearKeys, HardnessMayDependOnTemperature) {
                      "\"MPa\", points = [[300, 2000], [500, 1000]] }\n",
                      "case.toml")));
   EXPECT_DOUBLE_EQ(wear.depth_increment(1e7, 0.1, 400), 1e-4 * 1e7 * 0.1 / 1.5e9);
+}
+
+/// What is said against a contact with these keys.
+std::string contact_error(const std::string& keys) {
+  try {
+    return test::refusal(test::bar_case("[[contact]]\nname = \"c\"\nslave = \"a\"\nmaster = \"b\"\n" + keys));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+TEST(ContactKeys, ThatWouldChangeNothingAreRefused) {
+  EXPECT_THAT(contact_error("smoothing = true\n"), HasSubstr("smoothing"));
+  EXPECT_THAT(contact_error("penetration_tolerance = 1e-8\n"), HasSubstr("penetration_tolerance"));
+  EXPECT_THAT(contact_error("[contact.interface]\nheat_capacity = \"500 J/m2/K\"\n"),
+              HasSubstr("the interface of the contact 'c' stores heat, but friction makes none"));
 }
 
 }  // namespace

@@ -1,0 +1,122 @@
+/// What a contact pair tells of a step: work, forces, energies.
+#include <petscsys.h>
+
+#include <array>
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "contact/heat_term.hpp"
+#include "contact/pair.hpp"
+#include "contact/rotation.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Forces of a state on the master, in the current configuration.
+Point force_on_master(const PointMotion& motion, const PointState& state, double pressure) {
+  return add_scaled(times(motion.push, state.traction), pressure, motion.normal);
+}
+
+}  // namespace
+
+double ContactPair::force_times_increment(const std::vector<PointState>& states,
+                                          std::span<const double> displacement, double time,
+                                          std::span<const double> increment) {
+  placement_->place(time, displacement);
+  const auto n = static_cast<std::size_t>(components_);
+  double work = 0;
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const PointState& state = states[at(p)];
+    if (!kinematics_->particle(p).counted) continue;
+    if (state.balance_pressure == 0 && state.status == PointStatus::open) continue;
+    const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
+    const Point force = force_on_master(motion, state, state.balance_pressure);
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        work += motion.weight * motion.share[b] * force[i] * increment[at(motion.nodes[b]) * n + i];
+  }
+  return work;
+}
+
+double ContactPair::work(double share) {
+  if (!active_) return 0;
+  std::vector<double> increment = displacement_;
+  for (std::size_t i = 0; i < increment.size(); ++i) increment[i] -= step_.displacement[i];
+  double work = 0;
+  if (share != 1)
+    work += (1 - share) * force_times_increment(step_.from, step_.displacement, step_.begun, increment);
+  if (share != 0) work += share * force_times_increment(now_.points, displacement_, time_, increment);
+  placement_->place(time_, displacement_);
+  return algebra::global_sum(work);
+}
+
+double ContactPair::rigid_work(double share) {
+  if (!spec_.rigid_master || !active_) return 0;
+  placement_->place(time_, displacement_);
+  double together = 0;
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const PointState &from = step_.from[at(p)], &to = now_.points[at(p)];
+    if (!to.counted || !from.anchored || !to.anchored) continue;
+    const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
+    const double pressure = share * to.balance_pressure + (1 - share) * from.balance_pressure;
+    const Point traction = add_scaled(scale(share, to.traction), 1 - share, motion.carried);
+    together += motion.weight * (pressure * (to.penetration - from.penetration) + dot(traction, motion.slip));
+  }
+  return algebra::global_sum(together) - work(share);
+}
+
+ContactSums ContactPair::sums(std::span<const double> temperature) const {
+  placement_->place(time_, displacement_);
+  std::array<double, 16> s{};
+  const auto n = static_cast<std::size_t>(components_);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics_->particle(p);
+    if (!particle.counted) continue;
+    const PointState& state = now_.points[at(p)];
+    const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
+    const double w = particle.weight;
+    s[0] += 1;
+    s[1] += w * (active_ ? law_.stored(state) : 0.0);
+    s[2] += w * state.work;
+    s[3] += w * state.dissipation;
+    if (state.status == PointStatus::open) continue;
+    s[4] += 1;
+    s[5] += state.status == PointStatus::sticks ? 1 : 0;
+    s[6] += w;
+    s[7] += w * state.pressure;
+    s[8] += w * norm(state.traction);
+    Point x = particle.position;
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        x[i] += particle.share[b] * displacement_[at(particle.nodes[b]) * n + i];
+    const Point force = scale(w, force_on_master(motion, state, state.pressure));
+    const Point moment = cross(x, force);
+    for (std::size_t i = 0; i < 3; ++i) {
+      s[9 + i] += force[i];
+      s[12 + i] += moment[i];
+    }
+  }
+  s[15] = heat_ && !temperature.empty() ? heat_->counted_heat(temperature) : 0.0;
+  MPI_Allreduce(MPI_IN_PLACE, s.data(), static_cast<int>(s.size()), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  ContactSums sums;
+  sums.points = std::llround(s[0]);
+  sums.energy = s[1];
+  sums.work = s[2];
+  sums.dissipation = s[3];
+  sums.closed_points = std::llround(s[4]);
+  sums.sticking_points = std::llround(s[5]);
+  sums.closed_area = s[6];
+  sums.force = s[7];
+  sums.friction = s[8];
+  sums.resultant = {s[9], s[10], s[11]};
+  sums.moment = {s[12], s[13], s[14]};
+  sums.heat = s[15];
+  return sums;
+}
+
+}  // namespace solidus::contact
