@@ -36,30 +36,46 @@ struct LinearReport {
   std::string reason;  ///< PETSc's words when it did not converge
 };
 
-class LinearSolver {
+/// What Newton's method needs of a solver of K d = −r.
+class TangentSolver {
+ public:
+  virtual ~TangentSolver() = default;
+  /// Solves A x = b on owned degrees of freedom. Collective.
+  /// @param forcing  ‖b − A x‖/‖b‖ that will do (forcing.hpp)
+  virtual LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                             double forcing) = 0;
+  /// Solves with the matrix of the last solve(), as it was then. Collective.
+  virtual LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) = 0;
+  /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).
+  virtual void forget() = 0;
+  virtual double seconds_setup() const = 0;
+  virtual double seconds_solve() const = 0;
+};
+
+class LinearSolver : public TangentSolver {
  public:
   LinearSolver(const mesh::Mesh& mesh, LinearSolverOptions options);
-  ~LinearSolver();
+  ~LinearSolver() override;
   /// Rigid-body modes for multigrid from the coordinates of the owned nodes (mechanics).
   void use_rigid_body_modes(const mesh::Mesh& mesh, int components);
   /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until
   /// iterations have grown by half) between calls. Collective.
   /// @param forcing  ‖b − A x‖/‖b‖ that will do (forcing.hpp); where it is below the relative tolerance, that
   ///                 one holds. Iterative solvers only
-  LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x, double forcing = 0);
+  LinearReport solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                     double forcing = 0) override;
   /// The same of a PETSc matrix; the rigid-body modes are those of its first block where it is a MATNEST.
   LinearReport solve(Mat matrix, std::span<const double> b, std::span<double> x, double forcing = 0);
   /// Solves with the matrix of the last solve(), as it was then: its factorisation or hierarchy serves again.
   /// Collective.
-  LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing = 0);
+  LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing = 0) override;
   /// The next solve sets the preconditioner up.
   bool stale() const;
-  /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).
-  void forget();
+  void forget() override;
   /// The next matrix has another pattern: nothing stays.
   void reset();
-  double seconds_setup() const;
-  double seconds_solve() const;
+  double seconds_setup() const override;
+  double seconds_solve() const override;
 
  private:
   struct Implementation;

@@ -26,7 +26,7 @@ double dot(std::span<const double> a, std::span<const double> b, std::size_t n) 
 /// One solve: the vectors and what the iteration and its line search share.
 class Iteration {
  public:
-  Iteration(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts, int components,
+  Iteration(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts, int components,
             std::size_t n_owned, std::span<double> x, const NewtonOptions& options)
       : system_(system),
         solver_(solver),
@@ -56,7 +56,7 @@ class Iteration {
   double search(double slope);
 
   NonlinearSystem& system_;
-  LinearSolver& solver_;
+  TangentSolver& solver_;
   const GhostExchange& ghosts_;
   int components_;
   std::size_t n_;
@@ -188,7 +188,7 @@ NewtonReport Iteration::run() {
 
 }  // namespace
 
-NewtonReport newton(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts,
+NewtonReport newton(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts,
                     int components, std::span<double> x, const NewtonOptions& options) {
   const std::size_t n_owned =
       static_cast<std::size_t>(ghosts.n_owned_nodes()) * static_cast<std::size_t>(components);

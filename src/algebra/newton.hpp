@@ -53,7 +53,7 @@ class NonlinearSystem {
 /// more: a chord step, without assembly and set-up of the solver.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens
 /// the step. x: [local node][component], ghosts updated on return.
-NewtonReport newton(NonlinearSystem& system, LinearSolver& solver, const GhostExchange& ghosts,
+NewtonReport newton(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts,
                     int components, std::span<double> x, const NewtonOptions& options);
 
 }  // namespace solidus::algebra
