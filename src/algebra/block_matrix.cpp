@@ -65,10 +65,7 @@ void BlockMatrix::set_graph(NodeGraph graph) {
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
   order_ghost_columns();
   set_fixed(std::move(fixed_));
-  if (ties_.empty())
-    create_petsc_matrix();
-  else
-    create_tied_matrix();
+  petsc_->matrix.reset();
 }
 
 /// PETSc keeps the columns of a row in global order, owned ones and ghosts apart; ours are in local order.
@@ -184,24 +181,41 @@ void BlockMatrix::set_fixed(std::vector<char> fixed) {
 }
 
 Mat BlockMatrix::matrix() {
-  const double mean = any_fixed_ || !ties_.empty() ? mean_diagonal() : 1.0;
-  if (any_fixed_) {
-    // PETSc copies the values: show it the masked ones, then put ours back.
-    for (std::size_t k = 0; k < masked_.size(); ++k) {
-      saved_[k] = values_[masked_[k]];
-      values_[masked_[k]] = 0;
-    }
-    for (std::size_t entry : fixed_diagonal_) values_[entry] = mean;
+  if (!petsc_->matrix) {
+    if (ties_.empty())
+      create_petsc_matrix();
+    else
+      create_tied_matrix();
   }
+  const double mean = any_fixed_ || !ties_.empty() ? mean_diagonal() : 1.0;
+  mask(mean);  // PETSc copies the values
   if (ties_.empty()) {
     copy_to_petsc();
   } else {
     std::fill(values_.end() - static_cast<std::ptrdiff_t>(ties_.followers().size()), values_.end(), mean);
     check(MatSetValuesCOO(petsc_->matrix, block(0), INSERT_VALUES), "MatSetValuesCOO");
   }
-  if (any_fixed_)
-    for (std::size_t k = 0; k < masked_.size(); ++k) values_[masked_[k]] = saved_[k];
+  unmask();
   return petsc_->matrix;
+}
+
+void BlockMatrix::constrained(const std::function<void()>& read) {
+  assert(ties_.empty());
+  mask(any_fixed_ ? mean_diagonal() : 1.0);
+  read();
+  unmask();
+}
+
+void BlockMatrix::mask(double diagonal) {
+  for (std::size_t k = 0; k < masked_.size(); ++k) {
+    saved_[k] = values_[masked_[k]];
+    values_[masked_[k]] = 0;
+  }
+  for (std::size_t entry : fixed_diagonal_) values_[entry] = diagonal;
+}
+
+void BlockMatrix::unmask() {
+  for (std::size_t k = 0; k < masked_.size(); ++k) values_[masked_[k]] = saved_[k];
 }
 
 double BlockMatrix::mean_diagonal() const {
@@ -221,11 +235,12 @@ double BlockMatrix::mean_diagonal() const {
 /// with the numbers of their unknowns is all it needs.
 void BlockMatrix::tie(std::vector<std::vector<Index>> groups) {
   ties_ = Ties(mesh_, block_size_, std::move(groups));
-  if (!ties_.empty()) create_tied_matrix();
+  petsc_->matrix.reset();
 }
 
 void BlockMatrix::create_tied_matrix() {
-  values_.resize(values_.size() + ties_.followers().size(), 0.0);
+  const auto bs = static_cast<std::size_t>(block_size_);
+  values_.resize((columns_.size() + 1) * bs * bs + ties_.followers().size(), 0.0);
   std::vector<PetscInt> rows, columns;
   rows.reserve(values_.size());
   columns.reserve(values_.size());
@@ -277,24 +292,62 @@ void BlockMatrix::copy_to_petsc() {
   check(MatAssemblyEnd(a, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
 }
 
-void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const {
-  const int bs = block_size_;
-  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
-    double* const to = y.data() + row * bs;
-    std::fill_n(to, bs, 0.0);
-    for (std::int64_t s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s) {
-      const double* const a = block(s);
-      const double* const from =
-          x.data() + static_cast<std::ptrdiff_t>(columns_[static_cast<std::size_t>(s)]) * bs;
+namespace {
+
+/// y = A x by block rows; a constant size lets the compiler keep the row in registers.
+template <int size>
+void multiply_rows(std::span<const std::int64_t> row_start, std::span<const Index> columns,
+                   const double* blocks, const double* x, double* y, int any_size = size) {
+  const int bs = size > 0 ? size : any_size;
+  for (std::size_t row = 0; row + 1 < row_start.size(); ++row) {
+    double* const to = y + row * static_cast<std::size_t>(bs);
+    double sum[size > 0 ? size : 1] = {};
+    if constexpr (size == 0) std::fill_n(to, bs, 0.0);
+    for (std::int64_t s = row_start[row]; s < row_start[row + 1]; ++s) {
+      const double* const a = blocks + s * bs * bs;
+      const double* const from = x + static_cast<std::ptrdiff_t>(columns[static_cast<std::size_t>(s)]) * bs;
       for (int p = 0; p < bs; ++p)
-        for (int q = 0; q < bs; ++q) to[p] += a[p * bs + q] * from[q];
+        for (int q = 0; q < bs; ++q) (size > 0 ? sum : to)[p] += a[p * bs + q] * from[q];
     }
+    if constexpr (size > 0) std::copy_n(sum, size, to);
   }
 }
 
+}  // namespace
+
+void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const {
+  const auto with = [&](auto rows) { rows(row_start_, columns_, block(0), x.data(), y.data(), block_size_); };
+  switch (block_size_) {
+    case 1:
+      return with(multiply_rows<1>);
+    case 2:
+      return with(multiply_rows<2>);
+    case 3:
+      return with(multiply_rows<3>);
+    default:
+      return with(multiply_rows<0>);
+  }
+}
+
+void BlockMatrix::multiply_free(std::span<double> x, std::span<double> y) const {
+  assert(ties_.empty());
+  if (!any_fixed_) return multiply(x, y);
+  // [owned entry] what a fixed row leaves as it is
+  std::vector<double> held;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!fixed_[i]) continue;
+    if (i < y.size()) held.push_back(x[i]);
+    x[i] = 0;
+  }
+  multiply(x, y);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (fixed_[i]) y[i] = held[k++];
+}
+
 std::size_t BlockMatrix::bytes() const {
-  MatInfo info;
-  check(MatGetInfo(petsc_->matrix, MAT_LOCAL, &info), "MatGetInfo");
+  MatInfo info{};
+  if (petsc_->matrix) check(MatGetInfo(petsc_->matrix, MAT_LOCAL, &info), "MatGetInfo");
   return row_start_.capacity() * sizeof row_start_[0] + columns_.capacity() * sizeof columns_[0] +
          diagonal_.capacity() * sizeof diagonal_[0] + values_.capacity() * sizeof values_[0] +
          fixed_.capacity() + (masked_.capacity() + fixed_diagonal_.capacity()) * sizeof masked_[0] +

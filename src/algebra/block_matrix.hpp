@@ -9,6 +9,7 @@
 #include <petscmat.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -80,14 +81,22 @@ class BlockMatrix {
   void tie(std::vector<std::vector<Index>> groups);
   const Ties& ties() const { return ties_; }
 
-  /// Passes the values on and returns the PETSc matrix; owned by this object.
+  /// Passes the values on and returns the PETSc matrix, which is made at the first call; owned by this
+  /// object.
   Mat matrix();
+  /// Calls `read` while the blocks are those of the matrix with its fixed rows and columns; no ties.
+  /// Collective.
+  void constrained(const std::function<void()>& read);
   /// y = A x for local x (ghosts up to date), y on owned nodes; ignores set_fixed and tie.
   void multiply(std::span<const double> x, std::span<double> y) const;
+  /// The same with fixed rows and columns, whose diagonal is one; sets x to zero there. No ties.
+  void multiply_free(std::span<double> x, std::span<double> y) const;
   std::size_t bytes() const;
 
  private:
   void order_ghost_columns();
+  void mask(double diagonal);
+  void unmask();
   void create_petsc_matrix();
   void create_tied_matrix();
   void create_matrix_of_size();

@@ -20,11 +20,19 @@ bool any_process(bool value);
 class GhostExchange {
  public:
   explicit GhostExchange(const mesh::Mesh& mesh);
+  /// Of anything that is numbered as nodes are: owned ones contiguous, from `first_owned` on.
+  /// @param ghosts  numbers over all processes of the local entries behind the owned ones
+  GhostExchange(Index n_owned, GlobalIndex first_owned, std::span<const GlobalIndex> ghosts);
   ~GhostExchange();
-  void update(std::span<double> values, int components) const;
+  GhostExchange(GhostExchange&&) noexcept;
+  GhostExchange& operator=(GhostExchange&&) noexcept;
+  void update(std::span<double> values, int components) const { exchange(values, components); }
+  void update(std::span<float> values, int components) const { exchange(values, components); }
   Index n_owned_nodes() const { return n_owned_nodes_; }
 
  private:
+  template <class Number>
+  void exchange(std::span<Number> values, int components) const;
   struct Implementation;
   Index n_owned_nodes_;
   std::unique_ptr<Implementation> implementation_;
