@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace solidus::mesh {
@@ -23,7 +24,7 @@ class Packer {
     append(s.data(), s.size());
   }
   void put_size(std::size_t n) { append(&n, sizeof n); }
-  const std::vector<char>& buffer() const { return buffer_; }
+  std::vector<char> buffer() && { return std::move(buffer_); }
 
  private:
   void append(const void* p, std::size_t n) {

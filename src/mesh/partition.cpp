@@ -3,61 +3,127 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
+#include "base/errors.hpp"
+#include "mesh/quadrature.hpp"
+
 namespace solidus::mesh {
 
-NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blocks) {
-  // Elements of each node first, then the union of their nodes.
-  const auto n = static_cast<std::size_t>(n_nodes);
-  std::vector<Index> start(n + 1, 0);
+namespace {
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+// Elements around every node, as their lists of nodes.
+struct ElementsOfNodes {
+  struct Element {
+    const Index* nodes;
+    int n;
+  };
+  std::vector<std::int64_t> start;
+  std::vector<Element> element;
+};
+
+ElementsOfNodes elements_of_nodes(Index n_nodes, const std::vector<const RawBlock*>& blocks) {
+  ElementsOfNodes around;
+  around.start.assign(at(n_nodes) + 1, 0);
   for (const RawBlock* b : blocks)
-    for (const Index i : b->nodes) ++start[static_cast<std::size_t>(i) + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<std::pair<const Index*, int>> elements(static_cast<std::size_t>(start.back()));
-  std::vector<Index> fill(start.begin(), start.end() - 1);
+    for (const Index i : b->nodes) ++around.start[at(i) + 1];
+  std::partial_sum(around.start.begin(), around.start.end(), around.start.begin());
+  around.element.resize(at(around.start.back()));
+  std::vector<std::int64_t> fill(around.start.begin(), around.start.end() - 1);
   for (const RawBlock* b : blocks) {
     const int nn = node_count(b->shape);
-    for (std::size_t e = 0; e < b->nodes.size(); e += static_cast<std::size_t>(nn))
-      for (int a = 0; a < nn; ++a) {
-        const Index node = b->nodes[e + static_cast<std::size_t>(a)];
-        elements[static_cast<std::size_t>(fill[static_cast<std::size_t>(node)]++)] = {b->nodes.data() + e,
-                                                                                      nn};
-      }
+    for (std::size_t e = 0; e < b->nodes.size(); e += at(nn))
+      for (std::size_t a = 0; a < at(nn); ++a)
+        around.element[at(fill[at(b->nodes[e + a])]++)] = {b->nodes.data() + e, nn};
   }
+  return around;
+}
+
+// Work of a time step [µs]: per neighbour in a row of a matrix (three or four Newton iterations, each solved
+// by conjugate gradients), and per entry of an element's matrix and quadrature point.
+constexpr double k_mechanics_row = 0.9, k_heat_row = 0.03;
+constexpr double k_mechanics_element = 4.5e-3, k_heat_element = 1e-3;
+// Contact costs a surface's node about as much as the rows of a node inside (docs/benchmarks.md).
+constexpr double k_contact_node = 25;
+
+}  // namespace
+
+NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blocks) {
+  const ElementsOfNodes around = elements_of_nodes(n_nodes, blocks);
   NodeNeighbours graph;
-  graph.start.assign(n + 1, 0);
-  std::vector<Index> row;
-  for (std::size_t i = 0; i < n; ++i) {
+  graph.start.reserve(at(n_nodes) + 1);
+  graph.start.push_back(0);
+  std::vector<Index> row, seen_from(at(n_nodes), -1);
+  for (Index i = 0; i < n_nodes; ++i) {
     row.clear();
-    for (Index k = start[i]; k < start[i + 1]; ++k) {
-      const auto [nodes, nn] = elements[static_cast<std::size_t>(k)];
-      row.insert(row.end(), nodes, nodes + nn);
+    seen_from[at(i)] = i;
+    for (std::int64_t k = around.start[at(i)]; k < around.start[at(i) + 1]; ++k) {
+      const auto [nodes, nn] = around.element[at(k)];
+      for (int a = 0; a < nn; ++a) {
+        if (seen_from[at(nodes[a])] == i) continue;
+        seen_from[at(nodes[a])] = i;
+        row.push_back(nodes[a]);
+      }
     }
     std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    std::erase(row, static_cast<Index>(i));
     graph.node.insert(graph.node.end(), row.begin(), row.end());
-    graph.start[i + 1] = static_cast<Index>(graph.node.size());
+    graph.start.push_back(static_cast<std::int64_t>(graph.node.size()));
   }
   return graph;
 }
 
-std::vector<int> assign_owners(const NodeNeighbours& graph, int n_processes) {
-  const std::size_t n = graph.start.size() - 1;
+std::vector<double> node_work(const NodeNeighbours& graph, const std::vector<const RawBlock*>& blocks,
+                              const std::vector<BodyWork>& of_block, std::span<const char> in_contact) {
+  std::vector<double> work(at(graph.n_nodes()), 0.0);
+  std::vector<char> moves(work.size(), 0);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const bool mechanics = of_block[b] == BodyWork::all;
+    const int nn = node_count(blocks[b]->shape);
+    const auto points = static_cast<double>(stiffness_rule(blocks[b]->shape).size());
+    const double share = nn * points * (k_heat_element + (mechanics ? k_mechanics_element : 0.0));
+    for (const Index i : blocks[b]->nodes) {
+      work[at(i)] += share;
+      if (mechanics) moves[at(i)] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    const auto entries = static_cast<double>(graph.start[i + 1] - graph.start[i] + 1);
+    work[i] += entries * (k_heat_row + (moves[i] != 0 ? k_mechanics_row : 0.0));
+    if (in_contact[i] != 0) work[i] += k_contact_node;
+  }
+  return work;
+}
+
+std::vector<int> assign_owners(const NodeNeighbours& graph, std::span<const double> work, int n_processes) {
+  const auto n = static_cast<std::size_t>(graph.n_nodes());
   std::vector<int> owner(n, 0);
   if (n_processes == 1) return owner;
   if (n < static_cast<std::size_t>(n_processes))
-    throw std::invalid_argument("the mesh has fewer nodes than there are processes");
+    throw InputError({}, "the mesh has fewer nodes than there are processes", "fewer processes");
+  if (graph.node.size() > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()))
+    throw InputError({}, "the mesh is too large for this build of METIS", "METIS with 64-bit indices");
+  const double all = std::accumulate(work.begin(), work.end(), 0.0);
+  // Whole numbers whose sum METIS can count.
+  const double scale = std::min(100.0 * static_cast<double>(n), 1e9) / all;
   std::vector<idx_t> start(graph.start.begin(), graph.start.end()),
-      node(graph.node.begin(), graph.node.end()), part(n);
+      node(graph.node.begin(), graph.node.end()), weight(n), part(n);
+  std::transform(work.begin(), work.end(), weight.begin(),
+                 [&](double w) { return std::max<idx_t>(1, static_cast<idx_t>(std::lround(scale * w))); });
   idx_t vertices = static_cast<idx_t>(n), constraints = 1, parts = n_processes, cut = 0;
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;  // the same parts in every run
-  const int status = METIS_PartGraphKway(&vertices, &constraints, start.data(), node.data(), nullptr, nullptr,
-                                         nullptr, &parts, nullptr, nullptr, options, &cut, part.data());
+  // Halves of halves cut less where the parts are few, says METIS' manual.
+  const auto partition = n_processes <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  const int status = partition(&vertices, &constraints, start.data(), node.data(), weight.data(), nullptr,
+                               nullptr, &parts, nullptr, nullptr, options, &cut, part.data());
   if (status != METIS_OK) throw std::runtime_error("METIS could not partition the mesh");
   std::copy(part.begin(), part.end(), owner.begin());
   // METIS may leave a part of a tiny mesh empty; every process must own a node.
@@ -96,7 +162,7 @@ std::vector<GlobalIndex> number_nodes(const NodeNeighbours& graph, const std::ve
       for (; head < order.size(); ++head) {
         const auto i = static_cast<std::size_t>(order[head]);
         row.clear();
-        for (Index k = graph.start[i]; k < graph.start[i + 1]; ++k) {
+        for (std::int64_t k = graph.start[i]; k < graph.start[i + 1]; ++k) {
           const Index j = graph.node[static_cast<std::size_t>(k)];
           const auto jj = static_cast<std::size_t>(j);
           if (seen[jj] || owner[jj] != owner[i]) continue;

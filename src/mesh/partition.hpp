@@ -1,20 +1,34 @@
 /// Which process owns which node, and in what order.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "mesh/distribute.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
 
 /// Neighbours of every node: those it shares an element with, itself excluded.
 struct NodeNeighbours {
-  std::vector<Index> start, node;  ///< of node i: node[start[i]] … node[start[i + 1] − 1]
+  std::vector<std::int64_t> start;  ///< of node i: node[start[i]] … node[start[i + 1] − 1]
+  std::vector<Index> node;
+  Index n_nodes() const { return static_cast<Index>(start.size()) - 1; }
 };
 NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blocks);
 
-/// The owner of every node: parts of equal size with few cut edges (METIS).
-std::vector<int> assign_owners(const NodeNeighbours& graph, int n_processes);
+/// Work of a time step that a node brings its owner, in microseconds of one process [node]: its rows of the
+/// matrices, a share of the elements around it, and of contact where it lies on such a surface. Measured on
+/// blocks of hexahedra and tetrahedra (docs/decisions/scaling.md); only ratios matter.
+/// @param of_block    what the elements of each block are computed for
+/// @param in_contact  [node], non-zero on surfaces in contact
+std::vector<double> node_work(const NodeNeighbours& graph, const std::vector<const RawBlock*>& blocks,
+                              const std::vector<BodyWork>& of_block, std::span<const char> in_contact);
+
+/// The owner of every node: parts of equal work with few cut edges (METIS). Throws InputError for a mesh that
+/// has fewer nodes than there are processes, or more neighbours than METIS can count.
+std::vector<int> assign_owners(const NodeNeighbours& graph, std::span<const double> work, int n_processes);
 
 /// New number of every node: processes one behind the other, within each the reverse Cuthill–McKee order,
 /// which keeps neighbours close in memory.

@@ -1,0 +1,23 @@
+/// The parts of a mesh that the processes hold, balanced by their work.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/raw_mesh.hpp"
+
+namespace solidus::mesh {
+
+/// What a body is computed for: the phases differ in their cost, and so in what fills a process.
+enum class BodyWork {
+  all,  ///< mechanics, with or without heat
+  heat  ///< heat alone
+};
+
+/// As distribute() of raw_mesh.hpp, with what each body is computed for. Process 0 works through the whole
+/// mesh once and sends each process its part; the others never hold more than theirs. Collective.
+/// @param work  of each body; empty: all of them everything
+Mesh distribute(const RawMesh& raw, const std::vector<std::string>& bodies,
+                const std::vector<std::string>& replicated, const std::vector<BodyWork>& work);
+
+}  // namespace solidus::mesh

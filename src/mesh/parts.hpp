@@ -1,0 +1,45 @@
+/// A whole mesh cut into the parts of the processes: packed on process 0, unpacked where it arrives.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "mesh/whole.hpp"
+
+namespace solidus::mesh {
+
+/// Sorts elements, faces and sets by process in one go, so that the parts together cost what the mesh does
+/// and not a search through all of it for each.
+class Parts {
+ public:
+  /// Keeps references.
+  Parts(const RawMesh& raw, const Whole& whole, const std::vector<std::string>& bodies);
+  /// What unpack_part() reads. Each process' part can be packed once.
+  std::vector<char> pack(int process);
+
+ private:
+  struct Elements {
+    std::vector<Index> counted, others;  ///< places in the raw block, in the order of their lowest numbers
+  };
+  /// Elements of every block that each process holds, [block][process].
+  using OfBlocks = std::vector<std::vector<Elements>>;
+
+  std::vector<Elements> sort_out(const RawBlock& block, bool for_all) const;
+  std::vector<Index> nodes_of(int process) const;
+  void find_sets();
+
+  const RawMesh& raw_;
+  const Whole& whole_;
+  const std::vector<std::string>& bodies_;
+  OfBlocks volumes_;
+  std::vector<OfBlocks> faces_;   ///< of every surface
+  std::vector<Index> local_;      ///< [raw node], −1 between two packings
+  std::vector<Index> first_set_;  ///< of each raw node in sets_; one more at the end
+  std::vector<int> sets_;         ///< that the node belongs to
+};
+
+/// @param buffer  of Parts::pack
+Mesh unpack_part(const std::vector<char>& buffer);
+
+}  // namespace solidus::mesh
