@@ -60,6 +60,9 @@ struct Conditions {
   std::vector<Film> films;
   std::vector<Radiation> radiations;
   std::vector<Source> sources;
+  /// Names of the bodies that have gone: their elements conduct and store nothing, nodes of theirs alone keep
+  /// their temperature, and conditions hold only where another body is.
+  std::vector<std::string> absent_bodies;
 };
 
 }  // namespace solidus::heat

@@ -33,11 +33,15 @@ EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const
   for (auto* v : {&r_, &b_, &step_h_, &inverse_, &balance_}) v->resize(n);
   step_t_.resize(mesh.x.size());
   per_latent_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double latent = storage.latent_capacity(static_cast<Index>(i));
+  storage_changed();
+  has_plateaus_ = algebra::any_process(storage.has_plateaus());
+}
+
+void EnthalpyNewton::storage_changed() {
+  for (std::size_t i = 0; i < per_latent_.size(); ++i) {
+    const double latent = storage_.latent_capacity(static_cast<Index>(i));
     per_latent_[i] = latent > 0 ? 1.0 / latent : 0.0;
   }
-  has_plateaus_ = algebra::any_process(storage.has_plateaus());
 }
 
 void EnthalpyNewton::evaluate(std::span<const double> temperature) {

@@ -46,6 +46,8 @@ class EnthalpyNewton {
   EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage, HeatSolver& solver,
                  const algebra::GhostExchange& ghosts, EnthalpyNewtonOptions options);
 
+  /// To be called when bodies have left the storage.
+  void storage_changed();
   /// From the start values in `temperature` and `heat` ([local node]); `old_heat` is H^n. Where the
   /// temperature is prescribed, `temperature` already holds it and `heat` a value of the node's graph.
   /// Collective.

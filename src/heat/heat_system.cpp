@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
@@ -25,8 +26,10 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
 HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        const std::vector<material::Material>& materials, const Conditions& conditions,
                        bool closed, std::vector<algebra::Contribution*> contributions)
-    : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)) {
+    : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), presence_(mesh) {
   add_conduction(materials);
+  if (!conditions.absent_bodies.empty())
+    throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
 
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, graph());
@@ -42,13 +45,15 @@ HeatSystem::~HeatSystem() = default;
 
 algebra::NodeGraph HeatSystem::graph() const {
   algebra::NodeGraph graph(mesh_);
-  for (const mesh::Block& block : mesh_.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+  for (const mesh::Block& block : mesh_.blocks)
+    if (presence_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   return graph;
 }
 
 void HeatSystem::bind() {
-  for (const auto& block : conduction_) block->bind(*matrix_);
+  for (const auto& block : conduction_)
+    if (block) block->bind(*matrix_);
   for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
   for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
 }
@@ -62,8 +67,9 @@ bool HeatSystem::follow_graph() {
 
 void HeatSystem::add_conditions(const Conditions& conditions) {
   const auto add_surface = [&](const auto& condition) {
-    surfaces_.emplace_back(mesh_, kind_, find(mesh_.surfaces, condition.surface, "surface"), condition.name,
-                           SurfaceLaw(condition), closed_);
+    surfaces_.emplace_back(mesh_, kind_,
+                           presence_.part(mesh_, find(mesh_.surfaces, condition.surface, "surface")),
+                           condition.name, SurfaceLaw(condition), closed_);
   };
   for (const Flux& flux : conditions.fluxes) add_surface(flux);
   for (const Film& film : conditions.films) add_surface(film);
@@ -74,14 +80,34 @@ void HeatSystem::add_conditions(const Conditions& conditions) {
   source_power_.resize(sources_.size());
 }
 
-// The graph need not change: the nodes of a face are nodes of one element.
-void HeatSystem::set_conditions(const Conditions& conditions) {
+// Without a body that leaves the graph need not change: the nodes of a face are nodes of one element.
+bool HeatSystem::set_conditions(const Conditions& conditions) {
+  const algebra::Presence presence(mesh_, conditions.absent_bodies);
+  const bool leaves = presence != presence_;
+  if (leaves) remove_bodies(presence);
   surfaces_.clear();
   sources_.clear();
   prescribed_.clear();
   add_conditions(conditions);
+  if (leaves) matrix_->set_graph(graph());
   matrix_->set_fixed(fixed_);
-  for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
+  if (leaves)
+    bind();
+  else
+    for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
+  return leaves;
+}
+
+void HeatSystem::remove_bodies(const algebra::Presence& presence) {
+  for (std::size_t b = 0; b < conduction_.size(); ++b) {
+    const int body = mesh_.blocks[b].body;
+    if (presence.body(body) && !presence_.body(body))
+      throw std::invalid_argument("a body that has gone cannot come back");
+    if (presence.body(body)) continue;
+    conduction_[b].reset();
+    conductivity_[static_cast<std::size_t>(body)].nodes.clear();
+  }
+  presence_ = presence;
 }
 
 void HeatSystem::add_conduction(const std::vector<material::Material>& materials) {
@@ -110,7 +136,7 @@ void HeatSystem::add_sources(const std::vector<Source>& sources) {
     const int body = find(bodies, source.body, "body");
     std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
     for (const mesh::Block& block : mesh_.blocks) {
-      if (block.body != body) continue;
+      if (block.body != body || !presence_.body(body)) continue;
       const PackVector<Lane> weights =
           closed_ ? mesh::nodal_weights(mesh_, block, kind_) : mesh::basis_integrals(mesh_, block, kind_);
       const int n = mesh::node_count(block.shape);
@@ -134,6 +160,10 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
   for (const PrescribedTemperature& c : conditions) prescribed_.push_back({c.name, c.value, {}});
   fixed_.assign(mesh_.x.size(), 0);
   for (std::size_t node = 0; node < holder.size(); ++node) {
+    if (!presence_.node(static_cast<Index>(node))) {
+      fixed_[node] = 1;
+      continue;
+    }
     if (holder[node] < 0) continue;
     fixed_[node] = 1;
     prescribed_[static_cast<std::size_t>(holder[node])].nodes.push_back(static_cast<Index>(node));
@@ -187,7 +217,7 @@ double HeatSystem::add_flows(std::span<const double> temperature) {
   double moved = 0;
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     const NodalTable& k = conductivity_[static_cast<std::size_t>(mesh_.blocks[b].body)];
-    conduction_[b]->add_heat(temperature, {k.value, k.slope}, local_);
+    if (conduction_[b]) conduction_[b]->add_heat(temperature, {k.value, k.slope}, local_);
   }
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     surface_power_[s] = surfaces_[s].add_residual(temperature, supplied_);
@@ -219,7 +249,7 @@ void HeatSystem::assemble(std::span<const double> temperature, bool exact) {
   update_conductivity(temperature, exact);
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     const NodalTable& k = conductivity_[static_cast<std::size_t>(mesh_.blocks[b].body)];
-    conduction_[b]->add_tangent(temperature, {k.value, k.slope}, exact, *matrix_);
+    if (conduction_[b]) conduction_[b]->add_tangent(temperature, {k.value, k.slope}, exact, *matrix_);
   }
   for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
 }
@@ -252,7 +282,8 @@ std::vector<HeatSystem::Power> HeatSystem::reaction_powers(std::span<const doubl
 
 std::size_t HeatSystem::bytes() const {
   std::size_t total = matrix_->bytes() + (local_.capacity() + contributed_.capacity()) * sizeof(double);
-  for (const auto& block : conduction_) total += block->bytes();
+  for (const auto& block : conduction_)
+    if (block) total += block->bytes();
   for (const NodalTable& k : conductivity_)
     total += k.nodes.capacity() * sizeof(Index) + (k.value.capacity() + k.slope.capacity()) * sizeof(double);
   return total;

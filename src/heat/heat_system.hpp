@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "algebra/contribution.hpp"
+#include "algebra/presence.hpp"
 #include "heat/conditions.hpp"
 #include "heat/conduction_block.hpp"
 #include "heat/surface_heat.hpp"
@@ -22,19 +23,22 @@ namespace solidus::heat {
 class HeatSystem {
  public:
   /// @param couple_elements what the storage term needs besides conduction is the same graph
-  /// Throws InputError for a condition that names no group of the mesh.
+  /// Throws InputError for a condition that names no group of the mesh, std::invalid_argument for absent
+  /// bodies: they leave later.
   HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
              const Conditions& conditions, bool closed, std::vector<algebra::Contribution*> contributions);
   ~HeatSystem();
 
-  /// From here on other conditions hold. Throws InputError as the constructor does.
-  void set_conditions(const Conditions& conditions);
+  /// From here on other conditions hold. Where bodies leave, the matrix gets another pattern; then true.
+  /// Throws InputError as the constructor does, std::invalid_argument for a body that comes back. Collective.
+  bool set_conditions(const Conditions& conditions);
+  const algebra::Presence& presence() const { return presence_; }
   void set_time(double time);
   /// Off: nothing flows, only the contributions that store are terms.
   void exchange(bool on) { exchange_ = on; }
   /// Writes the prescribed temperatures of the time set, ghosts too.
   void prescribe(std::span<double> temperature) const;
-  /// [local node]: one where the temperature is prescribed.
+  /// [local node]: one where the temperature is prescribed, or stays since the bodies there have gone.
   const std::vector<char>& fixed() const { return fixed_; }
 
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
@@ -85,6 +89,7 @@ class HeatSystem {
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);
   void add_conditions(const Conditions& conditions);
+  void remove_bodies(const algebra::Presence& presence);
   double add_flows(std::span<const double> temperature);
   void update_conductivity(std::span<const double> temperature, bool slopes);
 
@@ -92,8 +97,10 @@ class HeatSystem {
   AnalysisKind kind_;
   bool closed_;
   std::vector<algebra::Contribution*> contributions_;
-  std::vector<std::unique_ptr<ConductionBlock>> conduction_;  ///< one per mesh block
-  std::vector<NodalTable> conductivity_;                      ///< one per body
+  algebra::Presence presence_;
+  std::vector<std::unique_ptr<ConductionBlock>>
+      conduction_;                        ///< one per mesh block, null of a body that left
+  std::vector<NodalTable> conductivity_;  ///< one per body
   std::vector<SurfaceHeat> surfaces_;
   std::vector<Volume> sources_;
   std::vector<Prescribed> prescribed_;

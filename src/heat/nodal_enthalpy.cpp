@@ -47,6 +47,33 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   }
 }
 
+double NodalEnthalpy::held_by(const algebra::Presence& presence, Index node, double heat,
+                              double temperature) const {
+  const auto list = shares(node);
+  if (std::all_of(list.begin(), list.end(), [&](const Share& s) { return presence.body(s.body); }))
+    return heat;
+  const double share = plateau_share(node, heat, temperature);
+  double held = 0;
+  for (const Share& s : list) {
+    if (!presence.body(s.body)) continue;
+    const double low = curve(s).lower(temperature);
+    held += s.weight * (low + share * (curve(s).upper(temperature) - low));
+  }
+  return held;
+}
+
+void NodalEnthalpy::remove_bodies(const algebra::Presence& presence) {
+  std::vector<std::size_t> start = {0};
+  std::vector<Share> left;
+  for (Index node = 0; node < n_nodes(); ++node) {
+    for (const Share& s : shares(node))
+      if (presence.body(s.body)) left.push_back(s);
+    start.push_back(left.size());
+  }
+  start_ = std::move(start);
+  shares_ = std::move(left);
+}
+
 double NodalEnthalpy::lower(Index node, double temperature) const {
   double h = 0;
   for (const Share& s : shares(node)) h += s.weight * curve(s).lower(temperature);
@@ -93,6 +120,7 @@ double NodalEnthalpy::mixed_temperature(std::span<const Share> shares, double he
 
 double NodalEnthalpy::temperature(Index node, double heat) const {
   const auto list = shares(node);
+  assert(!list.empty());
   if (list.size() == 1) return curve(list[0]).temperature(heat / list[0].weight);
   bool plateau = false;
   return mixed_temperature(list, heat, plateau);
@@ -100,6 +128,7 @@ double NodalEnthalpy::temperature(Index node, double heat) const {
 
 double NodalEnthalpy::slope(Index node, double heat) const {
   const auto list = shares(node);
+  if (list.empty()) return 0.0;
   if (list.size() == 1) return curve(list[0]).inverse_slope(heat / list[0].weight) / list[0].weight;
   bool plateau = false;
   const double temperature = mixed_temperature(list, heat, plateau);

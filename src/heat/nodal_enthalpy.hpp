@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "algebra/presence.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -19,10 +20,15 @@ class NodalEnthalpy {
   /// @param materials one per body; copied as far as needed
   NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials);
 
+  /// The part of a node's heat that bodies which are there hold [J].
+  double held_by(const algebra::Presence& presence, Index node, double heat, double temperature) const;
+  /// Nodes lose what they hold of bodies that are not there; nodes of theirs alone store nothing.
+  void remove_bodies(const algebra::Presence& presence);
+
   Index n_nodes() const { return static_cast<Index>(start_.size()) - 1; }  ///< owned ones
-  /// Θ_i(H) [K]; H in joules.
+  /// Θ_i(H) [K]; H in joules. Not of a node that stores nothing.
   double temperature(Index node, double heat) const;
-  /// dΘ_i/dH [K/J]; zero within a plateau.
+  /// dΘ_i/dH [K/J]; zero within a plateau and where nothing is stored.
   double slope(Index node, double heat) const;
   /// H_i at a temperature; at a jump both ends.
   double lower(Index node, double temperature) const;
@@ -48,6 +54,7 @@ class NodalEnthalpy {
   bool can_melt(int body) const {
     return materials_[static_cast<std::size_t>(body)].solidification() != nullptr;
   }
+  const material::Material& material(int body) const { return materials_[static_cast<std::size_t>(body)]; }
   /// Σ_m w_im of something that the materials around the node have per volume.
   template <class PerVolume>
   double sum(Index node, const PerVolume& per_volume) const {

@@ -123,9 +123,52 @@ std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
   return std::make_unique<ThermalIteration>(*this);
 }
 
-void ThermalPhase::set_conditions(const Conditions& conditions) {
-  system_->set_conditions(conditions);
-  solver_->forget();
+double ThermalPhase::set_conditions(const Conditions& conditions, ThermalState* state) {
+  const algebra::Presence before = system_->presence();
+  if (!system_->set_conditions(conditions)) {
+    solver_->forget();
+    return 0;
+  }
+  const double carried = state != nullptr ? take_out(system_->presence(), *state) : 0.0;
+  remove_bodies(before);
+  solver_->reset();
+  return carried;
+}
+
+const algebra::Presence& ThermalPhase::presence() const {
+  return system_->presence();
+}
+
+/// The heat of the bodies that are not there, out of the nodes that hold it.
+double ThermalPhase::take_out(const algebra::Presence& presence, ThermalState& state) const {
+  constexpr double k_counted_from = 293.15;
+  double carried = 0;
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+    const double heat = heat_at(state, i), cold = storage_->upper(i, k_counted_from);
+    const double left = storage_->held_by(presence, i, heat, state.temperature[at(i)]);
+    carried += heat - left - (cold - storage_->held_by(presence, i, cold, k_counted_from));
+    if (!state.enthalpy.empty()) state.enthalpy[at(i)] = left;
+  }
+  ghosts_.update(state.enthalpy, 1);
+  return algebra::global_sum(carried);
+}
+
+void ThermalPhase::remove_bodies(const algebra::Presence& before) {
+  const algebra::Presence& now = system_->presence();
+  storage_->remove_bodies(now);
+  if (enthalpy_newton_) enthalpy_newton_->storage_changed();
+  if (options_.integration == Integration::closed) return;
+  std::vector<std::unique_ptr<PointStorage>> left;
+  auto points = points_.begin();
+  for (const mesh::Block& block : mesh_.blocks) {
+    if (!before.body(block.body)) continue;
+    if (now.body(block.body)) left.push_back(std::move(*points));
+    ++points;
+  }
+  points_ = std::move(left);
+  for (const auto& block : points_) block->bind(system_->matrix());
+  temperature_system_ =
+      std::make_unique<TemperatureSystem>(mesh_, *system_, points_, options_.exact_conductivity);
 }
 
 bool ThermalPhase::follow_graph() {

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "algebra/contribution.hpp"
+#include "algebra/presence.hpp"
 #include "base/types.hpp"
 #include "heat/conditions.hpp"
 #include "heat/sensible_form.hpp"
@@ -85,9 +86,13 @@ class ThermalPhase {
                std::vector<algebra::Contribution*> contributions = {});
   ~ThermalPhase();
 
-  /// From here on other conditions hold; the state goes on as it is. Not between the passes of a step.
-  /// Throws InputError as the constructor does.
-  void set_conditions(const Conditions& conditions);
+  /// From here on other conditions hold; the state goes on as it is, but for the heat of bodies that leave.
+  /// Not between the passes of a step. Throws InputError as the constructor does. Collective.
+  /// @param state  loses what bodies that leave carry away; null where it has lost it before
+  /// Returns that heat, counted from 20 °C [J].
+  double set_conditions(const Conditions& conditions, ThermalState* state = nullptr);
+  /// Who takes part.
+  const algebra::Presence& presence() const;
 
   /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
   /// their heats add up. A body that starts at the temperature of an isothermal change is molten.
@@ -130,6 +135,8 @@ class ThermalPhase {
   /// Drops what the linear solver carried over from earlier steps.
   void forget();
   const mesh::Mesh& mesh() const { return mesh_; }
+  /// Heat content of the nodes; with the open rule of materials whose isothermal changes are spread.
+  const NodalEnthalpy& storage() const { return *storage_; }
   std::size_t bytes() const;
   double seconds_solver() const;
 
@@ -152,6 +159,8 @@ class ThermalPhase {
   /// The start of a step: prescribed temperatures hold.
   ThermalState start(const ThermalState& old, double time);
   double heat_at(const ThermalState& state, Index node) const;
+  double take_out(const algebra::Presence& presence, ThermalState& state) const;
+  void remove_bodies(const algebra::Presence& before);
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const algebra::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;

@@ -15,15 +15,17 @@ namespace {
 constexpr double k_internal_share = 1e-6;
 
 // Bodies that share a node, directly or by way of others, get the same number.
-std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh) {
+std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const algebra::Presence& presence) {
   const std::size_t n = mesh.bodies.size();
   std::vector<int> touching(n * n, 0), first_body(mesh.x.size(), -1);
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::Block& block : mesh.blocks) {
+    if (!presence.body(block.body)) continue;
     for (const Index node : block.nodes) {
       int& first = first_body[static_cast<std::size_t>(node)];
       if (first < 0) first = block.body;
       touching[static_cast<std::size_t>(first) * n + static_cast<std::size_t>(block.body)] = 1;
     }
+  }
   MPI_Allreduce(MPI_IN_PLACE, touching.data(), static_cast<int>(touching.size()), MPI_INT, MPI_MAX,
                 PETSC_COMM_WORLD);
   std::vector<std::size_t> group(n);
@@ -39,16 +41,18 @@ std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh) {
 
 }  // namespace
 
-BodyBalance::BodyBalance(const mesh::Mesh& mesh, int components)
+BodyBalance::BodyBalance(const mesh::Mesh& mesh, const algebra::Presence& presence, int components)
     : components_(components),
-      body_group_(groups_of_bodies(mesh)),
+      body_group_(groups_of_bodies(mesh, presence)),
       node_group_(static_cast<std::size_t>(mesh.n_owned_nodes), 0),
       n_groups_(mesh.bodies.size()),
       sums_(3 * mesh.bodies.size(), 0.0) {
-  for (const mesh::Block& block : mesh.blocks)
+  for (const mesh::Block& block : mesh.blocks) {
+    if (!presence.body(block.body)) continue;
     for (const Index node : block.nodes)
       if (node < mesh.n_owned_nodes)
         node_group_[static_cast<std::size_t>(node)] = body_group_[static_cast<std::size_t>(block.body)];
+  }
 }
 
 void BodyBalance::begin() {

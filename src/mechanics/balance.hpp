@@ -9,14 +9,15 @@
 #include <span>
 #include <vector>
 
+#include "algebra/presence.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::mechanics {
 
 class BodyBalance {
  public:
-  /// Finds which bodies share nodes. Collective.
-  BodyBalance(const mesh::Mesh& mesh, int components);
+  /// Finds which of the bodies that are there share nodes. Collective.
+  BodyBalance(const mesh::Mesh& mesh, const algebra::Presence& presence, int components);
 
   void begin();
   /// Squares of the internal forces of a block before they cancel.

@@ -47,6 +47,10 @@ struct Conditions {
   std::vector<Traction> tractions;
   std::vector<PlaneFace> plane_faces;
   std::array<double, 3> gravity{};  ///< acceleration [m/s²], times each body's density
+  /// Names of the bodies that take no part: those that only conduct heat, and those that have gone. Their
+  /// elements carry nothing, nodes of theirs alone stay where they are, and conditions hold only where
+  /// another body is.
+  std::vector<std::string> absent_bodies;
 };
 
 }  // namespace solidus::mechanics

@@ -39,7 +39,7 @@ void InertialForces::set_initial_velocity(const mesh::Mesh& mesh, AnalysisKind k
     }
   }
   for (std::size_t node = 0; node < mass.size(); ++node)
-    for (std::size_t i = 0; i < n; ++i) initial_velocity_[node * n + i] /= mass[node];
+    for (std::size_t i = 0; i < n && mass[node] > 0; ++i) initial_velocity_[node * n + i] /= mass[node];
 }
 
 void InertialForces::begin(const MechanicalState& old, double dt) {

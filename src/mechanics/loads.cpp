@@ -21,13 +21,16 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
   throw InputError({}, std::string("no ") + what + " '" + name + "' in the mesh", allowed);
 }
 
-/// Calls visit(owned node, ∫ N dA, ∫ N n dA) for every node of every face. Closed surfaces of quadratic
+/// Calls visit(owned node, ∫ N dA, ∫ N n dA) for every node of every face that is there, n out of the body
+/// there. Closed surfaces of quadratic
 /// shapes are integrated with the degree that is exact for straight faces: N times the radius.
-void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface,
+void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+               const mesh::Surface& surface,
                const std::function<void(Index, double, const mesh::Point&)>& visit) {
-  for (const mesh::Block& faces : surface.faces) {
+  for (const mesh::Block& faces : presence.part(mesh, surface).faces) {
     const mesh::FaceGeometry geometry(mesh, faces, kind,
                                       mesh::gauss_rule(faces.shape, 2 * mesh::order(faces.shape) + 1));
+    const double out = presence.reversed(faces) ? -1.0 : 1.0;
     for (Index face = 0; face < geometry.n_faces; ++face)
       for (int a = 0; a < geometry.n_nodes; ++a) {
         const Index node = faces.element(face)[a];
@@ -39,7 +42,7 @@ void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& s
           const double w =
               geometry.weight[at] * geometry.values[static_cast<std::size_t>(q * geometry.n_nodes + a)];
           area += w;
-          for (std::size_t i = 0; i < 3; ++i) normal[i] += w * geometry.normal[at][i];
+          for (std::size_t i = 0; i < 3; ++i) normal[i] += out * w * geometry.normal[at][i];
         }
         visit(node, area, normal);
       }
@@ -82,14 +85,15 @@ void merge(std::vector<std::pair<Index, double>>& force) {
 
 }  // namespace
 
-Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, std::span<const double> start)
+Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions,
+             const algebra::Presence& presence, std::span<const double> start)
     : conditions_(std::move(conditions)),
       components_(displacement_components(kind)),
       constant_(static_cast<std::size_t>(mesh.n_owned_nodes * components_), 0.0),
       fixed_(static_cast<std::size_t>(mesh.n_nodes() * components_), 0),
       supported_(fixed_.size(), 0) {
-  for (const Pressure& pressure : conditions_.pressures) add_surface(mesh, kind, pressure);
-  for (const Traction& traction : conditions_.tractions) add_surface(mesh, kind, traction);
+  for (const Pressure& pressure : conditions_.pressures) add_surface(mesh, kind, presence, pressure);
+  for (const Traction& traction : conditions_.tractions) add_surface(mesh, kind, presence, traction);
   if (kind == AnalysisKind::axisymmetric) {
     double largest = 0;
     for (const mesh::Point& x : mesh.x) largest = std::max(largest, std::abs(x[0]));
@@ -99,26 +103,33 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, s
         axis.entries.push_back(node * components_);
     supports_.push_back(std::move(axis));
   }
-  for (const PrescribedDisplacement& condition : conditions_.displacements) {
-    if (condition.component < 0 || condition.component >= components_)
-      throw InputError({}, "displacement component " + std::to_string(condition.component) + " of '" +
-                               condition.node_set + "' does not exist in this analysis");
-    Support support{condition.value, {}, {}};
-    for (Index node : find(mesh.node_sets, condition.node_set, "group"))
-      support.entries.push_back(node * components_ + condition.component);
-    if (condition.relative)
-      for (const Index entry : support.entries)
-        support.start.push_back(start.empty() ? 0.0 : start[static_cast<std::size_t>(entry)]);
-    for (const Index entry : support.entries) supported_[static_cast<std::size_t>(entry)] = 1;
-    supports_.push_back(std::move(support));
-  }
+  for (const PrescribedDisplacement& condition : conditions_.displacements)
+    add_support(mesh, presence, condition, start);
   for (const Support& support : supports_)
     for (Index entry : support.entries) fixed_[static_cast<std::size_t>(entry)] = 1;
   std::vector<char> tied(conditions_.plane_faces.empty() ? 0 : fixed_.size(), 0);
-  for (const PlaneFace& face : conditions_.plane_faces) add_plane_face(mesh, face, tied);
+  for (const PlaneFace& face : conditions_.plane_faces) add_plane_face(mesh, presence, face, tied);
+  for (Index node = 0; node < mesh.n_nodes(); ++node)
+    if (!presence.node(node)) std::fill_n(fixed_.begin() + node * components_, components_, 1);
 }
 
-void Loads::add_plane_face(const mesh::Mesh& mesh, const PlaneFace& face, std::vector<char>& tied) {
+void Loads::add_support(const mesh::Mesh& mesh, const algebra::Presence& presence,
+                        const PrescribedDisplacement& condition, std::span<const double> start) {
+  if (condition.component < 0 || condition.component >= components_)
+    throw InputError({}, "displacement component " + std::to_string(condition.component) + " of '" +
+                             condition.node_set + "' does not exist in this analysis");
+  Support support{condition.value, {}, {}};
+  for (Index node : find(mesh.node_sets, condition.node_set, "group"))
+    if (presence.node(node)) support.entries.push_back(node * components_ + condition.component);
+  if (condition.relative)
+    for (const Index entry : support.entries)
+      support.start.push_back(start.empty() ? 0.0 : start[static_cast<std::size_t>(entry)]);
+  for (const Index entry : support.entries) supported_[static_cast<std::size_t>(entry)] = 1;
+  supports_.push_back(std::move(support));
+}
+
+void Loads::add_plane_face(const mesh::Mesh& mesh, const algebra::Presence& presence, const PlaneFace& face,
+                           std::vector<char>& tied) {
   const std::vector<Index>& nodes = find(mesh.node_sets, face.node_set, "group");
   const int normal = common_coordinate(mesh, nodes);
   if (normal < 0)
@@ -128,6 +139,7 @@ void Loads::add_plane_face(const mesh::Mesh& mesh, const PlaneFace& face, std::v
   std::vector<Index> group;
   bool is_fixed = false, is_tied = false;
   for (const Index node : nodes) {
+    if (!presence.node(node)) continue;
     const Index entry = node * components_ + normal;
     const auto at = static_cast<std::size_t>(entry);
     is_fixed = is_fixed || fixed_[at] != 0;
@@ -147,9 +159,10 @@ void Loads::add_plane_face(const mesh::Mesh& mesh, const PlaneFace& face, std::v
   ties_.push_back(std::move(group));
 }
 
-void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Pressure& pressure) {
+void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+                        const Pressure& pressure) {
   Unit unit{pressure.value, {}};
-  integrate(mesh, kind, find(mesh.surfaces, pressure.surface, "surface"),
+  integrate(mesh, kind, presence, find(mesh.surfaces, pressure.surface, "surface"),
             [&](Index node, double, const mesh::Point& normal) {
               for (int i = 0; i < components_; ++i)
                 unit.force.emplace_back(node * components_ + i, -normal[static_cast<std::size_t>(i)]);
@@ -158,11 +171,12 @@ void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Pressur
   units_.push_back(std::move(unit));
 }
 
-void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Traction& traction) {
+void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+                        const Traction& traction) {
   const mesh::Surface& surface = find(mesh.surfaces, traction.surface, "surface");
   for (int i = 0; i < components_; ++i) {
     Unit unit{traction.value[static_cast<std::size_t>(i)], {}};
-    integrate(mesh, kind, surface, [&](Index node, double area, const mesh::Point&) {
+    integrate(mesh, kind, presence, surface, [&](Index node, double area, const mesh::Point&) {
       unit.force.emplace_back(node * components_ + i, area);
     });
     merge(unit.force);

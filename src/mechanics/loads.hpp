@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "algebra/presence.hpp"
 #include "mechanics/conditions.hpp"
 #include "mesh/mesh.hpp"
 
@@ -14,17 +15,19 @@ class Loads {
  public:
   /// Throws InputError for a condition that names no group of the mesh, and for a plane face that is not
   /// normal to a coordinate, prescribed in that direction or tied to another. Collective.
-  /// @param start  displacement that relative ones count from, [local node][component]; empty: zero
-  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, std::span<const double> start = {});
+  /// @param presence  that of the conditions' bodies
+  /// @param start     displacement that relative ones count from, [local node][component]; empty: zero
+  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, const algebra::Presence& presence,
+        std::span<const double> start = {});
 
   /// Adds a load that does not change in time, [local node][component] [N].
   void add_constant(std::span<const double> force);
   /// The loads at a time, [owned node][component] [N].
   void evaluate(double time, std::span<double> force) const;
 
-  /// Which degrees of freedom are prescribed, [local node][component].
+  /// Which degrees of freedom are prescribed or belong to no body that is there, [local node][component].
   const std::vector<char>& fixed() const { return fixed_; }
-  /// The same without the radial direction on an axis of revolution, which no support holds.
+  /// The same without what no support holds: the radial direction on an axis of revolution, absent bodies.
   const std::vector<char>& supported() const { return supported_; }
   /// Writes the prescribed values of a time into a displacement, [local node][component].
   void prescribe(double time, std::span<double> displacement) const;
@@ -45,9 +48,14 @@ class Loads {
     std::vector<Index> entries;  ///< local degrees of freedom
     std::vector<double> start;   ///< of a relative one, one per entry; else empty
   };
-  void add_plane_face(const mesh::Mesh& mesh, const PlaneFace& face, std::vector<char>& tied);
-  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Pressure& pressure);
-  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const Traction& traction);
+  void add_support(const mesh::Mesh& mesh, const algebra::Presence& presence,
+                   const PrescribedDisplacement& condition, std::span<const double> start);
+  void add_plane_face(const mesh::Mesh& mesh, const algebra::Presence& presence, const PlaneFace& face,
+                      std::vector<char>& tied);
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+                   const Pressure& pressure);
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+                   const Traction& traction);
 
   Conditions conditions_;
   int components_;

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/errors.hpp"
+#include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
 
@@ -24,6 +26,7 @@ constexpr double k_initial_acceleration = 1e-13;
 BlockHistory no_stress(const BlockHistory& history) {
   constexpr int k_components = 6;
   BlockHistory stress{k_components, history.n_points, {}};
+  if (history.n_components == 0) return stress;  // of a block that takes no part
   const std::size_t n_points = history.values.size() / static_cast<std::size_t>(history.n_components);
   stress.values.assign(n_points * k_components, Lane(0.0));
   return stress;
@@ -50,35 +53,25 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                                  MechanicsOptions options, std::vector<algebra::Contribution*> contributions)
     : mesh_(mesh),
       kind_(kind),
+      materials_(materials),
       components_(displacement_components(kind)),
       options_(std::move(options)),
       contributions_(std::move(contributions)),
-      loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions))),
+      presence_(mesh, conditions.absent_bodies),
+      loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions), presence_)),
       ghosts_(mesh),
-      balance_(mesh, components_),
+      balance_(mesh, presence_, components_),
       initial_temperature_(initial_temperature.begin(), initial_temperature.end()) {
   assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
-  const auto n = static_cast<std::size_t>(components_);
-  const auto& gravity = loads_->conditions().gravity;
-  std::vector<double> mass(mesh.x.size(), 0.0);
-  weight_.assign(mesh.x.size() * n, 0.0);
-  for (const mesh::Block& block : mesh.blocks) {
-    const material::Material& material = materials[static_cast<std::size_t>(block.body)];
-    plastic_ = plastic_ || material.flow.has_value();
-    blocks_.push_back(make_block_kernel(mesh, block, kind, material, options_.mapping, options_.b_bar));
-    blocks_.back()->add_nodal_volume(material.density, mass);
-  }
+  create_blocks(materials);
   if (options_.dynamics) {
     std::vector<double> density;
-    for (const material::Material& material : materials) density.push_back(material.density);
+    for (std::size_t b = 0; b < materials.size(); ++b)
+      density.push_back(presence_.body(static_cast<int>(b)) ? materials[b].density : 0.0);
     inertia_ = std::make_unique<InertialForces>(mesh, kind, components_, density, *options_.dynamics);
-    inertial_.resize(static_cast<std::size_t>(mesh.n_owned_nodes) * n);
-    // The weight of the very same masses: a free body falls as one.
-    const std::vector<double> ones(mesh.x.size(), 1.0);
-    inertia_->mass().multiply(ones, 1, std::span(mass).first(static_cast<std::size_t>(mesh.n_owned_nodes)));
+    inertial_.resize(static_cast<std::size_t>(mesh.n_owned_nodes * components_));
   }
-  for (std::size_t node = 0; node < mass.size(); ++node)
-    for (std::size_t i = 0; i < n; ++i) weight_[node * n + i] = mass[node] * gravity[i];
+  find_weight(loads_->conditions().gravity);
   loads_->add_constant(weight_);
 
   for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
@@ -91,9 +84,58 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 
 MechanicalPhase::~MechanicalPhase() = default;
 
+void MechanicalPhase::create_blocks(const std::vector<material::Material>& materials) {
+  for (const mesh::Block& block : mesh_.blocks) {
+    const material::Material& material = materials[static_cast<std::size_t>(block.body)];
+    if (!presence_.body(block.body)) {
+      blocks_.push_back(std::make_unique<AbsentBlock>(mesh_, block, kind_, material));
+      continue;
+    }
+    plastic_ = plastic_ || material.flow.has_value();
+    blocks_.push_back(make_block_kernel(mesh_, block, kind_, material, options_.mapping, options_.b_bar));
+  }
+}
+
+std::vector<double> MechanicalPhase::nodal_mass() const {
+  std::vector<double> mass(mesh_.x.size(), 0.0);
+  if (inertia_) {
+    // The weight of the very same masses: a free body falls as one.
+    const std::vector<double> ones(mesh_.x.size(), 1.0);
+    inertia_->mass().multiply(ones, 1, std::span(mass).first(static_cast<std::size_t>(mesh_.n_owned_nodes)));
+    return mass;
+  }
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    blocks_[b]->add_nodal_volume(materials_[static_cast<std::size_t>(mesh_.blocks[b].body)].density, mass);
+  return mass;
+}
+
+void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
+  const std::vector<double> mass = nodal_mass();
+  const auto n = static_cast<std::size_t>(components_);
+  weight_.resize(mass.size() * n);
+  for (std::size_t node = 0; node < mass.size(); ++node)
+    for (std::size_t i = 0; i < n; ++i) weight_[node * n + i] = mass[node] * gravity[i];
+}
+
+/// What the elements of bodies that have gone need is given back.
+void MechanicalPhase::remove_bodies(const algebra::Presence& presence) {
+  if (inertia_) throw std::invalid_argument("bodies can leave in quasi-statics only");
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const mesh::Block& block = mesh_.blocks[b];
+    if (presence.body(block.body) && !presence_.body(block.body))
+      throw std::invalid_argument("a body that has gone cannot come back");
+    if (presence.body(block.body) || !presence_.body(block.body)) continue;
+    blocks_[b] =
+        std::make_unique<AbsentBlock>(mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)]);
+  }
+  presence_ = presence;
+  balance_ = BodyBalance(mesh_, presence_, components_);
+}
+
 algebra::NodeGraph MechanicalPhase::graph() const {
   algebra::NodeGraph graph(mesh_);
-  for (const mesh::Block& block : mesh_.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+  for (const mesh::Block& block : mesh_.blocks)
+    if (presence_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   return graph;
 }
@@ -121,11 +163,16 @@ void MechanicalPhase::create_solver() {
 }
 
 void MechanicalPhase::set_conditions(Conditions conditions, std::span<const double> start) {
-  auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), start);
+  const algebra::Presence presence(mesh_, conditions.absent_bodies);
+  auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), presence, start);
+  const bool same_matrix = presence == presence_ && !algebra::any_process(loads->ties() != loads_->ties());
+  if (presence != presence_) {
+    remove_bodies(presence);
+    find_weight(loads->conditions().gravity);
+  }
   loads->add_constant(weight_);
-  const bool same_ties = !algebra::any_process(loads->ties() != loads_->ties());
   loads_ = std::move(loads);
-  if (same_ties) {
+  if (same_matrix) {
     matrix_->set_fixed(loads_->fixed());
     solver_->forget();
   } else {
@@ -338,7 +385,10 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     history[b].n_components = old.history[b].n_components;
     history[b].n_points = old.history[b].n_points;
-    history[b].values.resize(old.history[b].values.size());
+    if (presence_.body(mesh_.blocks[b].body))
+      history[b].values.resize(old.history[b].values.size());
+    else  // of the layout that a checkpoint knows
+      history[b].values.assign(old.history[b].values.size(), Lane(0.0));
     const BlockWork work = blocks_[b]->finish(old.displacement, x, history[b]);
     total.internal_work += work.internal_work;
     total.dissipation += work.dissipation;

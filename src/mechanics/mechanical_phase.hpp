@@ -119,7 +119,8 @@ struct MechanicalPass {
 
 class MechanicalPhase : private algebra::NonlinearSystem {
  public:
-  /// @param materials            one per body of the mesh; kept by reference
+  /// @param materials            one per body of the mesh; kept by reference. Those of bodies that are absent
+  ///                             from the start need no mechanical properties
   /// @param initial_temperature  Θ_0 of 2.51 [K], [local node]
   /// @param contributions        further terms in the displacement (contact); must outlive the phase
   /// Throws InputError for a condition that names no group of the mesh or contradicts another.
@@ -133,10 +134,14 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   Mapping mapping() const { return options_.mapping; }
   const MechanicsOptions& options() const { return options_; }
   /// From here on other conditions hold; the state goes on as it is. Not between the passes of a step. A
-  /// matrix of this phase that others refer to may be made anew (coupling/scheme.hpp). Collective.
+  /// matrix of this phase that others refer to may be made anew (coupling/scheme.hpp). The stress of bodies
+  /// that have gone is gone with the next step, in which what they held springs back; quasi-statics only.
+  /// Collective.
   /// @param start  displacement that relative supports count from, [local node][component]; empty: zero
-  /// Throws InputError as the constructor does.
+  /// Throws InputError as the constructor does, and std::invalid_argument for a body that comes back.
   void set_conditions(Conditions conditions, std::span<const double> start);
+  /// Who takes part.
+  const algebra::Presence& presence() const { return presence_; }
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
   /// prescribed displacements, and the accelerations that the loads of that time cause. Collective.
   MechanicalState initial_state();
@@ -202,6 +207,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
  private:
   algebra::NodeGraph graph() const;
+  void create_blocks(const std::vector<material::Material>& materials);
+  void remove_bodies(const algebra::Presence& presence);
+  /// Of the bodies that are there.
+  std::vector<double> nodal_mass() const;
+  void find_weight(const std::array<double, 3>& gravity);
   void create_matrix();
   void bind();
   void create_solver();
@@ -215,9 +225,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
+  const std::vector<material::Material>& materials_;
   int components_;
   MechanicsOptions options_;
   std::vector<algebra::Contribution*> contributions_;
+  algebra::Presence presence_;
   bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;

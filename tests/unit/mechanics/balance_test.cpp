@@ -32,7 +32,7 @@ double norm(const std::vector<double>& a) {
 
 TEST(BodyBalance, ALightBodyIsNotMeasuredAgainstAHeavilyLoadedOne) {
   const mesh::Mesh mesh = two_bodies();
-  mechanics::BodyBalance balance(mesh, 2);
+  mechanics::BodyBalance balance(mesh, algebra::Presence(mesh), 2);
   const std::vector<double> heavy = vertical_force(mesh, false, 1e6),
                             weight = vertical_force(mesh, true, 1.0);
   std::vector<double> floating = vertical_force(mesh, true, -1.0);  // nothing carries the weight
@@ -46,7 +46,7 @@ TEST(BodyBalance, ALightBodyIsNotMeasuredAgainstAHeavilyLoadedOne) {
 
 TEST(BodyBalance, SupportForcesAreExchangedAndTheAxisIsNot) {
   const mesh::Mesh mesh = two_bodies();
-  mechanics::BodyBalance balance(mesh, 2);
+  mechanics::BodyBalance balance(mesh, algebra::Presence(mesh), 2);
   const std::vector<double> r = vertical_force(mesh, true, 2.0);
   const std::vector<char> all(r.size(), 1), none(r.size(), 0);
   balance.begin();
@@ -59,7 +59,7 @@ TEST(BodyBalance, SupportForcesAreExchangedAndTheAxisIsNot) {
 
 TEST(BodyBalance, WithoutExchangeASmallShareOfTheInternalForcesIsTheReference) {
   const mesh::Mesh mesh = two_bodies();
-  mechanics::BodyBalance balance(mesh, 2);
+  mechanics::BodyBalance balance(mesh, algebra::Presence(mesh), 2);
   const std::vector<double> r = vertical_force(mesh, true, 1e-3);
   const std::vector<char> none(r.size(), 0);
   balance.begin();

@@ -1,0 +1,40 @@
+/// Which bodies of a mesh take part in a phase, and which nodes and faces are there with them.
+///
+/// A node is there if an element of a body that is there touches it; a face, if such an element stands on one
+/// of its sides.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace solidus::algebra {
+
+class Presence {
+ public:
+  /// @param absent  names of bodies of the mesh
+  /// Throws std::invalid_argument for a name that is none. Collective.
+  explicit Presence(const mesh::Mesh& mesh, std::span<const std::string> absent = {});
+
+  /// Everybody is there.
+  bool complete() const { return complete_; }
+  bool body(int body) const { return bodies_[static_cast<std::size_t>(body)] != 0; }
+  /// [local node], ghosts included.
+  bool node(Index node) const { return nodes_[static_cast<std::size_t>(node)] != 0; }
+  /// The faces of a surface of that mesh that are there, in blocks like its own; without its nodes.
+  mesh::Surface part(const mesh::Mesh& mesh, const mesh::Surface& surface) const;
+  /// Faces of a body that is not there (where two bodies share nodes they belong to the first of them,
+  /// mesh/faces.hpp): the other body lies on the side to which their normals point.
+  bool reversed(const mesh::Block& faces) const { return faces.body >= 0 && !body(faces.body); }
+
+  bool operator==(const Presence&) const = default;
+
+ private:
+  bool complete_ = true;
+  std::vector<char> bodies_;  ///< [body of the mesh]
+  std::vector<char> nodes_;   ///< [local node]
+};
+
+}  // namespace solidus::algebra

@@ -1,0 +1,47 @@
+/// A mesh block that takes no part in mechanics: of a body that only conducts heat or that has gone. No
+/// stiffness, stress, history, weight or structural heat; its fields are zero.
+#pragma once
+
+#include "mechanics/block_kernel.hpp"
+#include "mechanics/coupled_kernel.hpp"
+#include "mechanics/structural_points.hpp"
+
+namespace solidus::mechanics {
+
+class AbsentBlock final : public BlockKernel, public CoupledKernel {
+ public:
+  /// Keeps a reference to the block.
+  AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+              const material::Material& material);
+
+  bool symmetric() const override { return true; }
+  void bind(const algebra::BlockMatrix&) override {}
+  BlockHistory initial_history() const override { return {}; }
+  double prepare(const StepStart&) override { return 0; }
+  double add_forces(std::span<const double>, std::span<double>) override { return 0; }
+  void add_tangent(std::span<const double>, algebra::BlockMatrix&) override {}
+  BlockWork finish(std::span<const double>, std::span<const double>, BlockHistory&) override { return {}; }
+  void rest(const StepStart&) override {}
+  std::string failure(std::span<const double>) const override { return {}; }
+  ElementFields fields() const override;
+  void add_nodal_volume(double, std::span<double>) const override {}
+
+  void spread_heat_as_stored(const PackVector<Lane>&) override {}
+  void add_structural_heat(StructuralForm, std::span<const double>, bool, std::span<double>) const override {}
+  void begin_heat_stage(const algebra::Stage&, std::span<const double>) override {}
+  const StructuralPoints& structural_points() const override { return points_; }
+  std::size_t bytes() const override { return 0; }
+
+  void bind_heat(const algebra::BlockMatrix&) override {}
+  void add_coupling(StructuralForm, std::span<const double>, std::span<const double>, std::span<const double>,
+                    algebra::CoupledMatrix&) override {}
+  void carry(double, std::span<const double>) override {}
+  void drop_carried() override {}
+
+ private:
+  const mesh::Block& block_;
+  mesh::BlockGeometry nowhere_;  ///< of no element
+  StructuralPoints points_;      ///< there: none
+};
+
+}  // namespace solidus::mechanics
