@@ -1,0 +1,39 @@
+/// The mean strain of an element, ∫ sym ∇u dV / V: what B-bar and the standard operator agree in (6.24).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/tensor.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::criteria {
+
+/// Mean values over the elements of one block, eight elements at a time.
+class ElementStrain {
+ public:
+  ElementStrain(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind);
+
+  Index n_batches() const { return n_batches_; }
+  Index n_elements() const { return n_elements_; }
+  /// @param displacement [local node][component] [m]
+  Sym<Lane> strain(std::span<const double> displacement, Index batch) const;
+  /// The mean of a nodal field, [local node].
+  Lane mean(std::span<const double> nodal, Index batch) const;
+  std::size_t bytes() const;
+
+ private:
+  const Index* nodes(Index batch) const {
+    return nodes_.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes_ * k_lanes;
+  }
+
+  int n_nodes_, dim_;
+  bool axisymmetric_;
+  Index n_elements_, n_batches_;
+  std::vector<Index> nodes_;   ///< [batch][node][lane]
+  PackVector<Lane> gradient_;  ///< mean of ∂N_a/∂x_i, [batch][node][dim] [1/m]
+  PackVector<Lane> hoop_;      ///< mean of N_a/r, [batch][node] [1/m]; axisymmetric only
+  PackVector<Lane> share_;     ///< mean of N_a, [batch][node]
+};
+
+}  // namespace solidus::criteria

@@ -1,0 +1,219 @@
+#include "criteria/strain_criteria.hpp"
+
+#include <mpi.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "algebra/parallel.hpp"
+
+namespace solidus::criteria {
+
+namespace {
+
+enum Columns : std::size_t { k_at_coherency, k_brittle, k_displacement };
+constexpr std::size_t k_tensor = 6;
+
+/// Eight elements of a column of tensors from `first` on; lanes beyond `count` are zero.
+Sym<Lane> load(const std::vector<double>& column, std::size_t first, int count) {
+  Sym<Lane> a;
+  for (int lane = 0; lane < count; ++lane)
+    for (std::size_t i = 0; i < k_tensor; ++i)
+      a.c[i].set(lane, column[(first + static_cast<std::size_t>(lane)) * k_tensor + i]);
+  return a;
+}
+
+void store(const Sym<Lane>& a, std::size_t first, int count, std::vector<double>& column) {
+  for (int lane = 0; lane < count; ++lane)
+    for (std::size_t i = 0; i < k_tensor; ++i)
+      column[(first + static_cast<std::size_t>(lane)) * k_tensor + i] = a.c[i][lane];
+}
+
+Sym<double> tensor(const std::vector<double>& column, std::size_t element) {
+  Sym<double> a;
+  std::copy_n(column.begin() + static_cast<std::ptrdiff_t>(element * k_tensor), k_tensor, a.c.begin());
+  return a;
+}
+
+/// The share of a step in which a fraction that runs evenly from `from` to `to` is within [low, high).
+Lane share_within(const Lane& from, const Lane& to, double low, double high) {
+  const Lane least = min(from, to), most = max(from, to), path = most - least;
+  const Lane inside = max(min(most, Lane(high)) - max(least, Lane(low)), Lane(0.0));
+  const Lane resting = select((least >= Lane(low)) & (least < Lane(high)), Lane(1.0), Lane(0.0));
+  const LaneMask moves = path > Lane(0.0);
+  return select(moves, inside / select(moves, path, Lane(1.0)), resting);
+}
+
+Lane equivalent(const Sym<Lane>& strain) {
+  return sqrt(Lane(2.0 / 3.0) * dot(dev(strain), dev(strain)));
+}
+
+/// The largest principal value of a deviator, 2 √(J₂/3) cos θ with cos 3θ = (3√3/2) J₃/J₂^(3/2).
+double largest_principal(const Sym<double>& e) {
+  const double j2 = 0.5 * dot(e, e);
+  if (j2 == 0) return 0;
+  const double j3 = e[0] * (e[1] * e[2] - e[4] * e[4]) - e[3] * (e[3] * e[2] - e[4] * e[5]) +
+                    e[5] * (e[3] * e[4] - e[1] * e[5]);
+  const double cosine = std::clamp(1.5 * std::numbers::sqrt3 * j3 / (j2 * std::sqrt(j2)), -1.0, 1.0);
+  return 2 * std::sqrt(j2 / 3) * std::cos(std::acos(cosine) / 3);
+}
+
+/// The body of every local node; of ghosts from their owners, who see all of a node's elements.
+std::vector<int> bodies_of_nodes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials) {
+  std::vector<double> body(mesh.x.size(), -1.0);
+  for (const bool melts : {true, false})
+    for (int b = 0; b < static_cast<int>(mesh.bodies.size()); ++b) {
+      if ((materials[static_cast<std::size_t>(b)].solidification() != nullptr) != melts) continue;
+      for (const mesh::Block& block : mesh.blocks) {
+        if (block.body != b) continue;
+        for (const Index node : block.nodes) {
+          double& of_node = body[static_cast<std::size_t>(node)];
+          if (of_node < 0) of_node = b;
+        }
+      }
+    }
+  algebra::GhostExchange(mesh).update(body, 1);
+  return {body.begin(), body.end()};
+}
+
+}  // namespace
+
+StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
+                               const std::vector<material::Material>& materials,
+                               std::vector<double> temperature)
+    : mesh_(mesh),
+      components_(static_cast<std::size_t>(displacement_components(kind))),
+      materials_(materials),
+      temperature_(std::move(temperature)),
+      body_of_node_(bodies_of_nodes(mesh, materials)),
+      rigid_(mesh, kind) {
+  std::size_t first = 0;
+  for (const mesh::Block& block : mesh.blocks) {
+    const material::Material& material = materials[static_cast<std::size_t>(block.body)];
+    blocks_.push_back(
+        {ElementStrain(mesh, block, kind), &material.casting, material.solidification(), first});
+    first += static_cast<std::size_t>(block.size());
+  }
+}
+
+std::span<const double> StrainCriteria::temperature(const Moment& moment) const {
+  return temperature_.empty() ? moment.heat.temperature : temperature_;
+}
+
+Record StrainCriteria::initial(const Moment& /*start*/) const {
+  return {"strain",
+          {make_column(mesh_, "at_coherency", Place::cell, k_tensor),
+           make_column(mesh_, "brittle", Place::cell, k_tensor),
+           make_column(mesh_, "displacement_at_coherency", Place::node, static_cast<int>(components_))},
+          {}};
+}
+
+void StrainCriteria::step(const Moment& old, const Moment& next, Record& record) {
+  std::vector<double>&at_coherency = record.columns[k_at_coherency].values,
+  &brittle = record.columns[k_brittle].values;
+  const std::span<const double> old_temperature = temperature(old), new_temperature = temperature(next);
+  const std::vector<double>&old_u = old.mechanics.displacement, &u = next.mechanics.displacement;
+  for (const OfBlock& block : blocks_) {
+    if (block.freezing == nullptr) continue;
+    const material::PhaseFraction& fraction = block.freezing->fraction;
+    const auto [low, high] = block.casting->brittle_range;
+    for (Index batch = 0; batch < block.strain.n_batches(); ++batch) {
+      const Lane from = fraction.value(block.strain.mean(old_temperature, batch));
+      const Lane to = fraction.value(block.strain.mean(new_temperature, batch));
+      const Sym<Lane> strain = block.strain.strain(u, batch);
+      const Sym<Lane> increment = dev(strain - block.strain.strain(old_u, batch));
+      const Lane share = share_within(from, to, low, high);
+      const LaneMask melt = from < Lane(block.casting->coherency_fraction);
+      const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
+      const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
+      Sym<Lane> reference = load(at_coherency, first, count), sum = load(brittle, first, count);
+      for (std::size_t i = 0; i < k_tensor; ++i) {
+        reference.c[i] = select(melt, strain.c[i], reference.c[i]);
+        sum.c[i] = select(melt, Lane(0.0), sum.c[i] + share * increment.c[i]);
+      }
+      store(reference, first, count, at_coherency);
+      store(sum, first, count, brittle);
+    }
+  }
+  std::vector<double>& displacement = record.columns[k_displacement].values;
+  for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
+    const material::Material& material = materials_[static_cast<std::size_t>(body_of_node_[node])];
+    if (material.solidification() == nullptr ||
+        material.solid_fraction(old_temperature[node]) >= material.casting.coherency_fraction)
+      continue;
+    for (std::size_t i = node * components_; i < (node + 1) * components_; ++i) displacement[i] = u[i];
+  }
+}
+
+std::vector<FieldInfo> StrainCriteria::fields() const {
+  return {{"strain_in_liquid", "1", 1, Place::cell},
+          {"strain_since_coherency", "1", 1, Place::cell},
+          {"brittle_strain", "1", 1, Place::cell},
+          {"distortion", "m", static_cast<int>(components_), Place::node}};
+}
+
+void StrainCriteria::fill(const Moment& now, const Record& record,
+                          std::span<const std::span<double>> values) const {
+  const std::vector<double>& u = now.mechanics.displacement;
+  for (const OfBlock& block : blocks_)
+    for (Index batch = 0; batch < block.strain.n_batches(); ++batch) {
+      const std::size_t first = block.first + static_cast<std::size_t>(batch) * k_lanes;
+      const int count = std::min<int>(k_lanes, block.strain.n_elements() - batch * k_lanes);
+      const Sym<Lane> reference = load(record.columns[k_at_coherency].values, first, count);
+      const Lane in_liquid = equivalent(reference),
+                 since = equivalent(block.strain.strain(u, batch) - reference);
+      for (int lane = 0; lane < count; ++lane) {
+        const std::size_t element = first + static_cast<std::size_t>(lane);
+        values[0][element] = in_liquid[lane];
+        values[1][element] = since[lane];
+        values[2][element] = largest_principal(tensor(record.columns[k_brittle].values, element));
+      }
+    }
+
+  const std::vector<double>& start = record.columns[k_displacement].values;
+  const std::span<double> distortion = values[3];
+  for (std::size_t i = 0; i < u.size(); ++i) distortion[i] = u[i] - start[i];
+  const std::vector<RigidMotion> motions = rigid_.fit(distortion);
+  for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
+    const mesh::Point rigid = motions[static_cast<std::size_t>(body_of_node_[node])].at(mesh_.x[node]);
+    for (std::size_t i = 0; i < components_; ++i) distortion[node * components_ + i] -= rigid[i];
+  }
+}
+
+std::vector<Finding> StrainCriteria::findings(const Record& record) const {
+  struct {
+    double value;
+    int rank;
+  } mine{0, 0}, most{};
+  MPI_Comm_rank(PETSC_COMM_WORLD, &mine.rank);
+  Finding finding{"brittle_strain_max", "1", 0, true, {}};
+  std::size_t element = 0;
+  for (const mesh::Block& block : mesh_.blocks)
+    for (Index e = 0; e < block.size(); ++e, ++element) {
+      const double value = largest_principal(tensor(record.columns[k_brittle].values, element));
+      if (e >= block.n_counted || value <= mine.value) continue;
+      mine.value = value;
+      finding.where = {};
+      const int n = mesh::node_count(block.shape);
+      for (int a = 0; a < n; ++a)
+        for (std::size_t i = 0; i < 3; ++i)
+          finding.where[i] += mesh_.x[static_cast<std::size_t>(block.element(e)[a])][i] / n;
+    }
+  MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
+  MPI_Bcast(finding.where.data(), 3, MPI_DOUBLE, most.rank, PETSC_COMM_WORLD);
+  finding.value = most.value;
+  finding.somewhere = most.value > 0;
+  return {finding};
+}
+
+std::size_t StrainCriteria::bytes() const {
+  std::size_t total = body_of_node_.capacity() * sizeof(int);
+  for (const OfBlock& block : blocks_) total += block.strain.bytes();
+  return total;
+}
+
+}  // namespace solidus::criteria

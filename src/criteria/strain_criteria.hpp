@@ -1,0 +1,67 @@
+/// Strain told apart by the state of the metal in which it was taken, strain in the brittle range, and
+/// distortion (docs/theory/melt.md).
+///
+/// An element is melt as long as its solid fraction is below the coherency fraction f_c. A step that begins
+/// as melt leaves no strain in the solid, so the mean strain splits without rest,
+///
+///   ε = ε_c + (ε − ε_c),   ε_c the strain at coherency
+///
+///   strain_in_liquid        √(2/3 dev ε_c : dev ε_c)
+///   strain_since_coherency  √(2/3 dev (ε − ε_c) : dev (ε − ε_c))
+///   brittle_strain          the largest principal value of Σ χ dev Δε, χ the share of a step in which the
+///                           solid fraction runs through the brittle range
+///   distortion              the displacement since coherency without the best rigid motion of each body [m]
+///
+/// Strains are measured by their deviators: thermal strain and the shrinkage of freezing are volumetric, so a
+/// body that shrinks freely has none. Metal that melts again forgets. The solid fraction is f_S(Θ) at the
+/// mean temperature of the element at t_n, at which the law works too (4.81).
+///
+/// Strain in the brittle range as a measure of hot tearing: W. S. Pellini, Strain theory of hot tearing,
+/// Foundry 80 (1952) 125–199. The range: Y. M. Won, T.-J. Yeo, D. J. Seol, K. H. Oh, A new criterion for
+/// internal crack formation in continuously cast steels, Metall. Mater. Trans. B 31 (2000) 779–794.
+#pragma once
+
+#include "criteria/criterion.hpp"
+#include "criteria/element_strain.hpp"
+#include "criteria/rigid_fit.hpp"
+#include "material/material.hpp"
+
+namespace solidus::criteria {
+
+class StrainCriteria : public Criterion {
+ public:
+  /// @param materials    one per body of the mesh; kept by reference, as the mesh is
+  /// @param temperature  of bodies without a thermal phase [K], [local node]; empty: there is one
+  /// Collective.
+  StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
+                 std::vector<double> temperature = {});
+
+  /// Nothing strained so far. Nodes and elements that never melt stay so.
+  Record initial(const Moment& start) const override;
+  void step(const Moment& old, const Moment& next, Record& record) override;
+  std::vector<FieldInfo> fields() const override;
+  void fill(const Moment& now, const Record& record,
+            std::span<const std::span<double>> values) const override;
+  /// The largest strain in the brittle range.
+  std::vector<Finding> findings(const Record& record) const override;
+  std::size_t bytes() const override;
+
+ private:
+  struct OfBlock {
+    ElementStrain strain;
+    const material::Casting* casting;
+    const material::PhaseChange* freezing;  ///< null: always solid
+    std::size_t first;                      ///< element in columns of cells
+  };
+  std::span<const double> temperature(const Moment& moment) const;
+
+  const mesh::Mesh& mesh_;
+  std::size_t components_;
+  const std::vector<material::Material>& materials_;
+  std::vector<double> temperature_;
+  std::vector<OfBlock> blocks_;
+  std::vector<int> body_of_node_;  ///< [local node]: the first one that can melt, else the first one
+  RigidFit rigid_;
+};
+
+}  // namespace solidus::criteria
