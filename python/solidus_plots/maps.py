@@ -6,52 +6,18 @@ from matplotlib.transforms import ScaledTranslation
 from matplotlib.tri import Triangulation
 import numpy as np
 
-from solidus_plots import style
-from solidus_plots.vtu import ResultError, read_fields
+from solidus_plots import moments, style
+from solidus_plots.vtu import ResultError
 
 MM = 1e3  # sections are drawn in millimetres
 
 
-class Section:
-    """The moments of a run that a picture asks for; each file is read once."""
-
-    def __init__(self, times, files, bodies):
-        self._times, self._files, self.bodies, self._grids = times, files, bodies, {}
-        self.missing = []  # what was asked for and not written, for the user
-
-    def those_of(self, times):
-        """The moments among `times` that were written; a run that stopped early lacks the later ones."""
-        grids = []
-        for time in times:
-            try:
-                grids.append(self.at(time))
-            except ResultError as error:
-                self.missing.append(str(error))
-        if not grids:
-            raise ResultError("none of the moments asked for was written")
-        return grids
-
-    def at(self, time):
-        """The fields of the moment nearest to `time` ("last" for the last one); it must be a written one."""
-        index = len(self._times) - 1 if time == "last" else int(np.argmin(np.abs(self._times - time)))
-        if time != "last" and abs(self._times[index] - time) > 1e-6 * max(1.0, abs(time)):
-            raise ResultError(f"plots.toml: no fields were written at {time} s; there are those of "
-                              f"{', '.join(f'{t:g}' for t in self._times)} s")
-        if index not in self._grids:
-            self._grids[index] = read_fields(self._files[index])
-            if not self._grids[index].triangles()[0].size:
-                raise ResultError("maps and deformed meshes are drawn of plane sections only; for 3-D open "
-                                  "fields.pvd in ParaView")
-        return self._grids[index]
-
-    def body_mask(self, grid, names):
-        """Cells of the bodies named; all when `names` is empty."""
-        if not names:
-            return np.ones(len(grid.cell_types), bool)
-        unknown = [name for name in names if name not in self.bodies]
-        if unknown:
-            raise ResultError(f"plots.toml: no body {', '.join(unknown)}; there are {', '.join(self.bodies)}")
-        return np.isin(grid.cell_data["body"], [self.bodies.index(name) for name in names])
+def _plane(grid):
+    """A plane grid as it is; of a 3-D one says what to write instead."""
+    if not grid.triangles()[0].size:
+        raise ResultError("plots.toml: [[maps]] and [[deformed]] are for plane sections; of three dimensions [[sections]] "
+                          "and [[surfaces]] are drawn")
+    return grid
 
 
 def _place(grid, magnification, side=1.0):
@@ -70,12 +36,6 @@ def _outline(grid, mask, place, mirror):
             if count == 1 and not inside[sequence].all()]
 
 
-def _nodes(grid, mask):
-    """The nodes of the cells of a mask."""
-    triangles, cells = grid.triangles()
-    return np.unique(triangles[mask[cells]])
-
-
 def _frame(axes, places):
     """Shows what is drawn with a small margin; nodes of bodies that are left out do not count."""
     low = np.min([place.min(axis=0) for place in places], axis=0)
@@ -83,32 +43,6 @@ def _frame(axes, places):
     margin = 0.02 * (high - low).max()
     axes.set_xlim(low[0] - margin, high[0] + margin)
     axes.set_ylim(low[1] - margin, high[1] + margin)
-
-
-def _values(grid, name, unit, component):
-    """Values of a field at the nodes or in the cells, and where they stand."""
-    for kind in ("point_data", "cell_data"):
-        if name in getattr(grid, kind):
-            values = getattr(grid, kind)[name]
-            if values.ndim > 1:
-                values = np.linalg.norm(values, axis=1) if component is None else values[:, component]
-            return kind, style.convert(values, grid.units[name], unit)
-    known = [name for data in (grid.point_data, grid.cell_data) for name in data]
-    raise ResultError(f"plots.toml: no field '{name}' was written; there are {', '.join(known)}")
-
-
-def _limits(grids, spec, unit, section):
-    low, high = np.inf, -np.inf
-    for grid in grids:
-        kind, values = _values(grid, spec["field"], unit, spec.get("component"))
-        mask = section.body_mask(grid, spec.get("bodies"))
-        if kind == "cell_data":
-            shown = values[mask]
-        else:
-            shown = values[_nodes(grid, mask)]
-        low, high = min(low, shown.min()), max(high, shown.max())
-    low, high = spec.get("range", (low, high))
-    return low, high if high > low else low + 1.0
 
 
 def _note(spec):
@@ -134,28 +68,28 @@ def _crosses(level, values, triangles):
 
 def field_maps(spec, section, folder):
     """One [[maps]] of plots.toml: the same field at several times with one colour bar."""
-    grids = section.those_of(spec.get("times", ["last"]))
+    grids = [_plane(grid) for grid in section.those_of(spec.get("times", ["last"]))]
     unit, mirror = spec.get("unit", ""), spec.get("mirror", False)
-    low, high = _limits(grids, spec, unit, section)
+    masks = [section.body_mask(grid, spec.get("bodies")) for grid in grids]
+    low, high = moments.limits(grids, masks, spec)
     margin = 1e-9 * max(abs(low), abs(high))  # the largest value belongs to the top colour
     levels, lines = np.linspace(low - margin, high + margin, 65), spec.get("contours", 10)
     if isinstance(lines, int):  # about so many, at round values
         lines = [line for line in plt.MaxNLocator(max(lines, 1)).tick_values(low, high) if low < line < high]
-    nodes = _nodes(grids[0], section.body_mask(grids[0], spec.get("bodies")))
+    nodes = moments.nodes_of(grids[0], masks[0])
     extent = np.ptp(grids[0].points[nodes, :2], axis=0) * [2 if mirror else 1, 1]
     height = 4.2
     width = min(max(height * extent[0] / extent[1], 1.3), 5.0)
     figure, panels = plt.subplots(1, len(grids), figsize=((width + 0.35) * len(grids) + 0.9, height + 0.6),
                                   sharex=True, sharey=True, squeeze=False, constrained_layout=True)
     colours, places = None, []
-    for axes, grid in zip(panels[0], grids):
-        mask = section.body_mask(grid, spec.get("bodies"))
+    for axes, grid, mask in zip(panels[0], grids, masks):
         triangles, cells = grid.triangles()
         triangles, cells = triangles[mask[cells]], cells[mask[cells]]
-        kind, values = _values(grid, spec["field"], unit, spec.get("component"))
+        kind, values = moments.values(grid, spec)
         for side in (1.0, -1.0) if mirror else (1.0,):
             place = _place(grid, spec.get("magnification", 0), side)
-            places.append(place[_nodes(grid, mask)])
+            places.append(place[moments.nodes_of(grid, mask)])
             shape = Triangulation(place[:, 0], place[:, 1], triangles)
             look = {"cmap": style.SEQUENTIAL.get(spec["field"], "viridis")}
             if kind == "point_data":
@@ -188,7 +122,7 @@ def field_maps(spec, section, folder):
 
 def deformed_mesh(spec, section, folder):
     """One [[deformed]] of plots.toml: the mesh as it was, and moved by its magnified displacements."""
-    grid, mirror = section.at(spec.get("time", "last")), spec.get("mirror", False)
+    grid, mirror = _plane(section.at(spec.get("time", "last"))), spec.get("mirror", False)
     if "displacement" not in grid.point_data:
         raise ResultError("plots.toml: a deformed mesh needs the field displacement")
     factor = spec.get("magnification", 1)

@@ -10,8 +10,9 @@ from pathlib import Path
 import sys
 import tomllib
 
-from solidus_plots import curves, graphs, maps, point, style
+from solidus_plots import curves, graphs, maps, point, sections, style, surfaces
 from solidus_plots.history import read_table
+from solidus_plots.moments import Moments
 from solidus_plots.vtu import ResultError, read_collection
 
 # What plots.toml may say; anything else is a typo.
@@ -21,9 +22,20 @@ KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "mome
                    "values", "keep", "from_zero"},
         "maps": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "mirror",
                  "magnification", "bodies", "contours", "range"},
-        "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"}}
+        "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"},
+        "sections": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "planes", "columns",
+                     "bodies", "magnification", "contours", "levels", "bands", "colours", "range", "mesh"},
+        "surfaces": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "columns", "bodies",
+                     "plain", "magnification", "contours", "levels", "bands", "colours", "range", "clip",
+                     "clip_bodies", "view", "up", "edges", "dimensions"}}
 REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps": ("file", "field"),
-            "deformed": ("file",)}
+            "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}
+# Keys of a picture that change nothing without another one.
+NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(("quantity", "component", "unit", "contours", "levels", "bands",
+                                                              "colours", "range"), "field")}}
+# Pictures of fields and what draws them.
+FIELD_PICTURES = {"maps": maps.field_maps, "deformed": maps.deformed_mesh, "sections": sections.draw,
+                  "surfaces": surfaces.draw}
 
 
 def find_spec(results, summary):
@@ -51,6 +63,9 @@ def read_spec(path):
             for key in REQUIRED[section]:
                 if key not in picture:
                     raise ResultError(f"{path}: a [[{section}]] lacks its '{key}'")
+            for key, needed in NEEDS.get(section, {}).items():
+                if key in picture and needed not in picture:
+                    raise ResultError(f"{path}: [[{section}]] '{picture['file']}': '{key}' needs '{needed}'")
     return spec
 
 
@@ -110,14 +125,13 @@ def draw(results, spec_file=None):
         attempt(curves.chosen, picture, history, histories(picture.get("compare", []), part, results))
     for picture in spec.get("graphs", []):
         attempt(graphs.draw, picture, results)
-    if "maps" in spec or "deformed" in spec:
-        times, moments = read_collection(results / "fields.pvd")
-        section = maps.Section(times, moments, list(summary.get("mesh", {}).get("bodies", {})))
-        for picture in spec.get("maps", []):
-            attempt(maps.field_maps, picture, section)
-        for picture in spec.get("deformed", []):
-            attempt(maps.deformed_mesh, picture, section)
-        problems += list(dict.fromkeys(section.missing))
+    if any(spec.get(kind) for kind in FIELD_PICTURES):
+        times, files_of = read_collection(results / "fields.pvd")
+        run = Moments(times, files_of, list(summary.get("mesh", {}).get("bodies", {})))
+        for kind, work in FIELD_PICTURES.items():
+            for picture in spec.get(kind, []):
+                attempt(work, picture, run)
+        problems += list(dict.fromkeys(run.missing))
     return files, problems
 
 

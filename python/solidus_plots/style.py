@@ -10,6 +10,8 @@ COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#0
 REMARK = {"fontsize": 7.5, "color": "#595959"}
 DASHES = ["-", "--", "-.", ":"]
 SEQUENTIAL = {"temperature": "inferno", "solid_fraction": "cividis"}
+BODIES = ["#a9b6c3", "#d3bd94", "#9db89a", "#c3a5b0", "#b8b093"]
+SIGNED = {"pressure", "stress", "back_stress"}  # tension and compression are told apart where both are there
 
 # What people read instead of UDUNITS' ASCII.
 UNIT_TEXT = {"degC": "°C", "W/m2/K": "W/(m² K)", "W/m2": "W/m²", "m2": "m²", "m3": "m³", "um": "µm"}
@@ -35,6 +37,28 @@ def setup():
 
 def unit_text(unit):
     return UNIT_TEXT.get(unit, unit)
+
+
+def body_colour(index):
+    """Red, green, blue of a body that is drawn without a field: the casting, the mould, others."""
+    return matplotlib.colors.to_rgb(BODIES[index % len(BODIES)])
+
+
+def colour_map(field, component, low, high):
+    """The name of the colours of a field."""
+    if low < 0.0 < high and (component is not None or field in SIGNED):
+        return "RdBu_r"
+    return SEQUENTIAL.get(field, "viridis")
+
+
+def time_texts(seconds):
+    """Moments [s] in one unit: in hours or minutes where the last one has two of them and all have few digits."""
+    last = max(abs(time) for time in seconds)
+    for scale, unit in ((3600.0, "h"), (60.0, "min")):
+        if last >= 2 * scale and all(abs(10 * time / scale - round(10 * time / scale)) < 1e-6 for time in seconds):
+            return [f"{time / scale:g} {unit}" for time in seconds]
+    scale, unit = (1.0, "s") if last >= 1.0 or last == 0.0 else (1e-3, "ms") if last >= 1e-3 else (1e-6, "µs")
+    return [f"{time / scale:.4g} {unit}" if last < 1e4 * scale else f"{time / scale:.0f} {unit}" for time in seconds]
 
 
 def axis_label(quantity, unit):

@@ -15,6 +15,7 @@ import zlib
 
 import numpy as np
 
+HIDDEN_CELL = 32  # in vtkGhostType
 NUMBER_TYPES = {"Float64": "f8", "Float32": "f4", "Int64": "i8", "Int32": "i4", "UInt8": "u1"}
 # Corner triangles of VTK's plane cells; quadratic cells are drawn with their mid nodes.
 TRIANGLES = {
@@ -134,8 +135,20 @@ def _read_part(path):
 
     point_data, cell_data, cells = section("PointData"), section("CellData"), section("Cells")
     time = root.find("UnstructuredGrid/FieldData/DataArray[@Name='TimeValue']")
-    return Grid(section("Points")["Points"], cells["types"], cells["offsets"], cells["connectivity"],
-                point_data, cell_data, units, 0.0 if time is None else float(time.text))
+    return _without_hidden(Grid(section("Points")["Points"], cells["types"], cells["offsets"],
+                                cells["connectivity"], point_data, cell_data, units,
+                                0.0 if time is None else float(time.text)))
+
+
+def _without_hidden(grid):
+    """The grid without the cells of bodies that have left; their nodes stay, without a cell."""
+    if "vtkGhostType" not in grid.cell_data:
+        return grid
+    shown = (grid.cell_data["vtkGhostType"] & HIDDEN_CELL) == 0
+    counts = np.diff(grid.offsets, prepend=0)
+    return Grid(grid.points, grid.cell_types[shown], np.cumsum(counts[shown]),
+                grid.connectivity[np.repeat(shown, counts)], grid.point_data,
+                {name: values[shown] for name, values in grid.cell_data.items()}, grid.units, grid.time)
 
 
 def _decode(content, start, number):

@@ -1,0 +1,91 @@
+"""The moments of a run that a picture asks for, and the fields of a moment in the picture's units."""
+
+import numpy as np
+
+from solidus_plots import style
+from solidus_plots.vtu import ResultError, read_fields
+
+
+class Moments:
+    """Each file is read once."""
+
+    def __init__(self, times, files, bodies):
+        self._times, self._files, self.bodies, self._grids = times, files, bodies, {}
+        self.missing = []  # what was asked for and not written, for the user
+
+    def those_of(self, times):
+        """The moments among `times` that were written; a run that stopped early lacks the later ones."""
+        grids = []
+        for time in times:
+            try:
+                grids.append(self.at(time))
+            except ResultError as error:
+                self.missing.append(str(error))
+        if not grids:
+            raise ResultError("none of the moments asked for was written")
+        return grids
+
+    def at(self, time):
+        """The fields of the moment nearest to `time` ("first", "last"); it must be a written one."""
+        named = {"first": 0, "last": len(self._times) - 1}
+        index = named[time] if time in named else int(np.argmin(np.abs(self._times - time)))
+        if time not in named and abs(self._times[index] - time) > 1e-6 * max(1.0, abs(time)):
+            raise ResultError(f"plots.toml: no fields were written at {time} s; there are those of "
+                              f"{', '.join(f'{t:g}' for t in self._times)} s")
+        if index not in self._grids:
+            self._grids[index] = read_fields(self._files[index])
+        return self._grids[index]
+
+    def body_mask(self, grid, names):
+        """Cells of the bodies named; all when `names` is empty."""
+        if not names:
+            return np.ones(len(grid.cell_types), bool)
+        unknown = [name for name in names if name not in self.bodies]
+        if unknown:
+            raise ResultError(f"plots.toml: no body {', '.join(unknown)}; there are {', '.join(self.bodies)}")
+        return np.isin(grid.cell_data["body"], [self.bodies.index(name) for name in names])
+
+
+def values(grid, spec):
+    """Values of the field that a picture asks for, in its unit: "point_data" or "cell_data", and the array."""
+    name, component = spec["field"], spec.get("component")
+    for kind in ("point_data", "cell_data"):
+        if name in getattr(grid, kind):
+            found = getattr(grid, kind)[name]
+            if found.ndim > 1:
+                if component is not None and not 0 <= component < found.shape[1]:
+                    raise ResultError(f"plots.toml: field '{name}' has the components 0 to {found.shape[1] - 1}, "
+                                      f"not {component}")
+                found = np.linalg.norm(found, axis=1) if component is None else found[:, component]
+            return kind, style.convert(found, grid.units[name], spec.get("unit", ""))
+    known = [name for data in (grid.point_data, grid.cell_data) for name in data]
+    raise ResultError(f"plots.toml: no field '{name}' was written; there are {', '.join(known)}")
+
+
+def nodes_of(grid, cells):
+    """The nodes of the cells of a mask."""
+    return np.unique(grid.connectivity[np.repeat(cells, np.diff(grid.offsets, prepend=0))])
+
+
+def displacement(grid):
+    """[node][3] m; without the field a picture cannot show it."""
+    if "displacement" not in grid.point_data:
+        raise ResultError("plots.toml: a deformed shape needs the field displacement, which was not written")
+    return grid.point_data["displacement"]
+
+
+def unit(grid, spec):
+    """The unit of the values of a picture."""
+    return spec.get("unit") or grid.units[spec["field"]]
+
+
+def limits(grids, masks, spec):
+    """The range of the colours: what is asked for, else what the cells of the masks have."""
+    if "range" in spec:
+        return tuple(spec["range"])
+    low, high = np.inf, -np.inf
+    for grid, mask in zip(grids, masks):
+        kind, found = values(grid, spec)
+        shown = found[mask] if kind == "cell_data" else found[nodes_of(grid, mask)]
+        low, high = min(low, shown.min(initial=np.inf)), max(high, shown.max(initial=-np.inf))
+    return (low, high) if high > low else (low, low + 1.0)

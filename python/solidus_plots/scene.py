@@ -1,0 +1,186 @@
+"""Surfaces of bodies in three dimensions: triangles with normals and edges, seen from somewhere, as a shaded picture."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solidus_plots.cells import boundary
+from solidus_plots.cut import SIDES, cut
+from solidus_plots.raster import rasterise
+
+CREASE = np.cos(np.radians(38.0))  # neighbours that turn by more make an edge
+# Where light comes from (right, up, to the eye) and how strong it is; the rest comes from everywhere.
+LIGHTS = (((-0.35, 0.65, 0.68), 0.48), ((0.75, -0.05, 0.65), 0.14))
+AMBIENT = 0.56
+LINE, MESH_LINE = 0.14, 0.45  # brightness of edges and of mesh lines, of what they lie on
+
+
+class Camera:
+    """A parallel projection. `azimuth` counts from the first horizontal axis to the second (up z: from x to y), `elevation`
+    above the horizon, both in degrees, to where the eye is."""
+
+    def __init__(self, azimuth, elevation, up="z"):
+        axis = "xyz".index(up)
+        horizontal = np.eye(3)[[(axis + 1) % 3, (axis + 2) % 3]]
+        a, e = np.radians(azimuth), np.radians(elevation)
+        self.eye = np.cos(e) * (np.cos(a) * horizontal[0] + np.sin(a) * horizontal[1]) + np.sin(e) * np.eye(3)[axis]
+        self.right = -np.sin(a) * horizontal[0] + np.cos(a) * horizontal[1]
+        self.up = np.cross(self.eye, self.right)
+
+    def project(self, vectors):
+        """[...][3] -> right, up, towards the eye."""
+        return vectors @ np.stack([self.right, self.up, self.eye], axis=1)
+
+
+@dataclass
+class Surface:
+    """Triangles to draw, with what they show."""
+
+    points: np.ndarray  # [point][3] m
+    levels: np.ndarray  # [point] above zero: cut away
+    triangles: np.ndarray  # [triangle][3]
+    cells: np.ndarray  # [triangle]
+    normals: np.ndarray  # [triangle][3][3] at its corners
+    lines: np.ndarray  # [triangle][3] opposite sides: 0 nothing, 1 an edge of a cell, 2 an edge of the body
+    values: np.ndarray  # [triangle][3] of the field at its corners; nan in bodies of plain colour
+
+    def points_shown(self):
+        """Points [m] of triangles that are not cut away."""
+        used = np.zeros(len(self.points), bool)
+        used[self.triangles] = True
+        return self.points[used & (self.levels <= 0.0)]
+
+    @staticmethod
+    def join(parts):
+        shift = np.cumsum([0] + [len(part.points) for part in parts[:-1]])
+        return Surface(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("points", "levels")),
+                       np.concatenate([part.triangles + s for part, s in zip(parts, shift)]),
+                       *(np.concatenate([getattr(part, name) for part in parts])
+                         for name in ("cells", "normals", "lines", "values")))
+
+
+def outer(grid, cells, points, field, plane=None):
+    """The surface of the bodies of a mask, up to a plane. `points`: where the nodes are now [m]; `field`: "point_data" or
+    "cell_data" and values."""
+    body = grid.cell_data["body"]
+    faces = boundary(grid, cells, body)
+    place = faces.refined.extend(points)
+    normals, edges = _normals(place, faces.nodes, body[faces.cells])
+    levels = np.full(len(place), -1.0) if plane is None else faces.refined.extend(plane.distance(grid.points))
+    return Surface(place, levels, faces.nodes, faces.cells, normals, faces.sides * (1 + edges),
+                   _corner_values(field, faces.refined.extend, faces.nodes, faces.cells))
+
+
+def cap(grid, cells, points, field, plane):
+    """What a plane shows of the inside of the bodies of a mask."""
+    part = cut(grid, cells, plane)
+    place, base = part.at_points(points), len(part.ends)
+    sides = np.sort(part.triangles[:, SIDES], axis=2) @ [base, 1]
+    outline = np.isin(sides, part.sides(grid.cell_data["body"][part.cells]) @ [base, 1])
+    mesh = np.isin(sides, part.sides(part.cells) @ [base, 1])
+    normals = np.broadcast_to(plane.normal, (len(part.triangles), 3, 3))
+    return Surface(place, np.full(base, -1.0), part.triangles, part.cells, normals, mesh * (1 + outline),
+                   _corner_values(field, part.at_points, part.triangles, part.cells))
+
+
+def _corner_values(field, at_points, triangles, cells):
+    kind, values = field
+    return at_points(values)[triangles] if kind == "point_data" else values[cells][:, None].repeat(3, axis=1)
+
+
+def _normals(place, triangles, bodies):
+    """Normals at the corners, averaged over the triangles round a point that turn by less than a crease; and which
+    sides are creases."""
+    corners = place[triangles]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    unit = area / np.maximum(np.linalg.norm(area, axis=1), 1e-300)[:, None]
+    # All pairs of triangles at a point.
+    order = np.argsort(triangles.ravel(), kind="stable")
+    count = np.bincount(triangles.ravel(), minlength=len(place))
+    start = np.cumsum(count) - count
+    partners = count[triangles.ravel()[order]]
+    first = np.repeat(order, partners)
+    within = np.arange(len(first)) - np.repeat(np.cumsum(partners) - partners, partners)
+    second = order[np.repeat(start[triangles.ravel()[order]], partners) + within]
+    near = (np.einsum("ij,ij->i", unit[first // 3], unit[second // 3]) > CREASE)
+    near &= bodies[first // 3] == bodies[second // 3]
+    normals = np.stack([np.bincount(first[near], weights=area[second[near] // 3, axis], minlength=triangles.size)
+                        for axis in range(3)], axis=1).reshape(*triangles.shape, 3)
+    normals /= np.maximum(np.linalg.norm(normals, axis=2), 1e-300)[..., None]
+    return normals, _creases(triangles, unit, bodies)
+
+
+def _creases(triangles, unit, bodies):
+    """[triangle][3] whether the triangle behind a side turns by a crease, or there is none of the same body."""
+    sides = np.sort(triangles[:, SIDES], axis=2).reshape(-1, 2).astype(np.int64)
+    base = sides.max(initial=0) + 1
+    key = (sides[:, 0] * base + sides[:, 1]) * (bodies.max(initial=0) + 1) + np.repeat(bodies, 3)
+    order = np.argsort(key, kind="stable")
+    key, owner = key[order], order // 3
+    same = key[1:] == key[:-1]
+    turn = np.einsum("ij,ij->i", unit[owner[1:]], unit[owner[:-1]]) > CREASE
+    smooth = np.zeros(len(key), bool)
+    smooth[1:] |= same & turn
+    smooth[:-1] |= same & turn
+    result = np.ones(len(key), bool)
+    result[order] = ~smooth
+    return result.reshape(-1, 3)
+
+
+class View:
+    """A surface seen by a camera within a frame (lower and upper corner, right and up, m), in pixels."""
+
+    def __init__(self, surface, camera, frame, shape):
+        self._surface, self._camera = surface, camera
+        (low, high), place = frame, camera.project(surface.points)
+        self._scale = shape[1] / (high[0] - low[0])
+        pixels = (place - [low[0], high[1], 0.0]) * [self._scale, -self._scale, self._scale]
+        self.picture = rasterise(pixels, surface.triangles, shape, surface.levels)
+        self._corners = pixels[:, :2][surface.triangles]
+
+    def values(self):
+        """Of the field, in the pixels seen."""
+        return self.picture.at_corners(self._surface.values)
+
+    def cells(self):
+        return self.picture.at_triangles(self._surface.cells)
+
+    def light(self):
+        """How bright the pixels seen are."""
+        normals = self._camera.project(self.picture.at_corners(self._surface.normals))
+        normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-12)[:, None]
+        normals *= np.where(normals[:, 2:] < 0.0, -1.0, 1.0)  # both sides of a surface are lit
+        return AMBIENT + sum(strength * np.maximum(normals @ direction, 0.0) for direction, strength in LIGHTS)
+
+    def lines(self, mesh, width):
+        """Brightness of the pixels seen where edges of bodies and, with `mesh`, of cells are drawn; 1 elsewhere. `width`
+        of an edge in pixels."""
+        picture = self.picture
+        numbers, weights = picture.triangle[picture.seen], picture.weights[picture.seen]
+        corners = self._corners[numbers]
+        sides = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]
+        twice_area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
+        distance = weights * (twice_area[:, None] / np.maximum(np.linalg.norm(sides, axis=2), 1e-9))
+        kinds, dark = self._surface.lines[numbers], np.ones(len(numbers))
+        if mesh:
+            dark[((kinds > 0) & (distance < max(0.55, 0.25 * width))).any(axis=1)] = MESH_LINE
+        dark[((kinds == 2) & (distance < 0.5 * width)).any(axis=1)] = LINE
+        dark[self._outline(width)[picture.seen]] = LINE
+        return dark
+
+    def _outline(self, width):
+        """Pixels beside which another surface lies much further away, or nothing."""
+        depth = np.where(self.picture.seen, self.picture.depth, -1e9)
+        far = 0.012 * max(depth.shape)
+        edge = np.zeros(depth.shape, bool)
+        for axis in (0, 1):
+            before, here, after = (np.take(depth, range(s, depth.shape[axis] - 2 + s), axis=axis) for s in range(3))
+            bend = np.minimum(before, after) < here - far  # nearer than a neighbour ...
+            bend &= before + after - 2 * here < -far  # ... and no steep plane
+            inner = [slice(None)] * 2
+            inner[axis] = slice(1, -1)
+            edge[tuple(inner)] |= bend
+        for _ in range(max(0, round(0.7 * width) - 1)):
+            edge[1:] |= edge[:-1].copy()
+            edge[:, 1:] |= edge[:, :-1].copy()
+        return edge

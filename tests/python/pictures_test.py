@@ -1,0 +1,114 @@
+"""plots.toml: what it may say, what it is told when it is wrong, and that pictures come out."""
+
+from pathlib import Path
+import tempfile
+import unittest
+
+from matplotlib import image
+import numpy as np
+
+from blocks import box
+from solidus_plots import sections, style, surfaces
+from solidus_plots.cells import HEX, TET
+from solidus_plots.moments import Moments
+from solidus_plots.plot_case import read_spec
+from solidus_plots.vtu import ResultError
+
+SIZE = [0.06, 0.04, 0.03]
+
+
+class Run(Moments):
+    """Moments without files: a block that warms and moves, in two bodies that share nodes."""
+
+    def __init__(self, kind):
+        super().__init__(np.array([0.0, 3600.0, 7200.0]), ["", "", ""], ["part", "sand"])
+        for index, time in enumerate(self._times):
+            grid = box(kind, SIZE, (4, 3, 2), bodies=2)
+            grid.time = time
+            grid.point_data = {"temperature": 300.0 + time * grid.points[:, 0], "displacement": 0.02 * grid.points}
+            grid.cell_data["von_mises"] = 1e6 * np.arange(len(grid.cell_types), dtype=float)
+            grid.cell_data["stress"] = np.tile(np.linspace(-1e6, 1e6, len(grid.cell_types))[:, None], 6)
+            grid.units = {"temperature": "K", "displacement": "m", "von_mises": "Pa", "stress": "Pa"}
+            self._grids[index] = grid
+
+
+class Wrong(unittest.TestCase):
+    def message(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "plots.toml"
+            file.write_text(text)
+            with self.assertRaises(ResultError) as caught:
+                read_spec(file)
+        return str(caught.exception)
+
+    def test_unknown_keys_are_answered_with_those_that_there_are(self):
+        text = self.message('[[sections]]\nfile = "a"\nfield = "temperature"\nplains = [{ z = 0 }]')
+        self.assertIn("unknown key 'plains' in [[sections]]", text)
+        self.assertIn("planes", text)
+
+    def test_a_section_without_planes_is_told_so(self):
+        self.assertIn("lacks its 'planes'", self.message('[[sections]]\nfile = "a"\nfield = "temperature"'))
+
+    def test_keys_that_would_change_nothing_are_refused(self):
+        text = self.message('[[surfaces]]\nfile = "a"\nfield = "temperature"\nclip_bodies = ["sand"]')
+        self.assertIn("'clip_bodies' needs 'clip'", text)
+        self.assertIn("'range' needs 'field'", self.message('[[surfaces]]\nfile = "a"\nrange = [0, 1]'))
+
+    def test_a_plane_is_one_axis_or_a_normal_and_a_point(self):
+        for entry in ({}, {"w": 0}, {"z": "middle"}, {"z": 0, "y": 0}, {"normal": [0, 0, 1]},
+                      {"normal": [0, 0, 0], "through": [0, 0, 0]}, {"normal": [0, 1], "through": [0, 0, 0]}):
+            with self.subTest(entry=entry), self.assertRaisesRegex(ResultError, "is no plane"):
+                sections.read_plane(entry)
+
+    def test_pictures_that_cannot_be_drawn_say_why(self):
+        run, spec = Run(HEX), {"file": "a", "field": "temperature", "planes": [{"z": 15}]}
+        for wrong, text in (({"planes": [{"z": 31}]}, "z = 31 mm does not meet the bodies"),
+                            ({"bodies": ["mould"]}, "no body mould; there are part, sand"),
+                            ({"field": "niyama"}, "no field 'niyama' was written; there are temperature"),
+                            ({"times": [5.0]}, "none of the moments"),
+                            ({"colours": "rainbows"}, "no colours 'rainbows'"),
+                            ({"field": "stress", "component": 6}, "components 0 to 5"),
+                            ({"unit": "MPa"}, "cannot show")):
+            with self.subTest(wrong=wrong), self.assertRaisesRegex((ResultError, ValueError), text):
+                sections.draw({**spec, **wrong}, run, Path("."))
+        for wrong, text in (({"edges": "all"}, '"features", "mesh" or "none"'), ({"view": [30]}, "view is"),
+                            ({"up": "w"}, 'up is "x", "y" or "z"'), ({"plain": ["mould"]}, "no body mould")):
+            with self.subTest(wrong=wrong), self.assertRaisesRegex(ResultError, text):
+                surfaces.draw({"file": "a", **wrong}, run, Path("."))
+
+
+class Drawn(unittest.TestCase):
+    def setUp(self):
+        style.setup()
+        style.plt.rcParams["savefig.dpi"] = 60
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+
+    def pixels(self, work, spec, kind=HEX):
+        file, = work({"file": "a", **spec}, Run(kind), Path(self._folder.name))
+        return image.imread(file)[..., :3]
+
+    def test_sections_at_several_moments_are_drawn_in_the_colours_of_the_field(self):
+        for spec in ({"field": "temperature", "unit": "degC", "planes": [{"z": 15}, {"y": 0}], "times": [0, "last"],
+                      "levels": [{"value": 100, "label": "liquidus"}], "magnification": 5},
+                     {"field": "von_mises", "unit": "MPa", "planes": [{"normal": [1, 1, 0], "through": [30, 20, 15]}],
+                      "bands": 5, "mesh": True, "times": ["first", 3600, 7200]}):
+            found = self.pixels(sections.draw, spec)
+            self.assertGreater((np.ptp(found, axis=2) > 0.2).mean(), 0.1)
+
+    def test_a_body_left_out_is_not_drawn(self):
+        spec = {"field": "temperature", "planes": [{"x": 50}]}
+        with self.assertRaisesRegex(ResultError, "does not meet"):
+            self.pixels(sections.draw, {**spec, "bodies": ["part"]})
+        self.pixels(sections.draw, {**spec, "bodies": ["sand"]})
+
+    def test_surfaces_are_drawn_with_and_without_a_field(self):
+        coloured = self.pixels(surfaces.draw, {"field": "temperature", "plain": ["sand"], "clip": {"y": 20},
+                                               "clip_bodies": ["sand"], "levels": [{"value": 400}]}, TET)
+        self.assertGreater((np.ptp(coloured, axis=2) > 0.4).mean(), 0.05)
+        grey = self.pixels(surfaces.draw, {"edges": "mesh", "dimensions": True, "up": "y", "view": [20, 30]})
+        self.assertLess((np.ptp(grey, axis=2) > 0.4).mean(), 0.001)
+
+
+if __name__ == "__main__":
+    unittest.main()
