@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
 
+#include "algebra/multigrid.hpp"
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
 
@@ -30,12 +34,51 @@ SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& 
   return small ? SolverKind::direct : SolverKind::multigrid;
 }
 
+bool option_given(const std::string& name) {
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), &given), "PetscOptionsHasName");
+  return given == PETSC_TRUE;
+}
+
+/// The values of a vector on this process, while the object lives.
+class ReadArray {
+ public:
+  explicit ReadArray(Vec of) : vector_(of) {
+    check(VecGetArrayRead(of, &values_), "VecGetArrayRead");
+    check(VecGetLocalSize(of, &n_), "VecGetLocalSize");
+  }
+  ~ReadArray() { VecRestoreArrayRead(vector_, &values_); }
+  ReadArray(const ReadArray&) = delete;
+  ReadArray& operator=(const ReadArray&) = delete;
+  std::span<const double> values() const { return {values_, static_cast<std::size_t>(n_)}; }
+
+ private:
+  Vec vector_;
+  const double* values_ = nullptr;
+  PetscInt n_ = 0;
+};
+
+class WriteArray {
+ public:
+  explicit WriteArray(Vec of) : vector_(of) {
+    check(VecGetArrayWrite(of, &values_), "VecGetArrayWrite");
+    check(VecGetLocalSize(of, &n_), "VecGetLocalSize");
+  }
+  ~WriteArray() { VecRestoreArrayWrite(vector_, &values_); }
+  WriteArray(const WriteArray&) = delete;
+  WriteArray& operator=(const WriteArray&) = delete;
+  std::span<double> values() const { return {values_, static_cast<std::size_t>(n_)}; }
+
+ private:
+  Vec vector_;
+  double* values_ = nullptr;
+  PetscInt n_ = 0;
+};
+
 /// The solver within a block of Jacobi's preconditioner does not exist before its set-up, but its options do.
 void set_default_option(const std::string& name, const char* value) {
-  const std::string key = "-" + name;
-  PetscBool given = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, key.c_str(), &given), "PetscOptionsHasName");
-  if (!given) check(PetscOptionsSetValue(nullptr, key.c_str(), value), "PetscOptionsSetValue");
+  if (!option_given(name))
+    check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value), "PetscOptionsSetValue");
 }
 
 }  // namespace
@@ -52,11 +95,22 @@ struct LinearSolver::Implementation {
   double tightest = 0;           ///< relative tolerance
   bool stale = true;             ///< set up again at the next solve
   int workspace = 35;            ///< MUMPS ICNTL(14), per cent
-  Mat matrix = nullptr;          ///< whose operators the solver holds; owned by the BlockMatrix
+  Mat matrix = nullptr;          ///< whose operators the solver holds; owned by the BlockMatrix, or `shell`
+  // Multigrid of our own, which needs no copy of the matrix in PETSc.
+  NearNullSpace modes;
+  std::unique_ptr<Multigrid> multigrid;
+  BlockMatrix* blocks = nullptr;
+  MatHandle shell;  ///< multiplies by the blocks
+  std::optional<GhostExchange> ghosts;
+  std::vector<double> local;  ///< work, [local node][component]
   double seconds_setup = 0, seconds_solve = 0;
 
   Implementation(const mesh::Mesh& m, LinearSolverOptions o) : mesh(m), options(std::move(o)) {}
+  bool multigrid_of_blocks(const BlockMatrix& a) const;
+  void create_shell(BlockMatrix& a);
+  void multiply(Vec in, Vec out);
   void create(Mat a);
+  void create_multigrid(PC pc);
   void attach_modes(Mat a) const;
   bool is_direct() const;
   void set_tolerance(double forcing);
@@ -66,8 +120,44 @@ struct LinearSolver::Implementation {
   void grow_workspace();
 };
 
+/// Whether the preconditioner is ours: not where the user asks PETSc for one, and not for tied unknowns.
+bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) const {
+  if (automatic_kind(options, mesh, a.block_size()) != SolverKind::multigrid || !a.ties().empty())
+    return false;
+  const int n_modes = modes.values.empty() ? a.block_size() : modes.modes;
+  return Multigrid::supports(a.block_size(), n_modes) && !option_given(options.prefix + "pc_type");
+}
+
+void LinearSolver::Implementation::create_shell(BlockMatrix& a) {
+  if (blocks == &a && shell) return;
+  blocks = &a;
+  if (!ghosts) ghosts.emplace(mesh);
+  const auto n = static_cast<PetscInt>(mesh.n_owned_nodes * a.block_size());
+  local.resize(static_cast<std::size_t>(mesh.n_nodes() * a.block_size()));
+  check(MatCreateShell(PETSC_COMM_WORLD, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, shell.out()),
+        "MatCreateShell");
+  check(MatSetBlockSize(shell, a.block_size()), "MatSetBlockSize");
+  const auto product = [](Mat of, Vec in, Vec out) -> PetscErrorCode {
+    Implementation* my = nullptr;
+    check(MatShellGetContext(of, static_cast<void*>(&my)), "MatShellGetContext");
+    my->multiply(in, out);
+    return 0;
+  };
+  PetscErrorCode (*const function)(Mat, Vec, Vec) = product;
+  check(MatShellSetOperation(shell, MATOP_MULT, reinterpret_cast<void (*)()>(function)),
+        "MatShellSetOperation");
+}
+
+void LinearSolver::Implementation::multiply(Vec in, Vec out) {
+  const ReadArray from(in);
+  const WriteArray to(out);
+  std::copy(from.values().begin(), from.values().end(), local.begin());
+  ghosts->update(local, blocks->block_size());
+  blocks->multiply_free(local, to.values());
+}
+
 void LinearSolver::Implementation::attach_modes(Mat a) const {
-  if (!near_null_space) return;
+  if (!near_null_space || multigrid) return;
   Mat of_modes = a;
   if (kind == SolverKind::field_split) check(MatNestGetSubMat(a, 0, 0, &of_modes), "MatNestGetSubMat");
   check(MatSetNearNullSpace(of_modes, near_null_space), "MatSetNearNullSpace");
@@ -98,9 +188,13 @@ void LinearSolver::Implementation::create(Mat a) {
       check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
       break;
     case SolverKind::multigrid:
-      check(KSPSetType(ksp, krylov), "KSPSetType");
-      check(PCSetType(pc, PCGAMG), "PCSetType");
+      // The cycle rounds to single precision: what it makes of a sum is not the sum of what it made.
+      check(KSPSetType(ksp, !options.symmetric && a == shell ? KSPFGMRES : krylov), "KSPSetType");
       reuse_hierarchy = true;
+      if (a == shell)
+        create_multigrid(pc);
+      else
+        check(PCSetType(pc, PCGAMG), "PCSetType");
       break;
     case SolverKind::jacobi:
       check(KSPSetType(ksp, krylov), "KSPSetType");
@@ -140,6 +234,22 @@ void LinearSolver::Implementation::create(Mat a) {
   check(VecDuplicate(x, correction.out()), "VecDuplicate");
 }
 
+void LinearSolver::Implementation::create_multigrid(PC pc) {
+  multigrid =
+      std::make_unique<Multigrid>(mesh, modes.values.empty() ? constants(mesh, blocks->block_size()) : modes);
+  check(PCSetType(pc, PCSHELL), "PCSetType");
+  check(PCShellSetContext(pc, multigrid.get()), "PCShellSetContext");
+  const auto cycle = [](PC of, Vec in, Vec out) -> PetscErrorCode {
+    Multigrid* preconditioner = nullptr;
+    check(PCShellGetContext(of, static_cast<void*>(&preconditioner)), "PCShellGetContext");
+    const ReadArray from(in);
+    const WriteArray to(out);
+    preconditioner->apply(from.values(), to.values());
+    return 0;
+  };
+  check(PCShellSetApply(pc, cycle), "PCShellSetApply");
+}
+
 bool LinearSolver::Implementation::is_direct() const {
   PetscBool preonly = PETSC_FALSE;
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<KSP>(ksp)), KSPPREONLY, &preonly),
@@ -158,6 +268,7 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
   check(KSPSetReusePreconditioner(ksp, reuse_hierarchy && !stale ? PETSC_TRUE : PETSC_FALSE),
         "KSPSetReusePreconditioner");
   check(KSPSetUp(ksp), "KSPSetUp");
+  if (multigrid && stale) multigrid->set_up(*blocks);
   PetscTime(&t1);
   check(KSPSolve(ksp, rhs, solution), "KSPSolve");
   PetscTime(&t2);
@@ -234,11 +345,15 @@ void LinearSolver::use_rigid_body_modes(const mesh::Mesh& mesh, int components) 
   check(VecRestoreArray(coordinates, &values), "VecRestoreArray");
   check(MatNullSpaceCreateRigidBody(coordinates, implementation_->near_null_space.out()),
         "MatNullSpaceCreateRigidBody");
+  implementation_->modes = rigid_body_modes(mesh, components);
 }
 
 LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
                                  double forcing) {
-  return solve(a.matrix(), b, x, forcing);
+  Implementation& my = *implementation_;
+  if (!my.multigrid_of_blocks(a)) return solve(a.matrix(), b, x, forcing);
+  my.create_shell(a);
+  return solve(my.shell, b, x, forcing);
 }
 
 LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::span<double> x, double forcing) {
@@ -260,12 +375,11 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   Implementation& my = *implementation_;
   my.set_tolerance(forcing);
   assert(my.matrix != nullptr);
-  double* values = nullptr;
-  check(VecGetArrayWrite(my.b, &values), "VecGetArrayWrite");
-  PetscInt n = 0;
-  check(VecGetLocalSize(my.b, &n), "VecGetLocalSize");
-  std::copy_n(b.data(), n, values);
-  check(VecRestoreArrayWrite(my.b, &values), "VecRestoreArrayWrite");
+  const std::size_t n = [&] {
+    const WriteArray to(my.b);
+    std::copy_n(b.data(), to.values().size(), to.values().data());
+    return to.values().size();
+  }();
 
   LinearReport report;
   const bool was_fresh = my.stale;
@@ -288,10 +402,7 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   } else if (direct) {
     report.converged = my.refine(report);
   }
-  const double* solution = nullptr;
-  check(VecGetArrayRead(my.x, &solution), "VecGetArrayRead");
-  std::copy_n(solution, n, x.data());
-  check(VecRestoreArrayRead(my.x, &solution), "VecRestoreArrayRead");
+  std::copy_n(ReadArray(my.x).values().data(), n, x.data());
   // MUMPS refuses the next factorisation once one has met a singular matrix: the next step gets a new one.
   if (direct && reason == KSP_DIVERGED_PC_FAILED) reset();
   return report;
@@ -308,6 +419,8 @@ void LinearSolver::forget() {
 void LinearSolver::reset() {
   Implementation& my = *implementation_;
   my.ksp.reset();
+  my.multigrid.reset();
+  my.shell.reset();
   my.matrix = nullptr;
   my.stale = true;
 }

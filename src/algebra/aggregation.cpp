@@ -1,0 +1,354 @@
+#include "algebra/aggregation.hpp"
+
+#include <mpi.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace solidus::algebra {
+
+namespace {
+
+constexpr double k_smoothing = 4.0 / 3.0;  ///< ω times the largest eigenvalue of D⁻¹ A
+constexpr double k_dependent = 1e-8;       ///< a mode that keeps less of its length depends on those before
+constexpr double k_no_stiffness = 1e-12;   ///< a coarse diagonal below this share of the mean is no mode
+constexpr Index k_none = -1;
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Greedy: first whole neighbourhoods that are still free, then the rows between them join a neighbour's
+/// aggregate, then what is left. Returns how many there are.
+Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
+  const Index n = a.n_rows();
+  of_row.assign(at(n), k_none);
+  Index n_aggregates = 0;
+  const auto neighbours = [&](Index row) {
+    return a.column.subspan(at(a.start[at(row)]), at(a.start[at(row) + 1] - a.start[at(row)]));
+  };
+  for (Index row = 0; row < n; ++row) {
+    const auto around = neighbours(row);
+    if (std::any_of(around.begin(), around.end(), [&](Index j) { return j < n && of_row[at(j)] != k_none; }))
+      continue;
+    for (const Index j : around)
+      if (j < n) of_row[at(j)] = n_aggregates;
+    ++n_aggregates;
+  }
+  // To the smallest aggregate in reach, as it was before: a row that joins does not draw its neighbours
+  // along.
+  const std::vector<Index> first = of_row;
+  std::vector<Index> members(at(n_aggregates), 0);
+  for (const Index aggregate : first)
+    if (aggregate != k_none) ++members[at(aggregate)];
+  for (Index row = 0; row < n; ++row) {
+    if (first[at(row)] != k_none) continue;
+    Index best = k_none;
+    for (const Index j : neighbours(row)) {
+      const Index candidate = j < n ? first[at(j)] : k_none;
+      if (candidate != k_none && (best == k_none || members[at(candidate)] < members[at(best)]))
+        best = candidate;
+    }
+    if (best == k_none) continue;
+    of_row[at(row)] = best;
+    ++members[at(best)];
+  }
+  for (Index row = 0; row < n; ++row) {
+    if (of_row[at(row)] != k_none) continue;
+    for (const Index j : neighbours(row))
+      if (j < n && of_row[at(j)] == k_none) of_row[at(j)] = n_aggregates;
+    ++n_aggregates;
+  }
+  return n_aggregates;
+}
+
+/// Modified Gram-Schmidt, twice, on the rows of one aggregate: Q over the modes, R to the coarse level.
+/// Columns that depend on others become zero.
+void orthonormalise(std::vector<double>& q, std::size_t n_rows, int modes, double* r) {
+  const auto n = static_cast<std::size_t>(modes);
+  const auto dot = [&](std::size_t a, std::size_t b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n_rows; ++i) sum += q[i * n + a] * q[i * n + b];
+    return sum;
+  };
+  std::fill_n(r, n * n, 0.0);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double length = std::sqrt(dot(k, k));
+    for (int pass = 0; pass < 2; ++pass)
+      for (std::size_t j = 0; j < k; ++j) {
+        const double share = dot(j, k);
+        r[j * n + k] += share;
+        for (std::size_t i = 0; i < n_rows; ++i) q[i * n + k] -= share * q[i * n + j];
+      }
+    const double left = std::sqrt(dot(k, k));
+    const bool depends = !(left > k_dependent * length);
+    r[k * n + k] = depends ? 0.0 : left;
+    for (std::size_t i = 0; i < n_rows; ++i) q[i * n + k] = depends ? 0.0 : q[i * n + k] / left;
+  }
+}
+
+/// P₀ as one block a row, [owned row × size][modes], and the near-null space of the coarse level.
+std::vector<float> tentative(const std::vector<Index>& of_row, Index n_aggregates, int size,
+                             std::span<const double> near_null, int modes, std::span<const char> fixed,
+                             std::vector<double>& coarse_modes) {
+  const auto n = static_cast<std::size_t>(modes), bs = static_cast<std::size_t>(size);
+  std::vector<std::int64_t> start(at(n_aggregates) + 1, 0);
+  for (const Index aggregate : of_row) ++start[at(aggregate) + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  std::vector<Index> rows(of_row.size());
+  std::vector<std::int64_t> next(start.begin(), start.end() - 1);
+  for (std::size_t row = 0; row < of_row.size(); ++row)
+    rows[at(next[at(of_row[row])]++)] = static_cast<Index>(row);
+
+  std::vector<float> p(of_row.size() * bs * n);
+  coarse_modes.assign(at(n_aggregates) * n * n, 0.0);
+  std::vector<double> q;
+  for (std::size_t aggregate = 0; aggregate < at(n_aggregates); ++aggregate) {
+    const std::span<const Index> members(rows.data() + start[aggregate],
+                                         at(start[aggregate + 1] - start[aggregate]));
+    q.clear();
+    for (const Index row : members)
+      q.insert(q.end(), near_null.begin() + row * size * modes, near_null.begin() + (row + 1) * size * modes);
+    orthonormalise(q, members.size() * bs, modes, coarse_modes.data() + aggregate * n * n);
+    for (std::size_t i = 0; i < members.size(); ++i)
+      for (std::size_t k = 0; k < bs; ++k) {
+        const std::size_t row = at(members[i]) * bs + k;
+        if (!fixed.empty() && fixed[row] != 0) continue;
+        for (std::size_t m = 0; m < n; ++m) p[row * n + m] = static_cast<float>(q[(i * bs + k) * n + m]);
+      }
+  }
+  return p;
+}
+
+/// Blocks gathered by column: a row of a product while it is made.
+class RowSum {
+ public:
+  RowSum(Index n_columns, int entries) : entries_(entries), place_(at(n_columns), k_none) {}
+  void clear() {
+    for (const Index column : columns_) place_[at(column)] = k_none;
+    columns_.clear();
+    values_.clear();
+  }
+  double* block(Index column) {
+    Index& place = place_[at(column)];
+    if (place == k_none) {
+      place = static_cast<Index>(columns_.size());
+      columns_.push_back(column);
+      values_.resize(values_.size() + static_cast<std::size_t>(entries_), 0.0);
+    }
+    return values_.data() + std::int64_t{place} * entries_;
+  }
+  const std::vector<Index>& columns() const { return columns_; }
+
+ private:
+  int entries_;
+  std::vector<Index> place_, columns_;
+  std::vector<double> values_;
+};
+
+/// c += a b of row-major blocks.
+template <int size, int modes, class Number>
+void add_product(const double* a, const Number* b, double* c) {
+  for (int r = 0; r < size; ++r)
+    for (int k = 0; k < size; ++k)
+      for (int m = 0; m < modes; ++m)
+        c[r * modes + m] += a[r * size + k] * static_cast<double>(b[k * modes + m]);
+}
+
+/// c += aᵀ b of row-major blocks.
+template <int size, int modes>
+void add_transposed_product(const float* a, const double* b, double* c) {
+  for (int k = 0; k < modes; ++k)
+    for (int r = 0; r < size; ++r)
+      for (int m = 0; m < modes; ++m)
+        c[k * modes + m] += static_cast<double>(a[r * modes + k]) * b[r * modes + m];
+}
+
+template <int size, int modes>
+void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coarse,
+            const std::vector<float>& tentative, std::span<const char> fixed,
+            std::span<const float> inverse_diagonal, double omega, BlockRows<float>& p) {
+  constexpr int k_entries = size * modes;
+  const Index n = a.n_rows();
+  RowSum sum(n_coarse, k_entries);
+  for (Index row = 0; row < n; ++row) {
+    sum.clear();
+    const float* const own = tentative.data() + at(row) * k_entries;
+    sum.block(of_row[at(row)]);
+    const std::int64_t begin = a.start[at(row)], end = a.start[at(row) + 1];
+    const bool inner =
+        std::all_of(a.column.begin() + begin, a.column.begin() + end, [&](Index j) { return j < n; });
+    if (inner) {
+      for (std::int64_t s = begin; s < end; ++s) {
+        const Index j = a.column[at(s)];
+        add_product<size, modes>(a.block(s), tentative.data() + at(j) * k_entries, sum.block(of_row[at(j)]));
+      }
+    }
+    std::vector<Index> columns = sum.columns();
+    std::sort(columns.begin(), columns.end());
+    for (const Index column : columns) {
+      const double* const from = sum.block(column);
+      p.column.push_back(column);
+      for (int r = 0; r < size; ++r) {
+        const std::size_t entry = at(row) * size + static_cast<std::size_t>(r);
+        const bool zero = !fixed.empty() && fixed[entry] != 0;
+        const double factor = zero ? 0.0 : omega * static_cast<double>(inverse_diagonal[entry]);
+        for (int m = 0; m < modes; ++m) {
+          const double start = column == of_row[at(row)] ? static_cast<double>(own[r * modes + m]) : 0.0;
+          p.value.push_back(static_cast<float>(start - factor * from[r * modes + m]));
+        }
+      }
+    }
+    p.start.push_back(static_cast<std::int64_t>(p.column.size()));
+  }
+}
+
+/// The columns of Pᵀ A P, sorted.
+void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_owned, Index n_local,
+                      BlockRows<double>& coarse) {
+  std::vector<std::vector<Index>> rows(at(n_owned));
+  std::vector<std::size_t> compressed(at(n_owned), 64);
+  RowSum reached(n_local, 0);
+  const auto compress = [](std::vector<Index>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    reached.clear();
+    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
+      const std::size_t j = at(a.column[at(s)]);
+      for (std::int64_t t = p.start[j]; t < p.start[j + 1]; ++t) reached.block(p.column[at(t)]);
+    }
+    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t) {
+      const std::size_t to = at(p.column[at(t)]);
+      rows[to].insert(rows[to].end(), reached.columns().begin(), reached.columns().end());
+      if (rows[to].size() < compressed[to]) continue;
+      compress(rows[to]);
+      compressed[to] = std::max<std::size_t>(64, 4 * rows[to].size());
+    }
+  }
+  for (auto& list : rows) {
+    compress(list);
+    coarse.column.insert(coarse.column.end(), list.begin(), list.end());
+    coarse.start.push_back(static_cast<std::int64_t>(coarse.column.size()));
+    std::vector<Index>().swap(list);
+  }
+  coarse.value.assign(coarse.column.size() * at(coarse.block_entries()), 0.0);
+}
+
+template <int size, int modes>
+void galerkin(const MatrixView& a, const BlockRows<float>& p, Index n_local, BlockRows<double>& coarse) {
+  RowSum product(n_local, size * modes);
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    product.clear();
+    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
+      const std::size_t j = at(a.column[at(s)]);
+      for (std::int64_t t = p.start[j]; t < p.start[j + 1]; ++t)
+        add_product<size, modes>(a.block(s), p.block(t), product.block(p.column[at(t)]));
+    }
+    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t) {
+      const std::size_t to = at(p.column[at(t)]);
+      const auto begin = coarse.column.begin() + coarse.start[to],
+                 end = coarse.column.begin() + coarse.start[to + 1];
+      for (const Index column : product.columns()) {
+        const auto slot = std::lower_bound(begin, end, column) - coarse.column.begin();
+        add_transposed_product<size, modes>(p.block(t), product.block(column), coarse.block(slot));
+      }
+    }
+  }
+}
+
+/// A mode without stiffness, or one that its aggregate does not have, gets a diagonal of its own.
+void hold_empty_modes(BlockRows<double>& a) {
+  const auto n = static_cast<std::size_t>(a.rows);
+  std::vector<double*> diagonal;
+  double sums[2] = {0, 0};
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    const auto begin = a.column.begin() + a.start[at(row)], end = a.column.begin() + a.start[at(row) + 1];
+    double* const block = a.block(std::lower_bound(begin, end, row) - a.column.begin());
+    for (std::size_t m = 0; m < n; ++m) {
+      diagonal.push_back(block + m * n + m);
+      sums[0] += std::abs(*diagonal.back());
+      sums[1] += 1;
+    }
+  }
+  const double mean = sums[1] > 0 && sums[0] > 0 ? sums[0] / sums[1] : 1.0;
+  for (double* const d : diagonal)
+    if (std::abs(*d) <= k_no_stiffness * mean) *d = mean;
+}
+
+template <int size, int modes>
+void make_level(const MatrixView& a, const std::vector<Index>& of_row, const std::vector<float>& start,
+                std::span<const char> fixed, std::span<const float> inverse_diagonal, double omega,
+                const std::vector<double>& of_ghosts, Coarsening& next) {
+  constexpr int k_entries = size * modes;
+  BlockRows<float>& p = next.interpolation;
+  smooth<size, modes>(a, of_row, next.numbering.n_owned, start, fixed, inverse_diagonal, omega, p);
+  const std::vector<GlobalIndex>& ghosts = next.numbering.ghosts;
+  for (std::size_t g = 0; g < of_ghosts.size(); g += k_entries + 1) {
+    const auto found = std::lower_bound(ghosts.begin(), ghosts.end(), static_cast<GlobalIndex>(of_ghosts[g]));
+    p.column.push_back(next.numbering.n_owned + static_cast<Index>(found - ghosts.begin()));
+    for (std::size_t k = 1; k <= k_entries; ++k) p.value.push_back(static_cast<float>(of_ghosts[g + k]));
+    p.start.push_back(static_cast<std::int64_t>(p.column.size()));
+  }
+  galerkin_pattern(a, p, next.numbering.n_owned, next.numbering.n_local(), next.matrix);
+  galerkin<size, modes>(a, p, next.numbering.n_local(), next.matrix);
+}
+
+}  // namespace
+
+std::vector<float> inverse_diagonal(const MatrixView& a) {
+  const auto n = static_cast<std::size_t>(a.size);
+  std::vector<float> inverse(at(a.n_rows()) * n, 1.0F);
+  for (Index row = 0; row < a.n_rows(); ++row)
+    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
+      if (a.column[at(s)] != row) continue;
+      for (std::size_t r = 0; r < n; ++r)
+        if (const double d = a.block(s)[r * n + r]; d != 0)
+          inverse[at(row) * n + r] = static_cast<float>(1.0 / d);
+    }
+  return inverse;
+}
+
+Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const GhostExchange& ghosts,
+                   std::span<const double> near_null, int modes, std::span<const char> fixed,
+                   std::span<const float> inverse_diagonal, double largest) {
+  const int entries = a.size * modes;
+  Coarsening next;
+  next.modes = modes;
+  next.interpolation.rows = a.size;
+  next.interpolation.columns = next.matrix.rows = next.matrix.columns = modes;
+  std::vector<Index> of_row;
+  next.numbering.n_owned = aggregate(a, of_row);
+  GlobalIndex mine = next.numbering.n_owned;
+  MPI_Exscan(&mine, &next.numbering.first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
+  const std::vector<float> start =
+      tentative(of_row, next.numbering.n_owned, a.size, near_null, modes, fixed, next.near_null);
+
+  // The rows of ghosts: the number of the aggregate over all processes, then the block of P₀.
+  std::vector<double> rows(at(numbering.n_local()) * at(entries + 1));
+  for (std::size_t row = 0; row < of_row.size(); ++row) {
+    double* const to = rows.data() + row * at(entries + 1);
+    to[0] = static_cast<double>(next.numbering.first + of_row[row]);
+    std::copy_n(start.data() + row * at(entries), entries, to + 1);
+  }
+  ghosts.update(rows, entries + 1);
+  rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(of_row.size()) * (entries + 1));
+  for (std::size_t g = 0; g < rows.size(); g += at(entries + 1))
+    next.numbering.ghosts.push_back(static_cast<GlobalIndex>(rows[g]));
+  std::sort(next.numbering.ghosts.begin(), next.numbering.ghosts.end());
+  next.numbering.ghosts.erase(std::unique(next.numbering.ghosts.begin(), next.numbering.ghosts.end()),
+                              next.numbering.ghosts.end());
+
+  const double omega = largest > 0 ? k_smoothing / largest : 0.0;
+  const auto make = [&]<int size, int n>() {
+    make_level<size, n>(a, of_row, start, fixed, inverse_diagonal, omega, rows, next);
+  };
+  with_block_sizes(a.size, modes, make);
+  hold_empty_modes(next.matrix);
+  return next;
+}
+
+}  // namespace solidus::algebra

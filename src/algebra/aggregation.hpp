@@ -1,0 +1,58 @@
+/// Smoothed aggregation: the coarse level of a multigrid hierarchy (Vaněk, Mandel, Brezina, Computing 56
+/// (1996) 179).
+///
+/// Block rows are gathered in aggregates of neighbours. The near-null space restricted to an aggregate, made
+/// orthonormal, is the tentative interpolation P₀, so that the coarse level represents it exactly; a step of
+/// Jacobi's method takes the energy out of its edges, P = (I − ω D⁻¹ A) P₀. The coarse matrix is Pᵀ A P.
+///
+/// Aggregates do not reach over processes, and rows that couple with another process keep P₀: a row of
+/// another process then has one entry, and the coarse matrix needs no sum over processes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algebra/packed_rows.hpp"
+#include "algebra/parallel.hpp"
+
+namespace solidus::algebra {
+
+/// A square matrix by block rows: the rows of this process; columns are its own, then ghosts.
+struct MatrixView {
+  int size = 1;  ///< of a block
+  std::span<const std::int64_t> start;
+  std::span<const Index> column;
+  const double* blocks = nullptr;  ///< [slot][row][column]
+  Index n_rows() const { return static_cast<Index>(start.size()) - 1; }
+  const double* block(std::int64_t slot) const { return blocks + slot * size * size; }
+};
+
+/// One over the diagonal, [owned row × size]; one where it vanishes.
+std::vector<float> inverse_diagonal(const MatrixView& a);
+
+/// Where the block rows of a level stand among those of all processes.
+struct Numbering {
+  Index n_owned = 0;
+  GlobalIndex first = 0;
+  std::vector<GlobalIndex> ghosts;  ///< [local − n_owned]
+  Index n_local() const { return n_owned + static_cast<Index>(ghosts.size()); }
+};
+
+/// What the next level is made of.
+struct Coarsening {
+  int modes = 1;                   ///< size of a coarse block
+  BlockRows<float> interpolation;  ///< P, [local fine row], ghosts too; columns are local coarse rows
+  BlockRows<double> matrix;        ///< Pᵀ A P, owned coarse rows
+  Numbering numbering;             ///< of the coarse rows
+  std::vector<double> near_null;   ///< of the coarse level, [owned coarse row × modes][modes]
+};
+
+/// @param near_null  [owned row × size][modes]
+/// @param fixed      [owned row × size], rows that are decoupled and have no error; empty: none
+/// @param largest    eigenvalue of D⁻¹ A
+/// Collective.
+Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const GhostExchange& ghosts,
+                   std::span<const double> near_null, int modes, std::span<const char> fixed,
+                   std::span<const float> inverse_diagonal, double largest);
+
+}  // namespace solidus::algebra

@@ -1,0 +1,340 @@
+#include "algebra/multigrid.hpp"
+
+#include <petscksp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "algebra/aggregation.hpp"
+#include "algebra/parallel.hpp"
+#include "algebra/petsc_handles.hpp"
+
+namespace solidus::algebra {
+
+namespace {
+
+constexpr int k_sweeps = 2;         ///< of Chebyshev's iteration, before and after
+constexpr double k_interval = 0.1;  ///< its lower end over the largest eigenvalue
+constexpr double k_margin = 1.1;    ///< the largest eigenvalue over its estimate
+constexpr int k_lanczos_steps = 10;
+constexpr GlobalIndex k_coarsest = 60;  ///< block rows that are factorised
+constexpr double k_slow = 0.7;          ///< rows left by a coarsening that is not worth a level
+constexpr int k_most_levels = 20;
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The largest eigenvalue of a symmetric tridiagonal matrix, by bisection on Sturm's sequence.
+double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside) {
+  double low = -1e300, high = -1e300;
+  for (std::size_t i = 0; i < diagonal.size(); ++i) {
+    const double radius =
+        (i > 0 ? std::abs(beside[i - 1]) : 0.0) + (i < beside.size() ? std::abs(beside[i]) : 0.0);
+    low = std::max(low, diagonal[i]);
+    high = std::max(high, diagonal[i] + radius);
+  }
+  const auto above_all = [&](double x) {
+    double d = 1;
+    for (std::size_t i = 0; i < diagonal.size(); ++i) {
+      d = diagonal[i] - x - (i > 0 ? beside[i - 1] * beside[i - 1] / d : 0.0);
+      if (d >= 0) return false;
+    }
+    return true;
+  };
+  for (int k = 0; k < 40; ++k) {
+    const double middle = 0.5 * (low + high);
+    (above_all(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+/// Between −1 and 1, the same for a degree of freedom whatever process owns it.
+float scattered(GlobalIndex number) {
+  const double golden = static_cast<double>(number + 1) / std::numbers::phi;
+  return static_cast<float>(2 * (golden - std::floor(golden)) - 1);
+}
+
+}  // namespace
+
+NearNullSpace rigid_body_modes(const mesh::Mesh& mesh, int components) {
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes), nc = static_cast<std::size_t>(components);
+  const std::size_t modes = nc == 3 ? 6 : 3;
+  NearNullSpace space{static_cast<int>(modes), std::vector<double>(n * nc * modes, 0.0)};
+  for (std::size_t node = 0; node < n; ++node) {
+    const mesh::Point& x = mesh.x[node];
+    double* const rows = space.values.data() + node * nc * modes;
+    for (std::size_t i = 0; i < nc; ++i) rows[i * modes + i] = 1;
+    // Rotations about z, x and y.
+    rows[0 * modes + nc] = -x[1];
+    rows[1 * modes + nc] = x[0];
+    if (nc < 3) continue;
+    rows[1 * modes + 4] = -x[2];
+    rows[2 * modes + 4] = x[1];
+    rows[2 * modes + 5] = -x[0];
+    rows[0 * modes + 5] = x[2];
+  }
+  return space;
+}
+
+NearNullSpace constants(const mesh::Mesh& mesh, int components) {
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes), nc = static_cast<std::size_t>(components);
+  NearNullSpace space{components, std::vector<double>(n * nc * nc, 0.0)};
+  for (std::size_t i = 0; i < n * nc; ++i) space.values[i * nc + i % nc] = 1;
+  return space;
+}
+
+struct Multigrid::Level {
+  PackedRows matrix, interpolation;  ///< the latter to the next level
+  int size = 1;
+  Numbering numbering;
+  std::optional<GhostExchange> ghosts;  ///< none on the coarsest level
+  std::vector<float> inverse_diagonal;
+  double largest = 1;          ///< eigenvalue of D⁻¹ A
+  std::vector<float> x, b, r;  ///< [local row × size]
+  std::vector<float> d;        ///< [owned row × size]
+
+  std::size_t n_owned() const { return at(numbering.n_owned) * at(size); }
+  void estimate_largest();
+  void smooth(bool from_zero);
+  /// r = b − A x on owned rows.
+  void residual();
+  std::size_t bytes() const {
+    return matrix.bytes() + interpolation.bytes() +
+           (inverse_diagonal.capacity() + x.capacity() + b.capacity() + r.capacity() + d.capacity()) *
+               sizeof(float);
+  }
+};
+
+/// Lanczos' method on D^{-1/2} A D^{-1/2}.
+void Multigrid::Level::estimate_largest() {
+  const std::size_t n = n_owned();
+  std::vector<float> root(n), v(n), before(n, 0.0F);
+  const auto norm = [&](const std::vector<float>& a) {
+    double sum = 0;
+    for (const float value : a) sum += static_cast<double>(value) * static_cast<double>(value);
+    return std::sqrt(global_sum(sum));
+  };
+  const auto scale = [](std::vector<float>& a, double factor) {
+    for (float& value : a) value *= static_cast<float>(factor);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    root[i] = std::sqrt(std::abs(inverse_diagonal[i]));
+    v[i] = scattered(numbering.first * size + static_cast<GlobalIndex>(i));
+  }
+  const double length = norm(v);
+  if (!(length > 0)) return;
+  scale(v, 1 / length);
+  std::vector<double> diagonal, beside;
+  for (int k = 0; k < k_lanczos_steps; ++k) {
+    for (std::size_t i = 0; i < n; ++i) x[i] = root[i] * v[i];
+    ghosts->update(x, size);
+    matrix.multiply(x.data(), r.data());
+    double along = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      r[i] *= root[i];
+      along += static_cast<double>(r[i]) * static_cast<double>(v[i]);
+    }
+    diagonal.push_back(global_sum(along));
+    const auto back = static_cast<float>(beside.empty() ? 0.0 : beside.back()),
+               here = static_cast<float>(diagonal.back());
+    for (std::size_t i = 0; i < n; ++i) {
+      const float next = r[i] - here * v[i] - back * before[i];
+      before[i] = v[i];
+      v[i] = next;
+    }
+    const double left = norm(v);
+    if (k + 1 == k_lanczos_steps || !(left > 1e-6 * std::abs(diagonal.front()))) break;
+    beside.push_back(left);
+    scale(v, 1 / left);
+  }
+  largest = largest_eigenvalue(diagonal, beside);
+}
+
+void Multigrid::Level::residual() {
+  ghosts->update(x, size);
+  matrix.multiply(x.data(), r.data());
+  for (std::size_t i = 0; i < n_owned(); ++i) r[i] = b[i] - r[i];
+}
+
+void Multigrid::Level::smooth(bool from_zero) {
+  const double high = k_margin * largest, low = k_interval * largest;
+  const double centre = 0.5 * (high + low), radius = 0.5 * (high - low), sigma = centre / radius;
+  const std::size_t n = n_owned();
+  if (!from_zero) residual();
+  const float* const defect = from_zero ? b.data() : r.data();
+  const auto first = static_cast<float>(1 / centre);
+  for (std::size_t i = 0; i < n; ++i) {
+    d[i] = first * inverse_diagonal[i] * defect[i];
+    x[i] = from_zero ? d[i] : x[i] + d[i];
+  }
+  double rho = 1 / sigma;
+  for (int k = 1; k < k_sweeps; ++k) {
+    residual();
+    const double next = 1 / (2 * sigma - rho);
+    const auto keep = static_cast<float>(next * rho), gain = static_cast<float>(2 * next / radius);
+    for (std::size_t i = 0; i < n; ++i) {
+      d[i] = keep * d[i] + gain * inverse_diagonal[i] * r[i];
+      x[i] += d[i];
+    }
+    rho = next;
+  }
+}
+
+/// The coarsest level, factorised on every process.
+struct Multigrid::Coarsest {
+  MatHandle matrix;
+  KspHandle ksp;
+  VecHandle b, x;
+
+  Coarsest(const BlockRows<double>& a, const Numbering& numbering);
+  void solve(const std::vector<float>& right, std::vector<float>& solution);
+};
+
+Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbering) {
+  const auto n = static_cast<PetscInt>(a.n_rows() * a.rows);
+  PetscInt widest = 1;
+  for (Index row = 0; row < a.n_rows(); ++row)
+    widest = std::max(widest, static_cast<PetscInt>(a.start[at(row) + 1] - a.start[at(row)]) * a.rows);
+  check(MatCreateAIJ(PETSC_COMM_WORLD, n, n, PETSC_DETERMINE, PETSC_DETERMINE, widest, nullptr, widest,
+                     nullptr, matrix.out()),
+        "MatCreateAIJ");
+  check(MatSetBlockSize(matrix, a.rows), "MatSetBlockSize");
+  check(MatSetUp(matrix), "MatSetUp");
+  for (Index row = 0; row < a.n_rows(); ++row)
+    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
+      const Index column = a.column[at(s)];
+      const auto i = static_cast<PetscInt>(numbering.first + row);
+      const auto j = static_cast<PetscInt>(column < numbering.n_owned
+                                               ? numbering.first + column
+                                               : numbering.ghosts[at(column - numbering.n_owned)]);
+      check(MatSetValuesBlocked(matrix, 1, &i, 1, &j, a.block(s), INSERT_VALUES), "MatSetValuesBlocked");
+    }
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+  check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
+  check(KSPSetType(ksp, KSPPREONLY), "KSPSetType");
+  check(KSPSetOperators(ksp, matrix, matrix), "KSPSetOperators");
+  PC pc = nullptr, inner = nullptr;
+  check(KSPGetPC(ksp, &pc), "KSPGetPC");
+  check(PCSetType(pc, PCREDUNDANT), "PCSetType");
+  KSP of_process = nullptr;
+  check(PCRedundantGetKSP(pc, &of_process), "PCRedundantGetKSP");
+  check(KSPGetPC(of_process, &inner), "KSPGetPC");
+  check(PCFactorSetShiftType(inner, MAT_SHIFT_INBLOCKS), "PCFactorSetShiftType");
+  check(KSPSetUp(ksp), "KSPSetUp");
+  check(MatCreateVecs(matrix, x.out(), b.out()), "MatCreateVecs");
+}
+
+void Multigrid::Coarsest::solve(const std::vector<float>& right, std::vector<float>& solution) {
+  PetscInt n = 0;
+  check(VecGetLocalSize(b, &n), "VecGetLocalSize");
+  double* to = nullptr;
+  check(VecGetArrayWrite(b, &to), "VecGetArrayWrite");
+  std::copy_n(right.begin(), n, to);
+  check(VecRestoreArrayWrite(b, &to), "VecRestoreArrayWrite");
+  check(KSPSolve(ksp, b, x), "KSPSolve");
+  const double* from = nullptr;
+  check(VecGetArrayRead(x, &from), "VecGetArrayRead");
+  std::transform(from, from + n, solution.begin(), [](double v) { return static_cast<float>(v); });
+  check(VecRestoreArrayRead(x, &from), "VecRestoreArrayRead");
+}
+
+Multigrid::Multigrid(const mesh::Mesh& mesh, NearNullSpace modes) : mesh_(mesh), modes_(std::move(modes)) {}
+Multigrid::~Multigrid() = default;
+
+bool Multigrid::supports(int block_size, int modes) {
+  const int sizes[] = {11, 22, 23, 33, 36};
+  return std::find(std::begin(sizes), std::end(sizes), 10 * block_size + modes) != std::end(sizes);
+}
+
+void Multigrid::set_up(BlockMatrix& a) {
+  levels_.clear();
+  coarsest_.reset();
+  a.constrained([&] {
+    Numbering numbering{mesh_.n_owned_nodes, mesh_.first_owned, {}};
+    numbering.ghosts.assign(mesh_.global_node.begin() + mesh_.n_owned_nodes, mesh_.global_node.end());
+    add_level({a.block_size(), a.row_start(), a.columns(), a.block(0)}, std::move(numbering),
+              std::span(a.fixed()).first(at(mesh_.n_owned_nodes) * at(a.block_size())), modes_.values);
+  });
+}
+
+void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<const char> fixed,
+                          std::span<const double> near_null) {
+  const auto n_rows = [](const Numbering& n) {
+    return static_cast<GlobalIndex>(global_sum(static_cast<double>(n.n_owned)));
+  };
+  const std::size_t n_local = at(numbering.n_local()) * at(a.size),
+                    n_owned = at(numbering.n_owned) * at(a.size);
+  GhostExchange ghosts(numbering.n_owned, numbering.first, numbering.ghosts);
+  levels_.push_back({PackedRows(a.size, a.size, a.start.data(), a.n_rows(), a.column.data(), a.blocks),
+                     {},
+                     a.size,
+                     std::move(numbering),
+                     std::move(ghosts),
+                     inverse_diagonal(a),
+                     1,
+                     std::vector<float>(n_local),
+                     std::vector<float>(n_local),
+                     std::vector<float>(n_local),
+                     std::vector<float>(n_owned)});
+  Level& level = levels_.back();
+  level.estimate_largest();
+  const GlobalIndex before = n_rows(level.numbering);
+  Coarsening next = coarsen(a, level.numbering, *level.ghosts, near_null, modes_.modes, fixed,
+                            level.inverse_diagonal, level.largest);
+  const BlockRows<float>& p = next.interpolation;
+  level.interpolation =
+      PackedRows(p.rows, p.columns, p.start.data(), level.numbering.n_owned, p.column.data(), p.value.data());
+  next.interpolation = {};
+  const GlobalIndex after = n_rows(next.numbering);
+  const bool stalls = static_cast<double>(after) > k_slow * static_cast<double>(before);
+  if (after > k_coarsest && !stalls && levels_.size() < k_most_levels) {
+    const MatrixView view{next.modes, next.matrix.start, next.matrix.column, next.matrix.value.data()};
+    add_level(view, std::move(next.numbering), {}, next.near_null);
+    return;
+  }
+  coarsest_ = std::make_unique<Coarsest>(next.matrix, next.numbering);
+  const std::size_t n = at(next.numbering.n_local()) * at(next.modes);
+  Level last;
+  last.size = next.modes;
+  last.numbering = std::move(next.numbering);
+  last.x.resize(n);
+  last.b.resize(n);
+  levels_.push_back(std::move(last));
+}
+
+void Multigrid::cycle(std::size_t index) {
+  Level& level = levels_[index];
+  if (index + 1 == levels_.size()) return coarsest_->solve(level.b, level.x);
+  Level& next = levels_[index + 1];
+  level.smooth(true);
+  level.residual();
+  // Rows of this process interpolate from its own coarse rows alone.
+  std::fill(next.b.begin(), next.b.end(), 0.0F);
+  level.interpolation.multiply_transposed_add(level.r.data(), next.b.data());
+  cycle(index + 1);
+  level.interpolation.multiply_add(next.x.data(), level.x.data());
+  level.smooth(false);
+}
+
+void Multigrid::apply(std::span<const double> r, std::span<double> z) {
+  Level& level = levels_.front();
+  std::transform(r.begin(), r.end(), level.b.begin(), [](double v) { return static_cast<float>(v); });
+  cycle(0);
+  std::copy_n(level.x.begin(), z.size(), z.begin());
+}
+
+int Multigrid::levels() const {
+  return static_cast<int>(levels_.size());
+}
+
+std::size_t Multigrid::bytes() const {
+  std::size_t total = 0;
+  for (const Level& level : levels_) total += level.bytes();
+  return total;
+}
+
+}  // namespace solidus::algebra

@@ -1,0 +1,52 @@
+/// Algebraic multigrid by smoothed aggregation (aggregation.hpp) as a preconditioner: a V-cycle with two
+/// steps of Chebyshev's iteration on Jacobi's method before and after, in single precision.
+///
+/// Made from a BlockMatrix as it stands, without a copy in PETSc's format. For symmetric matrices the cycle
+/// is symmetric. Chebyshev's interval as in Adams, Brezina, Hu, Tuminaro, J. Comput. Phys. 188 (2003) 593.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+
+namespace solidus::algebra {
+
+/// Functions that cost next to no energy: rigid-body modes, or a constant for each component.
+struct NearNullSpace {
+  int modes = 1;
+  std::vector<double> values;  ///< [owned node][component][mode]
+};
+
+NearNullSpace rigid_body_modes(const mesh::Mesh& mesh, int components);
+NearNullSpace constants(const mesh::Mesh& mesh, int components);
+
+class Multigrid {
+ public:
+  /// @param modes  as many as a coarse block has rows
+  Multigrid(const mesh::Mesh& mesh, NearNullSpace modes);
+  ~Multigrid();
+  /// Whether there are kernels for blocks of this size.
+  static bool supports(int block_size, int modes);
+  /// Makes the hierarchy for the blocks of now, fixed rows included; no ties. Collective.
+  void set_up(BlockMatrix& a);
+  /// z ≈ A⁻¹ r on owned degrees of freedom. Collective.
+  void apply(std::span<const double> r, std::span<double> z);
+  int levels() const;
+  std::size_t bytes() const;
+
+ private:
+  struct Level;
+  struct Coarsest;
+  void add_level(const struct MatrixView& a, struct Numbering numbering, std::span<const char> fixed,
+                 std::span<const double> near_null);
+  void cycle(std::size_t level);
+
+  const mesh::Mesh& mesh_;
+  NearNullSpace modes_;
+  std::vector<Level> levels_;
+  std::unique_ptr<Coarsest> coarsest_;
+};
+
+}  // namespace solidus::algebra

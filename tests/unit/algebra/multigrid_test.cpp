@@ -1,0 +1,161 @@
+#include "algebra/multigrid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algebra/aggregation.hpp"
+#include "algebra/linear_solver.hpp"
+#include "algebra/parallel.hpp"
+#include "grid.hpp"
+
+namespace solidus::algebra {
+namespace {
+
+using test::Grid;
+
+/// Plane stress on the unit squares of a grid, one node's two degrees of freedom held in each of the first
+/// columns: the stiffness of springs between all nodes of a quad, which rigid motions do not stretch.
+struct Springs {
+  Grid grid;
+  BlockMatrix matrix;
+
+  explicit Springs(int n) : grid(n, n), matrix(grid.mesh, 2, graph(grid)) {
+    std::vector<char> fixed(grid.mesh.x.size() * 2, 0);
+    for (Index node = 0; node < grid.mesh.n_nodes(); ++node)
+      if (grid.global(node) % n == 0) fixed[2 * at(node)] = fixed[2 * at(node) + 1] = 1;
+    matrix.set_fixed(fixed);
+    for (std::size_t q = 0; q < grid.quads.size(); q += 4)
+      for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = 0; b < 4; ++b)
+          if (a != b) add_spring(grid.quads[q + a], grid.quads[q + b]);
+  }
+  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+  static NodeGraph graph(const Grid& grid) {
+    NodeGraph g(grid.mesh);
+    g.add_cliques(grid.quads, 4);
+    return g;
+  }
+  /// The half of a spring that pulls at node a.
+  void add_spring(Index a, Index b) {
+    if (a >= grid.mesh.n_owned_nodes) return;
+    const mesh::Point &x = grid.mesh.x[at(a)], &y = grid.mesh.x[at(b)];
+    const double d[2] = {y[0] - x[0], y[1] - x[1]}, length = std::hypot(d[0], d[1]);
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) {
+        const double k = d[i] * d[j] / (length * length * length);
+        matrix.block(matrix.slot(a, a))[2 * i + j] += k;
+        matrix.block(matrix.slot(a, b))[2 * i + j] -= k;
+      }
+  }
+  std::size_t n_owned() const { return 2 * at(grid.mesh.n_owned_nodes); }
+  std::vector<double> pattern(double factor) const {
+    std::vector<double> b(n_owned());
+    for (std::size_t i = 0; i < b.size(); ++i)
+      if (!matrix.fixed()[i])
+        b[i] = std::sin(factor * static_cast<double>(2 * grid.mesh.first_owned) +
+                        factor * static_cast<double>(i));
+    return b;
+  }
+};
+
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return global_sum(sum);
+}
+
+TEST(Multigrid, TheNumberOfIterationsHardlyGrowsWithTheMesh) {
+  std::vector<int> iterations;
+  for (const int n : {20, 40, 80}) {
+    Springs springs(n);
+    LinearSolver solver(springs.grid.mesh,
+                        {.prefix = "test_", .kind = SolverKind::multigrid, .relative_tolerance = 1e-8});
+    solver.use_rigid_body_modes(springs.grid.mesh, 2);
+    std::vector<double> x(springs.n_owned());
+    const LinearReport report = solver.solve(springs.matrix, springs.pattern(0.7), x);
+    ASSERT_TRUE(report.converged) << report.reason;
+    iterations.push_back(report.iterations);
+  }
+  EXPECT_LE(iterations.back(), 25);
+  EXPECT_LE(iterations.back(), 2 * iterations.front());
+}
+
+TEST(Multigrid, TheCycleIsSymmetricAndPositive) {
+  Springs springs(30);
+  Multigrid multigrid(springs.grid.mesh, rigid_body_modes(springs.grid.mesh, 2));
+  multigrid.set_up(springs.matrix);
+  EXPECT_GE(multigrid.levels(), 2);
+  const std::vector<double> r = springs.pattern(0.7), s = springs.pattern(1.9);
+  std::vector<double> to_r(r.size()), to_s(s.size());
+  multigrid.apply(r, to_r);
+  multigrid.apply(s, to_s);
+  const double scale = std::sqrt(product(r, to_r) * product(s, to_s));
+  EXPECT_GT(product(r, to_r), 0);
+  EXPECT_NEAR(product(s, to_r), product(r, to_s), 1e-5 * scale);  // single precision
+  EXPECT_GT(multigrid.bytes(), 0U);
+}
+
+TEST(Multigrid, TheSameMatrixMakesTheSameBits) {
+  Springs springs(30);
+  const std::vector<double> r = springs.pattern(0.7);
+  std::vector<double> first(r.size()), second(r.size());
+  for (auto* z : {&first, &second}) {
+    Multigrid multigrid(springs.grid.mesh, rigid_body_modes(springs.grid.mesh, 2));
+    multigrid.set_up(springs.matrix);
+    multigrid.apply(r, *z);
+  }
+  EXPECT_EQ(first, second);
+}
+
+TEST(Multigrid, RigidMotionsOfTheCoarseLevelsAreThoseOfTheFineOne) {
+  const Grid grid(12, 12);
+  Springs springs(12);
+  springs.matrix.set_fixed(std::vector<char>(springs.grid.mesh.x.size() * 2, 0));
+  const mesh::Mesh& mesh = springs.grid.mesh;
+  const NearNullSpace modes = rigid_body_modes(mesh, 2);
+  const Numbering numbering{mesh.n_owned_nodes,
+                            mesh.first_owned,
+                            {mesh.global_node.begin() + mesh.n_owned_nodes, mesh.global_node.end()}};
+  const MatrixView a{2, springs.matrix.row_start(), springs.matrix.columns(), springs.matrix.block(0)};
+  const Coarsening next =
+      coarsen(a, numbering, GhostExchange(mesh), modes.values, 3, {}, inverse_diagonal(a), 2.0);
+
+  // P times the coarse modes is what the smoothing leaves of rigid motions: all of them, as they cost
+  // nothing.
+  const BlockRows<float>& p = next.interpolation;
+  for (Index row = 0; row < mesh.n_owned_nodes; ++row)
+    for (int i = 0; i < 2; ++i)
+      for (int mode = 0; mode < 3; ++mode) {
+        double sum = 0;
+        for (std::int64_t s = p.start[Springs::at(row)]; s < p.start[Springs::at(row) + 1]; ++s) {
+          const Index coarse = p.column[static_cast<std::size_t>(s)];
+          ASSERT_LT(coarse, next.numbering.n_owned);
+          for (int k = 0; k < 3; ++k)
+            sum += static_cast<double>(p.block(s)[i * 3 + k]) *
+                   next.near_null[static_cast<std::size_t>((coarse * 3 + k) * 3 + mode)];
+        }
+        EXPECT_NEAR(sum, modes.values[static_cast<std::size_t>((row * 2 + i) * 3 + mode)], 1e-5);
+      }
+  // And so they cost nothing there: the rows of Pᵀ A P take coarse rigid motions to zero, ghosts included.
+  std::vector<double> coarse(next.near_null);
+  coarse.resize(static_cast<std::size_t>(next.numbering.n_local()) * 9);
+  GhostExchange(next.numbering.n_owned, next.numbering.first, next.numbering.ghosts).update(coarse, 9);
+  const BlockRows<double>& m = next.matrix;
+  double largest = 0;
+  for (const double value : m.value) largest = std::max(largest, std::abs(value));
+  for (Index row = 0; row < m.n_rows(); ++row)
+    for (int i = 0; i < 3; ++i)
+      for (int mode = 0; mode < 3; ++mode) {
+        double sum = 0;
+        for (std::int64_t s = m.start[Springs::at(row)]; s < m.start[Springs::at(row) + 1]; ++s)
+          for (int k = 0; k < 3; ++k)
+            sum +=
+                m.block(s)[i * 3 + k] *
+                coarse[static_cast<std::size_t>((m.column[static_cast<std::size_t>(s)] * 3 + k) * 3 + mode)];
+        EXPECT_NEAR(sum, 0, 1e-5 * largest * 3);  // single precision, some three nodes to a side
+      }
+}
+
+}  // namespace
+}  // namespace solidus::algebra
