@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "base/errors.hpp"
+#include "base/keys.hpp"
 #include "mesh/abaqus_input.hpp"
 #include "mesh/raw_mesh.hpp"
 
@@ -46,13 +47,18 @@ class Silence {
 /// Gmsh's state is global: one session at a time, closed whatever happens.
 class Session {
  public:
-  Session() {
+  /// @param constants  what DefineConstant of a .geo script takes instead of its own values
+  explicit Session(const std::map<std::string, double>& constants = {}) {
     gmsh::initialize(0, nullptr, false);
+    for (const auto& [name, value] : constants) gmsh::onelab::setNumber(name, {value});
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.Verbosity", 0);
     gmsh::logger::start();
   }
-  ~Session() { gmsh::finalize(); }
+  ~Session() {
+    gmsh::onelab::clear();  // constants outlive finalize()
+    gmsh::finalize();
+  }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -102,6 +108,31 @@ void open(const std::string& path) {
   // A damaged .msh does not make open() throw; what it logs is the only sign.
   if (const std::string complaints = Session::complaints(); !complaints.empty())
     throw InputError({path}, "the mesh cannot be read: " + complaints, advice);
+}
+
+/// The constants that a .geo script declares: DefineConstant[ size = {8, Name "size"} ].
+std::vector<std::string> declared_constants(const std::string& path) {
+  const Session session;
+  open(path);
+  std::vector<std::string> names;
+  gmsh::onelab::getNames(names);
+  std::erase_if(names, [](const std::string& name) {
+    return name.starts_with("Gmsh/") || name.starts_with("ONELAB/");
+  });
+  return names;
+}
+
+/// Gmsh sets any name without a word: a misspelt one would change nothing.
+void check_constants(const std::string& path, const std::map<std::string, double>& constants) {
+  if (constants.empty()) return;
+  if (extension(path) != ".geo")
+    throw InputError({path}, "the mesh file is no .geo script and has no constants");
+  const std::vector<std::string> declared = declared_constants(path);
+  for (const auto& [name, value] : constants)
+    if (std::find(declared.begin(), declared.end(), name) == declared.end())
+      throw InputError({path}, "the script declares no constant '" + name + "'",
+                       declared.empty() ? "DefineConstant[ " + name + " = {value, Name \"" + name + "\"} ];"
+                                        : one_of(declared, name));
 }
 
 void generate(const std::string& path, double size, int element_order) {
@@ -212,10 +243,12 @@ int mesh_dimension() {
 
 }  // namespace
 
-RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order) {
+RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order,
+                  const std::map<std::string, double>& constants) {
   check_readable(path);
+  check_constants(path, constants);
   if (extension(path) == ".inp") return read_abaqus_input(path, unit_in_metres);
-  const Session session;
+  const Session session(constants);
   open(path);
   if (is_geometry(path)) generate(path, element_size / unit_in_metres, element_order);
 

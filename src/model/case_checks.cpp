@@ -75,6 +75,8 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
     throw InputError(m.where, fmt::format("'{}' is no unit of length", m.unit),
                      "\"mm\", \"m\", \"inch\", ...");
   if (!m.shape) return;
+  if (!m.constants.empty())
+    throw InputError(m.where, "[[mesh.constant]] is for .geo scripts, and the mesh is a built-in shape");
   const bool solid = analysis.kind == AnalysisKind::solid;
   const bool element_3d = m.element.starts_with("tet") || m.element.starts_with("hex");
   if (solid != element_3d)

@@ -54,12 +54,19 @@ struct TwoBlocksSpec {
   double gap = 0;                                     ///< between them
 };
 
+/// A constant of a .geo script, in the script's units.
+struct MeshConstantSpec {
+  std::string name;
+  double value = 0;
+};
+
 struct MeshSpec {
-  std::optional<std::string> shape, file;  ///< exactly one of them
-  std::string unit;                        ///< length unit of the file, "mm"
-  std::optional<double> element_size;      ///< for files that are meshed here (.geo, STEP) [m]
-  int order = 1;                           ///< of the elements, for files that are meshed here
-  std::string element;                     ///< of the built-in shapes: "tri3", ...
+  std::optional<std::string> shape, file;   ///< exactly one of them
+  std::string unit;                         ///< length unit of the file, "mm"
+  std::optional<double> element_size;       ///< for files that are meshed here (.geo, STEP) [m]
+  int order = 1;                            ///< of the elements, for files that are meshed here
+  std::vector<MeshConstantSpec> constants;  ///< for .geo scripts
+  std::string element;                      ///< of the built-in shapes: "tri3", ...
   std::optional<CylinderInMouldSpec> cylinder_in_mould;
   std::optional<BlockSpec> block;
   std::optional<TwoBlocksSpec> two_blocks;

@@ -1,9 +1,11 @@
 #include "model/mesh_input.hpp"
 
 #include <array>
+#include <map>
 #include <stdexcept>
 
 #include "base/units.hpp"
+#include "mesh/distribute.hpp"
 #include "mesh/shapes.hpp"
 #include "model/mesh_checks.hpp"
 #include "results/output_error.hpp"
@@ -39,7 +41,10 @@ mesh::RawMesh raw_mesh(const CaseSpec& spec) {
   const MeshSpec& m = spec.mesh;
   mesh::RawMesh result;
   if (m.file) {
-    result = mesh::read_mesh(*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order);
+    std::map<std::string, double> constants;
+    for (const MeshConstantSpec& constant : m.constants) constants[constant.name] = constant.value;
+    result = mesh::read_mesh(*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order,
+                             constants);
   } else {
     try {
       result = built_in_shape(m);
@@ -56,11 +61,15 @@ mesh::Mesh load_mesh(const CaseSpec& spec) {
   mesh::RawMesh raw;
   results::on_first_process([&] { raw = raw_mesh(spec); });
   std::vector<std::string> bodies, replicated;
-  for (const BodySpec& body : spec.bodies) bodies.push_back(body.mesh_group());
+  std::vector<mesh::BodyWork> work;
+  for (const BodySpec& body : spec.bodies) {
+    bodies.push_back(body.mesh_group());
+    work.push_back(body.physics == BodySpec::Physics::heat ? mesh::BodyWork::heat : mesh::BodyWork::all);
+  }
   for (const ContactSpec& contact : spec.contacts)
     for (const std::string& surface : contact.sides())
       if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
-  return mesh::distribute(raw, bodies, replicated);
+  return mesh::distribute(raw, bodies, replicated, work);
 }
 
 }  // namespace solidus::model

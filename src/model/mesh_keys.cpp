@@ -67,6 +67,16 @@ Section<TwoBlocksSpec> two_blocks_keys() {
   return s;
 }
 
+Section<MeshConstantSpec> constant_keys() {
+  Section<MeshConstantSpec> s("constant",
+                              "A constant of a .geo script, which declares it as `DefineConstant[ size = {8, "
+                              "Name \"size\"} ];`: its value "
+                              "here instead of there.");
+  s.key("name", &MeshConstantSpec::name).doc("The constant's name in the script.");
+  s.key("value", &MeshConstantSpec::value).doc("Its value, in the script's units.");
+  return s;
+}
+
 }  // namespace
 
 Section<MeshSpec> mesh_keys() {
@@ -89,6 +99,7 @@ Section<MeshSpec> mesh_keys() {
       .initially("tri3")
       .choices({"tri3", "tri6", "quad4", "quad8", "tet4", "tet10", "hex8", "hex20"})
       .doc("Element of the built-in shapes.");
+  s.sections("constant", &MeshSpec::constants, constant_keys());
   s.section("cylinder_in_mould", &MeshSpec::cylinder_in_mould, cylinder_in_mould_keys())
       .when("shape", {"cylinder_in_mould"});
   s.section("block", &MeshSpec::block, block_keys()).when("shape", {"block"});

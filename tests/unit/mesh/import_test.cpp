@@ -150,6 +150,38 @@ TEST_F(MeshFiles, AGeometryIsMeshedHere) {
   EXPECT_EQ(quadratic.groups.at("plate").blocks.at(0).shape, Shape::tri6);
 }
 
+TEST_F(MeshFiles, ConstantsOfAScriptTakeTheValuesOfTheCase) {
+  const std::string file =
+      write("constants.geo",
+            "DefineConstant[ width = {30, Name \"width\"}, size = {5, Name \"size\"} ];\n"
+            "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, width, 10};\n"
+            "Characteristic Length{ PointsOf{ Surface{1}; } } = size;\n"
+            "Physical Surface(\"plate\") = {1};\n");
+  const auto area = [](const RawMesh& m) {
+    return volume(distribute(m, {"plate"}, {}), AnalysisKind::plane_strain);
+  };
+  const RawMesh as_written = read_mesh(file, 0.001);
+  EXPECT_NEAR(area(as_written), 3e-4, 1e-17);
+  const RawMesh wide = read_mesh(file, 0.001, 0, 1, {{"width", 60}});
+  EXPECT_NEAR(area(wide), 6e-4, 1e-17);
+  const RawMesh fine = read_mesh(file, 0.001, 0, 1, {{"size", 1.25}, {"width", 30}});
+  EXPECT_GT(fine.x.size(), 10 * as_written.x.size());
+  EXPECT_THAT(complaint_of([&] {
+                read_mesh(file, 0.001, 0, 1, {{"sise", 1}});
+              }),
+              AllOf(HasSubstr("'sise'"), HasSubstr("did you mean 'size'")));
+  EXPECT_EQ(read_mesh(file, 0.001).x.size(), as_written.x.size()) << "values stay behind";
+  const std::string plain = write("plain.geo", "width = 3; Point(1) = {0, 0, 0};\n");
+  EXPECT_THAT(complaint_of([&] {
+                read_mesh(plain, 0.001, 0, 1, {{"width", 1}});
+              }),
+              HasSubstr("DefineConstant"));
+  EXPECT_THAT(complaint_of([&] {
+                read_mesh(write("a.msh", "no script\n"), 1, 0, 1, {{"size", 1}});
+              }),
+              HasSubstr("no .geo script"));
+}
+
 TEST_F(MeshFiles, APlainMeshWithoutNamesHasBodiesByNumber) {
   write_model(path("plain.msh"), 2, 1, 4.1, false);
   const RawMesh raw = read_mesh(path("plain.msh"), 0.001);
