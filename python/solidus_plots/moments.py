@@ -46,8 +46,9 @@ class Moments:
         return np.isin(grid.cell_data["body"], [self.bodies.index(name) for name in names])
 
 
-def values(grid, spec):
-    """Values of the field that a picture asks for, in its unit: "point_data" or "cell_data", and the array."""
+def values(grid, spec, cells=None):
+    """Values of the field that a picture asks for, in its unit: "point_data" or "cell_data", and the array; nan where
+    they are not `above` what the picture says. `smooth` averages values of the cells of a mask at their nodes."""
     name, component = spec["field"], spec.get("component")
     for kind in ("point_data", "cell_data"):
         if name in getattr(grid, kind):
@@ -57,9 +58,19 @@ def values(grid, spec):
                     raise ResultError(f"plots.toml: field '{name}' has the components 0 to {found.shape[1] - 1}, "
                                       f"not {component}")
                 found = np.linalg.norm(found, axis=1) if component is None else found[:, component]
-            return kind, style.convert(found, grid.units[name], spec.get("unit", ""))
+            if spec.get("smooth", False) and kind == "cell_data":
+                kind, found = "point_data", _at_nodes(grid, found, cells)
+            found = style.convert(found, grid.units[name], spec.get("unit", ""))
+            return kind, np.where(found > spec["above"], found, np.nan) if "above" in spec else found
     known = [name for data in (grid.point_data, grid.cell_data) for name in data]
     raise ResultError(f"plots.toml: no field '{name}' was written; there are {', '.join(known)}")
+
+
+def _at_nodes(grid, found, cells):
+    size = np.diff(grid.offsets, prepend=0)
+    nodes, weight = grid.connectivity, np.repeat(cells.astype(float), size)
+    count = np.bincount(nodes, weight, len(grid.points))
+    return np.bincount(nodes, weight * np.repeat(found, size), len(grid.points)) / np.maximum(count, 1.0)
 
 
 def nodes_of(grid, cells):

@@ -20,10 +20,14 @@ def named_line(level):
 
 
 class Paint:
-    """`unit` of the values; `low`, `high`: the range of those shown, which a picture's `range` overrides."""
+    """`unit` of the values; `shown`: all of them (nan: none), for the range where a picture says none."""
 
-    def __init__(self, spec, unit, low, high):
+    def __init__(self, spec, unit, shown):
         self._label = style.axis_label(spec.get("quantity", spec["field"].replace("_", " ").capitalize()), unit)
+        shown = shown[np.isfinite(shown)]
+        if not shown.size:
+            raise ResultError(f"plots.toml: '{spec['file']}': the field has no value above {spec.get('above')} there")
+        low, high = shown.min(), shown.max()
         self.low, self.high = spec.get("range", (low, high))
         if not self.high > self.low:
             self.high = self.low + 1.0

@@ -24,15 +24,15 @@ KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "mome
                  "magnification", "bodies", "contours", "range"},
         "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"},
         "sections": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "planes", "columns",
-                     "bodies", "magnification", "contours", "levels", "bands", "colours", "range", "mesh"},
+                     "bodies", "magnification", "contours", "levels", "bands", "colours", "range", "above", "smooth", "mesh"},
         "surfaces": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "columns", "bodies",
-                     "plain", "magnification", "contours", "levels", "bands", "colours", "range", "clip",
+                     "plain", "magnification", "contours", "levels", "bands", "colours", "range", "above", "smooth", "clip",
                      "clip_bodies", "view", "up", "edges", "dimensions"}}
 REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps": ("file", "field"),
             "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}
 # Keys of a picture that change nothing without another one.
 NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(("quantity", "component", "unit", "contours", "levels", "bands",
-                                                              "colours", "range"), "field")}}
+                                                              "colours", "range", "above", "smooth"), "field")}}
 # Pictures of fields and what draws them.
 FIELD_PICTURES = {"maps": maps.field_maps, "deformed": maps.deformed_mesh, "sections": sections.draw,
                   "surfaces": surfaces.draw}

@@ -12,7 +12,7 @@ CREASE = np.cos(np.radians(38.0))  # neighbours that turn by more make an edge
 # Where light comes from (right, up, to the eye) and how strong it is; the rest comes from everywhere.
 LIGHTS = (((-0.35, 0.65, 0.68), 0.48), ((0.75, -0.05, 0.65), 0.14))
 AMBIENT = 0.56
-LINE, MESH_LINE = 0.14, 0.45  # brightness of edges and of mesh lines, of what they lie on
+HIDDEN = 4.0  # an edge is hidden by what lies so much nearer [pixels]; steep surfaces need some
 
 
 class Camera:
@@ -41,7 +41,8 @@ class Surface:
     triangles: np.ndarray  # [triangle][3]
     cells: np.ndarray  # [triangle]
     normals: np.ndarray  # [triangle][3][3] at its corners
-    lines: np.ndarray  # [triangle][3] opposite sides: 0 nothing, 1 an edge of a cell, 2 an edge of the body
+    sides: np.ndarray  # [triangle][3] whether the side opposite of the corner is an edge of a cell
+    edges: np.ndarray  # [edge][2] points: where the surface bends sharply or ends
     values: np.ndarray  # [triangle][3] of the field at its corners; nan in bodies of plain colour
 
     def points_shown(self):
@@ -53,10 +54,10 @@ class Surface:
     @staticmethod
     def join(parts):
         shift = np.cumsum([0] + [len(part.points) for part in parts[:-1]])
-        return Surface(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("points", "levels")),
-                       np.concatenate([part.triangles + s for part, s in zip(parts, shift)]),
-                       *(np.concatenate([getattr(part, name) for part in parts])
-                         for name in ("cells", "normals", "lines", "values")))
+        arrays = {name: [getattr(part, name) for part in parts] for name in Surface.__dataclass_fields__}
+        for name in ("triangles", "edges"):
+            arrays[name] = [numbers + s for numbers, s in zip(arrays[name], shift)]
+        return Surface(**{name: np.concatenate(found) for name, found in arrays.items()})
 
 
 def outer(grid, cells, points, field, plane=None):
@@ -67,7 +68,7 @@ def outer(grid, cells, points, field, plane=None):
     place = faces.refined.extend(points)
     normals, edges = _normals(place, faces.nodes, body[faces.cells])
     levels = np.full(len(place), -1.0) if plane is None else faces.refined.extend(plane.distance(grid.points))
-    return Surface(place, levels, faces.nodes, faces.cells, normals, faces.sides * (1 + edges),
+    return Surface(place, levels, faces.nodes, faces.cells, normals, faces.sides, edges,
                    _corner_values(field, faces.refined.extend, faces.nodes, faces.cells))
 
 
@@ -76,10 +77,10 @@ def cap(grid, cells, points, field, plane):
     part = cut(grid, cells, plane)
     place, base = part.at_points(points), len(part.ends)
     sides = np.sort(part.triangles[:, SIDES], axis=2) @ [base, 1]
-    outline = np.isin(sides, part.sides(grid.cell_data["body"][part.cells]) @ [base, 1])
     mesh = np.isin(sides, part.sides(part.cells) @ [base, 1])
     normals = np.broadcast_to(plane.normal, (len(part.triangles), 3, 3))
-    return Surface(place, np.full(base, -1.0), part.triangles, part.cells, normals, mesh * (1 + outline),
+    return Surface(place, np.full(base, -1.0), part.triangles, part.cells, normals, mesh,
+                   part.sides(grid.cell_data["body"][part.cells]),
                    _corner_values(field, part.at_points, part.triangles, part.cells))
 
 
@@ -89,8 +90,8 @@ def _corner_values(field, at_points, triangles, cells):
 
 
 def _normals(place, triangles, bodies):
-    """Normals at the corners, averaged over the triangles round a point that turn by less than a crease; and which
-    sides are creases."""
+    """Normals at the corners, averaged over the triangles round a point that turn by less than a crease; and the
+    creases [edge][2]."""
     corners = place[triangles]
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     unit = area / np.maximum(np.linalg.norm(area, axis=1), 1e-300)[:, None]
@@ -111,7 +112,7 @@ def _normals(place, triangles, bodies):
 
 
 def _creases(triangles, unit, bodies):
-    """[triangle][3] whether the triangle behind a side turns by a crease, or there is none of the same body."""
+    """[edge][2] sides behind which the next triangle turns by a crease, or there is none of the same body."""
     sides = np.sort(triangles[:, SIDES], axis=2).reshape(-1, 2).astype(np.int64)
     base = sides.max(initial=0) + 1
     key = (sides[:, 0] * base + sides[:, 1]) * (bodies.max(initial=0) + 1) + np.repeat(bodies, 3)
@@ -122,9 +123,7 @@ def _creases(triangles, unit, bodies):
     smooth = np.zeros(len(key), bool)
     smooth[1:] |= same & turn
     smooth[:-1] |= same & turn
-    result = np.ones(len(key), bool)
-    result[order] = ~smooth
-    return result.reshape(-1, 3)
+    return np.unique(sides[order[~smooth]], axis=0)
 
 
 class View:
@@ -136,7 +135,7 @@ class View:
         self._scale = shape[1] / (high[0] - low[0])
         pixels = (place - [low[0], high[1], 0.0]) * [self._scale, -self._scale, self._scale]
         self.picture = rasterise(pixels, surface.triangles, shape, surface.levels)
-        self._corners = pixels[:, :2][surface.triangles]
+        self._pixels = pixels
 
     def values(self):
         """Of the field, in the pixels seen."""
@@ -152,21 +151,38 @@ class View:
         normals *= np.where(normals[:, 2:] < 0.0, -1.0, 1.0)  # both sides of a surface are lit
         return AMBIENT + sum(strength * np.maximum(normals @ direction, 0.0) for direction, strength in LIGHTS)
 
-    def lines(self, mesh, width):
-        """Brightness of the pixels seen where edges of bodies and, with `mesh`, of cells are drawn; 1 elsewhere. `width`
-        of an edge in pixels."""
+    def mesh(self, width):
+        """The pixels seen [pixel] on edges of cells, `width` pixels wide."""
         picture = self.picture
         numbers, weights = picture.triangle[picture.seen], picture.weights[picture.seen]
-        corners = self._corners[numbers]
+        corners = self._pixels[:, :2][self._surface.triangles[numbers]]
         sides = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]
         twice_area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
         distance = weights * (twice_area[:, None] / np.maximum(np.linalg.norm(sides, axis=2), 1e-9))
-        kinds, dark = self._surface.lines[numbers], np.ones(len(numbers))
-        if mesh:
-            dark[((kinds > 0) & (distance < max(0.55, 0.25 * width))).any(axis=1)] = MESH_LINE
-        dark[((kinds == 2) & (distance < 0.5 * width)).any(axis=1)] = LINE
-        dark[self._outline(width)[picture.seen]] = LINE
-        return dark
+        return (self._surface.sides[numbers] & (distance < max(0.55, 0.5 * width))).any(axis=1)
+
+    def edges(self, width):
+        """All pixels [row][column] on visible edges of bodies and on their outlines, `width` pixels wide."""
+        edges = self._pixels[self._surface.edges]
+        count = np.ceil(2.0 * np.abs(edges[:, 1, :2] - edges[:, 0, :2]).max(axis=1)).astype(int) + 1
+        which = np.repeat(np.arange(len(edges)), count)
+        share = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count) + 0.5) / count[which]
+        levels = self._surface.levels[self._surface.edges][which]
+        drawn = levels[:, 0] + share * (levels[:, 1] - levels[:, 0]) <= 0.0
+        which, share = which[drawn], share[drawn, None]
+        place = edges[which, 0] + share * (edges[which, 1] - edges[which, 0])
+        depth, shape, found = self.picture.depth, self.picture.depth.shape, self._outline(width)
+        reach = int(np.ceil(0.5 * width))
+        for down in range(-reach, reach + 1):
+            for right in range(-reach, reach + 1):
+                if np.hypot(down, right) > 0.5 * width:
+                    continue
+                row, column = np.floor(place[:, 1]).astype(int) + down, np.floor(place[:, 0]).astype(int) + right
+                inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
+                row, column = row[inside], column[inside]
+                visible = place[inside, 2] > depth[row, column] - HIDDEN
+                found[row[visible], column[visible]] = True
+        return found
 
     def _outline(self, width):
         """Pixels beside which another surface lies much further away, or nothing."""

@@ -50,7 +50,7 @@ def _panel(grid, mask, plane, spec):
     points = part.at_points(grid.points)
     if spec.get("magnification", 0):
         points = points + spec["magnification"] * part.at_points(moments.displacement(grid))
-    kind, values = moments.values(grid, spec)
+    kind, values = moments.values(grid, spec, mask)
     values = part.at_points(values) if kind == "point_data" else values[part.cells]
     return Panel(grid, part, MM * plane.place(points), kind, values)
 
@@ -69,8 +69,10 @@ def _draw(axes, panel, frame, colours, shape, spec):
     pixels = (place - [low[0], high[1]]) * [shape[1] / (high[0] - low[0]), -shape[0] / (high[1] - low[1])]
     picture = rasterise(np.column_stack([pixels, np.zeros(len(pixels))]), triangles, shape)
     image = np.zeros((*shape, 4))
-    image[picture.seen, :3] = colours(picture.at_corners(panel.corners()))
-    image[picture.seen, 3] = 1.0
+    image[picture.seen] = [*style.NO_VALUE, 1.0]
+    values = picture.at_corners(panel.corners())
+    rows, columns = (index[np.isfinite(values)] for index in np.nonzero(picture.seen))
+    image[rows, columns, :3] = colours(values[np.isfinite(values)])
     axes.imshow(image, extent=(low[0], high[0], low[1], high[1]), interpolation="antialiased", aspect="equal")
 
     def lines(sides, **look):
@@ -103,7 +105,7 @@ def draw(spec, run, folder):
         if not any(panel.part.triangles.size for panel in row):
             raise ResultError(f"plots.toml: sections '{spec['file']}': the plane {name} does not meet the bodies")
     shown = np.concatenate([panel.values for row in panels for panel in row])
-    colours = paint.Paint(spec, moments.unit(grids[0], spec), shown.min(), shown.max())
+    colours = paint.Paint(spec, moments.unit(grids[0], spec), shown)
     frames = [_frame([panel for panel in row if panel.place.size]) for row in panels]
     places = _places(spec, frames, len(grids))
     sizes = [[None if entry is None else tuple(frames[entry[0]][1] - frames[entry[0]][0]) for entry in row]
@@ -115,7 +117,11 @@ def draw(spec, run, folder):
         remarks.append(times[0])
     if spec.get("magnification", 0):
         remarks.append(f"displacements × {spec['magnification']:g}")
-    sheet = Sheet(sizes, ", ".join(part for part in remarks if part), legend=colours.legend())
+    below = [[entry is not None and r + 1 < len(places) and places[r + 1][c] is not None
+              and places[r + 1][c][0] == entry[0] for c, entry in enumerate(row)] for r, row in enumerate(places)]
+    sheet = Sheet(sizes, ", ".join(part for part in remarks if part),
+                  (0.35 if len(planes) == 1 else 0.68, [0.35 if all(row) else 0.68 for row in below]),
+                  legend=colours.legend())
     for r, row in enumerate(places):
         for c, entry in enumerate(row):
             if entry is None:
@@ -125,10 +131,9 @@ def draw(spec, run, folder):
             _draw(axes, panel, frames[p], colours, sheet.pixels(sizes[r][c]), spec)
             heading = [text for several, text in ((len(planes) > 1, name), (len(grids) > 1, times[m])) if several]
             axes.set_title(", ".join(heading), fontsize=9)
-            below = r + 1 < len(places) and places[r + 1][c] is not None and places[r + 1][c][0] == p
             left = c > 0 and row[c - 1] is not None and row[c - 1][0] == p
-            axes.tick_params(labelbottom=not below, labelleft=not left)
-            axes.set_xlabel("" if below else f"{plane.names[0]} [mm]", labelpad=1.5)
+            axes.tick_params(labelbottom=not below[r][c], labelleft=not left)
+            axes.set_xlabel("" if below[r][c] else f"{plane.names[0]} [mm]", labelpad=1.5)
             axes.set_ylabel("" if left else f"{plane.names[1]} [mm]", labelpad=1.5)
     colours.bar(sheet.bar, panels[0][0].kind == "point_data")
     return style.save(sheet.figure, folder, spec["file"], vector=False)

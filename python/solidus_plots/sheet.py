@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 WIDTH, HEIGHT = 10.0, 9.0  # largest size of a figure [in]
-PANEL = 4.6  # largest side of a panel [in]
+PANEL = 6.5  # largest side of a panel [in]
 FINER = 1.6  # pixels of a picture per dot of the figure, each way
 WANTED_ASPECT = 1.5  # width over height of a figure
 
@@ -16,18 +16,20 @@ def arrange(count, columns, width, height):
 
 
 class Sheet:
-    """`sizes`: [row][column] width and height of the panels in one unit (None: no panel there)."""
+    """`sizes`: [row][column] width and height of the panels in one unit (None: no panel there). `gaps`: [in] between
+    columns, and below each row."""
 
-    def __init__(self, sizes, title, gap=(0.5, 0.68), bar=True, legend=()):
-        shape = (len(sizes), len(sizes[0]))
+    def __init__(self, sizes, title, gaps, bar=True, legend=()):
+        shape, (between, below) = (len(sizes), len(sizes[0])), gaps
+        below = below[:-1]
         widths = [max(row[c][0] for row in sizes if row[c]) for c in range(shape[1])]
         heights = [max(size[1] for size in row if size) for row in sizes]
         left, right, top, bottom = 0.75, 1.1 if bar else 0.1, 0.55, 0.45 if not legend else 0.75
-        across = WIDTH - left - right - gap[0] * (shape[1] - 1)
-        along = HEIGHT - top - bottom - gap[1] * (shape[0] - 1)
+        across = WIDTH - left - right - between * (shape[1] - 1)
+        along = HEIGHT - top - bottom - sum(below)
         self.scale = min(across / sum(widths), along / sum(heights), PANEL / max(*widths, *heights))  # [in] per unit
-        size = (left + right + gap[0] * (shape[1] - 1) + self.scale * sum(widths),
-                top + bottom + gap[1] * (shape[0] - 1) + self.scale * sum(heights))
+        size = (left + right + between * (shape[1] - 1) + self.scale * sum(widths),
+                top + bottom + sum(below) + self.scale * sum(heights))
         self.figure = plt.figure(figsize=size)
         if legend:
             self.figure.legend(handles=legend, ncol=len(legend), loc="lower center",
@@ -44,8 +46,8 @@ class Sheet:
                     box = (x + 0.5 * (self.scale * widths[c] - w), y - h, w, h)
                     self.axes[r][c] = self.figure.add_axes([box[0] / size[0], box[1] / size[1], w / size[0],
                                                             h / size[1]])
-                x += self.scale * widths[c] + gap[0]
-            y -= self.scale * heights[r] + gap[1]
+                x += self.scale * widths[c] + between
+            y -= self.scale * heights[r] + (below[r] if r < len(below) else 0.0)
         if bar:
             height = min(size[1] - top - bottom, 4.0)
             middle = 0.5 * (size[1] - top + bottom)

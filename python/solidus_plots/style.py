@@ -11,6 +11,7 @@ REMARK = {"fontsize": 7.5, "color": "#595959"}
 DASHES = ["-", "--", "-.", ":"]
 SEQUENTIAL = {"temperature": "inferno", "solid_fraction": "cividis"}
 BODIES = ["#a9b6c3", "#d3bd94", "#9db89a", "#c3a5b0", "#b8b093"]
+NO_VALUE = (0.82, 0.82, 0.82)  # where a field has none yet
 SIGNED = {"pressure", "stress", "back_stress"}  # tension and compression are told apart where both are there
 
 # What people read instead of UDUNITS' ASCII.

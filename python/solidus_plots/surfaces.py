@@ -9,7 +9,8 @@ from solidus_plots.sheet import Sheet, arrange
 from solidus_plots.vtu import ResultError
 
 MM = 1e3
-EDGE = 3.0  # width of edges, in pixels of the picture
+EDGE, MESH_LINE = 3.0, 1.4  # widths, in pixels of the picture
+EDGE_COLOUR = (0.12, 0.12, 0.12, 1.0)
 
 
 def _surface(grid, run, spec, eye):
@@ -20,7 +21,9 @@ def _surface(grid, run, spec, eye):
     names = spec.get("bodies") or [name for name in run.bodies if name not in spec.get("plain", [])]
     coloured = run.body_mask(grid, names) if "field" in spec else np.zeros(len(grid.cell_types), bool)
     shown = run.body_mask(grid, names + spec.get("plain", []))
-    field = moments.values(grid, spec) if "field" in spec else ("cell_data", np.zeros(len(grid.cell_types)))
+    field = ("cell_data", np.zeros(len(grid.cell_types)))
+    if "field" in spec:
+        field = moments.values(grid, spec, coloured)
     parts = []
     if "clip" in spec:
         plane = read_plane(spec["clip"])[0].facing(eye)  # what is in the way of the eye is cut away
@@ -70,11 +73,13 @@ def _image(surface, camera, frame, shape, grid, colours, spec):
         if colours.levels:
             colour[_level_lines(view, [level["value"] for level in colours.levels], 2)] = 0.0
     edges = spec.get("edges", "features")
-    if edges != "none":
-        colour *= view.lines(edges == "mesh", EDGE)[:, None]
+    if edges == "mesh":
+        colour[view.mesh(MESH_LINE)] *= 0.45
     image = np.ones((*shape, 4))
     image[..., 3] = view.picture.seen
     image[view.picture.seen, :3] = np.clip(colour, 0.0, 1.0)
+    if edges != "none":
+        image[view.edges(EDGE)] = EDGE_COLOUR
     return image
 
 
@@ -153,7 +158,7 @@ def draw(spec, run, folder):
     if "field" in spec:
         shown = np.concatenate([surface.values[(surface.levels[surface.triangles] <= 0.0).any(axis=1)].ravel()
                                 for surface in surfaces])
-        colours = paint.Paint({"contours": 0, **spec}, moments.unit(grids[0], spec), np.nanmin(shown), np.nanmax(shown))
+        colours = paint.Paint({"contours": 0, **spec}, moments.unit(grids[0], spec), shown)
     frame = _frame(surfaces, camera)
     size = tuple(MM * (frame[1] - frame[0]))
     columns = arrange(len(grids), spec.get("columns"), *size)
@@ -164,7 +169,7 @@ def draw(spec, run, folder):
         remarks.append(times[0])
     if spec.get("magnification", 0):
         remarks.append(f"displacements × {spec['magnification']:g}")
-    sheet = Sheet(sizes, ", ".join(part for part in remarks if part), gap=(0.15, 0.3), bar="field" in spec,
+    sheet = Sheet(sizes, ", ".join(part for part in remarks if part), (0.15, [0.3] * rows), bar="field" in spec,
                   legend=colours.legend() if colours else ())
     for index, (grid, surface) in enumerate(zip(grids, surfaces)):
         axes = sheet.axes[index // columns][index % columns]
