@@ -97,7 +97,8 @@ void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& fro
   p.record.stage_of_case = stage.of_case;
   p.record.cycle = stage.cycle;
   if (staged) {
-    stage_begins_(p.stage, p.stage_start);
+    const bool begun = from && from->stage.number == p.stage_start.number;
+    stage_begins_(p.stage, p.stage_start, anew && !begun ? &p.committed : nullptr);
     scheme_->conditions_changed();
   }
   scheme_->synchronise(p.committed);
@@ -111,6 +112,7 @@ Outcome Simulation::stopped(const Stop& why, Progress& p, Outcome outcome) {
 
 Outcome Simulation::run(State initial, double solid_fraction, const std::optional<Continuation>& from) {
   Progress p;
+  if (criteria_ != nullptr) criteria_->forget();
   p.trial = initial;
   p.committed = std::move(initial);
   p.solid_fraction = solid_fraction;
@@ -198,6 +200,10 @@ void Simulation::look_at_excess(Progress& p, const PlannedStep& step, const Step
 
 void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
   p.trial.time = step.time;
+  p.trial.criteria = std::move(p.committed.criteria);
+  if (criteria_ != nullptr)
+    criteria_->step({p.committed.time, p.committed.heat, p.committed.mechanics},
+                    {p.trial.time, p.trial.heat, p.trial.mechanics}, p.trial.criteria);
   std::swap(p.committed, p.trial);
   p.step->commit();
   look_at_excess(p, step, measure);

@@ -14,6 +14,7 @@
 #include "coupling/scheme.hpp"
 #include "coupling/state.hpp"
 #include "coupling/step_control.hpp"
+#include "criteria/criteria.hpp"
 
 namespace solidus::coupling {
 
@@ -49,12 +50,16 @@ class Simulation {
              std::optional<ErrorEstimate> estimate = {});
   /// Observers are called in the order they were added; they must outlive the simulation.
   void add(Observer& observer) { observers_.push_back(&observer); }
+  /// Brings State::criteria along with every step that is committed; must outlive the simulation.
+  void follow(criteria::Criteria& criteria) { criteria_ = &criteria; }
   /// Asked before each step, on every process; the run stops when one of them says so.
   void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }
   /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
   /// conditions. Collective.
-  /// @param stage  number in TimeOptions::stages
-  void at_stage(std::function<void(std::size_t stage, const StageStart&)> begins) {
+  /// @param stage   number in TimeOptions::stages
+  /// @param begins  the committed state, from which bodies that leave take what is theirs; null where the
+  ///                run goes on with a state that the stage has begun with
+  void at_stage(std::function<void(std::size_t stage, const StageStart&, State* begins)> begins) {
     stage_begins_ = std::move(begins);
   }
   /// Runs from `initial` to the end time, which must lie ahead. Collective.
@@ -86,8 +91,9 @@ class Simulation {
   TimeOptions options_;
   std::optional<ErrorEstimate> estimate_;
   std::vector<Observer*> observers_;
+  criteria::Criteria* criteria_ = nullptr;
   std::function<bool()> stop_asked_;
-  std::function<void(std::size_t, const StageStart&)> stage_begins_;
+  std::function<void(std::size_t, const StageStart&, State*)> stage_begins_;
 };
 
 }  // namespace solidus::coupling

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/state.hpp"
+#include "criteria/state.hpp"
 #include "heat/thermal_state.hpp"
 #include "mechanics/mechanical_state.hpp"
 
@@ -15,6 +16,8 @@ struct State {
   mechanics::MechanicalState mechanics;  ///< empty without a mechanical phase
   /// One per pair; empty, or one that is empty: bodies that have not moved yet.
   std::vector<contact::ContactState> contacts;
+  /// Schemes leave it alone: the simulation brings it to the state that it commits.
+  criteria::State criteria;
 };
 
 }  // namespace solidus::coupling

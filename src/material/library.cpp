@@ -114,6 +114,21 @@ void check_liquid_model(const Material& m, const MaterialData& data) {
                      "[plasticity] with rate_dependence = \"perzyna\"");
 }
 
+void add_casting(Material& m, const MaterialData& data) {
+  const Casting& casting = data.casting;
+  if (!(casting.brittle_range[0] < casting.brittle_range[1]))
+    throw InputError(data.where, "the brittle_range of '" + m.name + "' does not rise",
+                     "two solid fractions, the lower one first");
+  if (casting.coherency_fraction > casting.brittle_range[0])
+    throw InputError(data.where,
+                     "the brittle_range of '" + m.name +
+                         "' begins below its coherency_fraction: what is not "
+                         "coherent takes no strain",
+                     "coherency_fraction at most the first number of brittle_range");
+  m.casting = casting;
+  if (!casting.source.empty()) m.notes.push_back({"casting", casting.source, 0, 0});
+}
+
 }  // namespace
 
 PropertyNote note_of(std::string property, const Function& f) {
@@ -156,6 +171,7 @@ Material make_material(std::string name, const MaterialData& data) {
   if (data.twice_shear_viscosity)
     m.liquid_viscosity = note("twice_shear_viscosity", *data.twice_shear_viscosity);
   if (data.plasticity) add_flow(m, *data.plasticity);
+  add_casting(m, data);
   check_liquid_model(m, data);
   return m;
 }

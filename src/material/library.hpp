@@ -42,6 +42,7 @@ struct MaterialData {
   double expansion_reference = 0;  ///< [K]
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::optional<FlowData> plasticity;
+  Casting casting;
   SourceLocation where;
 };
 

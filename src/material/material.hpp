@@ -7,6 +7,7 @@
 
 #include "base/table.hpp"
 #include "base/types.hpp"
+#include "material/casting.hpp"
 #include "material/enthalpy.hpp"
 #include "material/flow.hpp"
 #include "material/phase_change.hpp"
@@ -34,6 +35,7 @@ struct Material {
                            ///< where f_S < 1
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::optional<Flow> flow;  ///< absent: the solid is elastic
+  Casting casting;           ///< for criteria; no law uses it
 
   std::vector<PropertyNote> notes;
 

@@ -61,6 +61,42 @@ Section<PhaseChangeData> phase_change_keys() {
   return s;
 }
 
+Section<Casting> casting_keys() {
+  Section<Casting> s("casting", "What the criteria of a casting need (docs/theory/criteria.md).");
+  s.key("coherency_fraction", &Casting::coherency_fraction)
+      .initially(0.75)
+      .range(0, 1)
+      .doc(
+          "Solid fraction from which the solid is a coherent network: strain before it is strain of the "
+          "melt, "
+          "strain after it is strain of the casting.");
+  s.key("brittle_range", &Casting::brittle_range)
+      .initially(Value::list({0.90, 0.99}))
+      .range(0, 1)
+      .doc("Solid fractions between which strain tears the metal open and no melt heals it.");
+  s.quantity("arm_spacing", &Casting::arm_spacing, "m")
+      .positive()
+      .doc(
+          "Secondary arm spacing after a local solidification time of one second: c in c (t_f/1 s)^n. "
+          "Without "
+          "it there are no secondary_arm_spacing and dimensionless_niyama.");
+  s.key("arm_spacing_exponent", &Casting::arm_spacing_exponent)
+      .initially(0.333)
+      .range(0, 1)
+      .doc("n of the same law.");
+  s.quantity("melt_viscosity", &Casting::melt_viscosity, "Pa s")
+      .positive()
+      .doc(
+          "Newtonian shear viscosity of the melt at the liquidus, for dimensionless_niyama; not "
+          "twice_shear_viscosity, which is a numerical choice.");
+  s.quantity("critical_pressure_drop", &Casting::critical_pressure_drop, "Pa")
+      .initially("101325 Pa")
+      .positive()
+      .doc("The drop of the melt's pressure at which pores form, for dimensionless_niyama.");
+  s.key("source", &Casting::source).initially("").doc("Where the data come from.");
+  return s;
+}
+
 Section<MaterialData> material_keys() {
   Section<MaterialData> s(
       "", "A material: every property with unit, source and the temperatures for which it holds.");
@@ -117,6 +153,7 @@ Section<MaterialData> material_keys() {
       .doc("How what is not yet solid answers shear; f_S is the solid fraction.");
   s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
   s.section("plasticity", &MaterialData::plasticity, flow_section());
+  s.section("casting", &MaterialData::casting, casting_keys());
   s.place(&MaterialData::where);
   return s;
 }

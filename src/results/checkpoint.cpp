@@ -11,6 +11,7 @@
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
 #include "results/checkpoint_contacts.hpp"
+#include "results/checkpoint_criteria.hpp"
 #include "results/checkpoint_tables.hpp"
 #include "results/output_error.hpp"
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 5";
+constexpr const char* k_format = "Solidus checkpoint 6";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -162,6 +163,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
       take_history(in, name, name + "/stress", mesh.blocks[b], mechanics.stress[b]);
   }
   take_contacts(in, c.state.contacts);
+  take_criteria(in, mesh, c.state.criteria);
   return c;
 }
 
@@ -232,6 +234,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     }
   }
   write_contacts(out, c.state.contacts);
+  write_criteria(out, mesh, c.state.criteria);
   out.finish([&] {
     std::error_code error;
     if (fs::exists(latest(), error)) fs::rename(latest(), previous(), error);

@@ -1,0 +1,45 @@
+/// All criteria of a run together.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "criteria/criterion.hpp"
+#include "heat/thermal_phase.hpp"
+
+namespace solidus::criteria {
+
+/// Moments come without solid fractions; the criteria get them with.
+class Criteria {
+ public:
+  /// @param phase  of the states to come; null: there is none. Must outlive the criteria.
+  explicit Criteria(const heat::ThermalPhase* phase) : phase_(phase) {}
+  void add(std::unique_ptr<Criterion> criterion) { list_.push_back(std::move(criterion)); }
+  bool empty() const { return list_.empty(); }
+
+  State initial(const Moment& start) const;
+  /// Another run begins: nothing of the last one counts.
+  void forget() { fraction_time_ = std::numeric_limits<double>::quiet_NaN(); }
+  /// As Criterion::step, for all of them. `state` is that of t_n and becomes that of t_{n+1}. Collective.
+  void step(const Moment& old, const Moment& next, State& state);
+  /// Of all criteria, one behind the other.
+  std::vector<FieldInfo> fields() const;
+  /// @param values  one span per field, in the order of fields()
+  void fill(const Moment& now, const State& state, std::span<const std::span<double>> values) const;
+  std::vector<Finding> findings(const State& state) const;
+  std::size_t bytes() const;
+  double seconds() const { return seconds_; }  ///< spent in steps so far
+
+ private:
+  std::vector<double> fraction_of(const Moment& moment) const;
+
+  const heat::ThermalPhase* phase_;
+  std::vector<std::unique_ptr<Criterion>> list_;
+  /// Of the last step's end, because the next step asks for it again.
+  std::vector<double> fraction_;
+  double fraction_time_ = std::numeric_limits<double>::quiet_NaN();  ///< never equal to a time
+  double seconds_ = 0;
+};
+
+}  // namespace solidus::criteria

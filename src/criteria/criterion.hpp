@@ -1,0 +1,59 @@
+/// A criterion: something the foundry engineer reads off that accumulates while the casting freezes.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "criteria/state.hpp"
+#include "heat/thermal_state.hpp"
+#include "mechanics/mechanical_state.hpp"
+
+namespace solidus::criteria {
+
+/// A committed state, as criteria see it.
+struct Moment {
+  double time = 0;                              ///< [s]
+  const heat::ThermalState& heat;               ///< empty without a thermal phase
+  const mechanics::MechanicalState& mechanics;  ///< empty without a mechanical phase
+  /// f_S of the materials around each node that can melt, 1 if none can; [local node], ghosts up to date.
+  /// Empty without a thermal phase. Criteria fills it in.
+  std::span<const double> solid_fraction = {};
+};
+
+/// A field that a criterion can show. Values are finite always; where a criterion says nothing (yet) they are
+/// zero, unless its documentation names another mark.
+struct FieldInfo {
+  std::string name, unit;  ///< SI: "K/s"; "1" for a number
+  int components = 1;
+  Place place = Place::node;
+};
+
+/// A number for the summary, with where it was found.
+struct Finding {
+  std::string name, unit;  ///< "niyama_min", SI
+  double value = 0;
+  bool somewhere = false;  ///< `where` says where
+  mesh::Point where = {};  ///< [m]
+};
+
+class Criterion {
+ public:
+  virtual ~Criterion() = default;
+  /// The record at the start of a run. Collective.
+  virtual Record initial(const Moment& start) const = 0;
+  /// A step from `old` to `next` was committed: brings the record from t_n to t_{n+1}. Phases that the
+  /// criterion knows have just reached `next`. Collective. Neither throws nor depends on anything but its
+  /// arguments: a run that is continued goes the same way.
+  virtual void step(const Moment& old, const Moment& next, Record& record) = 0;
+  virtual std::vector<FieldInfo> fields() const = 0;
+  /// Values of all fields at this moment, in their order; each span has the shape of a Column. Collective.
+  virtual void fill(const Moment& now, const Record& record,
+                    std::span<const std::span<double>> values) const = 0;
+  /// What the summary says at the end; the same on every process. Collective.
+  virtual std::vector<Finding> findings(const Record& /*record*/) const { return {}; }
+  virtual std::size_t bytes() const { return 0; }
+};
+
+}  // namespace solidus::criteria

@@ -1,0 +1,90 @@
+#include "criteria/patches.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "mesh/quadrature.hpp"
+
+namespace solidus::criteria {
+
+namespace {
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+// The centre of the reference shape; its volume is the sum of any rule's weights.
+mesh::Point centre_of(mesh::Shape shape) {
+  const int dimension = mesh::dimension(shape);
+  if (mesh::vertex_count(shape) != dimension + 1) return {0, 0, 0};
+  const double x = 1.0 / (dimension + 1);
+  return {x, x, dimension == 3 ? x : 0};
+}
+
+}  // namespace
+
+Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<char>& chosen)
+    : mesh_(mesh), kind_(kind), start_(static_cast<std::size_t>(mesh.n_owned_nodes) + 1, 0) {
+  for (const mesh::Block& block : mesh.blocks) {
+    Centre& centre = centres_.emplace_back();
+    const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+    centre.values.resize(n);
+    centre.gradients.resize(n * static_cast<std::size_t>(mesh::dimension(block.shape)));
+    mesh::basis_values(block.shape, centre_of(block.shape), centre.values);
+    mesh::basis_gradients(block.shape, centre_of(block.shape), centre.gradients);
+    for (const mesh::QuadraturePoint& point : mesh::gauss_rule(block.shape, 1)) centre.weight += point.weight;
+  }
+  const auto each = [&](const auto& visit) {
+    for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+      const mesh::Block& block = mesh.blocks[b];
+      if (chosen[static_cast<std::size_t>(block.body)] == 0) continue;
+      for (Index e = 0; e < block.size(); ++e) {
+        const Element element{static_cast<Index>(b), e};
+        for (const Index node : nodes(element))
+          if (node < mesh.n_owned_nodes) visit(static_cast<std::size_t>(node), element);
+      }
+    }
+  };
+  each([&](std::size_t node, const Element&) { ++start_[node + 1]; });
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  elements_.resize(start_.back());
+  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+  each([&](std::size_t node, const Element& element) { elements_[next[node]++] = element; });
+}
+
+Patches::Gradient Patches::gradient(const Element& e, std::span<const double> values) const {
+  const Centre& centre = centres_[static_cast<std::size_t>(e.block)];
+  const std::span<const Index> element = nodes(e);
+  const std::size_t dim = centre.gradients.size() / centre.values.size();
+  Matrix j{};                     // J_ij = ∂x_i/∂ξ_j
+  std::array<double, 3> slope{};  // ∂v/∂ξ_j
+  double radius = 0;
+  for (std::size_t a = 0; a < element.size(); ++a) {
+    const mesh::Point& x = mesh_.x[static_cast<std::size_t>(element[a])];
+    radius += centre.values[a] * x[0];
+    for (std::size_t k = 0; k < dim; ++k) {
+      const double dn = centre.gradients[a * dim + k];
+      slope[k] += values[a] * dn;
+      for (std::size_t i = 0; i < dim; ++i) j[i][k] += x[i] * dn;
+    }
+  }
+  if (dim == 2) j[2][2] = 1;
+  // With the cofactors c of J: J⁻¹_ki = c_ik/det J, so ∂v/∂x_i = Σ_k c_ik ∂v/∂ξ_k / det J.
+  const auto cofactor = [&j](std::size_t a, std::size_t b) {
+    const std::size_t a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
+    return j[a1][b1] * j[a2][b2] - j[a1][b2] * j[a2][b1];
+  };
+  const double determinant = j[0][0] * cofactor(0, 0) + j[0][1] * cofactor(0, 1) + j[0][2] * cofactor(0, 2);
+  Gradient gradient;
+  for (std::size_t i = 0; i < dim; ++i)
+    for (std::size_t k = 0; k < dim; ++k) gradient.value[i] += cofactor(i, k) * slope[k] / determinant;
+  gradient.volume = centre.weight * determinant;
+  if (kind_ == AnalysisKind::axisymmetric) gradient.volume *= 2 * std::numbers::pi * radius;
+  return gradient;
+}
+
+std::size_t Patches::bytes() const {
+  return start_.capacity() * sizeof start_[0] + elements_.capacity() * sizeof elements_[0];
+}
+
+}  // namespace solidus::criteria

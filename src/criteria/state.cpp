@@ -1,0 +1,17 @@
+#include "criteria/state.hpp"
+
+#include <utility>
+
+namespace solidus::criteria {
+
+Column make_column(const mesh::Mesh& mesh, std::string name, Place place, int components, double value) {
+  std::size_t n = 0;
+  if (place == Place::node)
+    n = mesh.x.size();
+  else
+    for (const mesh::Block& block : mesh.blocks) n += static_cast<std::size_t>(block.size());
+  return {std::move(name), place, components,
+          std::vector<double>(n * static_cast<std::size_t>(components), value)};
+}
+
+}  // namespace solidus::criteria

@@ -1,0 +1,52 @@
+/// What criteria accumulate over committed steps: part of the state of a run (coupling::State).
+///
+/// It follows the rules of the state: only a committed step changes it (Criteria::step), a rejected one never
+/// sees it, and a checkpoint holds all of it. Everything is a plain column or table under a name, so the
+/// checkpoint writes and reads whatever there is without knowing what it means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace solidus::criteria {
+
+enum class Place { node, cell };
+
+/// Numbers at every node or in every element, SI. Shapes:
+///   node  [local node][component], ghosts hold their owner's values;
+///   cell  [block of Mesh::blocks][element, counted or not][component], the blocks one behind the other;
+///   every
+///         process that holds an element computes the same values of it.
+struct Column {
+  std::string name;
+  Place place = Place::node;
+  int components = 1;
+  std::vector<double> values;
+};
+
+/// Rows of numbers that every process holds alike; any number of them.
+struct Table {
+  std::string name;
+  int width = 1;
+  std::vector<double> values;  ///< [row][column]
+};
+
+/// What one criterion remembers. Names and shapes of columns never change during a run.
+struct Record {
+  std::string name;
+  std::vector<Column> columns;
+  std::vector<Table> tables;
+};
+
+/// One record per criterion, in the order of Criteria; empty where nothing is followed.
+struct State {
+  std::vector<Record> records;
+};
+
+/// A column of zeros (or another value) of the right size.
+Column make_column(const mesh::Mesh& mesh, std::string name, Place place, int components = 1,
+                   double value = 0);
+
+}  // namespace solidus::criteria

@@ -1,0 +1,30 @@
+/// What the criteria of the foundry engineer need of a material beside its properties: [casting] of its file
+/// (docs/theory/criteria.md, docs/theory/melt.md).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace solidus::material {
+
+struct Casting {
+  /// Solid fraction from which the solid is a coherent network that carries strain.
+  double coherency_fraction = 0.75;
+  /// Solid fractions between which it cracks rather than strains, and no melt heals it.
+  std::array<double, 2> brittle_range = {0.90, 0.99};
+
+  /// Coarsening of secondary arms: λ₂ = c (t_f/1 s)ⁿ, t_f the local solidification time (W. Kurz,
+  /// D. J. Fisher, Fundamentals of Solidification, 4th ed. 1998, eq. 4.25). Absent: the spacing is not known.
+  std::optional<double> arm_spacing;     ///< c [m], the spacing after a solidification time of one second
+  double arm_spacing_exponent = 1. / 3;  ///< n
+
+  /// Newtonian shear viscosity μ of the melt at the liquidus [Pa s]. Absent: not known.
+  std::optional<double> melt_viscosity;
+  /// ΔP_cr: the drop of the melt's pressure at which pores form [Pa].
+  double critical_pressure_drop = 101325;
+
+  std::string source;
+};
+
+}  // namespace solidus::material

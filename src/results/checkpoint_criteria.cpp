@@ -1,0 +1,112 @@
+#include "results/checkpoint_criteria.hpp"
+
+#include <mpi.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace solidus::results {
+
+namespace {
+
+using criteria::Column;
+using criteria::Place;
+using criteria::Record;
+
+std::string path(const Record& record, const std::string& name) {
+  return "criteria/" + record.name + "/" + name;
+}
+
+std::string element_path(std::size_t block, const std::string& name) {
+  return "criteria/block_" + std::to_string(block) + "/" + name;
+}
+
+/// Where the rows of a column stand: all nodes, or the elements of a block.
+struct Part {
+  std::size_t first = 0, owned = 0;      ///< rows of the column; those that this process writes
+  std::span<const GlobalIndex> numbers;  ///< in the input, one per row
+  std::string keys, values;              ///< tables of the file
+};
+
+std::vector<Part> parts(const mesh::Mesh& mesh, const Record& record, const Column& column) {
+  const std::string values = path(record, column.name);
+  if (column.place == Place::node)
+    return {{0, static_cast<std::size_t>(mesh.n_owned_nodes), mesh.input_node, "node", values}};
+  std::vector<Part> result;
+  std::size_t first = 0;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const mesh::Block& block = mesh.blocks[b];
+    result.push_back({first, static_cast<std::size_t>(block.n_counted), block.input_element,
+                      element_path(b, "element"), element_path(b, record.name + "_" + column.name)});
+    first += block.input_element.size();
+  }
+  return result;
+}
+
+bool has_cells(const criteria::State& state) {
+  return std::any_of(state.records.begin(), state.records.end(), [](const Record& r) {
+    return std::any_of(r.columns.begin(), r.columns.end(),
+                       [](const Column& c) { return c.place == Place::cell; });
+  });
+}
+
+void take_part(TableReader& in, const Part& part, Column& column) {
+  std::unordered_map<std::int64_t, std::size_t> places;
+  for (std::size_t i = 0; i < part.numbers.size(); ++i) places.emplace(part.numbers[i], i);
+  const auto width = static_cast<std::size_t>(column.components);
+  std::size_t taken = 0;
+  in.each(part.keys, part.values, [&](std::int64_t number, std::span<const double> row) {
+    const auto place = places.find(number);
+    if (place == places.end() || row.size() != width) return;
+    std::copy(row.begin(), row.end(),
+              column.values.begin() + static_cast<std::ptrdiff_t>((part.first + place->second) * width));
+    ++taken;
+  });
+  in.require(taken == places.size(), part.values);
+}
+
+}  // namespace
+
+void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::State& state) {
+  if (has_cells(state))
+    for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+      out.rows<std::int64_t>(
+          element_path(b, "element"), 1,
+          std::span(mesh.blocks[b].input_element).first(static_cast<std::size_t>(mesh.blocks[b].n_counted)));
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  for (const Record& record : state.records) {
+    for (const Column& column : record.columns) {
+      const auto width = static_cast<std::size_t>(column.components);
+      for (const Part& part : parts(mesh, record, column))
+        out.rows<double>(part.values, column.components,
+                         std::span(column.values).subspan(part.first * width, part.owned * width));
+    }
+    for (const criteria::Table& table : record.tables) {
+      // Every process holds all rows: the first writes them.
+      const std::size_t n = rank == 0 ? table.values.size() : 0;
+      std::vector<std::int64_t> rows(n / static_cast<std::size_t>(table.width));
+      std::iota(rows.begin(), rows.end(), 0);
+      out.rows<std::int64_t>(path(record, table.name) + "_row", 1, rows);
+      out.rows<double>(path(record, table.name), table.width, std::span(table.values).first(n));
+    }
+  }
+}
+
+void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::State& state) {
+  for (Record& record : state.records) {
+    for (Column& column : record.columns)
+      for (const Part& part : parts(mesh, record, column)) take_part(in, part, column);
+    for (criteria::Table& table : record.tables) {
+      table.values.clear();
+      in.each(path(record, table.name) + "_row", path(record, table.name),
+              [&](std::int64_t, std::span<const double> row) {
+                table.values.insert(table.values.end(), row.begin(), row.end());
+              });
+    }
+  }
+}
+
+}  // namespace solidus::results

@@ -1,0 +1,18 @@
+/// What criteria remember, in a checkpoint: a table per column, by the numbers of nodes and elements.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+#include "criteria/state.hpp"
+#include "results/checkpoint_tables.hpp"
+
+namespace solidus::results {
+
+/// Collective.
+void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::State& state);
+/// Fills `state`, which has the records of this run; tables get the rows that the file has. Collective.
+void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::State& state);
+
+}  // namespace solidus::results
