@@ -74,14 +74,18 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   s.b = partners_.share_of(point);
   s.n_slave = static_cast<std::size_t>(partners_.n_slave[at(point)]);
   const bool meshed = s.n_slave < s.nodes.size();
-  if (meshed) s.radiation = law_.radiation_factor();
+  s.master_takes_heat = meshed || tool_temperature_;
+  if (s.master_takes_heat) s.radiation = law_.radiation_factor();
   for (std::size_t a = 0; a < s.nodes.size(); ++a) {
     const double t = temperature[at(s.nodes[a])];
     const bool slave = a < s.n_slave;
     (slave ? s.slave : s.master) += slave ? s.b[a] * t : -s.b[a] * t;
     if (s.radiation > 0) (slave ? s.slave_fourth : s.master_fourth) += (slave ? s.b[a] : -s.b[a]) * fourth(t);
   }
-  if (!meshed) s.master = s.slave;
+  if (!meshed) {
+    s.master = tool_temperature_.value_or(s.slave);
+    s.master_fourth = fourth(s.master);
+  }
   const HeatPoint& p = points_[at(point)];
   if (fixed_.empty())
     s.h = law_.at(-p.penetration, p.pressure, 0.5 * (s.slave + s.master));
@@ -90,13 +94,14 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   s.has_temperature = p.has_temperature;
   if (!p.has_temperature) return s;
   const OneSided sides = HeatTransferLaw::one_sided(s.h.value);
-  s.interface = interface_balance(p.step, {{s.slave, s.master}, {sides.slave, meshed ? sides.master : 0.0}});
+  s.interface = interface_balance(
+      p.step, {{s.slave, s.master}, {sides.slave, s.master_takes_heat ? sides.master : 0.0}});
   return s;
 }
 
 void HeatTerm::add_exchange(const AtPoint& s, std::span<const double> temperature, double weight_h,
                             double weight_e, std::span<double> heat) const {
-  if (s.n_slave == s.nodes.size()) return;
+  if (!s.master_takes_heat) return;
   for (std::size_t a = 0; a < s.nodes.size(); ++a) {
     const double t = temperature[at(s.nodes[a])];
     double q = 0;
@@ -128,8 +133,7 @@ void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
     heat.fill(0);
     add_exchange(s, x, w * s.h.value, w * s.radiation, heat);
     if (s.has_temperature) {
-      const bool meshed = s.n_slave < s.nodes.size();
-      const double conducted = meshed ? s.h.value * (s.slave - s.master) : 0.0;
+      const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
       add_sides(s, {w * (s.interface.flux[0] - conducted), w * (s.interface.flux[1] + conducted)}, heat);
     }
     for (std::size_t a = 0; a < s.nodes.size(); ++a)
@@ -140,23 +144,22 @@ void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
 // With h_i = s_i h: ∂Q_i/∂h = s_i (Θ_i − Θ_c) − h_i ∂Θ_c/∂h, ∂Θ_c/∂h = Σ s_j (Θ_j − Θ_c)/stiffness, and the
 // change of conduction, ±(Θ_s − Θ_m), taken off.
 std::array<double, 2> HeatTerm::flux_by_conductance(const AtPoint& s) {
-  const bool meshed = s.n_slave < s.nodes.size();
+  const bool both = s.master_takes_heat;
   const std::array<double, 2> share = side_shares();
   const std::array<double, 2> difference = {s.slave - s.interface.temperature,
-                                            meshed ? s.master - s.interface.temperature : 0.0};
+                                            both ? s.master - s.interface.temperature : 0.0};
   const double moved =
-      (share[0] * difference[0] + (meshed ? share[1] * difference[1] : 0.0)) / s.interface.stiffness;
-  const double conducted = meshed ? s.slave - s.master : 0.0;
+      (share[0] * difference[0] + (both ? share[1] * difference[1] : 0.0)) / s.interface.stiffness;
+  const double conducted = both ? s.slave - s.master : 0.0;
   return {share[0] * (difference[0] - s.h.value * moved) - conducted,
-          meshed ? share[1] * (difference[1] - s.h.value * moved) + conducted : 0.0};
+          both ? share[1] * (difference[1] - s.h.value * moved) + conducted : 0.0};
 }
 
 void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, std::span<double> k) const {
   const std::size_t n = s.nodes.size(), n_slave = s.n_slave;
   const double w = partners_.weight[at(s.point)];
   const double h = w * s.h.value, e = w * s.radiation;
-  const bool meshed = n_slave < n;
-  if (meshed)
+  if (n_slave < n) {
     for (std::size_t a = 0; a < (nodal_ ? n_slave : n); ++a)
       for (std::size_t b = nodal_ ? n_slave : a + 1; b < n; ++b) {
         double slope = h;
@@ -167,12 +170,20 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
         k[a * n + b] -= slope;
         k[b * n + a] -= slope;
       }
+  } else if (s.master_takes_heat) {
+    for (std::size_t a = 0; a < n; ++a) {
+      const double to_a = h + 4 * e * cube(x[at(s.nodes[a])]);
+      if (nodal_) k[a * n + a] += s.b[a] * to_a;
+      for (std::size_t b = 0; b < n && !nodal_; ++b)
+        k[a * n + b] += s.b[a] * s.b[b] * 0.5 * (to_a + h + 4 * e * cube(x[at(s.nodes[b])]));
+    }
+  }
   const auto shape = [&](std::size_t a) { return a < n_slave ? s.b[a] : -s.b[a]; };
   if (s.has_temperature)
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) {
         const std::size_t i = a < n_slave ? 0 : 1, j = b < n_slave ? 0 : 1;
-        const double conducted = meshed ? (i == j ? h : -h) : 0.0;
+        const double conducted = s.master_takes_heat ? (i == j ? h : -h) : 0.0;
         k[a * n + b] += shape(a) * (w * s.interface.flux_slope[i][j] - conducted) * shape(b);
       }
   if (s.h.by_temperature == 0) return;
@@ -182,7 +193,7 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
     const std::array<double, 2> flux = flux_by_conductance(s);
     add_sides(s, {w * s.h.by_temperature * flux[0], w * s.h.by_temperature * flux[1]}, per_h);
   }
-  const double side = meshed ? 0.5 : 1.0;  // of the mean temperature
+  const double side = s.master_takes_heat ? 0.5 : 1.0;  // of the mean temperature
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b) k[a * n + b] += per_h[a] * side * shape(b);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,7 +54,8 @@ struct InterfaceHeat {
 /// C_co it is a capacity spread over the nodes of a face: the matrix stays of non-negative type where C_co/Δt
 /// is small beside the conductance k/l of an element.
 ///
-/// A master without nodes (a rigid surface) takes no heat.
+/// A master without nodes (a rigid surface) has the temperature that it is given, the same everywhere, and
+/// takes what comes; without one it takes no heat.
 ///
 /// The tangent takes 2 e N_i N_j (Θ_i³ + Θ_j³) for radiation, the mean of the two derivatives: it keeps the
 /// matrix symmetric and, being off by O(Θ_i − Θ_j), costs iterations, not accuracy. All else is exact; a law
@@ -66,6 +68,8 @@ class HeatTerm : public algebra::Contribution {
            const HeatTransferLaw& law, bool nodal);
   /// Freezes the configuration, [point]; the partners are those of the list now.
   void place(std::vector<HeatPoint> points);
+  /// Of a master without nodes [K]; absent: it takes no heat.
+  void set_tool_temperature(std::optional<double> temperature) { tool_temperature_ = temperature; }
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
   /// Whether the tangent is symmetric.
@@ -100,8 +104,9 @@ class HeatTerm : public algebra::Contribution {
   struct AtPoint {
     Index point = 0;
     std::span<const Index> nodes;
-    std::span<const double> b;                   ///< B of every node
-    std::size_t n_slave = 0;                     ///< nodes
+    std::span<const double> b;  ///< B of every node
+    std::size_t n_slave = 0;    ///< nodes
+    bool master_takes_heat = true;
     double slave = 0, master = 0;                ///< Θ_s, Θ_m
     double slave_fourth = 0, master_fourth = 0;  ///< Σ N Θ⁴
     Conductance h;
@@ -128,6 +133,7 @@ class HeatTerm : public algebra::Contribution {
   bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
   std::vector<HeatPoint> points_;
+  std::optional<double> tool_temperature_;
   std::vector<double> fixed_;  ///< h of a law that does not change with the temperature, [point]
   SlotCache slots_, displacement_slots_;
   const algebra::BlockMatrix* displacement_ = nullptr;  ///< that displacement_slots_ know

@@ -2,6 +2,8 @@
 /// plane and a cylinder have no ends) and have no nodes: forces on them act on the slave alone.
 #pragma once
 
+#include <optional>
+
 #include "base/table.hpp"
 #include "contact/master.hpp"
 
@@ -23,6 +25,7 @@ struct RigidSurface {
   /// Cylinder, sphere: the rigid body is outside, its surface looks at the axis or centre (a bore).
   bool hollow = false;
   RigidMotion motion{};
+  std::optional<Table> temperature{};  ///< of the tool [K] of time; absent: no heat passes into it
 };
 
 class AnalyticMaster : public Master {

@@ -146,6 +146,11 @@ algebra::Contribution* ContactPair::heat() {
   return heat_.get();
 }
 
+std::optional<double> ContactPair::tool_temperature() const {
+  if (!spec_.rigid_master || !spec_.rigid_master->temperature) return {};
+  return spec_.rigid_master->temperature->value(time_);
+}
+
 bool ContactPair::symmetric() const {
   return spec_.friction ? spec_.friction->symmetric : kinematics_->symmetric();
 }
@@ -200,7 +205,7 @@ void ContactPair::find_interface_temperatures(std::span<const double> temperatur
       side[b < static_cast<std::size_t>(partners_.n_slave[at(p)]) ? 0 : 1] +=
           share[b] * temperature[at(nodes[b])];
     const bool meshed = nodes.size() > static_cast<std::size_t>(partners_.n_slave[at(p)]);
-    from.temperature = meshed ? 0.5 * (side[0] - side[1]) : side[0];
+    from.temperature = 0.5 * (side[0] + (meshed ? -side[1] : tool_temperature().value_or(side[0])));
   }
 }
 
@@ -208,6 +213,7 @@ void ContactPair::update(std::span<const double> displacement) {
   displacement_.assign(displacement.begin(), displacement.end());
   time_ = step_.time;
   placement_->place(time_, displacement_);
+  if (heat_) heat_->set_tool_temperature(tool_temperature());
   const bool fixed = !kinematics_->partners_change() && partners_.n_points() > 0;
   if (!fixed) partners_.clear();
   now_.points.resize(step_.from.size());

@@ -150,6 +150,8 @@ class ContactPair {
   /// the node loses heat; the sum over all is zero. [owned node].
   std::vector<double> nodal_heat(std::span<const double> temperature) const;
 
+  /// Of a rigid master at the last update() or restore() [K]; absent: it takes no heat.
+  std::optional<double> tool_temperature() const;
   const ContactSpec& spec() const { return spec_; }
   double penalty() const { return law_.normal.penalty; }  ///< ε_N [Pa/m]
   const ContactKinematics& kinematics() const { return *kinematics_; }

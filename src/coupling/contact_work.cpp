@@ -41,4 +41,13 @@ void book_interface(EnergyAudit& audit, bool mechanical) {
   audit.numerical += sums.stored + sums.hardening - sums.energy;
 }
 
+void book_tool(const contact::ContactPair& pair, double into_bodies, const contact::InterfaceSums& friction,
+               EnergyAudit& energy) {
+  const std::optional<double> temperature = pair.tool_temperature();
+  if (!temperature) return;
+  const double heat = into_bodies - (friction.dissipated - friction.stored);
+  energy.heat_in += heat;
+  energy.entropy_in += heat / *temperature;
+}
+
 }  // namespace solidus::coupling

@@ -40,4 +40,9 @@ class ContactWork {
 /// @param mechanical  false where deformation and heat exchange nothing: then friction's heat alone
 void book_interface(EnergyAudit& energy, bool mechanical);
 
+/// Heat that a rigid master of given temperature gives in a step, and its entropy at that temperature.
+/// @param into_bodies  heat of the pair's thermal term into the bodies [J]
+void book_tool(const contact::ContactPair& pair, double into_bodies, const contact::InterfaceSums& friction,
+               EnergyAudit& energy);
+
 }  // namespace solidus::coupling

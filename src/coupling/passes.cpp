@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "coupling/contact_states.hpp"
+#include "coupling/contact_work.hpp"
 
 namespace solidus::coupling {
 
@@ -83,7 +84,13 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
     effort.energy.friction = 0;
   }
   effort.energy.interface = {};
-  for (contact::ContactPair* pair : phases.contacts) add(pair->settle(trial.heat.temperature), effort.energy);
+  std::size_t term = 0;  // the thermal terms of the pairs come first
+  for (contact::ContactPair* pair : phases.contacts) {
+    const contact::InterfaceSums sums = pair->settle(trial.heat.temperature);
+    add(sums, effort.energy);
+    if (pair->heat() != nullptr)
+      book_tool(*pair, report.balance.contributions.at(term++), sums, effort.energy);
+  }
   if (phases.mechanics != nullptr) trial.contacts = contact_states(phases);
   add(report.newton, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;

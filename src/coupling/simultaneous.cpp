@@ -156,6 +156,9 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   energy.stored_heat = balance.stored;
   for (const heat::ConditionHeat& condition : balance.conditions) energy.heat_in += condition.heat;
   energy.entropy_in = balance.entropy_in;
+  std::size_t term = 0;  // the thermal terms of the pairs come first
+  for (const contact::ContactPair* pair : phases_.contacts)
+    if (pair->spec().heat) book_tool(*pair, balance.contributions.at(term++), {}, energy);
   energy.heat_exchanged = balance.exchanged;
   effort.least_dissipation = work.least_dissipation;
   effort.largest_dissipation = work.largest_dissipation;

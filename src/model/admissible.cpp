@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/units.hpp"
 #include "model/dynamics_input.hpp"
@@ -40,13 +43,21 @@ const Function* surroundings(const ThermalConditionSpec& c) {
   return nullptr;
 }
 
+/// Whatever takes heat at a temperature of its own.
+std::vector<std::pair<std::string, const Function*>> all_surroundings(const CaseSpec& spec) {
+  std::vector<std::pair<std::string, const Function*>> all;
+  for (const auto& c : spec.thermal_conditions)
+    if (const Function* around = surroundings(c)) all.emplace_back(c.name, around);
+  for (const auto& s : spec.rigid_surfaces)
+    if (s.temperature) all.emplace_back(s.name, &*s.temperature);
+  return all;
+}
+
 constexpr double k_same = 1e-6;  // [K]: rounding of units
 
 std::optional<double> common_ambient(const CaseSpec& spec) {
   std::optional<double> common;
-  for (const auto& c : spec.thermal_conditions) {
-    const Function* around = surroundings(c);
-    if (around == nullptr) continue;
+  for (const auto& [name, around] : all_surroundings(spec)) {
     const double here = around->table.min_value();
     if (!steady(*around) || std::abs(here - common.value_or(here)) > k_same) return {};
     common = here;
@@ -67,13 +78,13 @@ void check_heat(const CaseSpec& spec, Admissibility& a) {
       a.violations.push_back(fmt::format("'{}' is a flux", c.name));
     else if (c.kind == Kind::source && !zero(c.power))
       a.violations.push_back(fmt::format("'{}' is a source", c.name));
-    else if (const Function* around = surroundings(c); around != nullptr) {
-      if (!steady(*around))
-        a.violations.push_back(fmt::format("the temperature of '{}' varies", c.name));
-      else if (std::abs(around->table.min_value() - a.ambient_temperature) > k_same)
-        a.violations.push_back(fmt::format("the temperature of '{}' is not the ambient one, {:.6g} degC",
-                                           c.name, a.ambient_temperature - k_zero_celsius));
-    }
+  }
+  for (const auto& [name, around] : all_surroundings(spec)) {
+    if (!steady(*around))
+      a.violations.push_back(fmt::format("the temperature of '{}' varies", name));
+    else if (std::abs(around->table.min_value() - a.ambient_temperature) > k_same)
+      a.violations.push_back(fmt::format("the temperature of '{}' is not the ambient one, {:.6g} degC", name,
+                                         a.ambient_temperature - k_zero_celsius));
   }
 }
 

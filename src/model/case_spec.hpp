@@ -112,6 +112,9 @@ struct BodySpec {
   std::optional<std::string> group;      ///< of the mesh; absent: as `name`
   std::string material;                  ///< name in the library, or a file
   double initial_temperature = 0;        ///< [K]
+  enum class Physics { all, heat };
+  Physics physics = Physics::all;
+  std::vector<std::string> stages;       ///< in which it is there; empty: all
   std::vector<double> initial_velocity;  ///< [m/s]; empty: at rest
   SourceLocation where;
   const std::string& mesh_group() const { return group ? *group : name; }
@@ -183,6 +186,7 @@ struct RigidSurfaceSpec {
   std::optional<Function> rotation;     ///< [rad] of time
   std::vector<double> rotation_centre;  ///< [m]; empty: `point`
   std::vector<double> rotation_axis;    ///< empty: that of the analysis or of the cylinder
+  std::optional<Function> temperature;  ///< [K] of time; absent: it takes no heat
   SourceLocation where;
 };
 

@@ -101,12 +101,12 @@ void check_contact(const CaseSpec& spec, const ContactSpec& c) {
   if (c.formulation != contact::Formulation::large_sliding)
     refuse(c.where, "small sliding", "formulation = \"large_sliding\"");
   if (c.smoothing) refuse(c.where, "smoothing, which is for meshes", "no smoothing: the surface is smooth");
-  if (c.heat)
-    refuse(c.heat->where, "heat, but a rigid surface has no temperature",
-           "no [contact.heat]; a thermal condition on the slave");
-  if (c.friction && spec.coupled())
-    refuse(c.friction->where, "friction, whose heat has no way out",
-           "physics = \"mechanics\", or a master with a mesh");
+  if (c.heat && spec.has_heat() && !master->temperature)
+    refuse(c.heat->where, "heat, but the rigid surface has no temperature",
+           "temperature = \"...\" of the [[rigid_surface]], or no [contact.heat]");
+  if (master->temperature && (!c.heat || !spec.has_heat()))
+    refuse(c.where, "no heat that passes into it, but it has a temperature",
+           spec.has_heat() ? "a section [contact.heat], or no temperature" : "no temperature");
 }
 
 }  // namespace
@@ -131,6 +131,7 @@ contact::RigidSurface rigid_surface(const RigidSurfaceSpec& spec, AnalysisKind k
   if (spec.uz) m.translation[axisymmetric ? 1 : 2] = spec.uz->table;
   if (spec.rotation) m.angle = spec.rotation->table;
   m.centre = spec.rotation_centre.empty() ? s.point : point_of(spec.rotation_centre);
+  if (spec.temperature) s.temperature = spec.temperature->table;
   if (!spec.rotation_axis.empty())
     m.axis = point_of(spec.rotation_axis);
   else if (solid && spec.shape == Shape::cylinder)

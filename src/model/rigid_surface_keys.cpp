@@ -47,6 +47,11 @@ Section<RigidSurfaceSpec> rigid_surface_keys() {
   s.key("rotation_axis", &R::rotation_axis)
       .initially(Value::list())
       .doc("The direction about which it turns, in a solid; a cylinder without it turns about its axis.");
+  s.function("temperature", &R::temperature, "K")
+      .of({Argument::time})
+      .doc(
+          "Its temperature, the same everywhere, where heat passes into it ([contact.heat]). Friction in a "
+          "thermomechanical analysis needs both.");
   s.place(&R::where);
   return s;
 }

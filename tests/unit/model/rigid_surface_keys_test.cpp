@@ -145,7 +145,9 @@ TEST(RigidSurfaceKeys, ContactsThatCannotWorkWithOneAreRefused) {
             "thermomechanical"),
       HasSubstr("no temperature"));
   EXPECT_THAT(error(k_plane, "plane_strain", "[contact.friction]\ncoefficient = 0.1\n", "thermomechanical"),
-              HasSubstr("no way out"));
+              HasSubstr("none passes"));
+  EXPECT_THAT(error(k_plane + "temperature = \"20 degC\"\n", "plane_strain", "", "thermomechanical"),
+              HasSubstr("has a temperature"));
   EXPECT_THAT(error(k_plane, "plane_strain", "", "heat"), HasSubstr("no mechanics"));
   EXPECT_EQ(error(k_plane, "plane_strain", "", "thermomechanical"), "");
   EXPECT_EQ(error(k_plane, "plane_strain", "[contact.friction]\ncoefficient = 0.1\n"), "");
@@ -158,6 +160,18 @@ TEST(RigidSurfaceKeys, AToolThatMovesTakesTheProofOfStabilityAway) {
   EXPECT_THAT(violations(""), ElementsAre());
   EXPECT_THAT(violations("uy = \"-1 mm\"\n"), ElementsAre("the rigid surface 'tool' moves"));
   EXPECT_THAT(violations("rotation = \"1 rad\"\n"), ElementsAre("the rigid surface 'tool' moves"));
+}
+
+TEST(RigidSurfaceKeys, AToolWithATemperatureIsTheSurroundings) {
+  const std::string heat = "[contact.heat]\nconductance = \"1 W/m2/K\"\ngap_law = \"constant\"\n";
+  CaseSpec spec =
+      with_tool(k_plane + "temperature = \"20 degC\"\n", heat, "plane_strain", "thermomechanical");
+  EXPECT_EQ(contact_specs(spec)[0].rigid_master->temperature->value(0), 293.15);
+  EXPECT_EQ(admissibility(spec).ambient_temperature, 293.15);
+  EXPECT_TRUE(admissibility(spec).holds());
+  spec.coupling.ambient_temperature = 300;
+  EXPECT_THAT(admissibility(spec).violations,
+              ElementsAre("the temperature of 'tool' is not the ambient one, 26.85 degC"));
 }
 
 TEST(RigidSurfaceKeys, NamesMustFit) {
