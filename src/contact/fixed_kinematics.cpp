@@ -36,7 +36,7 @@ FixedKinematics::Particle FixedKinematics::particle(Index point) const {
           std::span(points_.shape).subspan(shape, n_slave)};
 }
 
-void FixedKinematics::place(std::span<const double> u) {
+void FixedKinematics::place(std::span<const double> u, Points) {
   for (const Pairing& pairing : points_.pairings) {
     const Index* nodes = points_.nodes.data() + pairing.first_node;
     const double* b = points_.shape.data() + pairing.first_shape;

@@ -23,7 +23,8 @@ class FixedKinematics final : public ContactKinematics {
   Particle particle(Index point) const override;
   double coverage() const override { return points_.paired_measure / points_.slave_measure; }
   bool partners_change() const override { return false; }
-  void place(std::span<const double> displacement) override;
+  using ContactKinematics::place;
+  void place(std::span<const double> displacement, Points points) override;
   PointMotion motion(Index point, const PointState& old, Asked asked) const override;
   void add_geometric_tangent(Index, double, const Point&, std::span<Tensor>) const override {}
   bool graph_outdated() const override { return false; }

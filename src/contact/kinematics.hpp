@@ -72,10 +72,17 @@ class ContactKinematics {
   virtual bool partners_change() const { return true; }
   /// The time whose place prescribed motions of rigid surfaces have [s]; takes effect at the next place().
   virtual void set_time(double) {}
+  /// Which points place() brings in line: all, or those that concern this process, which suffice for its rows
+  /// and its part of sums.
+  enum class Points { all, own };
   /// Brings partners in line with a displacement [local node][component], ghosts up to date [m]. The result
   /// depends on displacement and time alone, not on earlier calls. Local: surfaces are held whole by every
   /// process.
-  virtual void place(std::span<const double> displacement) = 0;
+  virtual void place(std::span<const double> displacement, Points points) = 0;
+  void place(std::span<const double> displacement) { place(displacement, Points::all); }
+  /// Whether the point, as it was last placed, can reach a node of this process. Points that do not may be
+  /// left where they were by place() with Points::own: without a partner.
+  virtual bool concerns(Index) const { return true; }
   /// One point at the displacement of the last place().
   /// @param old  at t_n: slip is counted from its anchor, whether it touched or not; where it had no partner,
   ///             from here (ΔG = 0)

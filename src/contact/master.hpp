@@ -54,6 +54,12 @@ class Master {
   /// The partner of the place x, on a side of the master that looks against the unit normal of the slave.
   /// @param hint a face that may be near, or −1: speeds the search up, never changes its result
   virtual Partner find(const Point& x, const Point& slave_normal, Index hint) const = 0;
+  /// Marks faces [face]: may_meet_watched() then tells points apart that find() need not be asked for.
+  virtual void watch(std::vector<char>) {}
+  /// False only where find() has no partner, or one whose closest face is none of the marked ones.
+  virtual bool may_meet_watched(const Point&, const Point& /*slave_normal*/, Index /*hint*/) const {
+    return false;
+  }
   /// @param rates whether nu_rate is asked for
   virtual void frame(const Partner& partner, bool rates, MasterFrame& frame) const = 0;
   /// The most nodes that a frame has.
@@ -62,6 +68,8 @@ class Master {
   virtual bool reference_turns() const = 0;
   /// Whether ∂g_N/∂x_b = B_b n, so that normal forces have a potential.
   virtual bool symmetric() const { return true; }
+  /// Faces of a mesh; none for surfaces without nodes.
+  virtual Index n_faces() const { return 0; }
   /// Nodes that a frame on this face may have.
   virtual std::span<const Index> nodes(Index face) const = 0;
   /// The face itself and those that share a node with it, sorted. Empty for masters without nodes.

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "contact/master.hpp"
 #include "contact/master_normals.hpp"
@@ -28,6 +30,11 @@ class MeshMaster : public Master {
   MeshMaster(int components, const ContactSurface& surface, const MeshMasterOptions& options);
   void place(std::span<const double> displacement, double time) override;
   Partner find(const Point& x, const Point& slave_normal, Index hint) const override;
+  void watch(std::vector<char> faces) override { search_.watch(std::move(faces), faces_); }
+  bool may_meet_watched(const Point& x, const Point& slave_normal, Index hint) const override {
+    return search_.may_meet_watched(x, options_.search_distance, slave_normal, hint);
+  }
+  Index n_faces() const override { return surface_.n_faces(); }
   void frame(const Partner& partner, bool rates, MasterFrame& frame) const override;
   std::size_t max_nodes() const override { return max_nodes_; }
   bool reference_turns() const override;

@@ -67,10 +67,11 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
   changes_ = 0;
   failure_ = FrictionStatus::converged;
   if (!active_) return;
-  placement_.place(step_.time, x);
+  placement_.place(step_.time, x, ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(components_);
   Count count;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
+    if (!kinematics_.concerns(p)) continue;
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
     const PointForces f = law_.forces(motion, from);
@@ -176,6 +177,7 @@ template <int dim>
 void MechanicsTerm::add_tangents(algebra::BlockMatrix& matrix) {
   Run run;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
+    if (!kinematics_.concerns(p)) continue;
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::rates);
     if (!motion.partnered || std::none_of(motion.nodes.begin(), motion.nodes.end(),
@@ -194,7 +196,7 @@ void MechanicsTerm::add_tangents(algebra::BlockMatrix& matrix) {
 
 void MechanicsTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {
   if (!active_) return;
-  placement_.place(step_.time, x);
+  placement_.place(step_.time, x, ContactKinematics::Points::own);
   if (components_ == 2)
     add_tangents<2>(matrix);
   else

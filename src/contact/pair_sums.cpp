@@ -27,7 +27,7 @@ Point force_on_master(const PointMotion& motion, const PointState& state, double
 double ContactPair::force_times_increment(const std::vector<PointState>& states,
                                           std::span<const double> displacement, double time,
                                           std::span<const double> increment) {
-  placement_->place(time, displacement);
+  placement_->place(time, displacement, ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(components_);
   double work = 0;
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
@@ -51,13 +51,13 @@ double ContactPair::work(double share) {
   if (share != 1)
     work += (1 - share) * force_times_increment(step_.from, step_.displacement, step_.begun, increment);
   if (share != 0) work += share * force_times_increment(now_.points, displacement_, time_, increment);
-  placement_->place(time_, displacement_);
+  placement_->place(time_, displacement_, ContactKinematics::Points::own);
   return algebra::global_sum(work);
 }
 
 double ContactPair::rigid_work(double share) {
   if (!spec_.rigid_master || !active_) return 0;
-  placement_->place(time_, displacement_);
+  placement_->place(time_, displacement_, ContactKinematics::Points::own);
   double together = 0;
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const PointState &from = step_.from[at(p)], &to = now_.points[at(p)];
@@ -71,7 +71,7 @@ double ContactPair::rigid_work(double share) {
 }
 
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
-  placement_->place(time_, displacement_);
+  placement_->place(time_, displacement_, ContactKinematics::Points::own);
   std::array<double, 16> s{};
   const auto n = static_cast<std::size_t>(components_);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {

@@ -15,11 +15,14 @@ class Placement {
   explicit Placement(ContactKinematics& kinematics) : kinematics_(kinematics) {}
 
   const ContactKinematics& kinematics() const { return kinematics_; }
-  void place(double time, std::span<const double> displacement) {
-    if (placed_ && time == time_ && std::ranges::equal(displacement, displacement_)) return;
+  void place(double time, std::span<const double> displacement,
+             ContactKinematics::Points points = ContactKinematics::Points::all) {
+    const bool enough = points_ == ContactKinematics::Points::all || points_ == points;
+    if (placed_ && enough && time == time_ && std::ranges::equal(displacement, displacement_)) return;
     kinematics_.set_time(time);
-    kinematics_.place(displacement);
+    kinematics_.place(displacement, points);
     placed_ = true;
+    points_ = points;
     time_ = time;
     displacement_.assign(displacement.begin(), displacement.end());
   }
@@ -30,6 +33,7 @@ class Placement {
  private:
   ContactKinematics& kinematics_;
   bool placed_ = false;
+  ContactKinematics::Points points_ = ContactKinematics::Points::all;
   double time_ = 0;
   std::vector<double> displacement_;
 };

@@ -32,6 +32,7 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
       master_(std::move(master)),
       options_(options) {
   add_points(kind, options);
+  find_faces_that_concern();
   const std::size_t most = static_cast<std::size_t>(k_max_face_nodes) + master_->max_nodes();
   frame_.nu_rate.resize(master_->max_nodes());
   nodes_.resize(most);
@@ -67,6 +68,44 @@ void SlidingKinematics::add_points(AnalysisKind kind, const SlidingOptions& opti
   x_ = position_;
   partner_.resize(weight_.size());
   hint_.assign(weight_.size(), -1);
+  concern_.assign(weight_.size(), reached);
+}
+
+bool SlidingKinematics::own_slave(std::size_t point) const {
+  const auto nodes = slave_.nodes(face_[point]);
+  return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return n < mesh_.n_owned_nodes; });
+}
+
+void SlidingKinematics::find_faces_that_concern() {
+  const auto own = [&](Index node) { return node < mesh_.n_owned_nodes; };
+  all_own_ = std::all_of(slave_.all_nodes().begin(), slave_.all_nodes().end(), own);
+  if (all_own_) return;
+  const auto n_faces = static_cast<std::size_t>(master_->n_faces());
+  std::vector<char> found(n_faces, 0);
+  for (Index f = 0; f < master_->n_faces(); ++f) {
+    const auto nodes = master_->nodes(f);
+    found[static_cast<std::size_t>(f)] = std::any_of(nodes.begin(), nodes.end(), own) ? 1 : 0;
+  }
+  const auto widen = [&](int rings) {
+    for (int ring = 0; ring < rings; ++ring) {
+      const std::vector<char> inner = found;
+      for (Index f = 0; f < master_->n_faces(); ++f)
+        if (inner[static_cast<std::size_t>(f)] != 0)
+          for (const Index g : master_->around(f)) found[static_cast<std::size_t>(g)] = 1;
+    }
+  };
+  face_concern_.assign(n_faces, none);
+  const auto mark = [&](Concern concern) {
+    for (std::size_t f = 0; f < n_faces; ++f)
+      if (found[f] != 0 && face_concern_[f] == none) face_concern_[f] = concern;
+  };
+  widen(options_.graph_rings);
+  mark(reached);
+  widen(options_.graph_rings);
+  mark(near);
+  // A partner lies on the closest face or next to it.
+  widen(1);
+  master_->watch(std::move(found));
 }
 
 ContactKinematics::Particle SlidingKinematics::particle(Index point) const {
@@ -87,15 +126,25 @@ Point SlidingKinematics::place_of(std::size_t point, const Face& face) const {
   return x;
 }
 
-void SlidingKinematics::place(std::span<const double> displacement) {
+void SlidingKinematics::place(std::span<const double> displacement, Points points) {
   master_->place(displacement, time_);
   Face face;
+  bool own = true;
   for (std::size_t p = 0; p < face_.size(); ++p) {
-    if (p == 0 || face_[p] != face_[p - 1])
+    if (p == 0 || face_[p] != face_[p - 1]) {
       face = slave_.current_face(face_[p], displacement, static_cast<int>(components_));
+      own = all_own_ || own_slave(p);
+    }
     x_[p] = place_of(p, face);
-    partner_[p] = master_->find(x_[p], face.normal(xi_[p]), hint_[p]);
-    if (partner_[p].face >= 0) hint_[p] = partner_[p].face;
+    const Point normal = face.normal(xi_[p]);
+    partner_[p] = {};
+    if (own || points == Points::all || master_->may_meet_watched(x_[p], normal, hint_[p]))
+      partner_[p] = master_->find(x_[p], normal, hint_[p]);
+    const Index met = partner_[p].face;
+    if (met >= 0) hint_[p] = met;
+    concern_[p] = own                                ? reached
+                  : met < 0 || face_concern_.empty() ? none
+                                                     : face_concern_[static_cast<std::size_t>(met)];
   }
 }
 
@@ -275,7 +324,8 @@ std::span<const Index> SlidingKinematics::allowed(Index slave_face) const {
 bool SlidingKinematics::graph_outdated() const {
   if (master_->max_nodes() == 0) return first_allowed_.empty();
   for (std::size_t p = 0; p < face_.size(); ++p) {
-    if (partner_[p].face < 0 || partner_[p].penetration < -options_.graph_distance) continue;
+    if (concern_[p] != reached || partner_[p].face < 0 || partner_[p].penetration < -options_.graph_distance)
+      continue;
     if (first_allowed_.empty()) return true;
     const auto faces = allowed(face_[p]);
     if (!std::binary_search(faces.begin(), faces.end(), partner_[p].face)) return true;
@@ -291,7 +341,7 @@ void SlidingKinematics::add_to_graph(CliqueSink& sink) {
     const Index slave = face_[p];
     faces.clear();
     for (; p < face_.size() && face_[p] == slave; ++p)
-      if (partner_[p].face >= 0 && partner_[p].penetration >= -options_.graph_distance)
+      if (concern_[p] != none && partner_[p].face >= 0 && partner_[p].penetration >= -options_.graph_distance)
         faces.push_back(partner_[p].face);
     for (int ring = 0; ring < options_.graph_rings; ++ring) {
       wider.clear();

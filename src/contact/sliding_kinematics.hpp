@@ -38,7 +38,9 @@ class SlidingKinematics : public ContactKinematics {
   double coverage() const override { return coverage_; }
   bool symmetric() const override { return master_->symmetric(); }
   void set_time(double time) override { time_ = time; }
-  void place(std::span<const double> displacement) override;
+  using ContactKinematics::place;
+  void place(std::span<const double> displacement, Points points) override;
+  bool concerns(Index point) const override { return concern_[static_cast<std::size_t>(point)] != none; }
   PointMotion motion(Index point, const PointState& old, Asked asked) const override;
   void add_geometric_tangent(Index point, double pressure, const Point& traction,
                              std::span<Tensor> k) const override;
@@ -51,6 +53,8 @@ class SlidingKinematics : public ContactKinematics {
 
  private:
   void add_points(AnalysisKind kind, const SlidingOptions& options);
+  void find_faces_that_concern();
+  bool own_slave(std::size_t point) const;
   Point place_of(std::size_t point, const Face& face) const;
   void list_nodes(std::size_t point) const;
   void find_rates(const Partner& partner) const;
@@ -74,6 +78,12 @@ class SlidingKinematics : public ContactKinematics {
   std::vector<std::array<double, k_max_face_nodes>> shape_;
   std::vector<Partner> partner_;
   std::vector<Index> hint_;  ///< the face met last
+  /// How a point concerns this process: from a face that it meets, the graph's rings reach a node of its own
+  /// (reached), or would from one that many faces on (near), so that the graph holds it before it comes.
+  enum Concern : char { none, near, reached };
+  std::vector<Concern> concern_;       ///< [point] at the last place()
+  bool all_own_ = false;               ///< this process owns the whole slave
+  std::vector<Concern> face_concern_;  ///< [master face]; none for surfaces without nodes
 
   // Pairs of faces that the graph holds: master faces of every slave face, sorted.
   std::vector<std::size_t> first_allowed_;

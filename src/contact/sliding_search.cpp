@@ -53,16 +53,18 @@ SlidingSearch::SlidingSearch(std::span<const Face> faces, double margin) : faces
 SlidingSearch::~SlidingSearch() = default;
 
 void SlidingSearch::build() {
-  std::vector<Entry> entries;
+  std::vector<Entry> entries, watched;
   entries.reserve(faces_.size());
   built_at_.clear();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const auto [low, high] = faces_[f].box();
     entries.emplace_back(box_around(low, high, margin_), static_cast<Index>(f));
+    if (!marked_.empty() && marked_[f] != 0) watched.push_back(entries.back());
     for (std::size_t a = 0; a < static_cast<std::size_t>(faces_[f].n_nodes); ++a)
       built_at_.push_back(faces_[f].x[a]);
   }
   tree_ = std::make_unique<Tree>(Tree{decltype(Tree::boxes)(entries)});
+  watched_ = std::make_unique<Tree>(Tree{decltype(Tree::boxes)(watched)});
   ++n_builds_;
 }
 
@@ -95,6 +97,26 @@ void SlidingSearch::collect(const Point& p, double radius, const Point& facing) 
   };
   tree_->boxes.query(bgi::intersects(box_around(p, p, radius * (1 + k_same))),
                      boost::make_function_output_iterator(consider));
+}
+
+void SlidingSearch::watch(std::vector<char> marked, std::span<const Face> faces) {
+  marked_ = std::move(marked);
+  faces_ = faces;
+  build();
+}
+
+bool SlidingSearch::may_meet_watched(const Point& p, double max_distance, const Point& facing,
+                                     Index hint) const {
+  double radius = max_distance;
+  if (hint >= 0) {
+    // The face that was met last bounds the distance of the closest one, where it still looks this way.
+    const Face& face = faces_[static_cast<std::size_t>(hint)];
+    const Projection there = closest_point(face, p);
+    if (dot(face.normal(there.xi), facing) < k_facing_cosine) radius = std::min(radius, there.distance);
+  }
+  const double slack = 4 * k_same * (radius + 1e-3 * size_);
+  const auto near = watched_->boxes.qbegin(bgi::intersects(box_around(p, p, radius + slack)));
+  return near != watched_->boxes.qend();
 }
 
 SurfacePoint SlidingSearch::closest(const Point& p, double max_distance, const Point& facing,

@@ -25,6 +25,11 @@ class SlidingSearch {
   /// tree nor the hint.
   /// @param hint a face that may be near, or −1
   SurfacePoint closest(const Point& p, double max_distance, const Point& facing, Index hint) const;
+  /// Marks faces [face] for may_meet_watched(). @param faces  where they are now, as for move()
+  void watch(std::vector<char> marked, std::span<const Face> faces);
+  /// False only where closest() finds nothing or a face that is not marked: a point far from all of those
+  /// costs a fraction of closest() then.
+  bool may_meet_watched(const Point& p, double max_distance, const Point& facing, Index hint) const;
   int n_builds() const { return n_builds_; }
 
  private:
@@ -38,7 +43,8 @@ class SlidingSearch {
   int n_builds_ = 0;
   std::vector<Point> built_at_;  ///< nodes of every face at the last build
   struct Tree;
-  std::unique_ptr<Tree> tree_;
+  std::unique_ptr<Tree> tree_, watched_;
+  std::vector<char> marked_;
   mutable std::vector<SurfacePoint> near_;
 };
 
