@@ -1,8 +1,9 @@
 """Cells of volume: their faces, and how they are cut into linear tetrahedra. Numbers of nodes are VTK's.
 
-Quadratic cells are cut along their mid nodes. A hexahedron gets a node in the middle of every face and one in its own middle and is cut
-into one tetrahedron per edge of the fans round the face nodes: no diagonal is preferred, and neighbours fit together. A linear field stays
-linear, so everything made from these tetrahedra is exact for it.
+Quadratic cells are cut along their mid nodes. A hexahedron gets a node in the middle of every face and one in
+its own middle and is cut into a tetrahedron for each edge of each face, between this edge and both middles: no
+diagonal is preferred, and neighbours fit together. A linear field stays linear, so everything made from these
+tetrahedra is exact for it.
 """
 
 from dataclasses import dataclass
@@ -21,15 +22,17 @@ _HEX_FACES = [(0, 3, 2, 1), (0, 1, 5, 4), (0, 4, 7, 3), (1, 2, 6, 5), (2, 3, 7, 
 def _with_mid_nodes(faces, edges, corners):
     """The nodes round each face with the mid nodes of its edges: corner, mid, corner, ..."""
     mid = {frozenset(edge): corners + i for i, edge in enumerate(edges)}
-    return [sum(((a, mid[frozenset((a, b))]) for a, b in zip(face, face[1:] + face[:1])), ()) for face in faces]
+    return [sum(((a, mid[frozenset((a, b))]) for a, b in zip(face, face[1:] + face[:1])), ())
+            for face in faces]
 
 
 # The nodes round each face of a cell.
 RINGS = {TET: _TET_FACES, HEX: _HEX_FACES,
          TET_2: _with_mid_nodes(_TET_FACES, _TET_EDGES, 4), HEX_2: _with_mid_nodes(_HEX_FACES, _HEX_EDGES, 8)}
-# A face of six nodes: the triangles at its corners and the middle one; which sides (opposite of node 0, 1, 2) are the face's.
-_TRI_2 = [((0, 1, 5), (False, True, True)), ((2, 3, 1), (False, True, True)), ((4, 5, 3), (False, True, True)),
-          ((1, 3, 5), (False, False, False))]
+# A face of six nodes: the triangles at its corners and the middle one; which of their sides (opposite of node
+# 0, 1, 2) are the face's.
+_TRI_2 = [((0, 1, 5), (False, True, True)), ((2, 3, 1), (False, True, True)),
+          ((4, 5, 3), (False, True, True)), ((1, 3, 5), (False, False, False))]
 # Corners, then the octahedron between the mid nodes, cut along 6-8.
 _TET_2_PARTS = [(0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3),
                 (6, 8, 4, 5), (6, 8, 5, 9), (6, 8, 9, 7), (6, 8, 7, 4)]
@@ -40,7 +43,8 @@ class Refined:
     """Nodes of a grid and, behind them, new ones in the middle of faces and cells."""
 
     def __init__(self, count):
-        self.count, self._sets = count, []  # nodes so far; of each set of new ones: parents [node][k], weights [k]
+        self.count = count  # of nodes so far
+        self._sets = []  # of each set of new ones: parents [node][k], weights [k]
 
     def extend(self, values):
         """Values at the nodes of the grid -> at all nodes."""
@@ -54,7 +58,7 @@ class Refined:
         return np.arange(self.count - len(parents), self.count)
 
     def add_face_middles(self, rings):
-        """Nodes in the middle of four-sided faces, of their rings [face][4 or 8]; a face of two cells gets one."""
+        """Nodes in the middle of four-sided faces, of their rings [face][4 or 8]; cells share that of a face."""
         corners = rings if rings.shape[1] == 4 else rings[:, ::2]
         _, first, index = np.unique(_face_keys(corners), return_index=True, return_inverse=True)
         weights = np.full(4, 0.25) if rings.shape[1] == 4 else np.tile([-0.25, 0.5], 4)
@@ -101,7 +105,7 @@ def _volume_cells(grid, cells):
 
 
 def _fans(refined, vtk_type, nodes):
-    """Tetrahedra between the middle of hexahedra, the middle of a face and an edge (or half edge) of this face."""
+    """Tetrahedra between the middle of hexahedra, the middle of a face and an edge (or half of it) of the face."""
     centre = refined.add(nodes, np.full(8, 0.125) if vtk_type == HEX else np.repeat([-0.25, 0.25], [8, 12]))
     rings = nodes[:, RINGS[vtk_type]]  # [cell][face][node]
     middles = refined.add_face_middles(rings.reshape(-1, rings.shape[2])).reshape(rings.shape[:2])

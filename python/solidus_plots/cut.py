@@ -49,7 +49,7 @@ class Plane:
         return self if self.normal @ eye >= 0.0 else replace(self, normal=-self.normal)
 
     def place(self, vectors):
-        """The part of vectors [...][3] that lies in the plane: [...][2]. Of points with an axis' plane: their coordinates."""
+        """The part of vectors [...][3] that lies in the plane [...][2]; of points in an axis' plane: coordinates."""
         return np.stack([vectors @ self.right, vectors @ self.up], axis=-1)
 
 
@@ -84,8 +84,8 @@ class Cut:
 
 
 def cut(grid, cells, plane):
-    """Cuts the volume cells of a mask. A plane along faces shows the cells below it, against its normal; at the lower end of
-    the cells those above."""
+    """Cuts the volume cells of a mask. A plane along faces shows the cells below it, against its normal; at the
+    lower end of the cells those above."""
     extent = np.ptp(grid.points, axis=0).max(initial=0.0)
     level = plane.distance(grid.points)
     level[np.abs(level) < SNAP * extent] = 0.0

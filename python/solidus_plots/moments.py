@@ -47,16 +47,16 @@ class Moments:
 
 
 def values(grid, spec, cells=None):
-    """Values of the field that a picture asks for, in its unit: "point_data" or "cell_data", and the array; nan where
-    they are not `above` what the picture says. `smooth` averages values of the cells of a mask at their nodes."""
+    """Values of the field that a picture asks for, in its unit: "point_data" or "cell_data", and the array; nan
+    where they are not `above` what the picture says. `smooth`: values of the cells of a mask averaged at nodes."""
     name, component = spec["field"], spec.get("component")
     for kind in ("point_data", "cell_data"):
         if name in getattr(grid, kind):
             found = getattr(grid, kind)[name]
             if found.ndim > 1:
                 if component is not None and not 0 <= component < found.shape[1]:
-                    raise ResultError(f"plots.toml: field '{name}' has the components 0 to {found.shape[1] - 1}, "
-                                      f"not {component}")
+                    raise ResultError(f"plots.toml: field '{name}' has the components 0 to "
+                                      f"{found.shape[1] - 1}, not {component}")
                 found = np.linalg.norm(found, axis=1) if component is None else found[:, component]
             if spec.get("smooth", False) and kind == "cell_data":
                 kind, found = "point_data", _at_nodes(grid, found, cells)

@@ -10,6 +10,7 @@ import numpy as np
 from solidus_plots import style
 from solidus_plots.vtu import ResultError
 
+ROUND = [1, 2, 2.5, 5, 10]  # what round values are multiples of
 LINE = {"colors": "white", "linewidths": 0.5, "alpha": 0.75}  # of contours
 DASHES = ["solid", (0, (4, 2)), (0, (1, 1.5))]  # of the first, second, third level with a name
 _CASING = [Stroke(linewidth=2.4, foreground="white"), Normal()]  # so that black lines show on dark colours
@@ -23,24 +24,26 @@ class Paint:
     """`unit` of the values; `shown`: all of them (nan: none), for the range where a picture says none."""
 
     def __init__(self, spec, unit, shown):
-        self._label = style.axis_label(spec.get("quantity", spec["field"].replace("_", " ").capitalize()), unit)
+        words = spec["field"].replace("_", " ").capitalize()
+        self._label = style.axis_label(spec.get("quantity", words), unit)
         shown = shown[np.isfinite(shown)]
         if not shown.size:
-            raise ResultError(f"plots.toml: '{spec['file']}': the field has no value above {spec.get('above')} there")
+            raise ResultError(f"plots.toml: '{spec['file']}': the field has no value above {spec.get('above')}")
         low, high = shown.min(), shown.max()
         self.low, self.high = spec.get("range", (low, high))
         if not self.high > self.low:
             self.high = self.low + 1.0
         name = spec.get("colours") or style.colour_map(spec["field"], spec.get("component"), self.low, self.high)
         if name not in plt.colormaps():
-            raise ResultError(f"plots.toml: no colours '{name}'; some that there are: viridis, cividis, inferno, "
-                              "RdBu_r (any of matplotlib's; _r turns them round)")
+            raise ResultError(f"plots.toml: no colours '{name}'; any of matplotlib's: viridis, cividis, inferno, "
+                              "RdBu_r, ... (_r turns them round)")
         norm, colours = Normalize(self.low, self.high), plt.get_cmap(name)
         if name in ("inferno", "magma"):  # without the black in which edges vanish
             colours = ListedColormap(colours(np.linspace(0.16, 1.0, 256)))
         self._steps = None
         if "bands" in spec:
-            self._steps = plt.MaxNLocator(spec["bands"], steps=[1, 2, 2.5, 5, 10]).tick_values(self.low, self.high)
+            round_values = plt.MaxNLocator(spec["bands"], steps=ROUND)
+            self._steps = round_values.tick_values(self.low, self.high)
             norm = BoundaryNorm(self._steps, colours.N)
         self._mappable = ScalarMappable(norm, colours)
         self.levels = [{**level, "dash": DASHES[i % len(DASHES)]}  # lines with a name
@@ -64,7 +67,7 @@ class Paint:
         bar.set_label(self._label)
         bar.outline.set_visible(False)
         if self._steps is None:
-            bar.locator = plt.MaxNLocator(8, steps=[1, 2, 2.5, 5, 10])
+            bar.locator = plt.MaxNLocator(8, steps=ROUND)
             bar.update_ticks()
         else:
             bar.set_ticks(self._steps)

@@ -16,6 +16,9 @@ from solidus_plots.moments import Moments
 from solidus_plots.vtu import ResultError, read_collection
 
 # What plots.toml may say; anything else is a typo.
+FIELD_KEYS = {"quantity", "field", "component", "unit", "contours", "levels", "bands", "colours", "range", "above",
+              "smooth"}
+SHEET_KEYS = {"file", "only", "title", "times", "columns", "bodies", "magnification"}
 KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
                    "compare"},
         "graphs": {"file", "only", "title", "table", "x", "x_quantity", "part", "quantity", "lines", "each",
@@ -23,16 +26,13 @@ KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "mome
         "maps": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "mirror",
                  "magnification", "bodies", "contours", "range"},
         "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"},
-        "sections": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "planes", "columns",
-                     "bodies", "magnification", "contours", "levels", "bands", "colours", "range", "above", "smooth", "mesh"},
-        "surfaces": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "columns", "bodies",
-                     "plain", "magnification", "contours", "levels", "bands", "colours", "range", "above", "smooth", "clip",
-                     "clip_bodies", "view", "up", "edges", "dimensions"}}
+        "sections": FIELD_KEYS | SHEET_KEYS | {"planes", "mesh"},
+        "surfaces": FIELD_KEYS | SHEET_KEYS | {"plain", "clip", "clip_bodies", "view", "up", "edges",
+                                               "dimensions"}}
 REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps": ("file", "field"),
             "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}
 # Keys of a picture that change nothing without another one.
-NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(("quantity", "component", "unit", "contours", "levels", "bands",
-                                                              "colours", "range", "above", "smooth"), "field")}}
+NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(FIELD_KEYS - {"field"}, "field")}}
 # Pictures of fields and what draws them.
 FIELD_PICTURES = {"maps": maps.field_maps, "deformed": maps.deformed_mesh, "sections": sections.draw,
                   "surfaces": surfaces.draw}

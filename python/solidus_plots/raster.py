@@ -1,4 +1,4 @@
-"""A small z-buffer: which triangle is seen in each pixel, and where in it. Colours are made from that afterwards.
+"""A small z-buffer: which triangle is seen in each pixel, and where in it; colours are made from that.
 
 Parallel projection, so weights are linear in the pixel. A million triangles take a few seconds.
 """
@@ -24,7 +24,8 @@ class Picture:
 
     def at_corners(self, values):
         """Values at the corners of triangles [triangle][3](...) -> in the pixels seen [pixel](...)."""
-        numbers, weights = self.triangle[self.seen], self.weights[self.seen].T.reshape(3, -1, *[1] * (values.ndim - 2))
+        numbers = self.triangle[self.seen]
+        weights = self.weights[self.seen].T.reshape(3, -1, *[1] * (values.ndim - 2))
         return sum(weights[node] * values[numbers, node] for node in range(3))
 
     def at_triangles(self, values):
@@ -33,13 +34,14 @@ class Picture:
 
 
 def rasterise(points, triangles, shape, levels=None):
-    """Draws triangles of points [point][3]: column and row (pixel (0, 0) has its middle at (0.5, 0.5)) and depth. With
-    `levels` at the points what lies above zero is cut away. `shape`: rows, columns."""
-    picture = Picture(np.full(shape, -1, np.int32), np.zeros((*shape, 3), np.float32), np.full(shape, -np.inf))
+    """Draws triangles of points [point][3]: column and row (pixel (0, 0) has its middle at (0.5, 0.5)) and depth.
+    With `levels` at the points what lies above zero is cut away. `shape`: rows, columns."""
+    picture = Picture(np.full(shape, -1, np.int32), np.zeros((*shape, 3), np.float32),
+                      np.full(shape, -np.inf))
     flat = Picture(picture.triangle.reshape(-1), picture.weights.reshape(-1, 3), picture.depth.reshape(-1))
     corners = points[triangles]
     low = np.ceil(corners[..., :2].min(axis=1) - 0.5).astype(np.int64).clip(0)
-    high = np.floor(corners[..., :2].max(axis=1) - 0.5).astype(np.int64).clip(max=[shape[1] - 1, shape[0] - 1])
+    high = np.floor(corners[..., :2].max(axis=1) - 0.5).astype(np.int64).clip(max=np.subtract(shape, 1)[::-1])
     size = (high - low + 1).clip(0)
     with np.errstate(divide="ignore", invalid="ignore"):
         to_weights = _weights_of_pixels(corners)
@@ -60,15 +62,16 @@ def _weights_of_pixels(corners):
     """[node][3][triangle]: the weight of a node is (column, row, 1) times this."""
     x, y = corners[..., 0].T, corners[..., 1].T
     following, last = [1, 2, 0], [2, 0, 1]
-    slopes = np.stack([y[following] - y[last], x[last] - x[following], x[following] * y[last] - x[last] * y[following]],
-                      axis=1)
+    slopes = np.stack([y[following] - y[last], x[last] - x[following],
+                       x[following] * y[last] - x[last] * y[following]], axis=1)
     return slopes / slopes[:, 2].sum(axis=0)
 
 
 def _draw(flat, numbers, low, size, to_weights, depths, columns, levels):
     count = size[numbers].prod(axis=1)
     which = np.repeat(numbers.astype(np.int32), count)
-    within = np.arange(len(which), dtype=np.int32) - np.repeat((np.cumsum(count) - count).astype(np.int32), count)
+    before = (np.cumsum(count) - count).astype(np.int32)
+    within = np.arange(len(which), dtype=np.int32) - np.repeat(before, count)
     row, column = np.divmod(within, size[:, 0].astype(np.int32)[which])
     row += low[:, 1].astype(np.int32)[which]
     column += low[:, 0].astype(np.int32)[which]
@@ -85,7 +88,7 @@ def _draw(flat, numbers, low, size, to_weights, depths, columns, levels):
     if levels is not None:
         seen &= (weights * levels[which]).sum(axis=1) <= 0.0
     pixel, depth, weights, which = pixel[seen], depth[seen], weights[seen], which[seen]
-    order = np.argsort(depth, kind="stable")  # of several in one pixel the last one written, the nearest, stays
+    order = np.argsort(depth, kind="stable")  # of several in one pixel the last one, the nearest, stays
     pixel = pixel[order]
     flat.depth[pixel], flat.triangle[pixel] = depth[order], which[order]
     flat.weights[pixel] = weights[order]

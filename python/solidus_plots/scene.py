@@ -1,4 +1,4 @@
-"""Surfaces of bodies in three dimensions: triangles with normals and edges, seen from somewhere, as a shaded picture."""
+"""Surfaces of bodies in three dimensions: triangles with normals and edges, seen from somewhere, with light."""
 
 from dataclasses import dataclass
 
@@ -16,14 +16,15 @@ HIDDEN = 4.0  # an edge is hidden by what lies so much nearer [pixels]; steep su
 
 
 class Camera:
-    """A parallel projection. `azimuth` counts from the first horizontal axis to the second (up z: from x to y), `elevation`
-    above the horizon, both in degrees, to where the eye is."""
+    """A parallel projection. `azimuth` counts from the first horizontal axis to the second (up z: from x to y),
+    `elevation` above the horizon, both in degrees, to where the eye is."""
 
     def __init__(self, azimuth, elevation, up="z"):
         axis = "xyz".index(up)
         horizontal = np.eye(3)[[(axis + 1) % 3, (axis + 2) % 3]]
         a, e = np.radians(azimuth), np.radians(elevation)
-        self.eye = np.cos(e) * (np.cos(a) * horizontal[0] + np.sin(a) * horizontal[1]) + np.sin(e) * np.eye(3)[axis]
+        outwards = np.cos(a) * horizontal[0] + np.sin(a) * horizontal[1]
+        self.eye = np.cos(e) * outwards + np.sin(e) * np.eye(3)[axis]
         self.right = -np.sin(a) * horizontal[0] + np.cos(a) * horizontal[1]
         self.up = np.cross(self.eye, self.right)
 
@@ -45,6 +46,10 @@ class Surface:
     edges: np.ndarray  # [edge][2] points: where the surface bends sharply or ends
     values: np.ndarray  # [triangle][3] of the field at its corners; nan in bodies of plain colour
 
+    def triangles_shown(self):
+        """[triangle] whether it is not cut away altogether."""
+        return (self.levels[self.triangles] <= 0.0).any(axis=1)
+
     def points_shown(self):
         """Points [m] of triangles that are not cut away."""
         used = np.zeros(len(self.points), bool)
@@ -61,8 +66,8 @@ class Surface:
 
 
 def outer(grid, cells, points, field, plane=None):
-    """The surface of the bodies of a mask, up to a plane. `points`: where the nodes are now [m]; `field`: "point_data" or
-    "cell_data" and values."""
+    """The surface of the bodies of a mask, up to a plane. `points`: where the nodes are now [m]; `field`:
+    "point_data" or "cell_data" and values."""
     body = grid.cell_data["body"]
     faces = boundary(grid, cells, body)
     place = faces.refined.extend(points)
@@ -90,8 +95,8 @@ def _corner_values(field, at_points, triangles, cells):
 
 
 def _normals(place, triangles, bodies):
-    """Normals at the corners, averaged over the triangles round a point that turn by less than a crease; and the
-    creases [edge][2]."""
+    """Normals at the corners, averaged over the triangles round a point that turn by less than a crease; and
+    the creases [edge][2]."""
     corners = place[triangles]
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     unit = area / np.maximum(np.linalg.norm(area, axis=1), 1e-300)[:, None]
@@ -105,7 +110,7 @@ def _normals(place, triangles, bodies):
     second = order[np.repeat(start[triangles.ravel()[order]], partners) + within]
     near = (np.einsum("ij,ij->i", unit[first // 3], unit[second // 3]) > CREASE)
     near &= bodies[first // 3] == bodies[second // 3]
-    normals = np.stack([np.bincount(first[near], weights=area[second[near] // 3, axis], minlength=triangles.size)
+    normals = np.stack([np.bincount(first[near], area[second[near] // 3, axis], triangles.size)
                         for axis in range(3)], axis=1).reshape(*triangles.shape, 3)
     normals /= np.maximum(np.linalg.norm(normals, axis=2), 1e-300)[..., None]
     return normals, _creases(triangles, unit, bodies)
@@ -149,7 +154,8 @@ class View:
         normals = self._camera.project(self.picture.at_corners(self._surface.normals))
         normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-12)[:, None]
         normals *= np.where(normals[:, 2:] < 0.0, -1.0, 1.0)  # both sides of a surface are lit
-        return AMBIENT + sum(strength * np.maximum(normals @ direction, 0.0) for direction, strength in LIGHTS)
+        return AMBIENT + sum(strength * np.maximum(normals @ direction, 0.0)
+                             for direction, strength in LIGHTS)
 
     def mesh(self, width):
         """The pixels seen [pixel] on edges of cells, `width` pixels wide."""
@@ -177,7 +183,7 @@ class View:
             for right in range(-reach, reach + 1):
                 if np.hypot(down, right) > 0.5 * width:
                     continue
-                row, column = np.floor(place[:, 1]).astype(int) + down, np.floor(place[:, 0]).astype(int) + right
+                column, row = np.floor(place[:, :2]).astype(int).T + [[right], [down]]
                 inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
                 row, column = row[inside], column[inside]
                 visible = place[inside, 2] > depth[row, column] - HIDDEN
@@ -190,7 +196,8 @@ class View:
         far = 0.012 * max(depth.shape)
         edge = np.zeros(depth.shape, bool)
         for axis in (0, 1):
-            before, here, after = (np.take(depth, range(s, depth.shape[axis] - 2 + s), axis=axis) for s in range(3))
+            before, here, after = (np.take(depth, range(s, depth.shape[axis] - 2 + s), axis=axis)
+                                   for s in range(3))
             bend = np.minimum(before, after) < here - far  # nearer than a neighbour ...
             bend &= before + after - 2 * here < -far  # ... and no steep plane
             inner = [slice(None)] * 2

@@ -15,14 +15,18 @@ NO_VALUE = (0.82, 0.82, 0.82)  # where a field has none yet
 SIGNED = {"pressure", "stress", "back_stress"}  # tension and compression are told apart where both are there
 
 # What people read instead of UDUNITS' ASCII.
-UNIT_TEXT = {"degC": "°C", "W/m2/K": "W/(m² K)", "W/m2": "W/m²", "m2": "m²", "m3": "m³", "um": "µm"}
+UNIT_TEXT = {"degC": "°C", "W/m2/K": "W/(m² K)", "W/m2": "W/m²", "m2": "m²", "m3": "m³", "um": "µm",
+             "cm3": "cm³", "K0.5 s0.5/m": "√(K s)/m", "K0.5 s0.5/mm": "√(K s)/mm", "K0.5 s0.5/cm": "√(K s)/cm"}
 QUANTITY = {"degC": "Temperature", "K": "Temperature", "mm": "Length", "m": "Length", "J": "Energy",
             "W": "Heat flow", "N": "Force", "MPa": "Stress", "Pa": "Stress", "1": "Share", "s": "Time",
             "W/m2/K": "Conductance"}
 
 # Units a picture may ask for: (SI unit, unit) -> (factor, offset).
 CONVERSIONS = {("K", "degC"): (1.0, -273.15), ("m", "mm"): (1e3, 0.0), ("m", "um"): (1e6, 0.0),
-               ("Pa", "MPa"): (1e-6, 0.0), ("1", "%"): (100.0, 0.0), ("J", "kJ"): (1e-3, 0.0)}
+               ("Pa", "MPa"): (1e-6, 0.0), ("1", "%"): (100.0, 0.0), ("J", "kJ"): (1e-3, 0.0),
+               ("s", "min"): (1 / 60, 0.0), ("s", "h"): (1 / 3600, 0.0), ("K/m", "K/mm"): (1e-3, 0.0),
+               ("m/s", "mm/s"): (1e3, 0.0), ("m3", "cm3"): (1e6, 0.0),
+               ("K0.5 s0.5/m", "K0.5 s0.5/mm"): (1e-3, 0.0), ("K0.5 s0.5/m", "K0.5 s0.5/cm"): (1e-2, 0.0)}
 
 
 def setup():
@@ -53,13 +57,14 @@ def colour_map(field, component, low, high):
 
 
 def time_texts(seconds):
-    """Moments [s] in one unit: in hours or minutes where the last one has two of them and all have few digits."""
+    """Moments [s] in one unit: hours or minutes where the last one has two of them and all have few digits."""
     last = max(abs(time) for time in seconds)
     for scale, unit in ((3600.0, "h"), (60.0, "min")):
-        if last >= 2 * scale and all(abs(10 * time / scale - round(10 * time / scale)) < 1e-6 for time in seconds):
+        tenths = [10 * time / scale for time in seconds]
+        if last >= 2 * scale and all(abs(count - round(count)) < 1e-6 for count in tenths):
             return [f"{time / scale:g} {unit}" for time in seconds]
     scale, unit = (1.0, "s") if last >= 1.0 or last == 0.0 else (1e-3, "ms") if last >= 1e-3 else (1e-6, "µs")
-    return [f"{time / scale:.4g} {unit}" if last < 1e4 * scale else f"{time / scale:.0f} {unit}" for time in seconds]
+    return [f"{time / scale:.{'4g' if last < 1e4 * scale else '0f'}} {unit}" for time in seconds]
 
 
 def axis_label(quantity, unit):

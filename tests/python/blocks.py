@@ -26,7 +26,7 @@ def _patterns(kind):
 
 
 def box(kind, size, divisions, bodies=1):
-    """A box from the origin with `size` [m]; its cells belong to `bodies` layers along x that share their nodes."""
+    """A box from the origin with `size` [m]; its cells belong to `bodies` along x that share their nodes."""
     lattice = 2 * np.array(divisions) + 1
     steps = np.stack(np.meshgrid(*(np.arange(n) for n in divisions), indexing="ij"), axis=-1).reshape(-1, 3)
     rows, body = [], []
@@ -38,7 +38,8 @@ def box(kind, size, divisions, bodies=1):
     used, connectivity = np.unique(cells, return_inverse=True)
     points = np.stack(np.unravel_index(used, lattice), axis=1) * (np.array(size) / (lattice - 1))
     count = len(cells)
-    return Grid(points, np.full(count, kind), (1 + np.arange(count)) * cells.shape[1], connectivity.ravel(), {},
+    offsets = (1 + np.arange(count)) * cells.shape[1]
+    return Grid(points, np.full(count, kind), offsets, connectivity.ravel(), {},
                 {"body": np.concatenate(body)}, {}, 0.0)
 
 

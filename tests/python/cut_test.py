@@ -15,7 +15,8 @@ ROUND_OFF = 1e-12  # of sums of some thousand terms
 
 
 def area(corners):
-    return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return 0.5 * np.linalg.norm(normals, axis=1).sum()
 
 
 class Cuts(unittest.TestCase):
@@ -33,7 +34,8 @@ class Cuts(unittest.TestCase):
                 def linear(x):
                     return 20.0 + x @ [100.0, -300.0, 200.0]
 
-                self.assertLess(np.abs(part.at_points(linear(grid.points)) - linear(points)).max(), 20 * ROUND_OFF)
+                error = np.abs(part.at_points(linear(grid.points)) - linear(points)).max()
+                self.assertLess(error, 20 * ROUND_OFF)
                 centres = points[part.triangles].mean(axis=1)
                 self.assertTrue(((centres[:, 0] > 0.03) == (grid.cell_data["body"][part.cells] == 1)).all()
                                 or plane.normal[0] == 1.0)

@@ -25,7 +25,8 @@ class Run(Moments):
         for index, time in enumerate(self._times):
             grid = box(kind, SIZE, (4, 3, 2), bodies=2)
             grid.time = time
-            grid.point_data = {"temperature": 300.0 + time * grid.points[:, 0], "displacement": 0.02 * grid.points}
+            grid.point_data = {"temperature": 300.0 + time * grid.points[:, 0],
+                               "displacement": 0.02 * grid.points}
             grid.cell_data["von_mises"] = 1e6 * np.arange(len(grid.cell_types), dtype=float)
             grid.cell_data["stress"] = np.tile(np.linspace(-1e6, 1e6, len(grid.cell_types))[:, None], 6)
             grid.units = {"temperature": "K", "displacement": "m", "von_mises": "Pa", "stress": "Pa"}
@@ -89,10 +90,12 @@ class Drawn(unittest.TestCase):
         return image.imread(file)[..., :3]
 
     def test_sections_at_several_moments_are_drawn_in_the_colours_of_the_field(self):
-        for spec in ({"field": "temperature", "unit": "degC", "planes": [{"z": 15}, {"y": 0}], "times": [0, "last"],
-                      "levels": [{"value": 100, "label": "liquidus"}], "magnification": 5},
-                     {"field": "von_mises", "unit": "MPa", "planes": [{"normal": [1, 1, 0], "through": [30, 20, 15]}],
-                      "bands": 5, "mesh": True, "times": ["first", 3600, 7200]}):
+        oblique = {"normal": [1, 1, 0], "through": [30, 20, 15]}
+        for spec in ({"field": "temperature", "unit": "degC", "planes": [{"z": 15}, {"y": 0}], "magnification": 5,
+                      "times": [0, "last"], "levels": [{"value": 100, "label": "liquidus"}]},
+                     {"field": "von_mises", "unit": "MPa", "planes": [oblique], "bands": 5, "mesh": True,
+                      "times": ["first", 3600, 7200]},
+                     {"field": "von_mises", "planes": [{"z": 15}], "smooth": True}):
             found = self.pixels(sections.draw, spec)
             self.assertGreater((np.ptp(found, axis=2) > 0.2).mean(), 0.1)
 
@@ -101,6 +104,14 @@ class Drawn(unittest.TestCase):
         with self.assertRaisesRegex(ResultError, "does not meet"):
             self.pixels(sections.draw, {**spec, "bodies": ["part"]})
         self.pixels(sections.draw, {**spec, "bodies": ["sand"]})
+
+    def test_where_a_field_has_no_value_it_is_grey(self):
+        spec = {"field": "von_mises", "unit": "MPa", "planes": [{"z": 10}], "colours": "inferno"}
+        found = self.pixels(sections.draw, {**spec, "above": 20})
+        grey = (np.abs(found - style.NO_VALUE).max(axis=2) < 0.01).mean()
+        self.assertGreater(grey, 0.1)  # the panel is a third of the figure, and 21 of 24 elements have none
+        with self.assertRaisesRegex(ResultError, "no value above 30"):
+            self.pixels(sections.draw, {**spec, "above": 30})
 
     def test_surfaces_are_drawn_with_and_without_a_field(self):
         coloured = self.pixels(surfaces.draw, {"field": "temperature", "plain": ["sand"], "clip": {"y": 20},

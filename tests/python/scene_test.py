@@ -15,12 +15,14 @@ SHAPE = (400, 400)
 
 def sphere(radius, middle, around=120):
     """Points and triangles of a sphere of pixels."""
-    u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 2 * around + 1), np.linspace(0, np.pi, around + 1), indexing="ij")
+    u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 2 * around + 1), np.linspace(0, np.pi, around + 1),
+                       indexing="ij")
     points = np.stack([np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)], axis=-1).reshape(-1, 3)
     i, j = np.meshgrid(np.arange(2 * around), np.arange(around), indexing="ij")
     a = (i * (around + 1) + j).ravel()
     b = a + around + 1
-    return radius * points + middle, np.concatenate([np.stack([a, b, a + 1], 1), np.stack([a + 1, b, b + 1], 1)])
+    triangles = np.concatenate([np.stack([a, b, a + 1], axis=1), np.stack([a + 1, b, b + 1], axis=1)])
+    return radius * points + middle, triangles
 
 
 class Raster(unittest.TestCase):
@@ -49,7 +51,8 @@ class Raster(unittest.TestCase):
         picture = rasterise(points, triangles, SHAPE)
         rows, columns = np.nonzero(picture.seen)
         field = picture.at_corners((points @ [2.0, -3.0, 0.0])[triangles])
-        self.assertLess(np.abs(field - (2.0 * (columns + 0.5) - 3.0 * (rows + 0.5))).max(), 1e-3)  # single precision
+        exact = 2.0 * (columns + 0.5) - 3.0 * (rows + 0.5)
+        self.assertLess(np.abs(field - exact).max(), 1e-3)  # weights in single precision
         self.assertTrue((np.diff(picture.seen.astype(int), axis=1) != 0).sum(axis=1).max() <= 2)
 
     def test_the_order_of_triangles_does_not_matter(self):
@@ -95,12 +98,14 @@ class Scenes(unittest.TestCase):
         ball = box(TET, [1.0, 1.0, 1.0], (8, 8, 8))
         centred = 2.0 * ball.points - 1.0
         reach = np.abs(centred).max(axis=1) / np.maximum(np.linalg.norm(centred, axis=1), 1e-12)
-        surface = outer(ball, everything(ball), centred * reach[:, None], ("cell_data", ball.cell_data["body"]))
+        place = centred * reach[:, None]
+        surface = outer(ball, everything(ball), place, ("cell_data", ball.cell_data["body"]))
         self.assertEqual(len(surface.edges), 0)
         directions = surface.points[surface.triangles]
         directions /= np.linalg.norm(directions, axis=2)[..., None]
         # Averaged over the cells round a point normals lie within a few degrees of the sphere's.
-        self.assertGreater(np.einsum("tci,tci->tc", surface.normals, directions).min(), np.cos(np.radians(12.0)))
+        cosines = np.einsum("tci,tci->tc", surface.normals, directions)
+        self.assertGreater(cosines.min(), np.cos(np.radians(12.0)))
 
 
 if __name__ == "__main__":
