@@ -16,12 +16,13 @@ def triad(figure, camera):
     for direction, name in zip(camera.project(np.eye(3))[:, :2], "xyz"):
         length = np.hypot(*direction)
         if length > 0.12:  # not towards the eye
-            axes.annotate("", direction, (0, 0), arrowprops={"arrowstyle": "-|>", "lw": 0.9, "color": "black", **_ARROW})
+            arrow = {"arrowstyle": "-|>", "lw": 0.9, "color": "black", **_ARROW}
+            axes.annotate("", direction, (0, 0), arrowprops=arrow)
             axes.text(*(direction * (1 + 0.3 / length)), name, ha="center", va="center", fontsize=8)
 
 
 def dimensions(axes, camera, low, high):
-    """The lengths of the box between two corners [m], along those of its edges that lie outside in the picture."""
+    """The lengths of the box between two corners [m], beside its edges that lie outside in the picture."""
     corners = np.array([[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)])
     place = MM * camera.project(corners)[:, :2]
     extent = np.ptp(place, axis=0).max()

@@ -49,7 +49,7 @@ class Plane:
         return self if self.normal @ eye >= 0.0 else replace(self, normal=-self.normal)
 
     def place(self, vectors):
-        """The part of vectors [...][3] that lies in the plane [...][2]; of points in an axis' plane: coordinates."""
+        """The part of vectors [...][3] in the plane [...][2]; of points in an axis' plane: coordinates."""
         return np.stack([vectors @ self.right, vectors @ self.up], axis=-1)
 
 

@@ -15,8 +15,8 @@ MM = 1e3  # sections are drawn in millimetres
 def _plane(grid):
     """A plane grid as it is; of a 3-D one says what to write instead."""
     if not grid.triangles()[0].size:
-        raise ResultError("plots.toml: [[maps]] and [[deformed]] are for plane meshes; in three dimensions there "
-                          "are [[sections]] and [[surfaces]]")
+        raise ResultError("plots.toml: [[maps]] and [[deformed]] are for plane meshes; in three dimensions "
+                          "there are [[sections]] and [[surfaces]]")
     return grid
 
 

@@ -48,7 +48,7 @@ class Moments:
 
 def values(grid, spec, cells=None):
     """Values of the field that a picture asks for, in its unit: "point_data" or "cell_data", and the array; nan
-    where they are not `above` what the picture says. `smooth`: values of the cells of a mask averaged at nodes."""
+    where they are not `above` what it says. `smooth`: values of the cells of a mask averaged at their nodes."""
     name, component = spec["field"], spec.get("component")
     for kind in ("point_data", "cell_data"):
         if name in getattr(grid, kind):

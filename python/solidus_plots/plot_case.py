@@ -16,8 +16,8 @@ from solidus_plots.moments import Moments
 from solidus_plots.vtu import ResultError, read_collection
 
 # What plots.toml may say; anything else is a typo.
-FIELD_KEYS = {"quantity", "field", "component", "unit", "contours", "levels", "bands", "colours", "range", "above",
-              "smooth"}
+FIELD_KEYS = {"quantity", "field", "component", "unit", "contours", "levels", "bands", "colours", "range",
+              "above", "smooth"}
 SHEET_KEYS = {"file", "only", "title", "times", "columns", "bodies", "magnification"}
 KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
                    "compare"},

@@ -34,7 +34,7 @@ class Picture:
 
 
 def rasterise(points, triangles, shape, levels=None):
-    """Draws triangles of points [point][3]: column and row (pixel (0, 0) has its middle at (0.5, 0.5)) and depth.
+    """Draws triangles of points [point][3]: column and row (pixel (0, 0) has its middle at (0.5, 0.5)), depth.
     With `levels` at the points what lies above zero is cut away. `shape`: rows, columns."""
     picture = Picture(np.full(shape, -1, np.int32), np.zeros((*shape, 3), np.float32),
                       np.full(shape, -np.inf))

@@ -88,7 +88,8 @@ def _draw(axes, panel, frame, colours, shape, mesh):
                 [(level["value"], paint.named_line(level)) for level in colours.levels]:
             axes.add_collection(LineCollection(isolines(place, part.triangles, panel.values, value), **look))
     if mesh:
-        axes.add_collection(LineCollection(place[part.sides(part.cells)], colors="black", linewidths=0.2, alpha=0.6))
+        lines = place[part.sides(part.cells)]
+        axes.add_collection(LineCollection(lines, colors="black", linewidths=0.2, alpha=0.6))
     outline = place[part.sides(panel.grid.cell_data["body"][part.cells])]
     axes.add_collection(LineCollection(outline, capstyle="round", colors="black", linewidths=0.8))
     axes.grid(False)
@@ -99,7 +100,7 @@ def _draw(axes, panel, frame, colours, shape, mesh):
 
 
 def _rows(spec, frames, n_moments):
-    """[row][column] (plane, moment) or None: planes across or down, whichever fills a page better; panels of one plane,
+    """[row][column] (plane, moment) or None: planes across or down, whichever looks better; panels of one plane,
     or of one moment, are wrapped."""
     entries = [[(p, m) for m in range(n_moments)] for p in range(len(frames))]
     size = np.max([high - low for low, high in frames], axis=0)
@@ -126,7 +127,7 @@ def draw(spec, run, folder):
               for plane, _ in planes]
     for row, (_, name) in zip(panels, planes):
         if not any(panel.place.size for panel in row):
-            raise ResultError(f"plots.toml: sections '{spec['file']}': the plane {name} does not meet the bodies")
+            raise ResultError(f"plots.toml: '{spec['file']}': the plane {name} does not meet the bodies")
     shown = np.concatenate([panel.values for row in panels for panel in row])
     colours = paint.Paint(spec, moments.unit(grids[0], spec), shown)
     frames = [_frame([panel for panel in row if panel.place.size]) for row in panels]

@@ -26,8 +26,8 @@ def wrap(entries, columns, width, height):
 
 
 class Sheet:
-    """`sizes`: [row][column] width and height of the panels in one unit (None: no panel there). `beside`: room between
-    columns, `below`: below each row [in]."""
+    """`sizes`: [row][column] width and height of the panels in one unit (None: no panel there). `beside`: room
+    between columns, `below`: below each row [in]."""
 
     def __init__(self, sizes, title, beside, below, bar=True, legend=()):
         columns = range(len(sizes[0]))
@@ -53,8 +53,8 @@ class Sheet:
                      for r, row in enumerate(sizes)]
         if bar:
             height = min(self._size[1] - TOP - bottom, 4.0)
-            self.bar = self._axes(self._size[0] - right + 0.2, 0.5 * (self._size[1] - TOP + bottom - height), 0.16,
-                                  height)
+            lower = 0.5 * (self._size[1] - TOP + bottom - height)
+            self.bar = self._axes(self._size[0] - right + 0.2, lower, 0.16, height)
 
     def _panel(self, middle, top, size):
         if size is None:

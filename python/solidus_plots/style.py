@@ -16,7 +16,8 @@ SIGNED = {"pressure", "stress", "back_stress"}  # tension and compression are to
 
 # What people read instead of UDUNITS' ASCII.
 UNIT_TEXT = {"degC": "°C", "W/m2/K": "W/(m² K)", "W/m2": "W/m²", "m2": "m²", "m3": "m³", "um": "µm",
-             "cm3": "cm³", "K0.5 s0.5/m": "√(K s)/m", "K0.5 s0.5/mm": "√(K s)/mm", "K0.5 s0.5/cm": "√(K s)/cm"}
+             "cm3": "cm³", "K0.5 s0.5/m": "√(K s)/m", "K0.5 s0.5/mm": "√(K s)/mm",
+             "K0.5 s0.5/cm": "√(K s)/cm"}
 QUANTITY = {"degC": "Temperature", "K": "Temperature", "mm": "Length", "m": "Length", "J": "Energy",
             "W": "Heat flow", "N": "Force", "MPa": "Stress", "Pa": "Stress", "1": "Share", "s": "Time",
             "W/m2/K": "Conductance"}

@@ -6,7 +6,10 @@
     grid.point_data["temperature"], grid.units["temperature"]
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
+import mmap
 from pathlib import Path
 import re
 import struct
@@ -35,6 +38,26 @@ EDGES = {
 
 class ResultError(Exception):
     """The file is not there or is not one of ours; the text says which."""
+
+
+class Arrays(Mapping):
+    """Values by name, read when they are asked for: of a large run only what is drawn comes into memory."""
+
+    def __init__(self, readers):
+        self._readers = readers
+
+    def __getitem__(self, name):
+        return self._readers[name]()
+
+    def __iter__(self):
+        return iter(self._readers)
+
+    def __len__(self):
+        return len(self._readers)
+
+    def taken(self, rows):
+        """Some rows of each."""
+        return Arrays({name: lambda name=name: self[name][rows] for name in self})
 
 
 @dataclass
@@ -114,7 +137,8 @@ def _parse(path, text):
 def _read_part(path):
     if not path.exists():
         raise ResultError(f"{path}: there is no such file")
-    content = path.read_bytes()
+    with path.open("rb") as file:
+        content = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) if path.stat().st_size else b""
     head = re.search(rb'<AppendedData encoding="raw">\s*_', content)
     if head is None:
         raise ResultError(f"{path}: not a field file of Solidus (no appended data)")
@@ -123,15 +147,16 @@ def _read_part(path):
     piece, units = root.find("UnstructuredGrid/Piece"), {}
 
     def section(name):
-        arrays = {}
         for element in piece.find(name):
-            number = order + NUMBER_TYPES[element.get("type")]
-            values = _decode(content, head.end() + int(element.get("offset")), number)
-            components = int(element.get("NumberOfComponents", "1"))
-            arrays[element.get("Name")] = values.reshape(-1, components) if components > 1 else values
             unit = element.find("InformationKey")
             units[element.get("Name")] = "1" if unit is None else unit.text.strip()
-        return arrays
+        return Arrays({element.get("Name"): partial(read, element) for element in piece.find(name)})
+
+    def read(element):
+        number = order + NUMBER_TYPES[element.get("type")]
+        values = _decode(content, head.end() + int(element.get("offset")), number)
+        components = int(element.get("NumberOfComponents", "1"))
+        return values.reshape(-1, components) if components > 1 else values
 
     point_data, cell_data, cells = section("PointData"), section("CellData"), section("Cells")
     time = root.find("UnstructuredGrid/FieldData/DataArray[@Name='TimeValue']")
@@ -148,7 +173,7 @@ def _without_hidden(grid):
     counts = np.diff(grid.offsets, prepend=0)
     return Grid(grid.points, grid.cell_types[shown], np.cumsum(counts[shown]),
                 grid.connectivity[np.repeat(shown, counts)], grid.point_data,
-                {name: values[shown] for name, values in grid.cell_data.items()}, grid.units, grid.time)
+                grid.cell_data.taken(shown), grid.units, grid.time)
 
 
 def _decode(content, start, number):
@@ -179,10 +204,10 @@ def _join(parts):
     def stack(name, take):
         return np.concatenate([getattr(part, name) for part in parts])[take]
 
-    everything = slice(None)
-    data = {kind: {name: np.concatenate([getattr(part, kind)[name] for part in parts])[take]
-                   for name in getattr(parts[0], kind)}
-            for kind, take in (("point_data", first), ("cell_data", everything))}
-    return Grid(stack("points", first), stack("cell_types", everything), np.concatenate(offsets),
-                np.concatenate(connectivity), data["point_data"], data["cell_data"], parts[0].units,
-                parts[0].time)
+    def stacked(kind):
+        return Arrays({name: lambda name=name: np.concatenate([getattr(part, kind)[name] for part in parts])
+                       for name in getattr(parts[0], kind)})
+
+    return Grid(stack("points", first), stack("cell_types", slice(None)), np.concatenate(offsets),
+                np.concatenate(connectivity), stacked("point_data").taken(first), stacked("cell_data"),
+                parts[0].units, parts[0].time)

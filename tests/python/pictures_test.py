@@ -91,8 +91,8 @@ class Drawn(unittest.TestCase):
 
     def test_sections_at_several_moments_are_drawn_in_the_colours_of_the_field(self):
         oblique = {"normal": [1, 1, 0], "through": [30, 20, 15]}
-        for spec in ({"field": "temperature", "unit": "degC", "planes": [{"z": 15}, {"y": 0}], "magnification": 5,
-                      "times": [0, "last"], "levels": [{"value": 100, "label": "liquidus"}]},
+        for spec in ({"field": "temperature", "unit": "degC", "planes": [{"z": 15}, {"y": 0}],
+                      "magnification": 5, "times": [0, "last"], "levels": [{"value": 100, "label": "liquidus"}]},
                      {"field": "von_mises", "unit": "MPa", "planes": [oblique], "bands": 5, "mesh": True,
                       "times": ["first", 3600, 7200]},
                      {"field": "von_mises", "planes": [{"z": 15}], "smooth": True}):

@@ -90,7 +90,8 @@ class Scenes(unittest.TestCase):
         view = self.view(clipped, camera)
         rows, columns = np.nonzero(view.picture.seen)
         x, z = (columns + 0.5) / 100.0 - 2.0, 2.0 - (rows + 0.5) / 100.0
-        self.assertLess(np.abs(view.values() - (x + 2 * 0.5 + 3 * z)).max(), 1e-5)  # weights in single precision
+        exact = x + 2 * 0.5 + 3 * z
+        self.assertLess(np.abs(view.values() - exact).max(), 1e-5)  # weights in single precision
 
     def test_edges_of_a_cube_are_edges_and_a_sphere_of_cells_has_none(self):
         surface = outer(self.grid, everything(self.grid), self.grid.points, self.field)
