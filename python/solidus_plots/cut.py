@@ -1,4 +1,4 @@
-"""Plane cuts through cells of volume: marching through linear tetrahedra, vectorised.
+"""Cuts through cells of volume, by planes or where a field has a value: marching through linear tetrahedra.
 
     part = cut(grid, cells, Plane.axis("z", 0.02))
     part.place, part.triangles, part.at_nodes(grid.point_data["temperature"]), part.cells
@@ -89,15 +89,26 @@ def cut(grid, cells, plane):
     extent = np.ptp(grid.points, axis=0).max(initial=0.0)
     level = plane.distance(grid.points)
     level[np.abs(level) < SNAP * extent] = 0.0
+    used = grid.connectivity[np.repeat(cells, np.diff(grid.offsets, prepend=0))]
+    return cut_where(grid, cells, -level if used.size and level[used].min() >= 0.0 else level)
+
+
+def cut_where(grid, cells, level):
+    """Cuts the volume cells of a mask where values at the nodes pass zero. Triangles are counter-clockwise seen from
+    where the values are positive."""
     owner = np.repeat(np.arange(len(grid.cell_types)), np.diff(grid.offsets, prepend=0))
-    used = cells[owner]
-    if used.any() and level[grid.connectivity[used]].min() >= 0.0:
-        level = -level
     above = (level >= 0.0)[grid.connectivity]
     count = np.bincount(owner, weights=above, minlength=len(cells))
     size = np.diff(grid.offsets, prepend=0)
     parts = tetrahedra(grid, cells & (count > 0) & (count < size))
-    return _march(parts, parts.refined.extend(level))
+    part = _march(parts, parts.refined.extend(level))
+    nodes = parts.refined.extend(grid.points)
+    uphill = (nodes[part.ends[:, 0]] - nodes[part.ends[:, 1]])[part.triangles].sum(axis=1)
+    corners = part.at_points(grid.points)[part.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    wrong = np.einsum("ij,ij->i", normals, uphill) < 0.0
+    part.triangles[wrong] = part.triangles[wrong, ::-1]
+    return part
 
 
 def _march(parts, level):

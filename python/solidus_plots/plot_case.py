@@ -27,7 +27,7 @@ KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "mome
                  "magnification", "bodies", "contours", "range"},
         "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"},
         "sections": FIELD_KEYS | SHEET_KEYS | {"planes", "mesh"},
-        "surfaces": FIELD_KEYS | SHEET_KEYS | {"plain", "clip", "clip_bodies", "view", "up", "edges",
+        "surfaces": FIELD_KEYS | SHEET_KEYS | {"plain", "ghost", "clip", "clip_bodies", "view", "up", "edges",
                                                "dimensions"}}
 REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps": ("file", "field"),
             "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solidus_plots.cells import boundary
-from solidus_plots.cut import SIDES, cut
+from solidus_plots.cut import SIDES
 from solidus_plots.raster import rasterise
 
 CREASE = np.cos(np.radians(38.0))  # neighbours that turn by more make an edge
@@ -65,27 +65,26 @@ class Surface:
         return Surface(**{name: np.concatenate(found) for name, found in arrays.items()})
 
 
-def outer(grid, cells, points, field, plane=None):
-    """The surface of the bodies of a mask, up to a plane. `points`: where the nodes are now [m]; `field`:
-    "point_data" or "cell_data" and values."""
+def outer(grid, cells, points, field, level=None):
+    """The surface of the bodies of a mask, up to where a level at the nodes is zero. `points`: where the nodes are
+    now [m]; `field`: "point_data" or "cell_data" and values."""
     body = grid.cell_data["body"]
     faces = boundary(grid, cells, body)
     place = faces.refined.extend(points)
     normals, edges = _normals(place, faces.nodes, body[faces.cells])
-    levels = np.full(len(place), -1.0) if plane is None else faces.refined.extend(plane.distance(grid.points))
+    levels = np.full(len(place), -1.0) if level is None else faces.refined.extend(level)
     return Surface(place, levels, faces.nodes, faces.cells, normals, faces.sides, edges,
                    _corner_values(field, faces.refined.extend, faces.nodes, faces.cells))
 
 
-def cap(grid, cells, points, field, plane):
-    """What a plane shows of the inside of the bodies of a mask."""
-    part = cut(grid, cells, plane)
-    place, base = part.at_points(points), len(part.ends)
+def cap(grid, part, points, field, normal=None):
+    """What a cut shows of the inside of bodies; a cut along a plane has its normal."""
+    place, base, body = part.at_points(points), len(part.ends), grid.cell_data["body"][part.cells]
     sides = np.sort(part.triangles[:, SIDES], axis=2) @ [base, 1]
     mesh = np.isin(sides, part.sides(part.cells) @ [base, 1])
-    normals = np.broadcast_to(plane.normal, (len(part.triangles), 3, 3))
-    return Surface(place, np.full(base, -1.0), part.triangles, part.cells, normals, mesh,
-                   part.sides(grid.cell_data["body"][part.cells]),
+    normals = np.broadcast_to(normal, (len(part.triangles), 3, 3)) if normal is not None else \
+        _normals(place, part.triangles, body)[0]
+    return Surface(place, np.full(base, -1.0), part.triangles, part.cells, normals, mesh, part.sides(body),
                    _corner_values(field, part.at_points, part.triangles, part.cells))
 
 
@@ -112,7 +111,7 @@ def _normals(place, triangles, bodies):
     near &= bodies[first // 3] == bodies[second // 3]
     normals = np.stack([np.bincount(first[near], area[second[near] // 3, axis], triangles.size)
                         for axis in range(3)], axis=1).reshape(*triangles.shape, 3)
-    normals /= np.maximum(np.linalg.norm(normals, axis=2), 1e-300)[..., None]
+    normals = normals / np.maximum(np.linalg.norm(normals, axis=2), 1e-300)[..., None]
     return normals, _creases(triangles, unit, bodies)
 
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from solidus_plots import moments, paint, style
 from solidus_plots.annotations import dimensions, triad
+from solidus_plots.cut import cut, cut_where
 from solidus_plots.scene import Camera, Surface, View, cap, outer
 from solidus_plots.sections import read_plane
 from solidus_plots.sheet import Sheet, heading, wrap
@@ -12,30 +13,53 @@ from solidus_plots.vtu import ResultError
 MM = 1e3
 EDGE, MESH_LINE = 3.0, 1.4  # widths, in pixels of the picture
 EDGE_COLOUR = (0.12, 0.12, 0.12, 1.0)
+GLASS, GLASS_EDGE = 0.22, (0.45, 0.45, 0.45, 1.0)  # how much of it is seen
+
+
+def _points(grid, spec):
+    """Where the nodes are drawn [m]."""
+    if not spec.get("magnification", 0):
+        return grid.points
+    return grid.points + spec["magnification"] * moments.displacement(grid)
+
+
+def _clipped(grid, cells, points, field, clip, eye):
+    """The bodies of a mask without what lies on the eye's side of a plane, or where a field is above a value."""
+    if "field" in clip:
+        if set(clip) - {"unit"} != {"field", "above"}:
+            raise ResultError(f"plots.toml: {clip} is no clip; write {{ field = \"solid_fraction\", above = 0.9 }}")
+        kind, values = moments.values(grid, {"field": clip["field"], "unit": clip.get("unit", "")})
+        if kind != "point_data":
+            raise ResultError(f"plots.toml: clip: '{clip['field']}' is a field of elements; it must be one of nodes")
+        level = values - clip["above"]
+        part, normal = cut_where(grid, cells, level), None
+    else:
+        plane = read_plane(clip)[0].facing(eye)
+        level, part, normal = plane.distance(grid.points), cut(grid, cells, plane), plane.normal
+    return [outer(grid, cells, points, field, level), cap(grid, part, points, field, normal)]
 
 
 def _surface(grid, run, spec, eye):
     """What a picture shows of a moment."""
-    points = grid.points
-    if spec.get("magnification", 0):
-        points = points + spec["magnification"] * moments.displacement(grid)
-    names = spec.get("bodies") or [name for name in run.bodies if name not in spec.get("plain", [])]
-    coloured = run.body_mask(grid, names) if "field" in spec else np.zeros(len(grid.cell_types), bool)
-    shown = run.body_mask(grid, names + spec.get("plain", []))
-    field = ("cell_data", np.zeros(len(grid.cell_types)))
-    if "field" in spec:
-        field = moments.values(grid, spec, coloured)
-    parts = []
+    points, others = _points(grid, spec), spec.get("plain", []) + spec.get("ghost", [])
+    names = spec.get("bodies") or [name for name in run.bodies if name not in others]
+    nobody = np.zeros(len(grid.cell_types), bool)
+    coloured = run.body_mask(grid, names) if "field" in spec else nobody
+    field = moments.values(grid, spec, coloured) if "field" in spec else ("cell_data", nobody.astype(float))
+    shown, parts = run.body_mask(grid, names + spec.get("plain", [])), []
     if "clip" in spec:
-        plane = read_plane(spec["clip"])[0].facing(eye)  # what is in the way of the eye is cut away
         clipped = shown & run.body_mask(grid, spec.get("clip_bodies"))
-        parts += [outer(grid, clipped, points, field, plane), cap(grid, clipped, points, field, plane)]
+        parts += _clipped(grid, clipped, points, field, spec["clip"], eye)
         shown = shown & ~clipped
-    if shown.any():
-        parts.append(outer(grid, shown, points, field))
-    surface = Surface.join(parts)
+    surface = Surface.join([*parts, outer(grid, shown, points, field)])
     surface.values[~coloured[surface.cells]] = np.nan
     return surface
+
+
+def _ghost(grid, run, spec):
+    """The bodies that are drawn like glass."""
+    cells = run.body_mask(grid, spec["ghost"])
+    return outer(grid, cells, _points(grid, spec), ("cell_data", np.zeros(len(cells))))
 
 
 def _colour(view, grid, colours):
@@ -62,8 +86,19 @@ def _level_lines(view, levels, width):
     return found[view.picture.seen]
 
 
-def _image(surface, camera, frame, shape, grid, colours, spec):
-    view = View(surface, camera, frame, shape)
+def _through_glass(image, depth, view, grid):
+    """A picture seen through the surface of a view."""
+    nearer = view.picture.depth > depth
+    colour = np.ones(image.shape)
+    colour[view.picture.seen, :3] = _colour(view, grid, None) * view.light()[:, None]
+    image[image[..., 3] == 0.0] = 1.0  # on white
+    image[..., 3] = view.picture.seen | (depth > -np.inf)
+    image[nearer] = (1.0 - GLASS) * image[nearer] + GLASS * colour[nearer].clip(0.0, 1.0)
+    edges = view.edges(0.5 * EDGE) & (nearer | ~view.picture.seen)
+    image[edges] = GLASS_EDGE
+
+
+def _image(view, grid, colours, spec):
     light = view.light()
     if colours is not None:  # colours that are read off a bar are shaded less
         light = np.where(np.isfinite(view.values()), 0.42 + 0.58 * light, light)
@@ -76,7 +111,7 @@ def _image(surface, camera, frame, shape, grid, colours, spec):
     edges = spec.get("edges", "features")
     if edges == "mesh":
         colour[view.mesh(MESH_LINE)] *= 0.45
-    image = np.ones((*shape, 4))
+    image = np.ones((*view.picture.triangle.shape, 4))
     image[..., 3] = view.picture.seen
     image[view.picture.seen, :3] = np.clip(colour, 0.0, 1.0)
     if edges != "none":
@@ -86,6 +121,7 @@ def _image(surface, camera, frame, shape, grid, colours, spec):
 
 def _frame(surfaces, camera):
     places = [camera.project(surface.points_shown())[:, :2] for surface in surfaces]
+    places = [place for place in places if place.size]
     low = np.min([place.min(axis=0) for place in places], axis=0)
     high = np.max([place.max(axis=0) for place in places], axis=0)
     margin = 0.015 * (high - low).max()
@@ -115,7 +151,8 @@ def draw(spec, run, folder):
     if "field" in spec:
         shown = [surface.values[surface.triangles_shown()].ravel() for surface in surfaces]
         colours = paint.Paint({"contours": 0, **spec}, moments.unit(grids[0], spec), np.concatenate(shown))
-    frame = _frame(surfaces, camera)
+    ghosts = [_ghost(grid, run, spec) for grid in grids] if spec.get("ghost") else []
+    frame = _frame(surfaces + ghosts, camera)
     size = tuple(MM * (frame[1] - frame[0]))
     rows = wrap(list(range(len(grids))), spec.get("columns"), *size)
     title = heading(spec, times[0] if len(times) == 1 and colours else "")
@@ -125,13 +162,16 @@ def draw(spec, run, folder):
         if rows[r][c] is None:
             continue
         moment, axes = rows[r][c], sheet.axes[r][c]
-        surface = surfaces[moment]
-        image = _image(surface, camera, frame, sheet.pixels(size), grids[moment], colours, spec)
+        view = View(surfaces[moment], camera, frame, sheet.pixels(size))
+        image = _image(view, grids[moment], colours, spec)
+        if ghosts:
+            glass = View(ghosts[moment], camera, frame, sheet.pixels(size))
+            _through_glass(image, view.picture.depth, glass, grids[moment])
         axes.imshow(image, extent=(MM * np.array(frame)).T.ravel(), interpolation="antialiased", aspect="equal")
         axes.axis("off")
         axes.set_title(times[moment] if len(times) > 1 else "", fontsize=9)
         if spec.get("dimensions", False):
-            inside = surface.points_shown()
+            inside = surfaces[moment].points_shown()
             dimensions(axes, camera, inside.min(axis=0), inside.max(axis=0))
     triad(sheet.figure, camera)
     if colours is not None:

@@ -6,7 +6,7 @@ import numpy as np
 
 from blocks import box, everything
 from solidus_plots.cells import HEX, HEX_2, TET, TET_2, boundary
-from solidus_plots.cut import Plane, cut, isolines
+from solidus_plots.cut import Plane, cut, cut_where, isolines
 
 SIZE = np.array([0.06, 0.04, 0.03])
 KINDS = {"tet4": TET, "hex8": HEX, "tet10": TET_2, "hex20": HEX_2}
@@ -89,6 +89,18 @@ class Cuts(unittest.TestCase):
         lines = isolines(place, part.triangles, place[:, 0], 0.0331)
         self.assertLess(np.abs(lines[..., 0] - 0.0331).max(), ROUND_OFF)
         self.assertAlmostEqual(np.abs(lines[:, 1, 1] - lines[:, 0, 1]).sum(), SIZE[1], delta=ROUND_OFF)
+
+
+    def test_where_a_field_has_a_value_the_surface_is_closed_and_faces_where_it_is_larger(self):
+        for name, kind in KINDS.items():
+            with self.subTest(cells=name):
+                grid = box(kind, [2.0, 2.0, 2.0], (12, 12, 12))
+                part = cut_where(grid, everything(grid), np.linalg.norm(grid.points - 1.0, axis=1) - 0.7)
+                corners = part.at_points(grid.points)[part.triangles] - 1.0
+                volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
+                # Cells are 1/6 wide, their diagonal d = 0.29. A chord d of the sphere lies d^2 / (8 0.7) inside.
+                self.assertAlmostEqual(volume / (4.0 / 3.0 * np.pi * 0.7**3), 1.0, delta=3 * 0.29**2 / (8 * 0.7**2))
+                self.assertEqual(len(part.sides(np.zeros(len(part.triangles), int))), 0)
 
 
 class Surfaces(unittest.TestCase):

@@ -73,6 +73,8 @@ class Wrong(unittest.TestCase):
             with self.subTest(wrong=wrong), self.assertRaisesRegex((ResultError, ValueError), text):
                 sections.draw({**spec, **wrong}, run, Path("."))
         for wrong, text in (({"edges": "all"}, '"features", "mesh" or "none"'), ({"view": [30]}, "view is"),
+                            ({"clip": {"field": "temperature"}}, "is no clip"),
+                            ({"clip": {"field": "von_mises", "above": 1}}, "one of nodes"),
                             ({"up": "w"}, 'up is "x", "y" or "z"'), ({"plain": ["mould"]}, "no body mould")):
             with self.subTest(wrong=wrong), self.assertRaisesRegex(ResultError, text):
                 surfaces.draw({"file": "a", **wrong}, run, Path("."))
@@ -117,6 +119,8 @@ class Drawn(unittest.TestCase):
         coloured = self.pixels(surfaces.draw, {"field": "temperature", "plain": ["sand"], "clip": {"y": 20},
                                                "clip_bodies": ["sand"], "levels": [{"value": 400}]}, TET)
         self.assertGreater((np.ptp(coloured, axis=2) > 0.4).mean(), 0.05)
+        self.pixels(surfaces.draw, {"field": "temperature", "ghost": ["part", "sand"], "bodies": ["sand"],
+                                    "clip": {"field": "temperature", "above": 400}, "times": [0, "last"]}, TET)
         grey = self.pixels(surfaces.draw, {"edges": "mesh", "dimensions": True, "up": "y", "view": [20, 30]})
         self.assertLess((np.ptp(grey, axis=2) > 0.4).mean(), 0.001)
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from blocks import box, everything
 from solidus_plots.cells import HEX, TET
-from solidus_plots.cut import Plane
+from solidus_plots.cut import Plane, cut
 from solidus_plots.raster import rasterise
 from solidus_plots.scene import Camera, Surface, View, cap, outer
 
@@ -85,8 +85,9 @@ class Scenes(unittest.TestCase):
     def test_a_cube_cut_open_shows_the_field_inside(self):
         camera = Camera(-90.0, 0.0)  # the eye is at -y
         plane = Plane.axis("y", 0.5).facing(camera.eye)
-        clipped = Surface.join([outer(self.grid, everything(self.grid), self.grid.points, self.field, plane),
-                                cap(self.grid, everything(self.grid), self.grid.points, self.field, plane)])
+        cells, points = everything(self.grid), self.grid.points
+        clipped = Surface.join([outer(self.grid, cells, points, self.field, plane.distance(points)),
+                                cap(self.grid, cut(self.grid, cells, plane), points, self.field, plane.normal)])
         view = self.view(clipped, camera)
         rows, columns = np.nonzero(view.picture.seen)
         x, z = (columns + 0.5) / 100.0 - 2.0, 2.0 - (rows + 0.5) / 100.0
