@@ -48,3 +48,31 @@ def _dimension(axes, ends, offset, text):
     angle = np.degrees(np.arctan2(end[1] - start[1], end[0] - start[0]))
     axes.text(*(0.5 * (start + end) + 0.55 * offset), text, rotation=angle, rotation_mode="anchor", ha="center",
               va="center", fontsize=8, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})
+
+
+def mark(axes, places, labels):
+    """Points [point][2] with what they are called beside them, where it covers other points and labels least."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    point = (right - left) / (72 * axes.figure.get_size_inches()[0] * axes.get_position().width)
+    axes.plot(*np.transpose(places), "o", markersize=4.5, color="white", markeredgecolor="black", zorder=8,
+              linestyle="none")
+    taken = [(x - 3 * point, y - 3 * point, x + 3 * point, y + 3 * point) for x, y in places]
+    for (x, y), label in zip(places, labels):
+        width, height = 4.6 * point * len(label), 9 * point
+        corners = [(x + right * point - (width if right < 0 else 0.0), y + up * point - 0.5 * height)
+                   for right, up in _BESIDE]
+        boxes = [(low, down, low + width, down + height) for low, down in corners]
+        box = min(boxes, key=lambda box: sum(_overlap(box, other) for other in taken)
+                  + 10 * (width * height - _overlap(box, (left, bottom, right, top))))
+        taken.append(box)
+        axes.annotate(label, (x, y), (0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])), fontsize=7, ha="center",
+                      va="center", zorder=9, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+                      arrowprops={"arrowstyle": "-", "lw": 0.5, "shrinkA": 0, "shrinkB": 2})
+
+
+# Where labels may begin beside their points, right and up [pt].
+_BESIDE = [(right, up) for reach in (7, 16, 28) for up in (0, reach, -reach) for right in (reach, -reach)]
+
+
+def _overlap(a, b):
+    return max(min(a[2], b[2]) - max(a[0], b[0]), 0.0) * max(min(a[3], b[3]) - max(a[1], b[1]), 0.0)

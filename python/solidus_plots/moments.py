@@ -1,5 +1,7 @@
 """The moments of a run that a picture asks for, and the fields of a moment in the picture's units."""
 
+import fnmatch
+
 import numpy as np
 
 from solidus_plots import style
@@ -9,8 +11,9 @@ from solidus_plots.vtu import ResultError, read_fields
 class Moments:
     """Each file is read once."""
 
-    def __init__(self, times, files, bodies):
+    def __init__(self, times, files, bodies, probes=None):
         self._times, self._files, self.bodies, self._grids = times, files, bodies, {}
+        self._probes = probes or {}  # name -> point [3] m
         self.missing = []  # what was asked for and not written, for the user
 
     def those_of(self, times):
@@ -35,6 +38,14 @@ class Moments:
         if index not in self._grids:
             self._grids[index] = read_fields(self._files[index])
         return self._grids[index]
+
+    def probes(self, patterns):
+        """Names and points [point][3] m of the probes that a picture asks for; * is any text."""
+        for pattern in patterns:
+            if not fnmatch.filter(self._probes, pattern):
+                raise ResultError(f"plots.toml: no probe '{pattern}' at a point; there are {', '.join(self._probes)}")
+        names = [name for name in self._probes if any(fnmatch.fnmatch(name, pattern) for pattern in patterns)]
+        return names, np.array([self._probes[name] for name in names]).reshape(-1, 3)
 
     def body_mask(self, grid, names):
         """Cells of the bodies named; all when `names` is empty."""

@@ -13,12 +13,13 @@ import tomllib
 from solidus_plots import curves, graphs, maps, point, sections, style, surfaces
 from solidus_plots.history import read_table
 from solidus_plots.moments import Moments
+from solidus_plots.probes import read_points
 from solidus_plots.vtu import ResultError, read_collection
 
 # What plots.toml may say; anything else is a typo.
 FIELD_KEYS = {"quantity", "field", "component", "unit", "contours", "levels", "bands", "colours", "range",
               "above", "smooth"}
-SHEET_KEYS = {"file", "only", "title", "times", "columns", "bodies", "magnification"}
+SHEET_KEYS = {"file", "only", "title", "times", "columns", "bodies", "magnification", "probes"}
 KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
                    "compare"},
         "graphs": {"file", "only", "title", "table", "x", "x_quantity", "part", "quantity", "lines", "each",
@@ -127,7 +128,8 @@ def draw(results, spec_file=None):
         attempt(graphs.draw, picture, results)
     if any(spec.get(kind) for kind in FIELD_PICTURES):
         times, files_of = read_collection(results / "fields.pvd")
-        run = Moments(times, files_of, list(summary.get("mesh", {}).get("bodies", {})))
+        run = Moments(times, files_of, list(summary.get("mesh", {}).get("bodies", {})),
+                      read_points(results / "case.toml"))
         for kind, work in FIELD_PICTURES.items():
             for picture in spec.get(kind, []):
                 attempt(work, picture, run)

@@ -6,6 +6,7 @@ from matplotlib.collections import LineCollection
 import numpy as np
 
 from solidus_plots import moments, paint, style
+from solidus_plots.annotations import mark
 from solidus_plots.cut import Cut, Plane, cut, isolines
 from solidus_plots.raster import rasterise
 from solidus_plots.sheet import Sheet, badness, heading, wrap
@@ -99,6 +100,14 @@ def _draw(axes, panel, frame, colours, shape, mesh):
     axes.set(xlim=(frame[0][0], frame[1][0]), ylim=(frame[0][1], frame[1][1]))
 
 
+def _mark_probes(axes, plane, run, spec):
+    """The probes asked for that lie in a plane."""
+    names, points = run.probes(spec.get("probes", []))
+    near = np.abs(plane.distance(points)) < 1e-3  # m
+    if near.any():
+        mark(axes, MM * plane.place(points[near]), [name for name, shown in zip(names, near) if shown])
+
+
 def _rows(spec, frames, n_moments):
     """[row][column] (plane, moment) or None: planes across or down, whichever looks better; panels of one plane,
     or of one moment, are wrapped."""
@@ -143,6 +152,7 @@ def draw(spec, run, folder):
             continue
         (p, m), axes, (plane, name) = rows[r][c], sheet.axes[r][c], planes[rows[r][c][0]]
         _draw(axes, panels[p][m], frames[p], colours, sheet.pixels(sizes[p]), spec.get("mesh", False))
+        _mark_probes(axes, plane, run, spec)
         axes.set_title(", ".join([name] * (len(planes) > 1) + [times[m]] * (len(times) > 1)), fontsize=9)
         left = not _same_plane(rows, r, c, r, c - 1)
         axes.tick_params(labelbottom=labelled[r][c], labelleft=left)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from solidus_plots import moments, paint, style
-from solidus_plots.annotations import dimensions, triad
+from solidus_plots.annotations import dimensions, mark, triad
 from solidus_plots.cut import cut, cut_where
 from solidus_plots.scene import Camera, Surface, View, cap, outer
 from solidus_plots.sections import read_plane
@@ -173,6 +173,9 @@ def draw(spec, run, folder):
         if spec.get("dimensions", False):
             inside = surfaces[moment].points_shown()
             dimensions(axes, camera, inside.min(axis=0), inside.max(axis=0))
+        if spec.get("probes"):
+            names, places = run.probes(spec["probes"])
+            mark(axes, MM * camera.project(places)[:, :2], names)
     triad(sheet.figure, camera)
     if colours is not None:
         colours.bar(sheet.bar, bool(colours.contours))

@@ -21,7 +21,8 @@ class Run(Moments):
     """Moments without files: a block that warms and moves, in two bodies that share nodes."""
 
     def __init__(self, kind):
-        super().__init__(np.array([0.0, 3600.0, 7200.0]), ["", "", ""], ["part", "sand"])
+        super().__init__(np.array([0.0, 3600.0, 7200.0]), ["", "", ""], ["part", "sand"],
+                         {"T_1": np.array([0.02, 0.02, 0.015]), "T_2": np.array([0.05, 0.02, 0.0])})
         for index, time in enumerate(self._times):
             grid = box(kind, SIZE, (4, 3, 2), bodies=2)
             grid.time = time
@@ -67,6 +68,7 @@ class Wrong(unittest.TestCase):
                             ({"bodies": ["mould"]}, "no body mould; there are part, sand"),
                             ({"field": "niyama"}, "no field 'niyama' was written; there are temperature"),
                             ({"times": [5.0]}, "none of the moments"),
+                            ({"probes": ["S_*"]}, "no probe 'S_\\*' at a point; there are T_1, T_2"),
                             ({"colours": "rainbows"}, "no colours 'rainbows'"),
                             ({"field": "stress", "component": 6}, "components 0 to 5"),
                             ({"unit": "MPa"}, "cannot show")):
@@ -97,7 +99,7 @@ class Drawn(unittest.TestCase):
                       "magnification": 5, "times": [0, "last"], "levels": [{"value": 100, "label": "liquidus"}]},
                      {"field": "von_mises", "unit": "MPa", "planes": [oblique], "bands": 5, "mesh": True,
                       "times": ["first", 3600, 7200]},
-                     {"field": "von_mises", "planes": [{"z": 15}], "smooth": True}):
+                     {"field": "von_mises", "planes": [{"z": 15}], "smooth": True, "probes": ["T_*"]}):
             found = self.pixels(sections.draw, spec)
             self.assertGreater((np.ptp(found, axis=2) > 0.2).mean(), 0.1)
 
@@ -121,7 +123,7 @@ class Drawn(unittest.TestCase):
         self.assertGreater((np.ptp(coloured, axis=2) > 0.4).mean(), 0.05)
         self.pixels(surfaces.draw, {"field": "temperature", "ghost": ["part", "sand"], "bodies": ["sand"],
                                     "clip": {"field": "temperature", "above": 400}, "times": [0, "last"]}, TET)
-        grey = self.pixels(surfaces.draw, {"edges": "mesh", "dimensions": True, "up": "y", "view": [20, 30]})
+        grey = self.pixels(surfaces.draw, {"edges": "mesh", "dimensions": True, "probes": ["T_2"], "up": "y", "view": [20, 30]})
         self.assertLess((np.ptp(grey, axis=2) > 0.4).mean(), 0.001)
 
 
