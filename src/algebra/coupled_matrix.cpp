@@ -3,6 +3,7 @@
 #include <petsc/private/petscimpl.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "algebra/petsc_handles.hpp"
 
@@ -31,9 +32,9 @@ void CoupledMatrix::create_rectangles() {
   pattern_u_ = displacement_.pattern();
   pattern_t_ = temperature_.pattern();
   petsc_->nest.reset();
-  force_.assign((displacement_.columns().size() + 1) * at(displacement_.block_size()), 0.0);
+  const int n_components = components(), n_fields = fields();
+  force_.assign((displacement_.columns().size() + 1) * at(n_components * n_fields), 0.0);
   heat_.assign(force_.size(), 0.0);
-  const int n_components = components();
   const std::vector<char>&fixed_u = displacement_.fixed(), &fixed_t = temperature_.fixed();
   const auto displacement_number = [&](Index node, int i) -> PetscInt {
     const std::int64_t entry = std::int64_t{node} * n_components + i;
@@ -42,22 +43,29 @@ void CoupledMatrix::create_rectangles() {
     return static_cast<PetscInt>(ties.empty() ? mesh_.global_node[at(node)] * n_components + i
                                               : ties.unknown(static_cast<Index>(entry)));
   };
-  const auto temperature_number = [&](Index node) -> PetscInt {
-    return fixed_t[at(node)] ? -1 : static_cast<PetscInt>(mesh_.global_node[at(node)]);
+  const auto temperature_number = [&](Index node, int field) -> PetscInt {
+    return fixed_t[at(std::int64_t{node} * n_fields + field)]
+               ? -1
+               : static_cast<PetscInt>(mesh_.global_node[at(node)] * n_fields + field);
   };
   std::vector<PetscInt> force_rows, force_columns, heat_rows, heat_columns;
   for (auto* list : {&force_rows, &force_columns, &heat_rows, &heat_columns}) list->reserve(force_.size());
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
     for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
       const Index column = displacement_.columns()[at(s)];
-      for (int i = 0; i < n_components; ++i) {
-        force_rows.push_back(displacement_number(row, i));
-        force_columns.push_back(temperature_number(column));
-        heat_rows.push_back(temperature_number(row));
-        heat_columns.push_back(displacement_number(column, i));
-      }
+      for (int i = 0; i < n_components; ++i)
+        for (int t = 0; t < n_fields; ++t) {
+          force_rows.push_back(displacement_number(row, i));
+          force_columns.push_back(temperature_number(column, t));
+        }
+      for (int t = 0; t < n_fields; ++t)
+        for (int i = 0; i < n_components; ++i) {
+          heat_rows.push_back(temperature_number(row, t));
+          heat_columns.push_back(displacement_number(column, i));
+        }
     }
-  const auto n_t = static_cast<PetscInt>(mesh_.n_owned_nodes), n_u = n_t * n_components;
+  const auto n_nodes = static_cast<PetscInt>(mesh_.n_owned_nodes);
+  const PetscInt n_t = n_nodes * n_fields, n_u = n_nodes * n_components;
   const auto create = [](MatHandle& a, PetscInt rows, PetscInt columns, std::vector<PetscInt>& i,
                          std::vector<PetscInt>& j) {
     check(MatCreate(PETSC_COMM_WORLD, a.out()), "MatCreate");
@@ -82,6 +90,7 @@ bool CoupledMatrix::set_zero() {
 
 void CoupledMatrix::multiply_heat(std::span<const double> x, std::span<double> y) const {
   const std::int64_t n = components();
+  assert(fields() == 1);
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     double sum = 0;
     for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
@@ -95,6 +104,7 @@ void CoupledMatrix::multiply_heat(std::span<const double> x, std::span<double> y
 
 void CoupledMatrix::multiply_force(std::span<const double> x, std::span<double> y) const {
   const std::int64_t n = components();
+  assert(fields() == 1);
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     double* const to = y.data() + row * n;
     std::fill_n(to, n, 0.0);
@@ -107,7 +117,7 @@ void CoupledMatrix::multiply_force(std::span<const double> x, std::span<double> 
 }
 
 Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {
-  const std::ptrdiff_t scrap = components();
+  const std::ptrdiff_t scrap = components() * fields();
   check(MatSetValuesCOO(petsc_->force, force_.data() + scrap, INSERT_VALUES), "MatSetValuesCOO");
   check(MatSetValuesCOO(petsc_->heat, heat_.data() + scrap, INSERT_VALUES), "MatSetValuesCOO");
   // The values are copies: scaling them leaves those of the phases alone.

@@ -3,6 +3,7 @@
 ///   ⎡ K_uu  K_uΘ ⎤ ⎧δu⎫     ⎧r_u⎫      [N]
 ///   ⎣ K_Θu  K_ΘΘ ⎦ ⎩δΘ⎭ = − ⎩r_Θ⎭      [W]
 ///
+/// The second field may have several components a node, as pressures do (mechanics/pressure_equation.hpp).
 /// The diagonal blocks are the matrices of the two phases. The rectangular ones have the graph of K_uu, a
 /// block of `components` numbers per pair of nodes, and are added to through its slots. Prescribed degrees of
 /// freedom and ties of either field are eliminated as in BlockMatrix.
@@ -30,17 +31,19 @@ class CoupledMatrix {
   BlockMatrix& displacement() { return displacement_; }
   BlockMatrix& temperature() { return temperature_; }
   int components() const { return displacement_.block_size(); }
+  int fields() const { return temperature_.block_size(); }
 
   /// Of the rectangular blocks, made anew where the pattern of a diagonal one has changed; then true.
   /// Collective.
   bool set_zero();
-  /// ∂r_u/∂Θ of a pair (row node, column node), `components` numbers; slots of `displacement`, also the one
+  /// ∂r_u/∂Θ of a pair (row node, column node), [component][field]; slots of `displacement`, also the one
   /// without a row.
-  double* force_by_temperature(Slot s) { return force_.data() + (s + 1) * components(); }
-  /// ∂r_Θ/∂u of a pair (row node, column node), `components` numbers.
-  double* heat_by_displacement(Slot s) { return heat_.data() + (s + 1) * components(); }
+  double* force_by_temperature(Slot s) { return force_.data() + (s + 1) * components() * fields(); }
+  /// ∂r_Θ/∂u of a pair (row node, column node), [field][component].
+  double* heat_by_displacement(Slot s) { return heat_.data() + (s + 1) * components() * fields(); }
 
-  /// y = K_Θu x for local x (ghosts up to date), y on owned nodes; ignores what is prescribed or tied.
+  /// y = K_Θu x for local x (ghosts up to date), y on owned nodes; ignores what is prescribed or tied. Of one
+  /// field.
   void multiply_heat(std::span<const double> x, std::span<double> y) const;
   /// y = K_uΘ x, likewise.
   void multiply_force(std::span<const double> x, std::span<double> y) const;

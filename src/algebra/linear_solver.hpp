@@ -48,6 +48,8 @@ class TangentSolver {
   virtual LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) = 0;
   /// Sets everything up anew at the next solve, so that it depends on the matrix alone (checkpoints).
   virtual void forget() = 0;
+  /// The next matrix has another pattern: nothing stays.
+  virtual void reset() = 0;
   virtual double seconds_setup() const = 0;
   virtual double seconds_solve() const = 0;
 };
@@ -72,8 +74,7 @@ class LinearSolver : public TangentSolver {
   /// The next solve sets the preconditioner up.
   bool stale() const;
   void forget() override;
-  /// The next matrix has another pattern: nothing stays.
-  void reset();
+  void reset() override;
   double seconds_setup() const override;
   double seconds_solve() const override;
 

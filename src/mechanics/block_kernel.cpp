@@ -2,6 +2,7 @@
 
 #include "mechanics/block_makers.hpp"
 #include "mechanics/coupled_kernel.hpp"
+#include "mechanics/mixed_kernel.hpp"
 
 namespace solidus::mechanics {
 
@@ -43,6 +44,20 @@ std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mes
   if (!material.flow && material.liquid_model == material::LiquidModel::maxwell)
     return make_block_of_law<material::Viscoelastic>(mesh, block, kind, material, b_bar);
   return make_block_of_law<material::Viscoplastic>(mesh, block, kind, material, b_bar);
+}
+
+std::unique_ptr<BlockKernel> make_mixed_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
+                                               AnalysisKind kind, const material::Material& material,
+                                               Mapping mapping, Stabilisation stabilisation) {
+  switch (kind) {
+    case AnalysisKind::plane_strain:
+      return make_mixed_block<AnalysisKind::plane_strain>(mesh, block, material, mapping, stabilisation);
+    case AnalysisKind::axisymmetric:
+      return make_mixed_block<AnalysisKind::axisymmetric>(mesh, block, material, mapping, stabilisation);
+    case AnalysisKind::solid:
+      break;
+  }
+  return make_mixed_block<AnalysisKind::solid>(mesh, block, material, mapping, stabilisation);
 }
 
 }  // namespace solidus::mechanics

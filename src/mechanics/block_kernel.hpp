@@ -37,7 +37,9 @@ struct StepStart {
 /// Sums over the counted elements of a block.
 struct BlockWork {
   double internal_work = 0, dissipation = 0, plastic_dissipation = 0, plastic_work = 0;  ///< [J]
-  double least_dissipation = 0, largest_dissipation = 0;                                 ///< [W/m³]
+  /// Of the pressure on the volume that mixed elements leave to their sub-scales [J].
+  double stabilisation_work = 0;
+  double least_dissipation = 0, largest_dissipation = 0;  ///< [W/m³]
 };
 
 class BlockKernel {

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "base/errors.hpp"
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
+#include "mechanics/mixed_solver.hpp"
 
 namespace solidus::mechanics {
 
@@ -75,6 +77,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   loads_->add_constant(weight_);
 
   for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
+  create_pressure();
   create_matrix();
   create_solver();
   forces_.resize(mesh.x.size() * static_cast<std::size_t>(components_));
@@ -92,7 +95,11 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
       continue;
     }
     plastic_ = plastic_ || material.flow.has_value();
-    blocks_.push_back(make_block_kernel(mesh_, block, kind_, material, options_.mapping, options_.b_bar));
+    const bool mixed =
+        options_.mapping != Mapping::simultaneous && is_mixed(block, material, options_.simplices);
+    blocks_.push_back(
+        mixed ? make_mixed_kernel(mesh_, block, kind_, material, options_.mapping, options_.stabilisation)
+              : make_block_kernel(mesh_, block, kind_, material, options_.mapping, options_.b_bar));
   }
 }
 
@@ -153,13 +160,48 @@ void MechanicalPhase::bind() {
   for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
 }
 
+/// Without mixed elements there is none.
+void MechanicalPhase::create_pressure() {
+  const bool any = std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) {
+    return dynamic_cast<const MixedKernel*>(block.get()) != nullptr;
+  });
+  pressure_.reset();
+  if (!any) return;  // every process has every block
+  if (options_.solver == algebra::SolverKind::jacobi || options_.solver == algebra::SolverKind::incomplete)
+    throw InputError({}, "this solver of mechanics cannot find the pressure of mixed triangles or tetrahedra",
+                     "\"automatic\", \"direct\" or \"multigrid\", or simplices = \"displacement\"");
+  std::vector<std::array<double, 3>> body_force;
+  if (options_.stabilisation == Stabilisation::algebraic) {
+    if (inertia_) throw std::invalid_argument("algebraic sub-scales are for quasi-statics");
+    for (const material::Material& material : materials_) {
+      body_force.push_back(loads_->conditions().gravity);
+      for (double& f : body_force.back()) f *= material.density;
+    }
+  }
+  pressure_ =
+      std::make_unique<PressureEquation>(mesh_, components_, materials_, blocks_, std::move(body_force),
+                                         factorises(options_.solver, mesh_, components_));
+}
+
 void MechanicalPhase::create_solver() {
-  solver_ = std::make_unique<algebra::LinearSolver>(
+  mixed_solver_ = nullptr;
+  if (pressure_) {
+    auto solver = std::make_unique<MixedSolver>(
+        mesh_, *matrix_, *pressure_, ghosts_,
+        MixedSolverOptions{.direct = factorises(options_.solver, mesh_, components_),
+                           .symmetric = options_.symmetric,
+                           .relative_tolerance = options_.linear_tolerance});
+    mixed_solver_ = solver.get();
+    solver_ = std::move(solver);
+    return;
+  }
+  auto solver = std::make_unique<algebra::LinearSolver>(
       mesh_, algebra::LinearSolverOptions{.prefix = "mechanics_",
                                           .kind = options_.solver,
                                           .symmetric = options_.symmetric,
                                           .relative_tolerance = options_.linear_tolerance});
-  solver_->use_rigid_body_modes(mesh_, components_);
+  solver->use_rigid_body_modes(mesh_, components_);
+  solver_ = std::move(solver);
 }
 
 void MechanicalPhase::set_conditions(Conditions conditions, std::span<const double> start) {
@@ -172,7 +214,8 @@ void MechanicalPhase::set_conditions(Conditions conditions, std::span<const doub
   }
   loads->add_constant(weight_);
   loads_ = std::move(loads);
-  if (same_matrix) {
+  create_pressure();
+  if (same_matrix && !pressure_) {
     matrix_->set_fixed(loads_->fixed());
     solver_->forget();
   } else {
@@ -185,6 +228,7 @@ MechanicalState MechanicalPhase::initial_state() {
   MechanicalState state;
   state.displacement.assign(forces_.size(), 0.0);
   for (const auto& block : blocks_) state.history.push_back(block->initial_history());
+  if (pressure_) state.pressure = pressure_->pressure();
   if (options_.integration == TimeIntegration::two_step) state.before = state.history;
   if (inertia_) set_in_motion(state);
   return state;
@@ -252,7 +296,13 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
     }
   }
   const bool remembers = inertia_ && inertia_->motion().remembers();
+  const bool keeps = keeps_stress_ && !remembers;
   if (remembers) stress_ = old.stress;  // of the right size
+  if (keeps) {
+    no_stress_.clear();
+    for (const BlockHistory& history : old.history) no_stress_.push_back(no_stress(history));
+    stress_ = no_stress_;
+  }
   double stiffness = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     stiffness += blocks_[b]->prepare(
@@ -265,10 +315,13 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .start_history = extrapolates ? &start_[b] : &old.history[b],
          .dt = pass.dt,
          .effective_dt = step.dt,
-         .old_stress = remembers ? &old.stress[b] : nullptr,
-         .new_stress = remembers ? &stress_[b] : nullptr,
+         .old_stress = remembers ? &old.stress[b]
+                       : keeps   ? &no_stress_[b]
+                                 : nullptr,
+         .new_stress = remembers || keeps ? &stress_[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .work = pass.work});
+  if (pressure_) pressure_->begin(held.pressure);
   stress_at_work_ = pass.work;
   residual_is_known_ = false;
   round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
@@ -280,8 +333,11 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   x_.assign(x.begin(), x.end());
   std::fill(forces_.begin(), forces_.end(), 0.0);
   balance_.begin();
+  const bool found = !pressure_ || pressure_->solve(x);
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     balance_.add_internal(mesh_.blocks[b].body, blocks_[b]->add_forces(x, forces_));
+  // Newton's iteration takes what is not a number for a step too far.
+  if (!found) std::fill(forces_.begin(), forces_.end(), std::numeric_limits<double>::quiet_NaN());
   std::fill(r.begin(), r.end(), 0.0);
   for (algebra::Contribution* contribution : contributions_) contribution->add_residual(x, r);
   balance_.add_exchanged(r);
@@ -327,6 +383,7 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
   for (const auto& block : blocks_) block->add_tangent(x_, *matrix_);
   if (inertia_) inertia_->add_tangent(*matrix_);
   for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(x_, *matrix_);
+  if (mixed_solver_ != nullptr) mixed_solver_->assemble();
   return *matrix_;
 }
 
@@ -391,6 +448,7 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
       history[b].values.assign(old.history[b].values.size(), Lane(0.0));
     const BlockWork work = blocks_[b]->finish(old.displacement, x, history[b]);
     total.internal_work += work.internal_work;
+    total.stabilisation_work += work.stabilisation_work;
     total.dissipation += work.dissipation;
     total.plastic_dissipation += work.plastic_dissipation;
     total.plastic_work += work.plastic_work;
@@ -407,6 +465,7 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
   const MechanicalWork work = measure(old, x, total, next);
   next.displacement = std::move(x);
   next.stress = std::move(stress_);
+  if (pressure_) next.pressure = pressure_->pressure();
   if (options_.integration == TimeIntegration::two_step) {
     next.before = old.history;
     next.dt_before = pass.dt;
@@ -424,8 +483,15 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
   std::vector<double> r = residual_;
   r.resize(external_.size());
   if (algebra::any_process(!known)) residual(x, r);
-  double local[9] = {
-      0, 0, 0, sums.internal_work, sums.dissipation, sums.plastic_dissipation, sums.plastic_work, 0, 0};
+  double local[9] = {0,
+                     0,
+                     0,
+                     sums.internal_work,
+                     sums.dissipation,
+                     sums.plastic_dissipation,
+                     sums.plastic_work,
+                     0,
+                     sums.stabilisation_work};
   if (stress_at_work_ != StressAtWork::kept) kept_ = {external_, r};
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double increment = x[i] - old.displacement[i];
@@ -444,7 +510,7 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
     local[0] = motion.external;
     local[1] = motion.support;
     local[7] = motion.kinetic;
-    local[8] = motion.numerical;
+    local[8] += motion.numerical;
   }
   double all[9];
   MPI_Allreduce(local, all, 9, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
@@ -459,6 +525,12 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
           .largest_dissipation = algebra::global_max(sums.largest_dissipation),
           .kinetic = all[7],
           .numerical = all[8]};
+}
+
+std::vector<double> MechanicalPhase::applied_forces() const {
+  std::vector<double> force(residual_.size());
+  for (std::size_t i = 0; i < force.size(); ++i) force[i] = forces_[i] - residual_[i];
+  return force;
 }
 
 std::string MechanicalPhase::worst_place(std::span<const double> x) {
@@ -520,11 +592,16 @@ std::vector<ElementFields> MechanicalPhase::element_fields() const {
   return fields;
 }
 
+double MechanicalPhase::seconds_solver() const {
+  return solver_->seconds_setup() + solver_->seconds_solve() + (pressure_ ? pressure_->seconds() : 0.0);
+}
+
 std::size_t MechanicalPhase::bytes() const {
   std::size_t total =
       matrix_->bytes() + (forces_.capacity() + x_.capacity() + external_.capacity()) * sizeof(double);
   for (const auto& block : blocks_) total += block->bytes();
   if (inertia_) total += inertia_->bytes();
+  if (pressure_) total += pressure_->bytes() + mixed_solver_->bytes();
   return total;
 }
 

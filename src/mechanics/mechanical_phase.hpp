@@ -25,12 +25,15 @@
 #include "mechanics/conditions.hpp"
 #include "mechanics/inertial_forces.hpp"
 #include "mechanics/mechanical_state.hpp"
+#include "mechanics/simplices.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::mechanics {
 
 class BlockKernel;
 class Loads;
+class MixedSolver;
+class PressureEquation;
 struct BlockWork;
 
 enum class TimeIntegration { backward_euler, two_step };
@@ -47,6 +50,8 @@ struct MechanicsOptions {
   /// Constant volumetric mode (Q1/P0, 6.2) in 4-node quads and 8-node hexes; other shapes use the standard
   /// operator.
   bool b_bar = true;
+  Simplices simplices = Simplices::automatic;  ///< with Mapping::simultaneous always displacement
+  Stabilisation stabilisation = Stabilisation::orthogonal;
   TimeIntegration integration = TimeIntegration::backward_euler;
   Mapping mapping = Mapping::isothermal;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
@@ -72,8 +77,10 @@ struct MechanicalWork {
   /// The least and the largest D_mech at any point and zero [W/m³]; the least is negative by rounding at
   /// most.
   double least_dissipation = 0, largest_dissipation = 0;
-  double kinetic = 0;    ///< change of the kinetic energy
-  double numerical = 0;  ///< what the time integration of inertia takes out of it
+  double kinetic = 0;  ///< change of the kinetic energy
+  /// What the time integration of inertia takes out of it, and what the pressure of mixed elements works on
+  /// the volume of their sub-scales.
+  double numerical = 0;
 };
 
 struct PhaseReport {
@@ -195,6 +202,14 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// Support forces of the last solve, [owned node][component] [N], zero where nothing is prescribed.
   std::span<const double> reactions() const { return reactions_; }
 
+  /// From now on conclude() leaves the stress at the points in MechanicalState::stress, as with inertia.
+  void keep_stress() { keeps_stress_ = true; }
+  /// What loads and contact do to the nodes at the last solution, [owned node][component] [N].
+  std::vector<double> applied_forces() const;
+  /// What is held where it is, and what moves as one (Loads).
+  const std::vector<char>& fixed() const { return matrix_->fixed(); }
+  const algebra::Ties& ties() const { return matrix_->ties(); }
+
   /// The block kernels, for StructuralHeat.
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
   /// Drops what the linear solver carried over from earlier steps.
@@ -203,7 +218,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::size_t bytes() const;
   double seconds_assembly() const { return seconds_assembly_; }  ///< tangents
   double seconds_residual() const { return seconds_residual_; }  ///< forces and the constitutive update
-  double seconds_solver() const { return solver_->seconds_setup() + solver_->seconds_solve(); }
+  double seconds_solver() const;
 
  private:
   algebra::NodeGraph graph() const;
@@ -215,6 +230,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   void create_matrix();
   void bind();
   void create_solver();
+  void create_pressure();
   void set_in_motion(MechanicalState& state);
   void add_residual_to_balance(std::span<const double> r);
   std::string law_failure(std::span<const double> x) const;
@@ -235,20 +251,24 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::unique_ptr<Loads> loads_;
   std::vector<double> weight_;  ///< of the bodies, [local node][component] [N]
   std::unique_ptr<algebra::BlockMatrix> matrix_;
-  std::unique_ptr<algebra::LinearSolver> solver_;
+  std::unique_ptr<PressureEquation> pressure_;  ///< null without mixed elements
+  std::unique_ptr<algebra::TangentSolver> solver_;
+  MixedSolver* mixed_solver_ = nullptr;      ///< the same where elements are mixed
   std::unique_ptr<InertialForces> inertia_;  ///< null in quasi-statics
   algebra::GhostExchange ghosts_;
   BodyBalance balance_;
   std::vector<double> initial_temperature_;
-  std::vector<BlockHistory> start_;   ///< z* of the two-step method, one per block
-  double round_off_ = 0;              ///< residual that is rounding [N]
-  std::vector<double> x_;             ///< of the last residual
-  std::vector<double> residual_;      ///< there, [owned node][component]
-  bool residual_is_known_ = false;    ///< for what prepare() was last called with
-  std::vector<double> forces_;        ///< internal forces, [local node][component]; ghost rows are scrap
-  std::vector<double> external_;      ///< loads at t_{n+1}, [owned node][component]
-  std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia
-  std::vector<BlockHistory> stress_;  ///< of the last finish(), where the next step needs it
+  std::vector<BlockHistory> start_;      ///< z* of the two-step method, one per block
+  bool keeps_stress_ = false;            ///< without inertia
+  std::vector<BlockHistory> no_stress_;  ///< to keep it against
+  double round_off_ = 0;                 ///< residual that is rounding [N]
+  std::vector<double> x_;                ///< of the last residual
+  std::vector<double> residual_;         ///< there, [owned node][component]
+  bool residual_is_known_ = false;       ///< for what prepare() was last called with
+  std::vector<double> forces_;           ///< internal forces, [local node][component]; ghost rows are scrap
+  std::vector<double> external_;         ///< loads at t_{n+1}, [owned node][component]
+  std::vector<double> inertial_;         ///< J at the last residual, [owned node][component]; with inertia
+  std::vector<BlockHistory> stress_;     ///< of the last finish(), where the next step needs it
   std::vector<double> reactions_;
   StressAtWork stress_at_work_ = StressAtWork::end;
   struct {

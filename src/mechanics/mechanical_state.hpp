@@ -9,7 +9,7 @@ namespace solidus::mechanics {
 
 /// The history of one mesh block: [batch][point][component], whatever the law keeps (viscoelastic: the
 /// viscous strain, components in the order of Sym; viscoplastic: Viscoplastic::State). Lanes beyond the
-/// block's elements are padding.
+/// block's elements are padding. Mixed elements keep their volumetric strain behind it.
 struct BlockHistory {
   int n_components = 0, n_points = 0;
   PackVector<Lane> values;
@@ -18,6 +18,9 @@ struct BlockHistory {
 struct MechanicalState {
   std::vector<double> displacement;   ///< [local node][component] [m], ghosts up to date
   std::vector<BlockHistory> history;  ///< one per block of the mesh
+  /// The mean stress of mixed elements at the nodes, [local node][field] [Pa] (pressure_equation.hpp); empty
+  /// where there are none.
+  std::vector<double> pressure;
   /// Of the two-step method: the history at t_{n−1} and t_n − t_{n−1} [s], zero where none is known. Empty
   /// with backward Euler.
   std::vector<BlockHistory> before;

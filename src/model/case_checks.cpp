@@ -343,6 +343,20 @@ void check_coupling(const CaseSpec& spec) {
                      "as_printed = false, or a scheme of first order");
 }
 
+void check_simplices(const CaseSpec& spec) {
+  const MechanicsSpec& m = spec.mechanics;
+  if (m.stabilisation == mechanics::Stabilisation::algebraic && spec.dynamics)
+    throw InputError(
+        spec.dynamics->where,
+        "mechanics.stabilisation = \"algebraic\" is for quasi-statics: its residual has no inertia",
+        "stabilisation = \"orthogonal\"");
+  if (m.simplices != mechanics::Simplices::mixed) return;
+  if (spec.simultaneous())
+    throw InputError(spec.coupling.where,
+                     "mechanics.simplices = \"mixed\" does not go with the simultaneous scheme",
+                     "simplices = \"automatic\" or \"displacement\", or another scheme");
+}
+
 }  // namespace
 
 void check_case(const CaseSpec& spec) {
@@ -357,6 +371,7 @@ void check_case(const CaseSpec& spec) {
   check_stage_names(spec);
   check_coupling(spec);
   check_dynamics(spec);
+  check_simplices(spec);
   check_probes(spec);
   check_profiles(spec);
   probes(spec), profiles(spec);  // components that their fields do not have

@@ -197,6 +197,8 @@ struct MechanicsSpec {
   bool inexact = true;
   double linear_tolerance = 0;
   bool b_bar = true;
+  mechanics::Simplices simplices = mechanics::Simplices::automatic;
+  mechanics::Stabilisation stabilisation = mechanics::Stabilisation::orthogonal;
   mechanics::TimeIntegration integration = mechanics::TimeIntegration::backward_euler;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
 };

@@ -16,14 +16,22 @@ namespace solidus::model {
 
 namespace {
 
+// What the history of triangles and tetrahedra is made of; the material decides where nothing is said.
+std::string simplices_text(const MechanicsSpec& m) {
+  const char* const formulation[] = {"", ", mixed simplices", ", displacement simplices"};
+  return std::string(formulation[static_cast<std::size_t>(m.simplices)]) +
+         (m.stabilisation == mechanics::Stabilisation::algebraic ? ", algebraic sub-scales" : "");
+}
+
 std::string analysis_text(const CaseSpec& spec) {
   constexpr std::array<const char*, 3> k_physics = {"heat", "mechanics", "thermomechanical"};
   constexpr std::array<const char*, 3> k_kinds = {"plane strain", "axisymmetric", "3D"};
-  return fmt::format("{}, {}, {} rule{}{}", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
+  return fmt::format("{}, {}, {} rule{}{}{}", k_kinds.at(static_cast<std::size_t>(spec.analysis.kind)),
                      k_physics.at(static_cast<std::size_t>(spec.analysis.physics)),
                      spec.heat.integration == heat::Integration::closed ? "closed" : "open",
                      spec.isentropic() ? ", isentropic" : (spec.simultaneous() ? ", simultaneous" : ""),
-                     spec.dynamics ? ", with inertia by " + method_name(*spec.dynamics) : "");
+                     spec.dynamics ? ", with inertia by " + method_name(*spec.dynamics) : "",
+                     simplices_text(spec.mechanics));
 }
 
 std::string mesh_text(const mesh::Mesh& mesh) {

@@ -62,6 +62,8 @@ mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   options.newton.inexact = spec.mechanics.inexact;
   options.linear_tolerance = spec.mechanics.linear_tolerance;
   options.b_bar = spec.mechanics.b_bar;
+  options.simplices = spec.mechanics.simplices;
+  options.stabilisation = spec.mechanics.stabilisation;
   options.integration = spec.mechanics.integration;
   options.mapping = spec.isentropic()     ? mechanics::Mapping::isentropic
                     : spec.simultaneous() ? mechanics::Mapping::simultaneous

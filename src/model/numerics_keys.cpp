@@ -75,6 +75,21 @@ Section<MechanicsSpec> mechanics_keys() {
   s.key("b_bar", &MechanicsSpec::b_bar)
       .initially(true)
       .doc("Mean volumetric strain per element in quads and hexahedra (Q1/P0, monograph 6.2): no locking.");
+  using mechanics::Simplices;
+  s.choice("simplices", &MechanicsSpec::simplices,
+           {{"automatic", Simplices::automatic,
+             "mixed where a body's material melts, flows plastically or has a Poisson's ratio above 0.45; "
+             "displacement with the simultaneous scheme"},
+            {"mixed", Simplices::mixed, "displacement and continuous pressure, stabilised: no locking"},
+            {"displacement", Simplices::displacement, "displacement alone, which locks in plastic flow"}})
+      .initially("automatic")
+      .doc("Formulation of linear triangles and tetrahedra; other shapes have b_bar.");
+  using mechanics::Stabilisation;
+  s.choice("stabilisation", &MechanicsSpec::stabilisation,
+           {{"orthogonal", Stabilisation::orthogonal, "orthogonal sub-grid scales"},
+            {"algebraic", Stabilisation::algebraic, "algebraic sub-grid scales, without inertia"}})
+      .initially("orthogonal")
+      .doc("Of the pressure of mixed triangles and tetrahedra (Codina 2000).");
   using mechanics::TimeIntegration;
   s.choice(
        "integration", &MechanicsSpec::integration,

@@ -136,6 +136,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   take_nodes(in, "temperature", nodes, c.state.heat.temperature);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
   take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
+  take_nodes(in, "pressure", nodes, c.state.mechanics.pressure);
   take_nodes(in, "velocity", nodes, c.state.mechanics.velocity);
   take_nodes(in, "acceleration", nodes, c.state.mechanics.acceleration);
   take_nodes(in, "net_force", nodes, c.state.mechanics.net_force);
@@ -207,6 +208,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   nodal("temperature", c.state.heat.temperature);
   nodal("enthalpy", c.state.heat.enthalpy);
   nodal("displacement", c.state.mechanics.displacement);
+  nodal("pressure", c.state.mechanics.pressure);
   nodal("velocity", c.state.mechanics.velocity);
   nodal("acceleration", c.state.mechanics.acceleration);
   nodal("net_force", c.state.mechanics.net_force);

@@ -1,0 +1,15 @@
+#include "mechanics/mixed_shapes.hpp"
+
+namespace solidus::mechanics {
+
+template <>
+std::unique_ptr<BlockKernel> make_mixed_block<AnalysisKind::solid>(const mesh::Mesh& mesh,
+                                                                   const mesh::Block& block,
+                                                                   const material::Material& material,
+                                                                   Mapping mapping,
+                                                                   Stabilisation stabilisation) {
+  return make_mixed_block_of_shape<4, AnalysisKind::solid>(mesh::Shape::tet4, mesh, block, material, mapping,
+                                                           stabilisation);
+}
+
+}  // namespace solidus::mechanics

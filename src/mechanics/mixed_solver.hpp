@@ -1,0 +1,70 @@
+/// The linear systems of Newton's method where elements have a pressure (pressure_equation.hpp):
+///
+///   ⎡ A   B     ⎤ ⎧δu⎫   ⎧−r_u⎫
+///   ⎣ Bᵀ −(C+S) ⎦ ⎩δp⎭ = ⎩  0 ⎭        whose Schur complement in u is the tangent
+///
+/// S couples neighbours of neighbours and is never assembled: flexible GMRES has it in its operator and goes
+/// without that part in its preconditioner, which is the LDLᵀ of MUMPS or, for many unknowns, block
+/// triangular: multigrid with rigid-body modes on A, and C + S + ∫ N 1/(2Ĝ) N dV for the Schur complement.
+/// There A gets a stiffness 2Ĝ/3 against the divergence, which the operator is without: alone it is singular
+/// where a body may swell. PETSc options:
+/// mechanics_mixed_, and within the block triangular one mechanics_mixed_fieldsplit_u_ and …_p_.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mechanics/pressure_equation.hpp"
+
+namespace solidus::mechanics {
+
+struct MixedSolverOptions {
+  bool direct = true;
+  bool symmetric = true;
+  double relative_tolerance = 1e-8;
+};
+
+class MixedSolver final : public algebra::TangentSolver {
+ public:
+  /// @param displacement  prescribed degrees of freedom and ties set
+  /// What is passed by reference must outlive this object. Collective.
+  MixedSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacement, PressureEquation& pressure,
+              const algebra::GhostExchange& ghosts, MixedSolverOptions options);
+  ~MixedSolver() override;
+
+  /// After the blocks have added their tangents to the matrix of displacements. Collective.
+  void assemble();
+
+  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                              double forcing) override;
+  algebra::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override;
+  void forget() override;
+  void reset() override;
+  double seconds_setup() const override { return solver_.seconds_setup(); }
+  double seconds_solve() const override { return solver_.seconds_solve(); }
+  std::size_t bytes() const;
+
+ private:
+  void add_terms(std::span<const double> x, std::span<double> y);
+
+  const mesh::Mesh& mesh_;
+  algebra::BlockMatrix& displacement_;
+  PressureEquation& pressure_;
+  const algebra::GhostExchange& ghosts_;
+  MixedSolverOptions options_;
+  std::unique_ptr<algebra::BlockMatrix> compliance_;  ///< −(C + S) but for the projection, times unit²
+  std::unique_ptr<algebra::BlockMatrix> schur_;       ///< of the block triangular preconditioner
+  algebra::CoupledMatrix matrix_;
+  algebra::CorrectedMatrix operator_;
+  algebra::KrylovSolver solver_;
+  std::vector<double> right_, solution_;  ///< owned, displacements and then pressures
+  std::vector<double> swelling_, pull_;   ///< scratch, [local node][component]
+  struct Petsc;
+  std::unique_ptr<Petsc> petsc_;
+};
+
+/// Whether MUMPS serves: in two dimensions and on small meshes in three.
+bool factorises(algebra::SolverKind kind, const mesh::Mesh& mesh, int components);
+
+}  // namespace solidus::mechanics

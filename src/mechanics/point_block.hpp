@@ -1,0 +1,366 @@
+/// What the kernels of a block have in common whatever the element's formulation: geometry, law, history and
+/// what a step leaves at the points, eight elements at a time.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "mechanics/block_kernel.hpp"
+#include "mechanics/element_transfer.hpp"
+#include "mechanics/law_parts.hpp"
+#include "mechanics/structural_points.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::mechanics {
+
+/// A law whose tangent is κ 1⊗1 + 2Ĝ I_dev; others offer a full symmetric `tangent` (Sym4).
+template <class Response>
+concept IsotropicTangent = requires(const Response& r) {
+  r.bulk;
+  r.twice_shear;
+};
+/// A law whose tangent is the isotropic one + left ⊗ right, where flow_increment > 0.
+template <class Response>
+concept RankOneTangent = IsotropicTangent<Response> && requires(const Response& r) {
+  r.left;
+  r.right;
+  r.flow_increment;
+};
+/// A law whose tangent has the adiabatic part thermal_factor thermal_left ⊗ thermal_right besides.
+template <class Response>
+concept AdiabaticTangent = RankOneTangent<Response> && requires(const Response& r) {
+  r.thermal_factor;
+  r.thermal_left;
+  r.thermal_right;
+};
+/// A law that holds the entropy of the committed state.
+template <class Properties>
+concept HoldsEntropy = requires(Properties& p) {
+  p.entropy;
+};
+
+/// Law: built from a material; `properties_at`, `update`, `symmetric`, and the overloads of law_parts.hpp.
+/// @tparam n_extra  numbers that the element keeps at a point behind the law's state
+template <class Law, int n_nodes, AnalysisKind kind, bool b_bar, int n_extra = 0>
+class PointBlock : public BlockKernel {
+ public:
+  using Operator = Kinematics<n_nodes, kind, b_bar>;
+  using Vectors = typename Operator::Vectors;
+  using State = typename Law::template State<Lane>;
+  using Properties = typename Law::template Properties<Lane>;
+  using Response =
+      decltype(std::declval<Law>().update(std::declval<Properties>(), State{}, Sym<Lane>{}, 1.0));
+  using Values = decltype(values_of(std::declval<Law>(), std::declval<Properties>(), std::declval<Response>(),
+                                    Sym<Lane>{}));
+  using Matrix = ElementMatrix<n_nodes, Operator::dim>;
+  static constexpr std::size_t dim = Operator::dim;
+  static_assert(sizeof(State) % sizeof(Lane) == 0, "a state is made of lanes");
+  static constexpr int n_state = static_cast<int>(sizeof(State) / sizeof(Lane));
+  static constexpr int n_kept = n_state + n_extra;
+
+  PointBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
+      : geometry_(mesh, block, kind, mesh::stiffness_rule(block.shape)),
+        block_(block),
+        law_(material),
+        points_(geometry_, material) {
+    properties_.resize(static_cast<std::size_t>(geometry_.n_batches * geometry_.n_points));
+    averages_.resize(static_cast<std::size_t>(geometry_.n_batches));
+  }
+
+  bool symmetric() const override { return law_.symmetric(); }
+
+  void bind(const algebra::BlockMatrix& matrix) override {
+    slots_ = matrix.lane_slots(geometry_.nodes, n_nodes, geometry_.n_elements);
+  }
+
+  BlockHistory initial_history() const override {
+    BlockHistory history{n_kept, geometry_.n_points, {}};
+    history.values.assign(properties_.size() * n_kept, Lane(0.0));
+    return history;
+  }
+
+  ElementFields fields() const override {
+    ElementFields out;
+    for (Index e = 0; e < geometry_.n_elements; ++e)
+      append(out, element_of<typename Values::OfOne>(averages_[static_cast<std::size_t>(e / k_lanes)],
+                                                     e % k_lanes));
+    return out;
+  }
+
+  void add_nodal_volume(double weight, std::span<double> out) const override {
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Index* nodes = nodes_of(batch);
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Lane w = Lane(weight) * geometry_.weight_at(batch, q);
+        for (int a = 0; a < n_nodes; ++a)
+          for (int lane = 0; lane < k_lanes; ++lane)
+            out[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values_at(q)[a] * w[lane];
+      }
+    }
+  }
+
+  void spread_heat_as_stored(const PackVector<Lane>& weights) override { points_.spread_as_stored(weights); }
+  void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
+                           std::span<double> out) const override {
+    points_.add_heat(form, temperature, tangent, out);
+  }
+  void begin_heat_stage(const algebra::Stage& stage, std::span<const double> temperature) override {
+    points_.begin_stage(stage, temperature);
+  }
+  const StructuralPoints& structural_points() const override { return points_; }
+
+  std::size_t bytes() const override {
+    return geometry_.bytes() + points_.bytes() + properties_.capacity() * sizeof(properties_[0]) +
+           slots_.capacity() * sizeof(slots_[0]) + averages_.capacity() * sizeof(averages_[0]) +
+           kept_stress_.capacity() * sizeof(Sym<Lane>);
+  }
+
+ protected:
+  /// Sums of a step over the counted elements, lane by lane.
+  struct Tally {
+    Lane internal_work{0.0}, stabilisation_work{0.0}, dissipation{0.0}, least{0.0}, largest{0.0};
+    PlasticPower plastic;
+  };
+  /// Of the points of a batch, weighted with their volumes.
+  struct Average {
+    Values sums;
+    Lane volume{0.0};
+  };
+
+  std::size_t index(Index batch, int point) const {
+    return static_cast<std::size_t>(batch) * static_cast<std::size_t>(geometry_.n_points) +
+           static_cast<std::size_t>(point);
+  }
+  const Index* nodes_of(Index batch) const {
+    return geometry_.nodes.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * k_lanes;
+  }
+  const double* values_at(int point) const { return geometry_.values.data() + point * n_nodes; }
+  Lane counted(Index batch) const { return geometry_.counted[static_cast<std::size_t>(batch)]; }
+  Lane inverse_radius(Index batch, int point) const {
+    if constexpr (kind == AnalysisKind::axisymmetric)
+      return geometry_.inverse_radius[index(batch, point)];
+    else
+      return Lane(0.0);
+  }
+  const algebra::BlockMatrix::Slot* slots_of(Index batch) const {
+    return slots_.data() + static_cast<std::size_t>(batch) * n_nodes * n_nodes * k_lanes;
+  }
+
+  State state_of(const BlockHistory& history, Index batch, int point) const {
+    State state;
+    std::memcpy(static_cast<void*>(&state), history.values.data() + index(batch, point) * n_kept,
+                sizeof(State));
+    return state;
+  }
+  State old_state(Index batch, int point) const { return state_of(*old_history_, batch, point); }
+  State start_state(Index batch, int point) const { return state_of(*start_history_, batch, point); }
+
+  Response update(Index batch, int point, const Sym<Lane>& strain) const {
+    return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_dt_);
+  }
+
+  void begin_step(const StepStart& start) {
+    old_history_ = start.old_history;
+    start_history_ = start.start_history;
+    dt_ = start.dt;
+    old_stress_ = start.old_stress;
+    new_stress_ = start.new_stress;
+    stress_share_ = start.stress_share;
+    work_ = start.work;
+    effective_dt_ = start.effective_dt;
+    points_.set_dt(start.dt);
+  }
+
+  /// Properties for the temperature of this step, and the entropy that an isentropic law holds.
+  /// @param held_strain  of the state whose entropy is held
+  /// @return the bulk modulus [Pa]
+  Lane set_properties(const StepStart& start, Index batch, int q, const Sym<Lane>& held_strain) {
+    const bool iterates = start.pass_temperature.data() != start.temperature.data();
+    const Lane old_theta = temperature_at(geometry_, batch, q, start.temperature);
+    const Lane theta = iterates ? temperature_at(geometry_, batch, q, start.pass_temperature) : old_theta;
+    Properties& properties = properties_[index(batch, q)];
+    properties = law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
+    if (iterates) hold_phase(law_, theta, old_theta, properties);
+    if constexpr (HoldsEntropy<Properties>)
+      properties.entropy = law_.entropy(properties, held_strain, state_of(*start.held_history, batch, q));
+    const auto& p = elastic_part(law_, properties);
+    points_.set_temperature(batch, q, old_theta, theta, p.thermal_strain);
+    return p.bulk;
+  }
+
+  /// Forces that a strain of 1 would cause at a point.
+  void add_stiffness(const Operator& b, Lane weighted_bulk, Vectors& f) const {
+    for (std::size_t a = 0; a < n_nodes; ++a)
+      for (std::size_t i = 0; i < dim; ++i) f[a][i] += weighted_bulk * abs(b.divergence(a, i));
+  }
+
+  LaneMask is_solid(Index batch, int q) const {
+    return elastic_part(law_, properties_[index(batch, q)]).solid_fraction >= Lane(1.0);
+  }
+
+  /// Keeps the answer of a point at the end of a step: history, values for results, what the thermal phase
+  /// needs; strains are those that the law has seen.
+  /// @return the stress whose work the step does
+  Sym<Lane> record(Index batch, int q, const Sym<Lane>& old_strain, const Sym<Lane>& strain,
+                   const Response& response, BlockHistory& trial, Average& average, Tally& tally) {
+    const Lane w = geometry_.weight_at(batch, q), share = counted(batch) * w;
+    const auto& p = properties_[index(batch, q)];
+    std::memcpy(static_cast<void*>(trial.values.data() + index(batch, q) * n_kept), &response.state,
+                sizeof(State));
+    average.volume += w;
+    add_weighted(average.sums, w, values_of(law_, p, response, strain));
+
+    const LaneMask solid = is_solid(batch, q);
+    auto& point = points_.at(batch, q);
+    if constexpr (HoldsEntropy<Properties>) point.pass_temperature = response.temperature;
+    const State old = old_state(batch, q);
+    point.now = deformation(strain, response.state, solid);
+    point.change = change(strain, response.state, old_strain, old, solid);
+    point.dissipated = Lane(dt_) * response.dissipation;
+    const Sym<Lane> at_work = stress_at_work(batch, q, mean_stress(batch, q, response.stress));
+    point.work = dot(at_work, strain - old_strain);
+    points_.set_old(batch, q, deformation(old_strain, old, solid));
+
+    const PlasticPower power = plastic_power(law_, response);
+    tally.internal_work += share * point.work;
+    tally.dissipation += share * response.dissipation;
+    tally.plastic.dissipation += share * power.dissipation;
+    tally.plastic.power += share * power.power;
+    tally.least = min(tally.least, counted(batch) * response.dissipation);
+    tally.largest = max(tally.largest, counted(batch) * response.dissipation);
+    return at_work;
+  }
+
+  void keep(Index batch, const Average& average) {
+    const Lane inverse = select(average.volume > Lane(0.0), Lane(1.0) / average.volume,
+                                Lane(0.0));  // padding has no volume
+    Values& kept = averages_[static_cast<std::size_t>(batch)];
+    kept = Values{};
+    add_weighted(kept, inverse, average.sums);
+  }
+
+  BlockWork total(const Tally& tally) const {
+    BlockWork work;
+    work.internal_work = sum(tally.internal_work);
+    work.stabilisation_work = sum(tally.stabilisation_work);
+    work.dissipation = dt_ * sum(tally.dissipation);
+    work.plastic_dissipation = dt_ * sum(tally.plastic.dissipation);
+    work.plastic_work = dt_ * sum(tally.plastic.power);
+    for (int lane = 0; lane < k_lanes; ++lane) {
+      work.least_dissipation = std::min(work.least_dissipation, tally.least[lane]);
+      work.largest_dissipation = std::max(work.largest_dissipation, tally.largest[lane]);
+    }
+    return work;
+  }
+
+  /// The first element of a batch whose law finds no state at these strains, with its inputs.
+  std::string failure_at(Index batch, int q, const Sym<Lane>& strain) const {
+    for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane) {
+      using StateOfOne = typename Law::template State<double>;
+      const auto p =
+          element_of<typename Law::template Properties<double>>(properties_[index(batch, q)], lane);
+      const auto start = element_of<StateOfOne>(start_state(batch, q), lane);
+      const auto strain_of_one = element_of<Sym<double>>(strain, lane);
+      if (!std::isfinite(norm(strain_of_one)) ||  // that is not the law's fault
+          law_.update(p, start, strain_of_one, effective_dt_).status == material::Status::converged)
+        continue;
+      return fmt::format(
+          "element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, at the start of the step {}",
+          block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)],
+          points_.at(batch, q).temperature[lane], elastic_part(law_, p).solid_fraction, text(strain_of_one),
+          text(start));
+    }
+    return {};
+  }
+
+  static Deformation deformation(const Sym<Lane>& strain, const State& state, const LaneMask& solid) {
+    const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
+    const auto [hardening, back_squared] = hardening_of(state);
+    return {trace(strain), select(solid, dot(elastic, elastic), Lane(0.0)), hardening, back_squared};
+  }
+
+  /// Now : Δ since the old state.
+  static Deformation change(const Sym<Lane>& strain, const State& state, const Sym<Lane>& old_strain,
+                            const State& old, const LaneMask& solid) {
+    const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
+    const Sym<Lane> old_elastic = dev(old_strain - inelastic_strain(old));
+    const auto [hardening, back] = hardening_change(state, old);
+    return {trace(strain - old_strain), select(solid, dot(elastic, elastic - old_elastic), Lane(0.0)),
+            hardening, back};
+  }
+
+  /// The mean of the stresses at both ends of a dynamic step; leaves that of its end for the next one.
+  Sym<Lane> mean_stress(Index batch, int point, const Sym<Lane>& stress) const {
+    if (new_stress_ == nullptr) return stress;
+    constexpr std::size_t n = sizeof(Sym<Lane>) / sizeof(Lane);
+    Sym<Lane> old;
+    std::memcpy(static_cast<void*>(&old), old_stress_->values.data() + index(batch, point) * n, sizeof old);
+    std::memcpy(static_cast<void*>(new_stress_->values.data() + index(batch, point) * n), &stress,
+                sizeof stress);
+    return Lane(stress_share_) * stress + Lane(1.0 - stress_share_) * old;
+  }
+
+  /// The stress whose work the step does; keeps the one of its end where that is asked for.
+  const Sym<Lane>& stress_at_work(Index batch, int point, const Sym<Lane>& stress) {
+    if (work_ == StressAtWork::end) return stress;
+    kept_stress_.resize(properties_.size());
+    Sym<Lane>& kept = kept_stress_[index(batch, point)];
+    if (work_ == StressAtWork::end_kept) kept = stress;
+    return kept;
+  }
+
+  /// factor left ⊗ right; without a skew part left = share right.
+  static void add_rank_one(const Operator& b, const Sym<Lane>& left, const Sym<Lane>& right, Lane factor,
+                           Lane share, Matrix& symmetric, std::optional<Matrix>& skew) {
+    Vectors of_right{};
+    b.add_force(right, of_right);
+    if (!skew) {
+      add_product(of_right, factor * share, symmetric);
+      return;
+    }
+    Vectors of_left{};
+    b.add_force(left, of_left);
+    add_product(of_left, of_right, factor, symmetric, *skew);
+  }
+
+  Vectors gather(std::span<const double> u, Index batch) const {
+    return mechanics::gather<n_nodes, static_cast<int>(dim)>(u, nodes_of(batch));
+  }
+
+  /// Newton's iteration takes what is not a number for a step too far.
+  static void spoil(Vectors& f) {
+    for (auto& node : f)
+      for (Lane& value : node) value = Lane(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  static Lane squares(const Vectors& f) {
+    Lane s(0.0);
+    for (const auto& node : f)
+      for (const Lane& value : node) s += value * value;
+    return s;
+  }
+
+  mesh::BlockGeometry geometry_;
+  const mesh::Block& block_;
+  Law law_;
+  StructuralPoints points_;
+  PackVector<Properties> properties_;              ///< at Θ_n: [batch][point]
+  std::vector<algebra::BlockMatrix::Slot> slots_;  ///< [batch][a][b][lane]
+  PackVector<Values> averages_;                    ///< [batch]
+  const BlockHistory* old_history_ = nullptr;
+  const BlockHistory* start_history_ = nullptr;
+  const BlockHistory* old_stress_ = nullptr;
+  BlockHistory* new_stress_ = nullptr;
+  double stress_share_ = 1;
+  double dt_ = 0, effective_dt_ = 0;
+  StressAtWork work_ = StressAtWork::end;
+  PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where nobody asked for it
+};
+
+}  // namespace solidus::mechanics

@@ -1,0 +1,21 @@
+#include "mechanics/simplices.hpp"
+
+namespace solidus::mechanics {
+
+namespace {
+/// Bulk over shear modulus is ten there; what a constant strain costs is seen from about here on.
+constexpr double k_incompressible = 0.45;
+}  // namespace
+
+bool nearly_incompressible(const material::Material& material) {
+  return material.solidification() != nullptr || material.flow.has_value() ||
+         material.poisson_ratio.max_value() > k_incompressible;
+}
+
+bool is_mixed(const mesh::Block& block, const material::Material& material, Simplices simplices) {
+  if (block.shape != mesh::Shape::tri3 && block.shape != mesh::Shape::tet4) return false;
+  return simplices == Simplices::mixed ||
+         (simplices == Simplices::automatic && nearly_incompressible(material));
+}
+
+}  // namespace solidus::mechanics
