@@ -1,0 +1,115 @@
+#include "criteria/connectivity.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "criteria/gather.hpp"
+
+namespace solidus::criteria {
+
+namespace {
+
+/// Sets of numbers that are joined; each is told by its least number.
+class Joined {
+ public:
+  explicit Joined(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// What labels become when pairs of them mean the same part: the least of all that hang together.
+std::map<double, double> joined_labels(const std::vector<double>& pairs) {
+  std::vector<double> labels = pairs;
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  const auto place = [&](double label) {
+    return static_cast<std::size_t>(std::lower_bound(labels.begin(), labels.end(), label) - labels.begin());
+  };
+  Joined joined(labels.size());
+  for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) joined.join(place(pairs[k]), place(pairs[k + 1]));
+  std::map<double, double> result;
+  for (std::size_t i = 0; i < labels.size(); ++i) result[labels[i]] = labels[joined.root(i)];
+  return result;
+}
+
+}  // namespace
+
+Connectivity::Connectivity(const mesh::Mesh& mesh, const algebra::GhostExchange& ghosts,
+                           std::vector<char> chosen)
+    : mesh_(mesh), ghosts_(ghosts), chosen_(std::move(chosen)) {}
+
+Parts Connectivity::parts(std::span<const char> inside) const {
+  const std::size_t n = inside.size();
+  Joined joined(n);
+  std::vector<Index> whole;  // a node of each whole element
+  for (const mesh::Block& block : mesh_.blocks) {
+    if (chosen_[static_cast<std::size_t>(block.body)] == 0) continue;
+    const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
+    for (Index e = 0; e < block.size(); ++e) {
+      const std::span<const Index> nodes{block.element(e), n_nodes};
+      const auto is_inside = [&](Index i) { return inside[static_cast<std::size_t>(i)] != 0; };
+      const auto first = std::find_if(nodes.begin(), nodes.end(), is_inside);
+      if (first == nodes.end()) continue;
+      std::size_t found = 1;
+      for (auto node = first + 1; node != nodes.end(); ++node)
+        if (is_inside(*node)) {
+          joined.join(static_cast<std::size_t>(*first), static_cast<std::size_t>(*node));
+          ++found;
+        }
+      if (found == n_nodes) whole.push_back(*first);
+    }
+  }
+
+  Parts parts;
+  parts.label.assign(n, Parts::k_none);
+  std::vector<double> least(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (inside[i] != 0) {
+      const std::size_t root = joined.root(i);  // of all its nodes the least local number: it comes first
+      const auto number = static_cast<double>(mesh_.input_node[i]);
+      least[root] = root == i ? number : std::min(least[root], number);
+    }
+  for (std::size_t i = 0; i < n; ++i)
+    if (inside[i] != 0) parts.label[i] = least[joined.root(i)];
+
+  // A ghost's owner may call its part by another number: then both are one part.
+  std::vector<double> of_owner = parts.label;
+  ghosts_.update(of_owner, 1);
+  std::vector<std::pair<double, double>> pairs;
+  for (std::size_t i = static_cast<std::size_t>(mesh_.n_owned_nodes); i < n; ++i)
+    if (inside[i] != 0 && of_owner[i] != parts.label[i]) pairs.emplace_back(parts.label[i], of_owner[i]);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<double> flat;
+  for (const auto& [mine, owners] : pairs) flat.insert(flat.end(), {mine, owners});
+  const std::map<double, double> common = joined_labels(gathered(flat));
+  if (!common.empty())
+    for (double& label : parts.label)
+      if (const auto found = common.find(label); found != common.end()) label = found->second;
+
+  std::vector<double> own;
+  for (const Index node : whole) own.push_back(parts.label[static_cast<std::size_t>(node)]);
+  std::sort(own.begin(), own.end());
+  own.erase(std::unique(own.begin(), own.end()), own.end());
+  parts.whole = gathered(own);
+  std::sort(parts.whole.begin(), parts.whole.end());
+  parts.whole.erase(std::unique(parts.whole.begin(), parts.whole.end()), parts.whole.end());
+  return parts;
+}
+
+}  // namespace solidus::criteria

@@ -1,0 +1,347 @@
+#include "criteria/freezing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "criteria/gather.hpp"
+
+namespace solidus::criteria {
+
+namespace {
+
+// What a node remembers, one behind the other in the column "history". Times [s] are k_never before they are.
+enum Slot : std::size_t {
+  k_liquidus_at,
+  k_evaluated_at,
+  k_solidified_at,
+  k_rate,      ///< [K/s]
+  k_gradient,  ///< [K/m]
+  k_mode,
+  k_width
+};
+constexpr double k_never = -1;
+constexpr double k_mushy = 1, k_sharp = 2, k_waiting = 3;  // in k_mode; zero: not evaluated
+
+// Times of one front are equal but for rounding.
+constexpr double k_same_time = 1e-9;
+
+// Fields carry units that can be converted; this one has roots in it.
+constexpr const char* k_niyama_unit = "K^0.5 s^0.5/m";
+
+double length(const mesh::Point& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+// The share of the step at which something linear passes a level downwards.
+double passing(double from, double to, double level) {
+  return from > to ? std::clamp((from - level) / (from - to), 0.0, 1.0) : 1.0;
+}
+
+std::vector<char> freezing_bodies(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage) {
+  std::vector<char> chosen;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
+    chosen.push_back(storage.can_melt(static_cast<int>(b)) ? 1 : 0);
+  return chosen;
+}
+
+}  // namespace
+
+struct Freezing::Step {
+  const Moment& old;
+  const Moment& next;
+  const heat::NodalEnthalpy& storage;
+  double dt() const { return next.time - old.time; }
+  bool has_heat() const { return !next.heat.enthalpy.empty(); }
+  double time(double at) const { return old.time + at * dt(); }
+  double temperature(std::size_t node, double at) const {
+    return (1 - at) * old.heat.temperature[node] + at * next.heat.temperature[node];
+  }
+};
+
+struct Freezing::PatchGradient {
+  double all = 0, behind = 0;  ///< [K/m]
+  double drop = 0;             ///< the largest temperature difference across an element behind the front [K]
+  bool has_behind = false;
+};
+
+Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnthalpy& storage,
+                   FreezingOptions options)
+    : mesh_(mesh), storage_(storage), patches_(mesh, kind, freezing_bodies(mesh, storage)), ghosts_(mesh) {
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    const material::Material& material = storage.material(static_cast<int>(b));
+    feeding_.push_back(FeedingLaw::of(material));
+    Levels& levels = levels_.emplace_back();
+    const material::PhaseChange* change = material.solidification();
+    if (change == nullptr) continue;
+    const material::PhaseFraction& fraction = change->fraction;
+    levels.freezes = true;
+    levels.solidus = fraction.solidus();
+    levels.liquidus = fraction.liquidus();
+    levels.evaluation = levels.solidus + options.evaluation * (levels.liquidus - levels.solidus);
+    levels.solidus_jump = fraction.above(levels.solidus) < 1;
+    levels.liquidus_jump = fraction.below(levels.liquidus) > 0;
+    levels.at_end = levels.evaluation <= levels.solidus;
+  }
+  // A node of several bodies that freeze is told by that of which it holds most.
+  for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
+    int body = -1;
+    double most = 0;
+    for (const Patches::Element& e : patches_.around(i)) {
+      const double volume = storage.volume(i, patches_.body(e));
+      if (volume > most || (volume == most && patches_.body(e) < body)) {
+        most = volume;
+        body = patches_.body(e);
+      }
+    }
+    if (body >= 0) nodes_.push_back({i, body});
+  }
+}
+
+Record Freezing::initial(const Moment& start) const {
+  Record record{"freezing", {make_column(mesh_, "history", Place::node, k_width, 0)}, {}};
+  std::vector<double>& history = record.columns[0].values;
+  for (std::size_t i = 0; i < mesh_.x.size(); ++i)
+    for (const Slot time : {k_liquidus_at, k_evaluated_at, k_solidified_at})
+      history[i * k_width + time] = k_never;
+  // What starts between liquidus and solidus freezes from the start on.
+  for (const FreezingNode& who : nodes_) {
+    const auto i = static_cast<std::size_t>(who.node);
+    if (start.solid_fraction[i] > 0 && start.solid_fraction[i] < 1)
+      history[i * k_width + k_liquidus_at] = start.time;
+  }
+  ghosts_.update(history, k_width);
+  return record;
+}
+
+void Freezing::follow(const FreezingNode& who, const Step& step, std::span<double> history,
+                      std::vector<Passage>& passages) const {
+  const auto i = static_cast<std::size_t>(who.node);
+  const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
+  const double from = step.old.heat.temperature[i], to = step.next.heat.temperature[i];
+  if (std::min(from, to) > levels.liquidus || std::max(from, to) < levels.solidus) return;
+  const double before = step.old.solid_fraction[i], after = step.next.solid_fraction[i];
+  double* const h = history.data() + i * k_width;
+
+  if (after < 1 && (before == 1 || after == 0)) {  // melted, wholly or in part
+    std::fill(h, h + k_width, 0.0);
+    h[k_evaluated_at] = h[k_solidified_at] = k_never;
+    h[k_liquidus_at] = after == 0 ? k_never : step.next.time;
+    if (after == 0) return;
+  }
+  if (before == 1) return;
+  const auto passes = [&](double level, bool jump, bool upper) {
+    if (!jump || !step.has_heat()) return passing(from, to, level);
+    const double heat = upper ? storage_.upper(who.node, level) : storage_.lower(who.node, level);
+    return passing(step.old.heat.enthalpy[i], step.next.heat.enthalpy[i], heat);
+  };
+  if (before == 0 && after > 0)
+    h[k_liquidus_at] = step.time(passes(levels.liquidus, levels.liquidus_jump, true));
+  std::optional<double> evaluated;
+  if (after == 1) {
+    const double at = passes(levels.solidus, levels.solidus_jump, false);
+    h[k_solidified_at] = step.time(at);
+    if (levels.at_end) evaluated = at;
+  }
+  if (!levels.at_end && from > levels.evaluation && to <= levels.evaluation)
+    evaluated = passing(from, to, levels.evaluation);
+  if (!evaluated) return;
+  h[k_evaluated_at] = step.time(*evaluated);
+  passages.push_back({who, *evaluated, (from - to) / step.dt()});
+}
+
+Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& step, double at,
+                                          std::span<const double> history) const {
+  const double level = levels_[static_cast<std::size_t>(who.body)].evaluation;
+  const double now = step.time(at), tolerance = k_same_time * step.dt();
+  const auto own = static_cast<std::size_t>(who.node);
+  const bool at_front = std::abs(history[own * k_width + k_evaluated_at] - now) <= tolerance;
+  PatchGradient result;
+  mesh::Point all{}, behind{};
+  double volume = 0, volume_behind = 0;
+  for (const Patches::Element& e : patches_.around(who.node)) {
+    if (patches_.body(e) != who.body) continue;
+    std::array<double, k_most_nodes> values{};
+    const std::span<const Index> nodes = patches_.nodes(e);
+    bool passed = true;
+    double coldest = level;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const auto j = static_cast<std::size_t>(nodes[a]);
+      // On an isothermal change the temperature is not linear in the step: a node at the front has T_e.
+      values[a] = j == own && at_front ? level : step.temperature(j, at);
+      const double evaluated = history[j * k_width + k_evaluated_at];
+      passed = passed && (values[a] < level || (evaluated >= 0 && evaluated <= now + tolerance));
+      coldest = std::min(coldest, values[a]);
+    }
+    const Patches::Gradient g = patches_.gradient(e, std::span(values).first(nodes.size()));
+    volume += g.volume;
+    for (std::size_t k = 0; k < 3; ++k) all[k] += g.volume * g.value[k];
+    if (!passed) continue;
+    result.has_behind = true;
+    result.drop = std::max(result.drop, level - coldest);
+    volume_behind += g.volume;
+    for (std::size_t k = 0; k < 3; ++k) behind[k] += g.volume * g.value[k];
+  }
+  if (volume > 0) result.all = length(all) / volume;
+  if (volume_behind > 0) result.behind = length(behind) / volume_behind;
+  return result;
+}
+
+void Freezing::evaluate(const Passage& passage, const Step& step, std::span<double> history) const {
+  double* const h = history.data() + static_cast<std::size_t>(passage.who.node) * k_width;
+  const Levels& levels = levels_[static_cast<std::size_t>(passage.who.body)];
+  const PatchGradient g = recover(passage.who, step, passage.at, history);
+  const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
+  h[k_mode] = !g.has_behind ? k_waiting : (sharp ? k_sharp : k_mushy);
+  h[k_gradient] = h[k_mode] == k_sharp ? g.behind : g.all;
+  h[k_rate] = passage.rate;
+}
+
+// The first element around a node that waited is passed.
+void Freezing::complete(const FreezingNode& who, const Step& step, std::span<double> history) const {
+  double passed_at = step.next.time + step.dt();
+  for (const Patches::Element& e : patches_.around(who.node)) {
+    if (patches_.body(e) != who.body) continue;
+    double last = 0;
+    for (const Index node : patches_.nodes(e)) {
+      const double at = history[static_cast<std::size_t>(node) * k_width + k_evaluated_at];
+      last = at < 0 ? step.next.time + step.dt() : std::max(last, at);
+    }
+    passed_at = std::min(passed_at, last);
+  }
+  if (passed_at > step.next.time) return;
+  const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
+  const double at = std::clamp((passed_at - step.old.time) / step.dt(), 0.0, 1.0);
+  const PatchGradient g = recover(who, step, at, history);
+  double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+  const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
+  h[k_mode] = sharp ? k_sharp : k_mushy;
+  if (sharp) h[k_gradient] = g.behind;
+}
+
+void Freezing::step(const Moment& old, const Moment& next, Record& record) {
+  std::vector<double>& history = record.columns[0].values;
+  const Step step{old, next, storage_};
+  std::vector<Passage> passages;
+  std::vector<FreezingNode> waiting;
+  for (const FreezingNode& who : nodes_) {
+    if (history[static_cast<std::size_t>(who.node) * k_width + k_mode] == k_waiting) waiting.push_back(who);
+    follow(who, step, history, passages);
+  }
+  ghosts_.update(history, k_width);  // times of neighbours say what lies behind the front
+  if (!algebra::any_process(!passages.empty() || !waiting.empty())) return;
+  for (const Passage& passage : passages) evaluate(passage, step, history);
+  for (const FreezingNode& who : waiting)
+    if (history[static_cast<std::size_t>(who.node) * k_width + k_mode] == k_waiting)
+      complete(who, step, history);
+  ghosts_.update(history, k_width);
+}
+
+double Freezing::front_speed(const FreezingNode& who, std::span<const double> history) const {
+  double slope = 0,
+         volume = 0;  // the mean of |∇t_e|: where fronts meet, slopes of opposite sense do not cancel
+  for (const Patches::Element& e : patches_.around(who.node)) {
+    if (patches_.body(e) != who.body) continue;
+    std::array<double, k_most_nodes> times{};
+    const std::span<const Index> nodes = patches_.nodes(e);
+    bool passed = true;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      times[a] = history[static_cast<std::size_t>(nodes[a]) * k_width + k_evaluated_at];
+      passed = passed && times[a] >= 0;
+    }
+    if (!passed) continue;
+    const Patches::Gradient g = patches_.gradient(e, std::span(times).first(nodes.size()));
+    slope += g.volume * length(g.value);
+    volume += g.volume;
+  }
+  return slope > 0 ? volume / slope : 0.0;
+}
+
+std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& who,
+                                                           std::span<const double> history) const {
+  const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+  if (h[k_solidified_at] < 0) return {k_never};
+  const double time = h[k_solidified_at] - h[k_liquidus_at];
+  const double gradient = h[k_gradient];
+  const bool sharp = h[k_mode] == k_sharp;
+  const double speed = sharp ? front_speed(who, history) : (gradient > 0 ? h[k_rate] / gradient : 0.0);
+  const double rate = sharp ? gradient * speed : h[k_rate];
+  const auto body = static_cast<std::size_t>(who.body);
+  const double spacing = arm_spacing(storage_.material(who.body).casting, time);
+  const double ny = niyama(gradient, rate);
+  const std::optional<FeedingLaw>& feeding = feeding_[body];
+  const double number = feeding ? feeding->number(ny, spacing) : 0.0;
+  const double pores = number > 0 ? feeding->pore_fraction(number) : 0.0;
+  return {h[k_solidified_at], time, rate, gradient, speed, spacing, ny, number, pores};
+}
+
+std::vector<FieldInfo> Freezing::fields() const {
+  return {{"solidified_at", "s"},
+          {"local_solidification_time", "s"},
+          {"cooling_rate", "K/s"},
+          {"thermal_gradient", "K/m"},
+          {"front_speed", "m/s"},
+          {"secondary_arm_spacing", "m"},
+          {"niyama", "1"},
+          {"dimensionless_niyama", "1"},
+          {"shrinkage_porosity", "1"}};
+}
+
+void Freezing::fill(const Moment& /*now*/, const Record& record,
+                    std::span<const std::span<double>> values) const {
+  for (std::size_t f = 0; f < k_fields; ++f)
+    std::fill(values[f].begin(), values[f].end(), f == 0 ? k_never : 0.0);
+  for (const FreezingNode& who : nodes_) {
+    const auto of_node = values_of(who, record.columns[0].values);
+    for (std::size_t f = 0; f < k_fields; ++f) values[f][static_cast<std::size_t>(who.node)] = of_node[f];
+  }
+  for (std::size_t f = 0; f < k_fields; ++f) ghosts_.update(values[f], 1);
+}
+
+std::vector<Finding> Freezing::findings(const Record& record) const {
+  // Of every field least and greatest over the nodes that have it: value, number of the node, place.
+  struct Extreme {
+    double value = 0, number = -1;
+    mesh::Point where{};
+  };
+  std::array<Extreme, 2 * k_fields> own;
+  const auto take = [](Extreme& e, double value, double number, const mesh::Point& where, bool least) {
+    const bool better = e.number < 0 || (least ? value < e.value : value > e.value) ||
+                        (value == e.value && number < e.number);
+    if (better) e = {value, number, where};
+  };
+  for (const FreezingNode& who : nodes_) {
+    const auto i = static_cast<std::size_t>(who.node);
+    const auto of_node = values_of(who, record.columns[0].values);
+    for (std::size_t f = 0; f < k_fields; ++f)
+      if (of_node[f] > 0)
+        for (std::size_t side = 0; side < 2; ++side)
+          take(own[2 * f + side], of_node[f], static_cast<double>(mesh_.input_node[i]), mesh_.x[i],
+               side == 0);
+  }
+  std::vector<double> mine;
+  for (const Extreme& e : own)
+    mine.insert(mine.end(), {e.value, e.number, e.where[0], e.where[1], e.where[2]});
+  const std::vector<double> all = gathered(mine);
+  std::array<Extreme, 2 * k_fields> best;
+  for (std::size_t k = 0; k < all.size() / 5; ++k) {
+    const double* const row = all.data() + 5 * k;
+    const std::size_t which = k % (2 * k_fields);
+    if (row[1] >= 0) take(best[which], row[0], row[1], {row[2], row[3], row[4]}, which % 2 == 0);
+  }
+  std::vector<Finding> found;
+  std::vector<FieldInfo> names = fields();
+  names[6].unit = k_niyama_unit;
+  for (std::size_t f = 0; f < k_fields; ++f)
+    for (std::size_t side = 0; side < 2; ++side)
+      if (const Extreme& e = best[2 * f + side]; e.number >= 0)
+        found.push_back(
+            {names[f].name + (side == 0 ? "_min" : "_max"), names[f].unit, e.value, true, e.where});
+  return found;
+}
+
+std::size_t Freezing::bytes() const {
+  return patches_.bytes() + nodes_.capacity() * sizeof nodes_[0];
+}
+
+}  // namespace solidus::criteria

@@ -1,0 +1,100 @@
+/// Thermal criteria at the nodes of bodies that freeze: when and how fast, gradient, front speed, arm
+/// spacing, Niyama (docs/theory/criteria.md).
+///
+/// A node freezes from the moment its temperature passes the liquidus (for an isothermal change: its heat
+/// content leaves that of the melt) to the moment its solid fraction reaches one. Within a step temperature,
+/// on an isothermal change the heat content, is taken as linear in time, so times are exact where it is.
+/// Gradient G and cooling rate Ṫ are taken when the temperature passes
+///
+///   T_e = T_S + x (T_L − T_S),   x = 0.1
+///
+/// (Carlson and Beckermann 2009). Two cases, node by node:
+///
+///   mushy  the elements resolve the freezing range: G is the mean over all elements of the body around the
+///          node, weighted by volume, Ṫ that of the step;
+///   sharp  the temperature differs more across an element behind the front than between T_e and the liquidus
+///          (pure metals always): G is that of the elements behind the front, and Ṫ = G v, with the front
+///          speed v = 1/|∇t_e| from the times at which the nodes pass T_e. The rate of a single node is none
+///          of the front's there: it rests until the node has frozen, then falls.
+///
+/// A node that freezes before every neighbour (at the mould) has nothing behind it: it waits for its first
+/// element to be passed. Metal that melts again forgets, and is told by its next freezing.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "algebra/parallel.hpp"
+#include "criteria/criterion.hpp"
+#include "criteria/niyama.hpp"
+#include "criteria/patches.hpp"
+#include "heat/nodal_enthalpy.hpp"
+
+namespace solidus::criteria {
+
+struct FreezingOptions {
+  double evaluation = 0.1;  ///< x, at least 0 and below 1
+};
+
+class Freezing : public Criterion {
+ public:
+  /// @param storage  of the thermal phase; kept by reference, as the mesh is
+  Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnthalpy& storage,
+           FreezingOptions options = {});
+
+  Record initial(const Moment& start) const override;
+  void step(const Moment& old, const Moment& next, Record& record) override;
+  /// solidified_at (−1: not in this run), local_solidification_time [s], cooling_rate [K/s], thermal_gradient
+  /// [K/m], front_speed [m/s], secondary_arm_spacing [m], niyama [K^½ s^½/m, as a number without a unit],
+  /// dimensionless_niyama, shrinkage_porosity; zero where the node has not frozen, or where the material does
+  /// not say.
+  std::vector<FieldInfo> fields() const override;
+  void fill(const Moment& now, const Record& record,
+            std::span<const std::span<double>> values) const override;
+  /// The last node to freeze, and least and greatest values of the criteria.
+  std::vector<Finding> findings(const Record& record) const override;
+  std::size_t bytes() const override;
+
+ private:
+  /// Of a body that can freeze [K].
+  struct Levels {
+    double solidus = 0, liquidus = 0, evaluation = 0;
+    bool solidus_jump = false, liquidus_jump = false;  ///< part of the change is isothermal there
+    bool at_end = false;                               ///< evaluation is where the last melt freezes
+    bool freezes = false;
+  };
+  struct FreezingNode {
+    Index node;
+    int body;
+  };
+  /// A node that passed T_e in this step, at the share `at` of it.
+  struct Passage {
+    FreezingNode who;
+    double at, rate;
+  };
+  struct Step;
+  struct PatchGradient;
+
+  void follow(const FreezingNode& who, const Step& step, std::span<double> history,
+              std::vector<Passage>& passages) const;
+  /// Gradients of a node's patch with temperatures at the share `at` of the step.
+  PatchGradient recover(const FreezingNode& who, const Step& step, double at,
+                        std::span<const double> history) const;
+  void evaluate(const Passage& passage, const Step& step, std::span<double> history) const;
+  void complete(const FreezingNode& who, const Step& step, std::span<double> history) const;
+  double front_speed(const FreezingNode& who, std::span<const double> history) const;
+  static constexpr std::size_t k_fields = 9;
+  /// All fields of a node, in their order.
+  std::array<double, k_fields> values_of(const FreezingNode& who, std::span<const double> history) const;
+
+  const mesh::Mesh& mesh_;
+  const heat::NodalEnthalpy& storage_;
+  std::vector<Levels> levels_;                      ///< per body
+  std::vector<std::optional<FeedingLaw>> feeding_;  ///< per body
+  std::vector<FreezingNode> nodes_;                 ///< owned
+  Patches patches_;
+  algebra::GhostExchange ghosts_;
+};
+
+}  // namespace solidus::criteria

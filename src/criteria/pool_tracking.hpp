@@ -1,0 +1,48 @@
+/// Which part of the melt is which pool: numbers that last.
+#pragma once
+
+#include <vector>
+
+#include "criteria/pools.hpp"
+
+namespace solidus::criteria {
+
+/// A connected part of the melt.
+struct MeltPart {
+  double label = 0;                                   ///< Parts::label
+  double volume = 0;                                  ///< [m³]
+  double solid = 0;                                   ///< the solid in it [m³]
+  bool whole = false;                                 ///< holds a whole element
+  bool fed = false;                                   ///< holds a node of the feeders
+  double temperature = -1, fraction = 1, number = 0;  ///< of its hottest node [K], 1, in the input
+  mesh::Point where = {};                             ///< of that node
+};
+/// What a part shares with a pool of the step before.
+struct Overlap {
+  double label = 0;
+  int pool = 0;
+  double volume = 0;  ///< [m³]
+};
+/// The node of a pool that passed the limit last in this step.
+struct LastNode {
+  int pool = 0;
+  double time = 0, number = 0, temperature = 0;
+  mesh::Point where = {};
+};
+
+/// Everything that a step shows of the melt, over all processes, each list by rising labels or numbers.
+struct Melt {
+  std::vector<MeltPart> parts;
+  std::vector<Overlap> overlaps;
+  std::vector<LastNode> last;
+};
+/// Adds up what the processes found each; the same everywhere. Collective.
+Melt gathered(const Melt& own);
+
+/// Brings the pools to the time of `melt`, and says the number of each part (zero: a crumb).
+/// @param whole    volume of the bodies: parts whose volumes differ by less than 1e-9 of it are alike
+/// @param feeders  whether there are any
+std::vector<int> follow_pools(std::vector<Pool>& pools, const Melt& melt, double time, double whole,
+                              bool feeders);
+
+}  // namespace solidus::criteria

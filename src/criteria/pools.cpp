@@ -1,0 +1,189 @@
+#include "criteria/pools.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "criteria/pool_tracking.hpp"
+
+namespace solidus::criteria {
+
+namespace {
+
+constexpr int k_row = 14;
+constexpr std::size_t k_told = 5;  ///< closed-off pools that the summary names
+
+std::vector<double> row_of(const Pool& p) {
+  return {static_cast<double>(p.number),
+          static_cast<double>(p.parent),
+          p.born,
+          p.closed_off,
+          p.frozen,
+          static_cast<double>(p.into),
+          p.volume,
+          p.largest,
+          p.solid_fraction,
+          p.temperature,
+          p.where[0],
+          p.where[1],
+          p.where[2],
+          p.ended ? 1.0 : 0.0};
+}
+
+Pool pool_of(const double* r) {
+  return {static_cast<int>(r[0]),
+          static_cast<int>(r[1]),
+          r[2],
+          r[3],
+          r[4],
+          static_cast<int>(r[5]),
+          r[6],
+          r[7],
+          r[8],
+          r[9],
+          {r[10], r[11], r[12]},
+          r[13] != 0};
+}
+
+std::vector<char> melting_bodies(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage) {
+  std::vector<char> chosen;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
+    chosen.push_back(storage.can_melt(static_cast<int>(b)) ? 1 : 0);
+  return chosen;
+}
+
+}  // namespace
+
+Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOptions options)
+    : mesh_(mesh),
+      storage_(storage),
+      options_(std::move(options)),
+      feeder_(mesh.x.size(), 0),
+      volume_(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0),
+      ghosts_(mesh),
+      connectivity_(mesh, ghosts_, melting_bodies(mesh, storage)) {
+  for (const std::string& group : options_.feeders) {
+    const auto nodes = mesh.node_sets.find(group);
+    if (nodes == mesh.node_sets.end())
+      throw InputError({}, "criteria.feeders: the mesh has no group '" + group + "'");
+    for (const Index node : nodes->second) feeder_[static_cast<std::size_t>(node)] = 1;
+  }
+  double own = 0;
+  for (std::size_t i = 0; i < volume_.size(); ++i) {
+    for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
+      if (storage.can_melt(static_cast<int>(b)))
+        volume_[i] += storage.volume(static_cast<Index>(i), static_cast<int>(b));
+    own += volume_[i];
+  }
+  whole_ = algebra::global_sum(own);
+}
+
+std::vector<Pool> Pools::pools(const Record& record) {
+  std::vector<Pool> pools;
+  const std::vector<double>& values = record.tables[0].values;
+  for (std::size_t i = 0; i < values.size(); i += k_row) pools.push_back(pool_of(values.data() + i));
+  return pools;
+}
+
+Record Pools::initial(const Moment& start) const {
+  Record record{k_name, {make_column(mesh_, "pool", Place::node)}, {{"pools", k_row, {}}}};
+  track(nullptr, start, record);
+  return record;
+}
+
+void Pools::step(const Moment& old, const Moment& next, Record& record) {
+  track(&old, next, record);
+}
+
+void Pools::track(const Moment* old, const Moment& next, Record& record) const {
+  std::vector<double>& number = record.columns[0].values;
+  std::vector<Pool> pools = Pools::pools(record);
+  std::vector<char> inside(mesh_.x.size());
+  for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = next.solid_fraction[i] < options_.limit;
+  const bool melt_left = std::find(inside.begin(), inside.end(), 1) != inside.end();
+  const bool pool_left =
+      std::any_of(pools.begin(), pools.end(), [](const Pool& p) { return p.present() || p.ended; });
+  if (!algebra::any_process(melt_left) && !pool_left) return;
+
+  const Parts parts = connectivity_.parts(inside);
+  std::map<double, MeltPart> own;
+  std::map<std::pair<double, int>, double> overlaps;
+  Melt melt;
+  for (std::size_t i = 0; i < volume_.size(); ++i) {
+    const int pool = static_cast<int>(number[i]);
+    const double fraction = next.solid_fraction[i], temperature = next.heat.temperature[i];
+    const auto in_input = static_cast<double>(mesh_.input_node[i]);
+    if (inside[i] == 0) {
+      if (pool == 0 || old == nullptr) continue;
+      const double before = old->solid_fraction[i];
+      const double at =
+          fraction > before ? std::clamp((options_.limit - before) / (fraction - before), 0.0, 1.0) : 1.0;
+      const double time = old->time + at * (next.time - old->time);
+      melt.last.push_back({pool, time, in_input, temperature, mesh_.x[i]});
+      continue;
+    }
+    MeltPart& part = own[parts.label[i]];
+    part.label = parts.label[i];
+    part.volume += volume_[i];
+    part.solid += volume_[i] * fraction;
+    part.fed = part.fed || feeder_[i] != 0;
+    if (std::tuple(-temperature, fraction, in_input) <
+        std::tuple(-part.temperature, part.fraction, part.number)) {
+      part.temperature = temperature;
+      part.fraction = fraction;
+      part.number = in_input;
+      part.where = mesh_.x[i];
+    }
+    if (pool > 0) overlaps[{parts.label[i], pool}] += volume_[i];
+  }
+  for (auto& [label, part] : own) {
+    part.whole = std::binary_search(parts.whole.begin(), parts.whole.end(), label);
+    melt.parts.push_back(part);
+  }
+  for (const auto& [key, volume] : overlaps) melt.overlaps.push_back({key.first, key.second, volume});
+
+  const Melt all = gathered(melt);
+  const std::vector<int> numbers = follow_pools(pools, all, next.time, whole_, !options_.feeders.empty());
+  std::map<double, int> of_label;
+  for (std::size_t k = 0; k < all.parts.size(); ++k) of_label[all.parts[k].label] = numbers[k];
+  for (std::size_t i = 0; i < number.size(); ++i)
+    number[i] = inside[i] != 0 ? of_label.at(parts.label[i]) : 0;
+  std::vector<double>& rows = record.tables[0].values;
+  rows.clear();
+  for (const Pool& pool : pools) {
+    const std::vector<double> row = row_of(pool);
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+}
+
+std::vector<FieldInfo> Pools::fields() const {
+  return {{"liquid_pool", "1"}, {"pool_volume", "m3"}};
+}
+
+void Pools::fill(const Moment& /*now*/, const Record& record,
+                 std::span<const std::span<double>> values) const {
+  std::map<int, double> volume{{0, 0.0}};
+  for (const Pool& pool : pools(record)) volume[pool.number] = pool.volume;
+  const std::vector<double>& number = record.columns[0].values;
+  std::copy(number.begin(), number.end(), values[0].begin());
+  for (std::size_t i = 0; i < number.size(); ++i) values[1][i] = volume.at(static_cast<int>(number[i]));
+}
+
+std::vector<Finding> Pools::findings(const Record& record) const {
+  std::vector<Pool> closed = pools(record);
+  std::erase_if(closed, [](const Pool& p) { return p.closed_off < 0; });
+  std::vector<Finding> found{{"closed_off_pools", "1", static_cast<double>(closed.size()), false, {}}};
+  std::stable_sort(closed.begin(), closed.end(),
+                   [](const Pool& a, const Pool& b) { return a.largest > b.largest; });
+  for (std::size_t k = 0; k < std::min(closed.size(), k_told); ++k) {
+    const std::string name = "pool_" + std::to_string(closed[k].number);
+    found.push_back({name + "_volume", "m3", closed[k].largest, false, {}});
+    if (closed[k].frozen >= 0)
+      found.push_back({name + "_frozen_at", "s", closed[k].frozen, true, closed[k].where});
+  }
+  return found;
+}
+
+}  // namespace solidus::criteria

@@ -1,0 +1,71 @@
+/// Pools of melt that nothing feeds any more: where a casting freezes last (docs/theory/criteria.md).
+///
+/// Melt is where the solid fraction lies below a limit, beyond which feeding through the mushy zone ends. A
+/// pool is a connected part of it, over the elements of all bodies that can melt. Pools keep their numbers
+/// from step to step: of the parts of a pool that splits the largest keeps the number, every other one that
+/// holds a whole element of melt is a new pool with the old one as its parent; smaller crumbs are none. Where
+/// pools meet (metal melts again) the largest keeps its number. A pool is closed off from the moment it holds
+/// no node of the feeders; without feeders, from the moment it split off.
+#pragma once
+
+#include <vector>
+
+#include "criteria/connectivity.hpp"
+#include "criteria/criterion.hpp"
+#include "heat/nodal_enthalpy.hpp"
+
+namespace solidus::criteria {
+
+struct PoolOptions {
+  double limit = 0.7;                ///< solid fraction, above 0 and at most 1
+  std::vector<std::string> feeders;  ///< groups of the mesh (Mesh::node_sets)
+};
+
+/// A row of the table "pools" of the record.
+struct Pool {
+  int number = 0, parent = 0;  ///< from one; parent zero: there from the start
+  double born = 0;             ///< [s]
+  double closed_off = -1;      ///< since when [s]; −1: it is not
+  double frozen = -1;          ///< when the last node passed the limit [s]; −1: it has not
+  int into = 0;                ///< the pool that it joined, else zero
+  double volume = 0;           ///< that its nodes hold [m³]
+  double largest = 0;          ///< the largest volume it had as a closed-off pool [m³]
+  double solid_fraction = 0;   ///< mean over it
+  double temperature = 0;      ///< of its hottest node [K]; frozen: of the last node
+  mesh::Point where = {};      ///< place of that node [m]
+  bool ended = false;          ///< in the step just taken
+  bool present() const { return frozen < 0 && into == 0; }
+};
+
+class Pools : public Criterion {
+ public:
+  /// Throws InputError for a feeder that is no group of the mesh.
+  Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOptions options = {});
+
+  Record initial(const Moment& start) const override;
+  void step(const Moment& old, const Moment& next, Record& record) override;
+  /// liquid_pool (number, 0: none) and pool_volume [m³].
+  std::vector<FieldInfo> fields() const override;
+  void fill(const Moment& now, const Record& record,
+            std::span<const std::span<double>> values) const override;
+  /// How many pools were closed off, and when and where the largest of them froze.
+  std::vector<Finding> findings(const Record& record) const override;
+
+  static constexpr const char* k_name = "pools";
+  static std::vector<Pool> pools(const Record& record);
+
+ private:
+  /// Brings the record to `next`; `old` is null at the start.
+  void track(const Moment* old, const Moment& next, Record& record) const;
+
+  const mesh::Mesh& mesh_;
+  const heat::NodalEnthalpy& storage_;
+  PoolOptions options_;
+  std::vector<char> feeder_;    ///< [local node]
+  std::vector<double> volume_;  ///< [owned node] of bodies that can melt [m³]
+  double whole_ = 0;            ///< over all processes [m³]
+  algebra::GhostExchange ghosts_;
+  Connectivity connectivity_;
+};
+
+}  // namespace solidus::criteria
