@@ -7,6 +7,7 @@
 #include "contact/pair.hpp"
 #include "coupling/observer.hpp"
 #include "coupling/state.hpp"
+#include "criteria/criteria.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "mechanics/structural_heat.hpp"
@@ -18,8 +19,9 @@ struct Phases {
   mechanics::MechanicalPhase* mechanics = nullptr;  ///< null: heat alone
   mechanics::StructuralHeat* structural = nullptr;  ///< null: deformation does no heat
   std::vector<contact::ContactPair*> contacts;
-  std::vector<double> temperature;            ///< [K], [local node]: of a mechanical phase alone
-  std::optional<double> ambient_temperature;  ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
+  const criteria::Criteria* criteria = nullptr;  ///< what State::criteria holds; null: nothing is followed
+  std::vector<double> temperature;               ///< [K], [local node]: of a mechanical phase alone
+  std::optional<double> ambient_temperature;     ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
 
   /// Heat and deformation exchange energy and Θ_a is known: then 𝓛 is a column.
   bool audits_stability() const { return heat && structural && ambient_temperature; }

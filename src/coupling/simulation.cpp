@@ -101,6 +101,7 @@ void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& fro
     stage_begins_(p.stage, p.stage_start, anew && !begun ? &p.committed : nullptr);
     scheme_->conditions_changed();
   }
+  if (criteria_ != nullptr) criteria_->forget();
   scheme_->synchronise(p.committed);
   scheme_->forget();  // as after a checkpoint of this state
 }

@@ -2,6 +2,9 @@
 
 #include <petscsys.h>
 
+#include <algorithm>
+#include <type_traits>
+
 #include "base/log.hpp"
 #include "results/output_error.hpp"
 
@@ -41,6 +44,25 @@ std::vector<Reading> global_readings(const coupling::Phases& phases, const Recor
   return options.stages ? with_stage(std::move(readings), 0, 0) : readings;
 }
 
+// A probe that samples what a criterion shows.
+bool samples_criteria(const Probe& probe, const std::vector<criteria::FieldInfo>& fields) {
+  return std::visit(
+      [&](const auto& p) {
+        if constexpr (std::is_base_of_v<Sampled, std::decay_t<decltype(p)>>)
+          return std::any_of(fields.begin(), fields.end(), [&](const auto& f) { return f.name == p.field; });
+        else
+          return false;
+      },
+      probe);
+}
+
+bool samples_criteria(const coupling::Phases& phases, const std::vector<Probe>& probes) {
+  if (phases.criteria == nullptr) return false;
+  const std::vector<criteria::FieldInfo> fields = phases.criteria->fields();
+  return std::any_of(probes.begin(), probes.end(),
+                     [&](const Probe& p) { return samples_criteria(p, fields); });
+}
+
 int process() {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
@@ -70,6 +92,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       output_(options_.continue_from ? FieldOutput(folder, mesh, options_.continue_from->state.time)
                                      : FieldOutput(folder, mesh)),
       checkpoints_(folder.root()),
+      criteria_probed_(samples_criteria(phases, options_.probes)),
       began_(MPI_Wtime()) {
   for (const Profile& profile : options_.profiles)
     profiles_.emplace_back(mesh, options_.kind, profile, fields_.bodies());
@@ -87,6 +110,10 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       history_.emplace(folder.history(), columns);
       steps_.emplace(folder.steps(), step_columns(step_table()));
     }
+    if (phases.criteria != nullptr && phases.heat != nullptr && options_.melting)
+      pools_.emplace(folder.pools(), options_.continue_from
+                                         ? std::optional(options_.continue_from->state.time)
+                                         : std::nullopt);
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
 }
@@ -113,7 +140,9 @@ void Recorder::begin(const coupling::State& state) {
     return;
   }
   globals_.start(initial);
+  if (criteria_probed_) fields_.update_criteria(state);
   add_history_row(state.time);
+  add_pools(state);
   write_fields(state);
 }
 
@@ -123,8 +152,10 @@ void Recorder::step(const coupling::StepRecord& record, const coupling::State& s
   stage_ = record.stage_of_case;
   cycle_ = record.cycle;
   fields_.update(state);
+  if (criteria_probed_) fields_.update_criteria(state);
   on_first_process([&] { steps_->add(step_row(record, step_table())); });
   add_history_row(state.time);
+  add_pools(state);
   if (record.output) write_fields(state);
   if (progress_) progress_->step(record);
   seconds_heat_ += record.heat.seconds;
@@ -154,6 +185,7 @@ void Recorder::stopped(const coupling::Stop& stop, const coupling::State& state)
 void Recorder::end(const coupling::State& state) {
   if (progress_) progress_->end("finished");
   write_summary_file("finished", state);
+  if (progress_) *options_.progress << findings_text(options_.summary.criteria);
 }
 
 std::vector<double> Recorder::history_row(double time) {
@@ -169,7 +201,14 @@ void Recorder::add_history_row(double time) {
   on_first_process([&] { history_->add(last_row_); });
 }
 
+void Recorder::add_pools(const coupling::State& state) {
+  on_first_process([&] {
+    if (pools_) pools_->add(state);
+  });
+}
+
 void Recorder::write_fields(const coupling::State& state) {
+  fields_.update_criteria(state);
   output_.write(state.time, fields_.bodies().select(options_.fields), fields_.surfaces());
   for (const ProfileTable& profile : profiles_) profile.write(folder_.root(), fields_.bodies());
 }
@@ -196,6 +235,11 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
   }
   for (const contact::ContactPair* pair : phases_.contacts)
     s.table_bytes.emplace_back("contact " + pair->spec().name, pair->bytes());
+  if (phases_.criteria != nullptr) {
+    s.criteria = phases_.criteria->findings(state.criteria);
+    s.seconds.emplace_back("criteria", phases_.criteria->seconds());
+    s.table_bytes.emplace_back("criteria", phases_.criteria->bytes());
+  }
   s.warnings = logging::warnings();
   on_first_process([&] {
     const auto& columns = history_->columns();

@@ -10,6 +10,7 @@
 #include "coupling/phases.hpp"
 #include "results/checkpoint.hpp"
 #include "results/field_output.hpp"
+#include "results/pool_table.hpp"
 #include "results/probes.hpp"
 #include "results/profile.hpp"
 #include "results/progress.hpp"
@@ -55,6 +56,7 @@ class Recorder : public coupling::Observer {
   std::vector<double> history_row(double time);
   void add_history_row(double time);
   void write_fields(const coupling::State& state);
+  void add_pools(const coupling::State& state);
   void write_summary_file(const std::string& outcome, const coupling::State& state);
 
   const RunFolder& folder_;
@@ -68,7 +70,9 @@ class Recorder : public coupling::Observer {
   GlobalHistory globals_;
   FieldOutput output_;
   CheckpointFolder checkpoints_;
+  bool criteria_probed_ = false;             ///< a probe samples a field of a criterion
   std::optional<CsvTable> history_, steps_;  // on process 0
+  std::optional<PoolTable> pools_;           // on process 0, where pools are followed
   std::optional<Progress> progress_;         // on process 0
   std::vector<double> last_row_;
   int stage_ = 0, cycle_ = 0;  ///< of the last row, as in StepRecord

@@ -14,6 +14,7 @@ std::filesystem::path default_run_folder(const std::filesystem::path& case_file)
 /// case.toml     the case, fully resolved; its first line says that Solidus wrote it
 /// history.csv   probes and globals     steps.csv  every step     summary.json  how it went
 /// fields.pvd    the fields over time   fields/    the field files   checkpoint/  to go on from
+/// pools.csv     pools of melt, where something can freeze
 /// ```
 class RunFolder {
  public:
@@ -27,6 +28,7 @@ class RunFolder {
   const std::filesystem::path& root() const { return root_; }
   std::filesystem::path history() const { return root_ / "history.csv"; }
   std::filesystem::path steps() const { return root_ / "steps.csv"; }
+  std::filesystem::path pools() const { return root_ / "pools.csv"; }
   std::filesystem::path summary() const { return root_ / "summary.json"; }
   std::filesystem::path collection() const { return root_ / "fields.pvd"; }
   std::filesystem::path fields() const { return root_ / "fields"; }

@@ -64,12 +64,15 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
       add("flow_stress", "Pa", 1, Place::cell);
     }
   }
+  const std::size_t n_of_phases = values_.size();
+  add_criteria();
   for (const auto& v : values_) bodies_.add({v->name, v->unit, v->components, v->place, v->values});
   if (phases.contacts.empty()) return;
 
   FieldSet contact;
-  for (const auto& v : values_)
-    if (v->place == Place::node) contact.add({v->name, v->unit, v->components, v->place, v->values});
+  for (std::size_t i = 0; i < n_of_phases; ++i)
+    if (const auto& v = values_[i]; v->place == Place::node)
+      contact.add({v->name, v->unit, v->components, v->place, v->values});
   const auto add_everywhere = [&](const FieldName& field, int components) {
     const std::vector<double>& values = add(field.name, field.unit, components, Place::node);
     values_.back()->of_contact = true;
@@ -94,6 +97,21 @@ std::vector<double>& StateFields::add(std::string name, std::string unit, int co
   by_name_[v->name] = &v->values;
   values_.push_back(std::move(v));
   return values_.back()->values;
+}
+
+void StateFields::add_criteria() {
+  if (phases_.criteria == nullptr) return;
+  for (const criteria::FieldInfo& field : phases_.criteria->fields())
+    add(field.name, field.unit, field.components,
+        field.place == criteria::Place::node ? Place::node : Place::cell);
+}
+
+void StateFields::update_criteria(const coupling::State& state) {
+  if (phases_.criteria == nullptr) return;
+  std::vector<std::span<double>> values;
+  for (const criteria::FieldInfo& field : phases_.criteria->fields())
+    values.emplace_back(*by_name_.at(field.name));
+  phases_.criteria->fill({state.time, state.heat, state.mechanics}, state.criteria, values);
 }
 
 void StateFields::update(const coupling::State& state) {

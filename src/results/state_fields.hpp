@@ -17,7 +17,8 @@ namespace solidus::results {
 /// contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)], and with friction
 /// friction_traction [Pa] on the master, contact_status (0 open, 1 sticks, 2 slips), interface_temperature
 /// [K], and what surfaces remember: slip, wear_depth [m], internal_variable ζ_c [N/m] (of work; slip is
-/// `slip`), friction_coefficient, friction_dissipation [J/m²]. Those exist that the analysis has.
+/// `slip`), friction_coefficient, friction_dissipation [J/m²]; and what the criteria of the run show
+/// (criteria/criterion.hpp). Those exist that the analysis has.
 class StateFields {
  public:
   StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases);
@@ -25,6 +26,8 @@ class StateFields {
   /// Takes the values of a state that the phases have just reached (stresses and gaps are those of their last
   /// solve). Collective.
   void update(const coupling::State& state);
+  /// The same for what criteria show, which costs more and is asked for less often. Collective.
+  void update_criteria(const coupling::State& state);
 
   /// Fields of the bodies, and of each contact surface by its name. Views that hold until this object goes.
   const FieldSet& bodies() const { return bodies_; }
@@ -39,6 +42,7 @@ class StateFields {
     bool of_contact;
   };
   std::vector<double>& add(std::string name, std::string unit, int components, Place place);
+  void add_criteria();
   void update_elements();
   void update_contacts(std::span<const double> temperature);
   /// @param closest  of each node of the fields: it shows this pair

@@ -19,6 +19,17 @@ Json object(const std::vector<std::pair<std::string, T>>& members) {
   return json;
 }
 
+// Values by their names; places [m] beside those that have one.
+Json findings(const std::vector<criteria::Finding>& found) {
+  Json json;
+  for (const criteria::Finding& f : found) {
+    const std::string name = f.name + (f.unit == "1" ? "" : "[" + f.unit + "]");
+    json.add(name, f.value);
+    if (f.somewhere) json.add(f.name + "_at[m]", Json::Array(f.where.begin(), f.where.end()));
+  }
+  return json;
+}
+
 GlobalIndex sum(Index counted) {
   return static_cast<GlobalIndex>(algebra::global_sum(counted));
 }
@@ -78,6 +89,7 @@ std::string summary_json(const Summary& s) {
       .add("tables[bytes]", object(s.table_bytes))
       .add("relative_energy_defect", s.relative_energy_defect)
       .add("final", object(s.final_values))
+      .add("criteria", findings(s.criteria))
       .add("warnings", std::move(warnings));
   return json.text();
 }

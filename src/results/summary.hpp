@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "criteria/criterion.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
@@ -42,6 +43,7 @@ struct Summary {
   std::vector<std::pair<std::string, std::size_t>> table_bytes;  ///< of process 0
   double relative_energy_defect = 0;
   std::vector<std::pair<std::string, double>> final_values;
+  std::vector<criteria::Finding> criteria;
   std::vector<std::string> warnings;
 };
 
