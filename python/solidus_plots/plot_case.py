@@ -5,81 +5,22 @@ Every case gets one picture per unit of history.csv and one of its steps. What e
 """
 
 import argparse
+from concurrent.futures import ProcessPoolExecutor
 import json
+import os
 from pathlib import Path
 import sys
-import tomllib
 
 from solidus_plots import curves, graphs, maps, point, sections, style, surfaces
 from solidus_plots.history import read_table
 from solidus_plots.moments import Moments
+from solidus_plots.plots_file import find_spec, read_spec, star
 from solidus_plots.probes import read_points
 from solidus_plots.vtu import ResultError, read_collection
 
-# What plots.toml may say; anything else is a typo.
-FIELD_KEYS = {"quantity", "field", "component", "unit", "contours", "levels", "bands", "colours", "range",
-              "above", "smooth"}
-SHEET_KEYS = {"file", "only", "title", "times", "columns", "bodies", "magnification", "probes"}
-KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
-                   "compare"},
-        "graphs": {"file", "only", "title", "table", "x", "x_quantity", "part", "quantity", "lines", "each",
-                   "values", "keep", "from_zero"},
-        "maps": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "mirror",
-                 "magnification", "bodies", "contours", "range"},
-        "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"},
-        "sections": FIELD_KEYS | SHEET_KEYS | {"planes", "mesh"},
-        "surfaces": FIELD_KEYS | SHEET_KEYS | {"plain", "ghost", "clip", "clip_bodies", "view", "up", "edges",
-                                               "dimensions"}}
-REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps": ("file", "field"),
-            "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}
-# Keys of a picture that change nothing without another one.
-NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(FIELD_KEYS - {"field"}, "field")}}
 # Pictures of fields and what draws them.
 FIELD_PICTURES = {"maps": maps.field_maps, "deformed": maps.deformed_mesh, "sections": sections.draw,
                   "surfaces": surfaces.draw}
-
-
-def find_spec(results, summary):
-    """plots.toml beside the case file the run was made of, else cases/CASE/plots.toml of this repository."""
-    repository = Path(__file__).resolve().parents[2]
-    case_file = Path(summary.get("case", ""))
-    places = [case_file.parent, repository / case_file.parent] if case_file.name else []
-    places.append(repository / "cases" / results.resolve().parent.name)
-    return next((place / "plots.toml" for place in places if (place / "plots.toml").exists()), None)
-
-
-def read_spec(path):
-    try:
-        spec = tomllib.loads(path.read_text())
-    except tomllib.TOMLDecodeError as error:
-        raise ResultError(f"{path}: {error}") from error
-    for section, pictures in spec.items():
-        if section not in KEYS:
-            raise ResultError(f"{path}: unknown section '{section}'; there are {', '.join(KEYS)}")
-        for picture in pictures:
-            unknown = set(picture) - KEYS[section]
-            if unknown:
-                raise ResultError(f"{path}: unknown key '{unknown.pop()}' in [[{section}]]; there are "
-                                  f"{', '.join(sorted(KEYS[section]))}")
-            for key in REQUIRED[section]:
-                if key not in picture:
-                    raise ResultError(f"{path}: a [[{section}]] lacks its '{key}'")
-            for key, needed in NEEDS.get(section, {}).items():
-                if key in picture and needed not in picture:
-                    raise ResultError(f"{path}: [[{section}]] '{picture['file']}': '{key}' needs '{needed}'")
-    return spec
-
-
-def star(patterns, variant):
-    """What '*' stands for in the first pattern that fits a variant's name ('' where it has no '*'); None where
-    none fits."""
-    for pattern in patterns:
-        head, wild, tail = pattern.partition("*")
-        if pattern == variant:
-            return ""
-        if wild and len(variant) >= len(head + tail) and variant.startswith(head) and variant.endswith(tail):
-            return variant[len(head):len(variant) - len(tail)]
-    return None
 
 
 def histories(compare, part, results):
@@ -126,15 +67,34 @@ def draw(results, spec_file=None):
         attempt(curves.chosen, picture, history, histories(picture.get("compare", []), part, results))
     for picture in spec.get("graphs", []):
         attempt(graphs.draw, picture, results)
-    if any(spec.get(kind) for kind in FIELD_PICTURES):
-        times, files_of = read_collection(results / "fields.pvd")
-        run = Moments(times, files_of, list(summary.get("mesh", {}).get("bodies", {})),
+    tasks = [(kind, picture) for kind in FIELD_PICTURES for picture in spec.get(kind, [])]
+    if tasks:
+        times, moments = read_collection(results / "fields.pvd")
+        run = Moments(times, moments, list(summary.get("mesh", {}).get("bodies", {})),
                       read_points(results / "case.toml"))
-        for kind, work in FIELD_PICTURES.items():
-            for picture in spec.get(kind, []):
-                attempt(work, picture, run)
-        problems += list(dict.fromkeys(run.missing))
+        with ProcessPoolExecutor(min(len(tasks), len(os.sched_getaffinity(0))), initializer=_begin,
+                                 initargs=(run, folder)) as pool:
+            for drawn, missing in pool.map(_draw_field, tasks):
+                files += drawn
+                problems += [problem for problem in missing if problem not in problems]
     return files, problems
+
+
+def _begin(run, folder):
+    """A process that draws pictures of fields keeps the moments that it has read."""
+    global _run, _folder
+    _run, _folder = run, folder
+    style.setup()
+
+
+def _draw_field(task):
+    """The files of one picture, and why it is not drawn or lacks moments."""
+    kind, picture = task
+    _run.missing.clear()
+    try:
+        return FIELD_PICTURES[kind](picture, _run, _folder), list(_run.missing)
+    except (ResultError, ValueError) as error:
+        return [], [*_run.missing, str(error)]
 
 
 def main(arguments=None):

@@ -11,7 +11,7 @@ from blocks import box
 from solidus_plots import sections, style, surfaces
 from solidus_plots.cells import HEX, TET
 from solidus_plots.moments import Moments
-from solidus_plots.plot_case import read_spec
+from solidus_plots.plots_file import read_spec
 from solidus_plots.vtu import ResultError
 
 SIZE = [0.06, 0.04, 0.03]

@@ -1,0 +1,68 @@
+"""plots.toml, the file beside a case that says what is drawn of it (docs/guide/plots.md)."""
+
+from pathlib import Path
+import tomllib
+
+from solidus_plots.vtu import ResultError
+
+# What plots.toml may say; anything else is a typo.
+FIELD_KEYS = {"quantity", "field", "component", "unit", "contours", "levels", "bands", "colours", "range",
+              "above", "smooth"}
+SHEET_KEYS = {"file", "only", "title", "times", "columns", "bodies", "magnification", "probes"}
+KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
+                   "compare"},
+        "graphs": {"file", "only", "title", "table", "x", "x_quantity", "part", "quantity", "lines", "each",
+                   "values", "keep", "from_zero"},
+        "maps": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "mirror",
+                 "magnification", "bodies", "contours", "range"},
+        "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"},
+        "sections": FIELD_KEYS | SHEET_KEYS | {"planes", "mesh"},
+        "surfaces": FIELD_KEYS | SHEET_KEYS | {"plain", "ghost", "clip", "clip_bodies", "view", "up", "edges",
+                                               "dimensions"}}
+REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps": ("file", "field"),
+            "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}
+# Keys of a picture that change nothing without another one.
+NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(FIELD_KEYS - {"field"}, "field")}}
+
+
+def find_spec(results, summary):
+    """plots.toml beside the case file the run was made of, else cases/CASE/plots.toml of this repository."""
+    repository = Path(__file__).resolve().parents[2]
+    case_file = Path(summary.get("case", ""))
+    places = [case_file.parent, repository / case_file.parent] if case_file.name else []
+    places.append(repository / "cases" / results.resolve().parent.name)
+    return next((place / "plots.toml" for place in places if (place / "plots.toml").exists()), None)
+
+
+def read_spec(path):
+    try:
+        spec = tomllib.loads(path.read_text())
+    except tomllib.TOMLDecodeError as error:
+        raise ResultError(f"{path}: {error}") from error
+    for section, pictures in spec.items():
+        if section not in KEYS:
+            raise ResultError(f"{path}: unknown section '{section}'; there are {', '.join(KEYS)}")
+        for picture in pictures:
+            unknown = set(picture) - KEYS[section]
+            if unknown:
+                raise ResultError(f"{path}: unknown key '{unknown.pop()}' in [[{section}]]; there are "
+                                  f"{', '.join(sorted(KEYS[section]))}")
+            for key in REQUIRED[section]:
+                if key not in picture:
+                    raise ResultError(f"{path}: a [[{section}]] lacks its '{key}'")
+            for key, needed in NEEDS.get(section, {}).items():
+                if key in picture and needed not in picture:
+                    raise ResultError(f"{path}: [[{section}]] '{picture['file']}': '{key}' needs '{needed}'")
+    return spec
+
+
+def star(patterns, variant):
+    """What '*' stands for in the first pattern that fits a variant's name ('' where it has no '*'); None where
+    none fits."""
+    for pattern in patterns:
+        head, wild, tail = pattern.partition("*")
+        if pattern == variant:
+            return ""
+        if wild and len(variant) >= len(head + tail) and variant.startswith(head) and variant.endswith(tail):
+            return variant[len(head):len(variant) - len(tail)]
+    return None

@@ -1,0 +1,60 @@
+"""All pictures of a results folder, as ./dev run and ./dev plot draw them."""
+
+import json
+from pathlib import Path
+import tempfile
+import unittest
+
+from field_files import write
+from solidus_plots.plot_case import draw
+
+
+class Folders(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        write(self.folder / "a.vtu", [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]],
+              [1, 2, 3, 4], [300.0, 310, 320, 330])
+        (self.folder / "fields.pvd").write_text(
+            '<VTKFile><Collection><DataSet timestep="12.5" part="0" file="a.vtu"/></Collection></VTKFile>')
+        (self.folder / "history.csv").write_text("time[s],T_a[degC]\n0,20\n12.5,30\n")
+        (self.folder / "summary.json").write_text(json.dumps({"variant": "default", "mesh": {"bodies": {"part": 2}}}))
+
+    def drawn(self, plots):
+        file = self.folder / "plots.toml"
+        file.write_text(plots)
+        files, problems = draw(self.folder, file)
+        self.assertTrue(all(path.exists() for path in files))
+        return {path.name for path in files}, problems
+
+    def test_pictures_that_can_be_drawn_are_drawn_and_the_others_named(self):
+        names, problems = self.drawn('''
+            [[maps]]
+            file = "map"
+            field = "temperature"
+            times = [12.5, 20]
+            [[sections]]
+            file = "section"
+            field = "temperature"
+            planes = [{ z = 1 }]
+            [[curves]]
+            file = "curve"
+            lines = [{ column = "T_b[degC]" }]''')
+        self.assertLessEqual({"map.png", "history_degC.png"}, names)
+        self.assertNotIn("section.png", names)
+        for text in ("no fields were written at 20 s", "does not meet the bodies", "T_b[degC]"):
+            self.assertTrue(any(text in problem for problem in problems), (text, problems))
+
+    def test_pictures_of_other_variants_are_left_out(self):
+        names, problems = self.drawn('''
+            [[maps]]
+            file = "map"
+            only = ["fine"]
+            field = "temperature"''')
+        self.assertNotIn("map.png", names)
+        self.assertEqual(problems, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
