@@ -71,6 +71,7 @@ const Section<CaseSpec>& case_keys() {
     s.section("coupling", &CaseSpec::coupling, coupling_keys());
     s.sections("probe", &CaseSpec::probes, probe_keys());
     s.sections("profile", &CaseSpec::profiles, profile_keys());
+    s.section("criteria", &CaseSpec::criteria, criteria_keys());
     s.section("output", &CaseSpec::output, output_keys());
     return s;
   }();

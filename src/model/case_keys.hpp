@@ -26,6 +26,7 @@ Section<DynamicsSpec> dynamics_keys();
 Section<CouplingSpec> coupling_keys();
 Section<ProbeSpec> probe_keys();
 Section<ProfileSpec> profile_keys();
+Section<CriteriaSpec> criteria_keys();
 Section<OutputSpec> output_keys();
 
 }  // namespace solidus::model

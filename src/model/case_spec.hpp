@@ -109,9 +109,9 @@ enum class Clock { run, stage };
 
 struct BodySpec {
   std::string name;
-  std::optional<std::string> group;      ///< of the mesh; absent: as `name`
-  std::string material;                  ///< name in the library, or a file
-  double initial_temperature = 0;        ///< [K]
+  std::optional<std::string> group;  ///< of the mesh; absent: as `name`
+  std::string material;              ///< name in the library, or a file
+  double initial_temperature = 0;    ///< [K]
   enum class Physics { all, heat };
   Physics physics = Physics::all;
   std::vector<std::string> stages;       ///< in which it is there; empty: all
@@ -280,6 +280,14 @@ struct OutputSpec {
   bool stage_ends = true;  ///< outputs at the end of every stage
 };
 
+/// What is read off a casting that freezes (model/criteria_input.hpp).
+struct CriteriaSpec {
+  bool follow = true;
+  double evaluation = 0.1, feeding_limit = 0.7;
+  std::vector<std::string> feeders;  ///< groups of the mesh
+  SourceLocation where;
+};
+
 struct CaseSpec {
   std::string title;
   std::vector<std::string> include;  ///< resolved by load_case: empty afterwards
@@ -299,6 +307,7 @@ struct CaseSpec {
   CouplingSpec coupling;
   std::vector<ProbeSpec> probes;
   std::vector<ProfileSpec> profiles;
+  CriteriaSpec criteria;
   OutputSpec output;
 
   /// Null where none has this name.

@@ -35,7 +35,22 @@ constexpr FieldInfo k_fields[] = {{"temperature", "K"},
                                   {"friction_coefficient", "1", k_scalar, true},
                                   {"friction_dissipation", "J/m2", k_scalar, true},
                                   {"wear_depth", "m", k_scalar, true},
-                                  {"interface_temperature", "K", k_scalar, true}};
+                                  {"interface_temperature", "K", k_scalar, true},
+                                  {"solidified_at", "s"},
+                                  {"local_solidification_time", "s"},
+                                  {"cooling_rate", "K/s"},
+                                  {"thermal_gradient", "K/m"},
+                                  {"front_speed", "m/s"},
+                                  {"secondary_arm_spacing", "m"},
+                                  {"niyama", "1"},
+                                  {"dimensionless_niyama", "1"},
+                                  {"shrinkage_porosity", "1"},
+                                  {"liquid_pool", "1"},
+                                  {"pool_volume", "m3"},
+                                  {"strain_in_liquid", "1"},
+                                  {"strain_since_coherency", "1"},
+                                  {"brittle_strain", "1"},
+                                  {"distortion", "m", k_vector}};
 
 }  // namespace
 

@@ -1,0 +1,18 @@
+/// From the case to the criteria of a run.
+#pragma once
+
+#include <memory>
+
+#include "coupling/phases.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+/// What is followed of this case; null: nothing, because nothing can freeze or the case says so. Collective.
+/// @param phases     without criteria yet; it, mesh and materials outlive the criteria
+/// Throws InputError for a feeder that is no group of the mesh.
+std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
+                                                  const std::vector<material::Material>& materials,
+                                                  const coupling::Phases& phases);
+
+}  // namespace solidus::model
