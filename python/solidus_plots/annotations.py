@@ -51,7 +51,7 @@ def _dimension(axes, ends, offset, text):
 
 
 def mark(axes, places, labels):
-    """Points [point][2] with what they are called beside them, where it covers other points and labels least."""
+    """Points [point][2] with their names beside them, where these cover other points and names least."""
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     point = (right - left) / (72 * axes.figure.get_size_inches()[0] * axes.get_position().width)
     axes.plot(*np.transpose(places), "o", markersize=4.5, color="white", markeredgecolor="black", zorder=8,
@@ -65,8 +65,9 @@ def mark(axes, places, labels):
         box = min(boxes, key=lambda box: sum(_overlap(box, other) for other in taken)
                   + 10 * (width * height - _overlap(box, (left, bottom, right, top))))
         taken.append(box)
-        axes.annotate(label, (x, y), (0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])), fontsize=7, ha="center",
-                      va="center", zorder=9, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+        middle = (0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3]))
+        axes.annotate(label, (x, y), middle, fontsize=7, ha="center", va="center", zorder=9,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
                       arrowprops={"arrowstyle": "-", "lw": 0.5, "shrinkA": 0, "shrinkB": 2})
 
 

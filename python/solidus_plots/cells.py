@@ -58,7 +58,7 @@ class Refined:
         return np.arange(self.count - len(parents), self.count)
 
     def add_face_middles(self, rings):
-        """Nodes in the middle of faces with four corners, of their rings [face][4 or 8]; neighbours share them."""
+        """Nodes in the middle of faces, of their rings [face][4 or 8]; both cells of a face share its node."""
         corners = rings if rings.shape[1] == 4 else rings[:, ::2]
         _, first, index = np.unique(_face_keys(corners), return_index=True, return_inverse=True)
         weights = np.full(4, 0.25) if rings.shape[1] == 4 else np.tile([-0.25, 0.5], 4)
@@ -105,8 +105,7 @@ def _volume_cells(grid, cells):
 
 
 def _fans(refined, vtk_type, nodes):
-    """Tetrahedra between the middle of a hexahedron, the middle of a face and an edge (half an edge) of the face.
-    """
+    """Tetrahedra between the middle of hexahedra, that of a face and an edge (quadratic: half) of the face."""
     centre = refined.add(nodes, np.full(8, 0.125) if vtk_type == HEX else np.repeat([-0.25, 0.25], [8, 12]))
     rings = nodes[:, RINGS[vtk_type]]  # [cell][face][node]
     middles = refined.add_face_middles(rings.reshape(-1, rings.shape[2])).reshape(rings.shape[:2])

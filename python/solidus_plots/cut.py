@@ -94,8 +94,8 @@ def cut(grid, cells, plane):
 
 
 def cut_where(grid, cells, level):
-    """Cuts the volume cells of a mask where values at the nodes pass zero. Triangles are counter-clockwise seen from
-    where the values are positive."""
+    """Cuts the volume cells of a mask where values at the nodes pass zero. Triangles are counter-clockwise seen
+    from where the values are positive."""
     owner = np.repeat(np.arange(len(grid.cell_types)), np.diff(grid.offsets, prepend=0))
     above = (level >= 0.0)[grid.connectivity]
     count = np.bincount(owner, weights=above, minlength=len(cells))

@@ -43,7 +43,8 @@ class Moments:
         """Names and points [point][3] m of the probes that a picture asks for; * is any text."""
         for pattern in patterns:
             if not fnmatch.filter(self._probes, pattern):
-                raise ResultError(f"plots.toml: no probe '{pattern}' at a point; there are {', '.join(self._probes)}")
+                raise ResultError(f"plots.toml: no probe '{pattern}' at a point; there are "
+                                  f"{', '.join(self._probes)}")
         names = [name for name in self._probes if any(fnmatch.fnmatch(name, pattern) for pattern in patterns)]
         return names, np.array([self._probes[name] for name in names]).reshape(-1, 3)
 

@@ -33,10 +33,11 @@ class Paint:
         self.low, self.high = spec.get("range", (low, high))
         if not self.high > self.low:
             self.high = self.low + 1.0
-        name = spec.get("colours") or style.colour_map(spec["field"], spec.get("component"), self.low, self.high)
+        usual = style.colour_map(spec["field"], spec.get("component"), self.low, self.high)
+        name = spec.get("colours", usual)
         if name not in plt.colormaps():
-            raise ResultError(f"plots.toml: no colours '{name}'; any of matplotlib's: viridis, inferno, RdBu_r, "
-                              "... (_r turns them round)")
+            raise ResultError(f"plots.toml: no colours '{name}'; any of matplotlib's: viridis, inferno, "
+                              "RdBu_r, ... (_r turns them round)")
         norm, colours = Normalize(self.low, self.high), plt.get_cmap(name)
         if name in ("inferno", "magma"):  # without the black in which edges vanish
             colours = ListedColormap(colours(np.linspace(0.16, 1.0, 256)))

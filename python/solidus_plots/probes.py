@@ -21,5 +21,6 @@ def read_points(case_file):
 def _length(text, name):
     number, _, unit = text.partition(" ")
     if unit not in LENGTHS:
-        raise ResultError(f"case.toml: probe '{name}': the plots know lengths in {', '.join(LENGTHS)}, not '{unit}'")
+        raise ResultError(f"case.toml: probe '{name}': the plots know lengths in {', '.join(LENGTHS)}, "
+                          f"not '{unit}'")
     return float(number) * LENGTHS[unit]

@@ -66,8 +66,8 @@ class Surface:
 
 
 def outer(grid, cells, points, field, level=None):
-    """The surface of the bodies of a mask, up to where a level at the nodes is zero. `points`: where the nodes are
-    now [m]; `field`: "point_data" or "cell_data" and values."""
+    """The surface of the bodies of a mask, up to where a level at the nodes is zero. `points`: where the nodes
+    are now [m]; `field`: "point_data" or "cell_data" and values."""
     body = grid.cell_data["body"]
     faces = boundary(grid, cells, body)
     place = faces.refined.extend(points)

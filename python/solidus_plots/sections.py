@@ -109,8 +109,8 @@ def _mark_probes(axes, plane, run, spec):
 
 
 def _rows(spec, frames, n_moments):
-    """[row][column] (plane, moment) or None: planes across or down, whichever looks better; panels of one plane,
-    or of one moment, are wrapped."""
+    """[row][column] (plane, moment) or None: planes across or down, whichever looks better; panels of one
+    plane, or of one moment, are wrapped."""
     entries = [[(p, m) for m in range(n_moments)] for p in range(len(frames))]
     size = np.max([high - low for low, high in frames], axis=0)
     if len(frames) == 1 or n_moments == 1:

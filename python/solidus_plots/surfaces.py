@@ -24,13 +24,15 @@ def _points(grid, spec):
 
 
 def _clipped(grid, cells, points, field, clip, eye):
-    """The bodies of a mask without what lies on the eye's side of a plane, or where a field is above a value."""
+    """Bodies without what lies on the eye's side of a plane, or where a field is above a value."""
     if "field" in clip:
         if set(clip) - {"unit"} != {"field", "above"}:
-            raise ResultError(f"plots.toml: {clip} is no clip; write {{ field = \"solid_fraction\", above = 0.9 }}")
+            raise ResultError(f"plots.toml: {clip} is no clip; write "
+                              '{ field = "solid_fraction", above = 0.9 }')
         kind, values = moments.values(grid, {"field": clip["field"], "unit": clip.get("unit", "")})
         if kind != "point_data":
-            raise ResultError(f"plots.toml: clip: '{clip['field']}' is a field of elements; it must be one of nodes")
+            raise ResultError(f"plots.toml: clip: '{clip['field']}' is a field of elements; it must be one of "
+                              "nodes")
         level = values - clip["above"]
         part, normal = cut_where(grid, cells, level), None
     else:

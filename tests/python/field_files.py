@@ -22,7 +22,7 @@ class Writer:
         packed = [zlib.compress(block) for block in blocks]
         head = struct.pack("<3Q", len(blocks), self.BLOCK, len(raw) % self.BLOCK)
         components = values.shape[1] if values.ndim > 1 else 1
-        label = f'<InformationKey name="UNITS_LABEL" location="vtkDataArray">{unit}</InformationKey>' if unit else ""
+        label = unit and f'<InformationKey name="UNITS_LABEL" location="vtkDataArray">{unit}</InformationKey>'
         element = (f'<DataArray type="{TYPES[values.dtype.str[1:]]}" Name="{name}" format="appended" '
                    f'NumberOfComponents="{components}" offset="{len(self.data)}">{label}</DataArray>')
         self.data += head + struct.pack(f"<{len(packed)}Q", *map(len, packed)) + b"".join(packed)

@@ -123,7 +123,8 @@ class Drawn(unittest.TestCase):
         self.assertGreater((np.ptp(coloured, axis=2) > 0.4).mean(), 0.05)
         self.pixels(surfaces.draw, {"field": "temperature", "ghost": ["part", "sand"], "bodies": ["sand"],
                                     "clip": {"field": "temperature", "above": 400}, "times": [0, "last"]}, TET)
-        grey = self.pixels(surfaces.draw, {"edges": "mesh", "dimensions": True, "probes": ["T_2"], "up": "y", "view": [20, 30]})
+        grey = self.pixels(surfaces.draw, {"edges": "mesh", "dimensions": True, "probes": ["T_2"],
+                                           "up": "y", "view": [20, 30]})
         self.assertLess((np.ptp(grey, axis=2) > 0.4).mean(), 0.001)
 
 

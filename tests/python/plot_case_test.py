@@ -19,7 +19,8 @@ class Folders(unittest.TestCase):
         (self.folder / "fields.pvd").write_text(
             '<VTKFile><Collection><DataSet timestep="12.5" part="0" file="a.vtu"/></Collection></VTKFile>')
         (self.folder / "history.csv").write_text("time[s],T_a[degC]\n0,20\n12.5,30\n")
-        (self.folder / "summary.json").write_text(json.dumps({"variant": "default", "mesh": {"bodies": {"part": 2}}}))
+        summary = {"variant": "default", "mesh": {"bodies": {"part": 2}}}
+        (self.folder / "summary.json").write_text(json.dumps(summary))
 
     def drawn(self, plots):
         file = self.folder / "plots.toml"
