@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <unordered_set>
 
 #include "mesh/faces.hpp"
 
@@ -132,7 +133,9 @@ void face_centre_and_normal(const RawMesh& mesh, const std::vector<Index>& face,
 // Faces that only one element of the grid has.
 void add_boundary(RawMesh& mesh, const Grid& grid, const std::vector<Index>& elements) {
   const int nn = node_count(grid.shape), n_vertices = vertex_count(face_shape(grid.shape));
-  std::unordered_map<FaceKey, int, FaceKeyHash> seen;
+  // A second element takes the face out again: what stays is the boundary, and the set stays small on the
+  // way.
+  std::unordered_set<FaceKey, FaceKeyHash> alone;
   std::vector<Index> face;
   const auto collect = [&](std::size_t e, int f) {
     face.clear();
@@ -141,13 +144,14 @@ void add_boundary(RawMesh& mesh, const Grid& grid, const std::vector<Index>& ele
   for (std::size_t e = 0; e < elements.size(); e += static_cast<std::size_t>(nn))
     for (int f = 0; f < face_count(grid.shape); ++f) {
       collect(e, f);
-      ++seen[face_key(face.data(), n_vertices)];
+      const auto [place, first] = alone.insert(face_key(face.data(), n_vertices));
+      if (!first) alone.erase(place);
     }
   GlobalIndex number = count_elements(mesh);
   for (std::size_t e = 0; e < elements.size(); e += static_cast<std::size_t>(nn))
     for (int f = 0; f < face_count(grid.shape); ++f) {
       collect(e, f);
-      if (seen[face_key(face.data(), n_vertices)] != 1) continue;
+      if (!alone.contains(face_key(face.data(), n_vertices))) continue;
       Point centre, normal;
       face_centre_and_normal(mesh, face, n_vertices, centre, normal);
       const std::string name = grid.surface(centre, normal);

@@ -1,4 +1,5 @@
-/// Tables of a checkpoint, collected from all processes by process 0 and handed out to all.
+/// Tables of a checkpoint: every process writes its rows into one file and reads those it needs, so that none
+/// holds more than its share.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +15,13 @@
 
 namespace solidus::results {
 
-/// All calls are collective. A failure of process 0 is kept, so that no process waits for another, and thrown
-/// by finish().
+/// All calls are collective. A failure is kept, so that no process waits for another, and thrown by finish().
 class TableWriter {
  public:
   explicit TableWriter(std::filesystem::path path);
   ~TableWriter();
-  void text(const std::string& name, const std::string& text);          ///< of process 0
-  void numbers(const std::string& name, const std::vector<double>& n);  ///< of process 0
+  void text(const std::string& name, const std::string& of_first);      ///< of process 0
+  void numbers(const std::string& name, const std::vector<double>& n);  ///< of process 0; as many on all
   /// The rows of all processes, in their order. `width` may differ where a process has no row.
   template <class T>
   void rows(const std::string& name, int width, std::span<const T> own);
@@ -33,12 +33,14 @@ class TableWriter {
   void attempt(const std::function<void()>& work);
 
   std::filesystem::path path_;
-  int rank_ = 0, size_ = 1;
-  std::optional<Hdf5File> file_;  ///< on process 0
+  int rank_ = 0;
+  bool finished_ = false;
+  std::optional<Hdf5File> file_;
   std::exception_ptr error_;
 };
 
-/// All calls are collective and throw on every process alike.
+/// Every process reads by itself, a number of rows at a time. All calls are collective and throw on every
+/// process.
 class TableReader {
  public:
   explicit TableReader(std::filesystem::path path);
@@ -52,8 +54,7 @@ class TableReader {
 
  private:
   std::filesystem::path path_;
-  int rank_ = 0;
-  std::optional<Hdf5File> file_;  ///< on process 0
+  std::optional<Hdf5File> file_;
 };
 
 }  // namespace solidus::results

@@ -21,11 +21,19 @@ hid_t number_type() {
     return H5T_NATIVE_INT64;
 }
 
-hid_t open_file(const std::filesystem::path& path, Hdf5File::Mode mode) {
+bool several(MPI_Comm writers) {
+  int size = 1;
+  MPI_Comm_size(writers, &size);
+  return size > 1;
+}
+
+hid_t open_file(const std::filesystem::path& path, Hdf5File::Mode mode, MPI_Comm writers) {
   // Failures are ours to report; HDF5 would print its own account.
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  return mode == Hdf5File::Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
-                                        : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (mode == Hdf5File::Mode::read) return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (several(writers)) H5Pset_fapl_mpio(access, writers, MPI_INFO_NULL);
+  return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
 }
 
 Hdf5Handle make_groups() {
@@ -62,8 +70,11 @@ bool Hdf5Handle::close() {
   return close_(std::exchange(id_, -1)) >= 0;
 }
 
-Hdf5File::Hdf5File(std::filesystem::path path, Mode mode)
-    : path_(std::move(path)), mode_(mode), file_(open_file(path_, mode), H5Fclose) {
+Hdf5File::Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm writers)
+    : path_(std::move(path)), mode_(mode), file_(open_file(path_, mode, writers), H5Fclose) {
+  int rank = 0;
+  MPI_Comm_rank(writers, &rank);
+  first_ = rank == 0;
   if (file_ < 0) fail(mode == Mode::create ? "cannot be written" : "is not a whole HDF5 file");
 }
 
@@ -83,7 +94,7 @@ void Hdf5File::write_text(const std::string& name, const std::string& text) {
   H5Tset_size(type, text.size() + 1);
   const Hdf5Handle set(H5Dcreate2(file_, name.c_str(), type, space, groups, H5P_DEFAULT, H5P_DEFAULT),
                        H5Dclose);
-  if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0)
+  if (set < 0 || (first_ && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0))
     fail("cannot write '" + name + "'");
 }
 
@@ -100,8 +111,11 @@ template <class T>
 void Hdf5File::create_table(const std::string& name, std::int64_t rows, std::int64_t width) {
   const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows), static_cast<hsize_t>(width)};
   const Hdf5Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose), groups = make_groups();
-  const Hdf5Handle set(
-      H5Dcreate2(file_, name.c_str(), number_type<T>(), space, groups, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  // Every row is written: several writers would fill the table with zeros first.
+  const Hdf5Handle values(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_fill_time(values, H5D_FILL_TIME_NEVER);
+  const Hdf5Handle set(H5Dcreate2(file_, name.c_str(), number_type<T>(), space, groups, values, H5P_DEFAULT),
+                       H5Dclose);
   if (set < 0) fail("cannot write '" + name + "'");
 }
 

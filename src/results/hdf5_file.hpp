@@ -1,8 +1,9 @@
-/// The few things of HDF5 that a checkpoint needs: tables of numbers and texts in one file, used by one
-/// process.
+/// The few things of HDF5 that a checkpoint needs: tables of numbers and texts in one file, read by one
+/// process, written by one or by all together.
 #pragma once
 
 #include <hdf5.h>
+#include <mpi.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -37,12 +38,15 @@ class Hdf5Handle {
 class Hdf5File {
  public:
   enum class Mode { create, read };
-  Hdf5File(std::filesystem::path path, Mode mode);
+  /// @param writers  who creates the file together: then all of them call everything but write_rows() alike,
+  /// and
+  ///                 each writes rows of its own
+  Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm writers = MPI_COMM_SELF);
 
   void write_text(const std::string& name, const std::string& text);
   std::string read_text(const std::string& name) const;
 
-  /// A table of `rows` × `width` numbers, without values yet.
+  /// A table of `rows` × `width` numbers, whose values are undefined until they are written.
   template <class T>
   void create_table(const std::string& name, std::int64_t rows, std::int64_t width);
   /// Rows from `first` on; the span holds whole rows.
@@ -62,6 +66,7 @@ class Hdf5File {
 
   std::filesystem::path path_;
   Mode mode_;
+  bool first_ = true;  ///< among the writers
   Hdf5Handle file_;
 };
 

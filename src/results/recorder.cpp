@@ -235,6 +235,7 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
   }
   for (const contact::ContactPair* pair : phases_.contacts)
     s.table_bytes.emplace_back("contact " + pair->spec().name, pair->bytes());
+  s.balance = balance(mesh_, s.seconds);
   if (phases_.criteria != nullptr) {
     s.criteria = phases_.criteria->findings(state.criteria);
     s.seconds.emplace_back("criteria", phases_.criteria->seconds());

@@ -1,5 +1,6 @@
 #include "results/summary.hpp"
 
+#include <petscsys.h>
 #include <sys/resource.h>
 
 #include <array>
@@ -62,7 +63,9 @@ PeakMemory peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const double bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in kilobytes
-  return {algebra::global_max(bytes), algebra::global_sum(bytes)};
+  double first = bytes;
+  MPI_Bcast(&first, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+  return {algebra::global_max(bytes), first, algebra::global_sum(bytes)};
 }
 
 std::string summary_json(const Summary& s) {
@@ -72,7 +75,12 @@ std::string summary_json(const Summary& s) {
       .add("elements", object(s.mesh.elements_of_shape))
       .add("bodies", object(s.mesh.elements_of_body));
   Json memory;
-  memory.add("largest_process", s.memory.largest).add("all_processes", s.memory.sum);
+  memory.add("largest_process", s.memory.largest)
+      .add("first_process", s.memory.first)
+      .add("all_processes", s.memory.sum);
+  Json balance;
+  balance.add("largest_over_mean", object(s.balance.largest_over_mean))
+      .add("elements_computed_again", s.balance.computed_again);
   Json json;
   json.add("solidus", SOLIDUS_VERSION)
       .add("case", s.case_file)
@@ -86,6 +94,7 @@ std::string summary_json(const Summary& s) {
       .add("end_time[s]", s.end_time)
       .add("seconds", object(s.seconds))
       .add("peak_memory[bytes]", std::move(memory))
+      .add("balance", std::move(balance))
       .add("tables[bytes]", object(s.table_bytes))
       .add("relative_energy_defect", s.relative_energy_defect)
       .add("final", object(s.final_values))

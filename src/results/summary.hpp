@@ -10,6 +10,7 @@
 
 #include "criteria/criterion.hpp"
 #include "mesh/mesh.hpp"
+#include "results/balance.hpp"
 
 namespace solidus::results {
 
@@ -22,9 +23,10 @@ struct MeshCounts {
 /// Collective.
 MeshCounts count(const mesh::Mesh& mesh);
 
-/// The largest resident memory so far: of one process, and the sum over the processes' peaks [bytes].
+/// The largest resident memory so far: of one process, of process 0, which reads the mesh, and the sum over
+/// the processes' peaks [bytes].
 struct PeakMemory {
-  double largest = 0, sum = 0;
+  double largest = 0, first = 0, sum = 0;
 };
 /// Collective.
 PeakMemory peak_memory();
@@ -40,6 +42,7 @@ struct Summary {
   double end_time = 0;                                  ///< time reached [s]
   std::vector<std::pair<std::string, double>> seconds;  ///< by phase; "total" is the wall time
   PeakMemory memory;
+  Balance balance;
   std::vector<std::pair<std::string, std::size_t>> table_bytes;  ///< of process 0
   double relative_energy_defect = 0;
   std::vector<std::pair<std::string, double>> final_values;

@@ -5,6 +5,8 @@
 #include <map>
 #include <regex>
 
+#include "mesh/shapes.hpp"
+#include "results/balance.hpp"
 #include "results/csv.hpp"
 #include "results/json.hpp"
 #include "results/pvd.hpp"
@@ -178,6 +180,28 @@ TEST(Summary, SaysHowTheRunWent) {
   EXPECT_GT(summary.memory.largest, 1e6);
   EXPECT_LT(summary.memory.largest, 4e9);
   EXPECT_GE(summary.memory.sum, summary.memory.largest);
+  EXPECT_GE(summary.memory.largest, summary.memory.first);
+}
+
+TEST(Balance, IsTheLargestOverTheMean) {
+  int rank = 0, n_processes = 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  EXPECT_DOUBLE_EQ(largest_over_mean(0), 1);
+  EXPECT_DOUBLE_EQ(largest_over_mean(2.5), 1);
+  // 1, 2, … n: n over (n + 1)/2.
+  EXPECT_DOUBLE_EQ(largest_over_mean(1.0 + rank), 2.0 * n_processes / (n_processes + 1));
+}
+
+TEST(Balance, CountsTheElementsThatSeveralProcessesCompute) {
+  int n_processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  mesh::RawMesh raw = mesh::make_block({{1, 0.1}, {0, 0}, {40, 2}}, mesh::Shape::quad4);
+  const mesh::Mesh mesh = mesh::distribute(raw, {"block"}, {});
+  const Balance even = balance(mesh, {{"assembly", 2.0}});
+  EXPECT_DOUBLE_EQ(even.largest_over_mean.back().second, 1);
+  // A strip is cut across: each seam is a column of two elements.
+  EXPECT_NEAR(even.computed_again, (n_processes - 1) * 2 / 80.0, 1.5 * (n_processes - 1) / 80);
 }
 
 coupling::StepRecord sample_step() {

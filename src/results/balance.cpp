@@ -1,0 +1,32 @@
+#include "results/balance.hpp"
+
+#include <petscsys.h>
+
+#include "algebra/parallel.hpp"
+
+namespace solidus::results {
+
+double largest_over_mean(double mine) {
+  int n_processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const double largest = algebra::global_max(mine), sum = algebra::global_sum(mine);
+  return sum > 0 ? largest * n_processes / sum : 1;
+}
+
+Balance balance(const mesh::Mesh& mesh, const std::vector<std::pair<std::string, double>>& seconds) {
+  double held = 0, counted = 0;
+  for (const mesh::Block& block : mesh.blocks) {
+    held += block.size();
+    counted += block.n_counted;
+  }
+  Balance balance;
+  auto& even = balance.largest_over_mean;
+  even.emplace_back("nodes", largest_over_mean(mesh.n_owned_nodes));
+  even.emplace_back("elements", largest_over_mean(held));
+  for (const auto& [phase, mine] : seconds) even.emplace_back(phase, largest_over_mean(mine));
+  const double all = algebra::global_sum(counted);
+  balance.computed_again = all > 0 ? (algebra::global_sum(held) - all) / all : 0;
+  return balance;
+}
+
+}  // namespace solidus::results
