@@ -122,6 +122,13 @@ ExitCode parse_and_run(int argc, char** argv) {
   materials_verb->add_option("NAME", name, "A material of the library, or a material file");
   materials_verb->add_option("-o,--output", arguments.output,
                              "Folder for tables of the properties and the flow curves (CSV)");
+  ExportArguments exported;
+  CLI::App* export_verb = program.add_subcommand(
+      "export", "Write the end of a run as the start of a structural analysis in another program");
+  export_verb->add_option("FOLDER", exported.folder, "Folder of the run's results")->required();
+  export_verb->add_option("--calculix", exported.calculix, "File for CalculiX: stress at every point");
+  export_verb->add_option("--abaqus", exported.abaqus, "File for Abaqus: stress of the elements");
+  export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
   for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
 
@@ -152,6 +159,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*schema_verb) return schema(file);
   if (*mesh_verb) return mesh_info(arguments, unit);
   if (*materials_verb) return materials(name, arguments.output);
+  if (*export_verb) return export_state(exported);
   if (*version_verb) return version();
   return k_our_bug;
 }

@@ -36,6 +36,12 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit);
 /// @param name   a material of the library or a file; empty: the list
 /// @param output a folder for its tables (CSV); empty: none
 ExitCode materials(const std::string& name, const std::string& output);
+struct ExportArguments {
+  std::string folder;            ///< of a run
+  std::string calculix, abaqus;  ///< file to write, exactly one of them
+  bool deformed = false;         ///< coordinates with the displacement
+};
+ExitCode export_state(const ExportArguments& arguments);
 ExitCode version();
 
 }  // namespace solidus::app

@@ -9,21 +9,29 @@ namespace solidus::coupling {
 
 namespace {
 
-void range_of_owned(const std::vector<double>& temperature, Index n_owned, StepEffort& effort) {
-  const auto [low, high] = std::minmax_element(temperature.begin(), temperature.begin() + n_owned);
+/// @param presence  null: of all nodes
+void range_of_owned(const std::vector<double>& temperature, Index n_owned, const algebra::Presence* presence,
+                    StepEffort& effort) {
   constexpr double k_far = std::numeric_limits<double>::max();  // of a process that owns nothing
-  effort.min_temperature = algebra::global_min(n_owned > 0 ? *low : k_far);
-  effort.max_temperature = algebra::global_max(n_owned > 0 ? *high : -k_far);
+  double low = k_far, high = -k_far;
+  for (Index i = 0; i < n_owned; ++i) {
+    if (presence != nullptr && !presence->node(i)) continue;
+    low = std::min(low, temperature[static_cast<std::size_t>(i)]);
+    high = std::max(high, temperature[static_cast<std::size_t>(i)]);
+  }
+  effort.min_temperature = algebra::global_min(low);
+  effort.max_temperature = algebra::global_max(high);
 }
 
 }  // namespace
 
 void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   if (phases.heat != nullptr) {
-    range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, effort);
+    range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &phases.heat->presence(),
+                   effort);
     effort.solid_fraction = phases.heat->mean_solid_fraction(state.heat);
   } else {
-    range_of_owned(phases.temperature, phases.mechanics->mesh().n_owned_nodes, effort);
+    range_of_owned(phases.temperature, phases.mechanics->mesh().n_owned_nodes, nullptr, effort);
   }
   effort.contacts.clear();
   for (const contact::ContactPair* pair : phases.contacts) {

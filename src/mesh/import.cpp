@@ -83,9 +83,14 @@ std::string extension(const std::string& path) {
   return e;
 }
 
-bool is_geometry(const std::string& path) {
+/// A file of a CAD program: shapes without groups.
+bool is_cad(const std::string& path) {
   const std::string e = extension(path);
-  return e == ".geo" || e == ".step" || e == ".stp" || e == ".brep" || e == ".iges" || e == ".igs";
+  return e == ".step" || e == ".stp" || e == ".brep" || e == ".iges" || e == ".igs";
+}
+
+bool is_geometry(const std::string& path) {
+  return extension(path) == ".geo" || is_cad(path);
 }
 
 void check_readable(const std::string& path) {
@@ -244,12 +249,18 @@ int mesh_dimension() {
 }  // namespace
 
 RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order,
-                  const std::map<std::string, double>& constants) {
+                  const std::map<std::string, double>& constants, const GeometryChoice& geometry) {
   check_readable(path);
+  if (!geometry.groups.empty() && !is_geometry(path))
+    throw InputError({path}, "the file holds a mesh, whose groups are its own",
+                     "a STEP, BREP, IGES or .geo file");
+  if (geometry.conforming && !is_cad(path))
+    throw InputError({path}, "'conforming' is for geometries of CAD programs", "a STEP, BREP or IGES file");
   check_constants(path, constants);
   if (extension(path) == ".inp") return read_abaqus_input(path, unit_in_metres);
   const Session session(constants);
   open(path);
+  if (is_geometry(path)) make_geometry_groups(path, geometry, unit_in_metres, is_cad(path));
   if (is_geometry(path)) generate(path, element_size / unit_in_metres, element_order);
 
   RawMesh mesh;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/units.hpp"
+#include "model/body_input.hpp"
 #include "model/case_file.hpp"
 #include "model/dynamics_input.hpp"
 #include "model/field_list.hpp"
@@ -74,7 +75,20 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   if (!units::compatible(m.unit, "m"))
     throw InputError(m.where, fmt::format("'{}' is no unit of length", m.unit),
                      "\"mm\", \"m\", \"inch\", ...");
+  check_names(m.groups, "[[mesh.group]]");
+  for (const MeshGroupSpec& g : m.groups) {
+    const bool box = !g.lowest.empty() || !g.highest.empty();
+    if ((g.numbers.empty() ? 0 : 1) + (g.label.empty() ? 0 : 1) + (box ? 1 : 0) != 1)
+      throw InputError(g.where, fmt::format("the group '{}' of the mesh is not chosen in one way", g.name),
+                       "numbers, label, or lowest and highest");
+    if (box && (g.lowest.size() != 3 || g.highest.size() != 3))
+      throw InputError(g.where, fmt::format("the box of the group '{}' has no two corners", g.name),
+                       "lowest and highest of three coordinates each");
+  }
   if (!m.shape) return;
+  if (!m.groups.empty() || m.conforming)
+    throw InputError(m.where,
+                     "[[mesh.group]] and 'conforming' are for files, and the mesh is a built-in shape");
   if (!m.constants.empty())
     throw InputError(m.where, "[[mesh.constant]] is for .geo scripts, and the mesh is a built-in shape");
   const bool solid = analysis.kind == AnalysisKind::solid;
@@ -369,6 +383,7 @@ void check_case(const CaseSpec& spec) {
   check_conditions(spec);
   check_contacts(spec);
   check_stage_names(spec);
+  check_bodies(spec);
   check_coupling(spec);
   check_dynamics(spec);
   check_simplices(spec);

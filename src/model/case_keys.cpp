@@ -36,6 +36,20 @@ Section<BodySpec> body_keys() {
   s.quantity("initial_temperature", &BodySpec::initial_temperature, "K")
       .positive()
       .doc("Uniform at the start; the body is free of thermal strain there.");
+  s.choice("physics", &BodySpec::physics,
+           {{"all", BodySpec::Physics::all, "those of the analysis"},
+            {"heat", BodySpec::Physics::heat,
+             "in a thermomechanical analysis it conducts heat and stands still"}})
+      .initially("all")
+      .doc(
+          "What the body takes part in. One that only conducts heat (a sand mould) costs no mechanics: nodes "
+          "that it shares with others move with them, and in contact it is a rigid wall.");
+  s.key("stages", &BodySpec::stages)
+      .or_one()
+      .initially(Value::list())
+      .doc(
+          "The stages up to which the body is there, from the first one on; empty: all. It does not come "
+          "back.");
   s.quantity("initial_velocity", &BodySpec::initial_velocity, "m/s")
       .initially(Value::list())
       .doc(

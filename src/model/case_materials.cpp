@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "material/library.hpp"
+#include "model/body_input.hpp"
 
 namespace solidus::model {
 
@@ -39,11 +40,11 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
   std::vector<material::Material> materials;
   for (const BodySpec& body : spec.bodies) {
     materials.push_back(material::find_material(body.material, folders, body.where));
-    if (spec.has_mechanics() && !materials.back().mechanical())
+    if (spec.has_mechanics() && !only_conducts(body) && !materials.back().mechanical())
       throw InputError(
           body.where,
           fmt::format("the material '{}' of body '{}' has no elastic properties", body.material, body.name),
-          "young_modulus, poisson_ratio and expansion in the material, or physics = \"heat\"");
+          "young_modulus, poisson_ratio and expansion in the material, or physics = \"heat\" of the body");
   }
   return materials;
 }

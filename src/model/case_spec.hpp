@@ -60,12 +60,25 @@ struct MeshConstantSpec {
   double value = 0;
 };
 
+/// Volumes or surfaces of a geometry file that get a name (mesh/geometry_groups.hpp).
+struct MeshGroupSpec {
+  enum class Kind { body, surface };
+  std::string name;
+  Kind kind = Kind::surface;
+  std::vector<int> numbers;
+  std::string label;
+  std::vector<double> lowest, highest;  ///< corners of a box [m]
+  SourceLocation where;
+};
+
 struct MeshSpec {
   std::optional<std::string> shape, file;   ///< exactly one of them
   std::string unit;                         ///< length unit of the file, "mm"
   std::optional<double> element_size;       ///< for files that are meshed here (.geo, STEP) [m]
   int order = 1;                            ///< of the elements, for files that are meshed here
   std::vector<MeshConstantSpec> constants;  ///< for .geo scripts
+  std::vector<MeshGroupSpec> groups;        ///< of files that are meshed here
+  bool conforming = false;                  ///< bodies that touch share nodes, of STEP, BREP, IGES
   std::string element;                      ///< of the built-in shapes: "tri3", ...
   std::optional<CylinderInMouldSpec> cylinder_in_mould;
   std::optional<BlockSpec> block;
@@ -109,9 +122,9 @@ enum class Clock { run, stage };
 
 struct BodySpec {
   std::string name;
-  std::optional<std::string> group;  ///< of the mesh; absent: as `name`
-  std::string material;              ///< name in the library, or a file
-  double initial_temperature = 0;    ///< [K]
+  std::optional<std::string> group;      ///< of the mesh; absent: as `name`
+  std::string material;                  ///< name in the library, or a file
+  double initial_temperature = 0;        ///< [K]
   enum class Physics { all, heat };
   Physics physics = Physics::all;
   std::vector<std::string> stages;       ///< in which it is there; empty: all

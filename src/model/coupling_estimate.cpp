@@ -6,6 +6,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
+#include "model/body_input.hpp"
 #include "model/dynamics_input.hpp"
 
 namespace solidus::model {
@@ -58,6 +59,7 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                      (spec.analysis.kind == AnalysisKind::axisymmetric && axially_held(spec, mesh));
   std::vector<CouplingEstimate> estimates;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (only_conducts(spec.bodies[b])) continue;
     CouplingEstimate e;
     e.body = spec.bodies[b].name;
     e.plane = plane;

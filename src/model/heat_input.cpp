@@ -1,5 +1,7 @@
 #include "model/heat_input.hpp"
 
+#include "model/body_input.hpp"
+
 namespace solidus::model {
 
 namespace {
@@ -14,6 +16,7 @@ heat::Coefficient coefficient(const Function& f, Clock clock, const StageRun* st
 heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage) {
   using Kind = ThermalConditionSpec::Kind;
   heat::Conditions conditions;
+  conditions.absent_bodies = gone_bodies(spec, stage);
   for (const auto& c : spec.thermal_conditions) {
     if (!holds(c.stages, stage)) continue;
     const auto of_time = [&](const Function& f) { return on_clock(f, c.clock, stage); };

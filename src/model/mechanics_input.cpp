@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/body_input.hpp"
 #include "model/dynamics_input.hpp"
 
 namespace solidus::model {
@@ -23,6 +24,7 @@ mechanics::Conditions mechanical_conditions(const CaseSpec& spec, const StageRun
   using Kind = MechanicalConditionSpec::Kind;
   mechanics::Conditions conditions;
   conditions.gravity = gravity(spec.analysis);
+  conditions.absent_bodies = absent_from_mechanics(spec, stage);
   const bool axisymmetric = spec.analysis.kind == AnalysisKind::axisymmetric;
   for (const auto& c : spec.mechanical_conditions) {
     if (!holds(c.stages, stage)) continue;

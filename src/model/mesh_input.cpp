@@ -1,5 +1,6 @@
 #include "model/mesh_input.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <stdexcept>
@@ -35,6 +36,23 @@ mesh::RawMesh built_in_shape(const MeshSpec& m) {
                                       shape);
 }
 
+mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
+  mesh::GeometryChoice choice;
+  choice.conforming = m.conforming;
+  for (const MeshGroupSpec& g : m.groups) {
+    mesh::GeometryGroup& group = choice.groups.emplace_back();
+    group.name = g.name;
+    group.bodies = g.kind == MeshGroupSpec::Kind::body;
+    group.numbers = g.numbers;
+    group.label = g.label;
+    if (g.lowest.empty()) continue;
+    group.box.emplace();
+    std::copy_n(g.lowest.begin(), 3, (*group.box)[0].begin());
+    std::copy_n(g.highest.begin(), 3, (*group.box)[1].begin());
+  }
+  return choice;
+}
+
 }  // namespace
 
 mesh::RawMesh raw_mesh(const CaseSpec& spec) {
@@ -44,7 +62,7 @@ mesh::RawMesh raw_mesh(const CaseSpec& spec) {
     std::map<std::string, double> constants;
     for (const MeshConstantSpec& constant : m.constants) constants[constant.name] = constant.value;
     result = mesh::read_mesh(*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order,
-                             constants);
+                             constants, geometry_choice(m));
   } else {
     try {
       result = built_in_shape(m);

@@ -77,6 +77,33 @@ Section<MeshConstantSpec> constant_keys() {
   return s;
 }
 
+Section<MeshGroupSpec> group_keys() {
+  using G = MeshGroupSpec;
+  Section<G> s(
+      "group",
+      "A name for volumes or surfaces of a geometry file (STEP, BREP, IGES, .geo), chosen by numbers, by "
+      "label, or by a box that they lie in. `solidus mesh-info` lists them.");
+  s.key("name", &G::name).doc("The name of the group, for bodies, conditions, contact.");
+  s.choice("kind", &G::kind,
+           {{"body", G::Kind::body, "volumes; of a plane geometry its surfaces"},
+            {"surface", G::Kind::surface, "surfaces; of a plane geometry its lines"}})
+      .initially("surface")
+      .doc("What is chosen.");
+  s.key("numbers", &G::numbers)
+      .initially(Value::list())
+      .range(1, 1000000000)
+      .doc("Numbers in the file: 3 is what is called surface_3 without a group.");
+  s.key("label", &G::label)
+      .initially("")
+      .doc("The name that the file gives them, whole or behind its last slash.");
+  s.quantity("lowest", &G::lowest, "m")
+      .initially(Value::list())
+      .doc("Three coordinates: the corner of a box where they are smallest.");
+  s.quantity("highest", &G::highest, "m").initially(Value::list()).doc("The corner where they are largest.");
+  s.place(&G::where);
+  return s;
+}
+
 }  // namespace
 
 Section<MeshSpec> mesh_keys() {
@@ -100,6 +127,12 @@ Section<MeshSpec> mesh_keys() {
       .choices({"tri3", "tri6", "quad4", "quad8", "tet4", "tet10", "hex8", "hex20"})
       .doc("Element of the built-in shapes.");
   s.sections("constant", &MeshSpec::constants, constant_keys());
+  s.sections("group", &MeshSpec::groups, group_keys());
+  s.key("conforming", &MeshSpec::conforming)
+      .initially(false)
+      .doc(
+          "For STEP, BREP and IGES: bodies that touch share the faces between them, and so the nodes. Else "
+          "each has its own, for contact.");
   s.section("cylinder_in_mould", &MeshSpec::cylinder_in_mould, cylinder_in_mould_keys())
       .when("shape", {"cylinder_in_mould"});
   s.section("block", &MeshSpec::block, block_keys()).when("shape", {"block"});

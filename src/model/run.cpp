@@ -12,15 +12,12 @@
 #include "base/units.hpp"
 #include "coupling/simulation.hpp"
 #include "material/library.hpp"
-#include "model/admissible.hpp"
 #include "model/advice.hpp"
+#include "model/assembly.hpp"
 #include "model/audit_watch.hpp"
 #include "model/case_materials.hpp"
-#include "model/contact_input.hpp"
 #include "model/coupling_estimate.hpp"
 #include "model/fingerprint.hpp"
-#include "model/heat_input.hpp"
-#include "model/mechanics_input.hpp"
 #include "model/mesh_input.hpp"
 #include "model/run_input.hpp"
 #include "model/scheme_input.hpp"
@@ -31,99 +28,6 @@
 namespace solidus::model {
 
 namespace {
-
-// Everything a scheme drives, built from a case; the phases refer to the mesh and to each other.
-struct Assembly {
-  mesh::Mesh mesh;
-  std::vector<material::Material> materials;
-  std::vector<std::unique_ptr<contact::ContactPair>> contacts;
-  std::unique_ptr<mechanics::MechanicalPhase> mechanics;
-  std::unique_ptr<mechanics::StructuralHeat> structural;
-  std::unique_ptr<heat::ThermalPhase> heat;
-  coupling::Phases phases;
-  coupling::State initial;
-  std::vector<StageRun> stages;  ///< empty: the case has none
-  const StageRun* first_stage() const { return stages.empty() ? nullptr : &stages.front(); }
-};
-
-// Of mechanics alone: every body at its temperature for the whole run.
-std::vector<double> nodal_temperature(const mesh::Mesh& mesh, const std::vector<double>& of_body) {
-  std::vector<double> temperature(static_cast<std::size_t>(mesh.n_nodes()), of_body.front());
-  for (const mesh::Block& block : mesh.blocks)
-    for (const Index i : block.nodes)
-      temperature[static_cast<std::size_t>(i)] = of_body[static_cast<std::size_t>(block.body)];
-  return temperature;
-}
-
-void build_contacts(const CaseSpec& spec, Assembly& a) {
-  const std::vector<double> moduli = contact_moduli(a.materials);
-  for (contact::ContactSpec& pair : contact_specs(spec)) {
-    a.contacts.push_back(
-        std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
-    a.phases.contacts.push_back(a.contacts.back().get());
-    const bool slides = a.contacts.back()->spec().formulation == contact::Formulation::large_sliding;
-    if (!slides && a.contacts.back()->coverage() < 0.999)
-      logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
-                    a.contacts.back()->spec().name, 100 * a.contacts.back()->coverage(),
-                    a.contacts.back()->spec().slave);
-  }
-}
-
-void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
-  std::vector<algebra::Contribution*> contributions;
-  mechanics::MechanicsOptions options = mechanics_options(spec);
-  for (const auto& pair : a.contacts) {
-    contributions.push_back(&pair->mechanics());
-    options.symmetric = options.symmetric && pair->symmetric();
-    a.initial.contacts.push_back(pair->initial_state());
-  }
-  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(
-      a.mesh, spec.analysis.kind, a.materials, initial_temperature,
-      mechanical_conditions(spec, a.first_stage()), std::move(options), contributions);
-  a.phases.mechanics = a.mechanics.get();
-  a.initial.mechanics = a.mechanics->initial_state();
-}
-
-void build_heat(const CaseSpec& spec, const std::vector<double>& body_temperature, Assembly& a) {
-  std::vector<algebra::Contribution*> contributions;
-  for (const auto& pair : a.contacts)
-    if (pair->heat() != nullptr) contributions.push_back(pair->heat());
-  if (a.structural) contributions.push_back(a.structural.get());
-  heat::HeatOptions options = heat_options(spec);
-  for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->symmetric_heat();
-  a.heat =
-      std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
-                                           thermal_conditions(spec, a.first_stage()), options, contributions);
-  a.phases.heat = a.heat.get();
-  a.initial.heat = a.heat->initial_state(body_temperature);
-}
-
-/// Gives the phases the conditions of a stage that begins at this displacement.
-void apply(const CaseSpec& spec, const StageRun& stage, const std::vector<double>& displacement,
-           Assembly& a) {
-  for (std::size_t i = 0; i < a.contacts.size(); ++i)
-    a.contacts[i]->activate(holds(spec.contacts[i].stages, &stage));
-  if (a.mechanics) a.mechanics->set_conditions(mechanical_conditions(spec, &stage), displacement);
-  if (a.heat) a.heat->set_conditions(thermal_conditions(spec, &stage));
-}
-
-void build(const CaseSpec& spec, Assembly& a) {
-  a.stages = stage_runs(spec);
-  std::vector<double> body_temperature;
-  for (const BodySpec& body : spec.bodies) body_temperature.push_back(body.initial_temperature);
-  build_contacts(spec, a);
-  a.phases.temperature = nodal_temperature(a.mesh, body_temperature);
-  if (spec.has_mechanics()) {
-    build_mechanics(spec, a.phases.temperature, a);
-    if (spec.has_heat() && spec.coupling.structural_heating != CouplingSpec::StructuralHeating::none) {
-      a.structural = std::make_unique<mechanics::StructuralHeat>(
-          *a.mechanics, structural_form(spec), spec.heat.integration == heat::Integration::closed);
-      a.phases.structural = a.structural.get();
-    }
-  }
-  if (spec.has_heat()) build_heat(spec, body_temperature, a);
-  if (spec.coupled()) a.phases.ambient_temperature = admissibility(spec).ambient_temperature;
-}
 
 // Watches the temperatures of each body and warns once when a property is used outside the range of its
 // source.
@@ -139,14 +43,18 @@ class RangeWatch : public coupling::Observer {
   void look(const coupling::State& state) {
     const std::vector<double>& temperature = a_.heat ? state.heat.temperature : a_.phases.temperature;
     std::vector<double> low(spec_.bodies.size(), 1e300), high(spec_.bodies.size(), -1e300);
-    for (const mesh::Block& block : a_.mesh.blocks)
+    for (const mesh::Block& block : a_.mesh.blocks) {
+      if (a_.heat && !a_.heat->presence().body(block.body)) continue;
       for (const Index i : block.nodes) {
         const auto b = static_cast<std::size_t>(block.body);
         low[b] = std::min(low[b], temperature[static_cast<std::size_t>(i)]);
         high[b] = std::max(high[b], temperature[static_cast<std::size_t>(i)]);
       }
-    for (std::size_t b = 0; b < low.size(); ++b)
-      report(b, algebra::global_min(low[b]), algebra::global_max(high[b]));
+    }
+    for (std::size_t b = 0; b < low.size(); ++b) {
+      const double lowest = algebra::global_min(low[b]), highest = algebra::global_max(high[b]);
+      if (lowest <= highest) report(b, lowest, highest);  // else it has gone
+    }
   }
 
   void report(std::size_t body, double low, double high) {
@@ -278,9 +186,10 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   if (spec.has_heat()) simulation.add(first_law);
   simulation.add(recorder);
   simulation.add(why);
+  if (a.criteria) simulation.follow(*a.criteria);
   simulation.stop_when(options.stop_asked);
-  simulation.at_stage([&](std::size_t stage, const coupling::StageStart& start) {
-    apply(spec, a.stages[stage], start.displacement, a);
+  simulation.at_stage([&](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
+    apply(spec, stage, start.displacement, begins, a);
   });
   const coupling::State& start = from ? from->state : a.initial;
   coupling::StepEffort at_start;
@@ -327,8 +236,8 @@ CheckedRun check_run(const Case& c) {
   a.mesh = load_mesh(c.spec);
   build(c.spec, a);
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
-  for (const StageRun& stage : a.stages)
-    if (stage.cycle <= 1) apply(c.spec, stage, {}, a);
+  for (std::size_t i = 0; i < a.stages.size(); ++i)
+    if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
   CheckedRun checked{results::count(a.mesh), {}};
   if (a.phases.audits_stability()) checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh);
   return checked;

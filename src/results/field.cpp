@@ -29,6 +29,7 @@ FieldSet FieldSet::select(const std::vector<std::string>& names) const {
     if (find(name) == nullptr)
       throw InputError({}, "this analysis has no field '" + name + "'", "fields: " + known);
   FieldSet chosen;
+  chosen.presence_ = presence_;
   for (const Field& field : fields_)
     if (std::find(names.begin(), names.end(), field.name) != names.end()) chosen.add(field);
   return chosen;

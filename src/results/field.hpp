@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "algebra/presence.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
@@ -35,8 +36,14 @@ class FieldSet {
   /// is not there.
   FieldSet select(const std::vector<std::string>& names) const;
 
+  /// Bodies have left: their cells are hidden, and they take no part in minima and maxima. Null: nobody has.
+  /// Must outlive the set.
+  void set_presence(const algebra::Presence* presence) { presence_ = presence; }
+  const algebra::Presence* presence() const { return presence_; }
+
  private:
   std::vector<Field> fields_;
+  const algebra::Presence* presence_ = nullptr;
 };
 
 /// Number of values a field of this place and number of components has on this process.

@@ -256,34 +256,44 @@ Probes::Sample Probes::global_sample(const GlobalProbe& probe, const std::vector
 }
 
 std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Reading>& globals) const {
-  // In SI; minima and maxima in one reduction (the maximum of the negated value is the minimum).
-  std::vector<double> sums(samples_.size(), 0.0), peaks(samples_.size(), 0.0);
+  // In SI; minima and maxima in one reduction (the maximum of the negated value is the minimum). The second
+  // half of the peaks counts bodies that have left too: for groups that are theirs alone.
+  const std::size_t n_samples = samples_.size();
+  std::vector<double> sums(n_samples, 0.0), peaks(2 * n_samples, 0.0);
+  const algebra::Presence* presence = fields.presence();
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     const Sample& sample = samples_[s];
     if (sample.reduce == Reduce::linear || sample.reduce == Reduce::global) continue;
     const Field* field = fields.find(sample.field);
     if (field == nullptr) throw std::invalid_argument("probes: no field '" + sample.field + "'");
     const double sign = sample.reduce == Reduce::minimum ? -1.0 : 1.0;
-    if (sample.reduce != Reduce::sum) peaks[s] = -std::numeric_limits<double>::infinity();
+    if (sample.reduce != Reduce::sum)
+      peaks[s] = peaks[n_samples + s] = -std::numeric_limits<double>::infinity();
     for (const auto& [entity, weight] : sample.weights) {
       const double value = component_of(*field, entity, sample.component);
-      if (sample.reduce == Reduce::sum)
+      if (sample.reduce == Reduce::sum) {
         sums[s] += weight * value;
-      else
-        // Written so that a NaN stays and is found below, which std::max would lose.
-        peaks[s] = sign * value <= peaks[s] ? peaks[s] : sign * value;
+        continue;
+      }
+      // Written so that a NaN stays and is found below, which std::max would lose.
+      const auto raise = [&](double& peak) { peak = sign * value <= peak ? peak : sign * value; };
+      raise(peaks[n_samples + s]);
+      const bool there =
+          presence == nullptr || field->place == Place::cell || presence->node(static_cast<Index>(entity));
+      if (there) raise(peaks[s]);
     }
   }
-  const int n = static_cast<int>(samples_.size());
+  const int n = static_cast<int>(n_samples);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), n, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  MPI_Allreduce(MPI_IN_PLACE, peaks.data(), n, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, peaks.data(), 2 * n, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
 
   std::vector<double> si(samples_.size()), shown(samples_.size());
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     const Sample& sample = samples_[s];
     if (sample.reduce == Reduce::sum) si[s] = sums[s] * sample.factor;
-    if (sample.reduce == Reduce::maximum) si[s] = peaks[s];
-    if (sample.reduce == Reduce::minimum) si[s] = -peaks[s];
+    const double peak = std::isinf(peaks[s]) ? peaks[n_samples + s] : peaks[s];
+    if (sample.reduce == Reduce::maximum) si[s] = peak;
+    if (sample.reduce == Reduce::minimum) si[s] = -peak;
     if (sample.reduce == Reduce::global) si[s] = sample.factor * find_global(globals, sample.field)->second;
     for (const auto& [factor, term] : sample.terms) si[s] += factor * si[term];
     shown[s] = sample.shown(si[s]);

@@ -138,6 +138,10 @@ std::vector<double> file_values(const Part& part, const Field& field) {
   return out;
 }
 
+// VTK's vtkGhostType: readers keep the cell, filters and views pass over it.
+constexpr std::uint8_t k_hidden_cell = 32;
+constexpr const char* k_ghost_type = "vtkGhostType";
+
 template <class T, class F>
 std::vector<T> of_cells(const Part& part, const F& value) {
   std::vector<T> out;
@@ -204,6 +208,10 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   xml +=
       data.add({"body"}, of_cells<std::int32_t>(part, [](const Block& block, Index) { return block.body; }));
   xml += data.add({"process"}, of_cells<std::int32_t>(part, [rank](const Block&, Index) { return rank; }));
+  if (const algebra::Presence* presence = fields.presence())
+    xml += data.add({k_ghost_type}, of_cells<std::uint8_t>(part, [presence](const Block& block, Index) {
+                      return block.body < 0 || presence->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
+                    }));
   xml += "      </CellData>\n";
 
   std::vector<double> points;
@@ -252,6 +260,7 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::string
       if (field.place == Place::cell) xml += array(head_of(field), vtk_type<double>());
   xml += array({"element"}, vtk_type<std::int64_t>()) + array({"body"}, vtk_type<std::int32_t>()) +
          array({"process"}, vtk_type<std::int32_t>());
+  if (fields.presence() != nullptr) xml += array({k_ghost_type}, vtk_type<std::uint8_t>());
   xml += "    </PCellData>\n    <PPoints>\n" + array({"Points", 3, "m"}, vtk_type<double>()) +
          "    </PPoints>\n";
   for (const std::string& part : parts) xml += fmt::format("    <Piece Source=\"{}\"/>\n", xml_text(part));

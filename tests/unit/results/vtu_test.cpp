@@ -74,6 +74,20 @@ TEST_F(Vtu, HoldsOnlyCountedElementsAndTheirNodes) {
   EXPECT_EQ(file.array<std::int64_t>("connectivity"), (std::vector<std::int64_t>{0, 1, 3, 2}));
 }
 
+TEST_F(Vtu, HidesTheCellsOfBodiesThatHaveLeft) {
+  int size = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  if (size > 1) return;  // the sample is the mesh of one process
+  const algebra::Presence presence(mesh, std::vector<std::string>{mesh.bodies[1].name});
+  const auto pressure = count_up(3);
+  FieldSet fields;
+  fields.add({"pressure", "Pa", 1, Place::cell, pressure});
+  fields.set_presence(&presence);
+  write_vtu(folder.path / "a.vtu", mesh, fields.select({"pressure"}), 0);
+  const test::VtuFile file(folder.path / "a.vtu");
+  EXPECT_EQ(file.array<std::uint8_t>("vtkGhostType"), (std::vector<std::uint8_t>{0, 0, 32}));
+}
+
 TEST_F(Vtu, OfSeveralCompressionBlocksReadsBack) {
   // 100 000 nodes are 800 kB, some six blocks of 128 kB and a shorter one.
   mesh::Block points;

@@ -1,0 +1,26 @@
+/// The verb `export`: the end of a run as the start of a structural analysis.
+#include "model/export.hpp"
+
+#include <fmt/format.h>
+
+#include "app/verbs.hpp"
+
+namespace solidus::app {
+
+ExitCode export_state(const ExportArguments& arguments) {
+  if (arguments.abaqus.empty() == arguments.calculix.empty())
+    throw InputError({}, "export needs the format and the file to write", "--calculix FILE or --abaqus FILE");
+  const bool abaqus = !arguments.abaqus.empty();
+  model::ExportOptions options;
+  options.folder = arguments.folder;
+  options.file = abaqus ? arguments.abaqus : arguments.calculix;
+  options.dialect = abaqus ? results::Dialect::abaqus : results::Dialect::calculix;
+  options.deformed = arguments.deformed;
+  const model::ExportReport report = model::export_state(model::load_case(arguments.folder), options);
+  print(fmt::format(
+      "{}: {} elements at t = {:g} s; equilibrium at the final temperature moved nodes by up to {:.3g} m\n",
+      options.file.string(), report.elements, report.time, report.adjusted));
+  return k_done;
+}
+
+}  // namespace solidus::app

@@ -1,0 +1,153 @@
+#include "model/assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "algebra/parallel.hpp"
+#include "base/log.hpp"
+#include "model/admissible.hpp"
+#include "model/body_input.hpp"
+#include "model/contact_input.hpp"
+#include "model/criteria_input.hpp"
+#include "model/heat_input.hpp"
+#include "model/mechanics_input.hpp"
+#include "model/scheme_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// At which nodes are free of thermal strain, and what they have in mechanics alone: every body at its
+/// temperature. A node of several bodies takes that of one that deforms, of these the hottest: the casting's.
+std::vector<double> nodal_temperature(const CaseSpec& spec, const mesh::Mesh& mesh) {
+  std::vector<std::size_t> order(mesh.blocks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t block) {
+    const BodySpec& body = spec.bodies[static_cast<std::size_t>(mesh.blocks[block].body)];
+    return std::pair(!only_conducts(body), body.initial_temperature);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank(a) < rank(b); });
+  std::vector<double> temperature(static_cast<std::size_t>(mesh.n_nodes()),
+                                  spec.bodies.front().initial_temperature);
+  for (const std::size_t block : order)
+    for (const Index i : mesh.blocks[block].nodes)
+      temperature[static_cast<std::size_t>(i)] = rank(block).second;
+  algebra::GhostExchange(mesh).update(temperature, 1);  // an owner sees every body at its node
+  return temperature;
+}
+
+void build_contacts(const CaseSpec& spec, Assembly& a) {
+  std::vector<double> moduli = contact_moduli(a.materials);
+  for (std::size_t b = 0; b < moduli.size(); ++b)
+    if (only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
+  for (contact::ContactSpec& pair : contact_specs(spec)) {
+    set_walls(spec, a.mesh, pair);
+    a.contacts.push_back(
+        std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
+    a.phases.contacts.push_back(a.contacts.back().get());
+    const bool slides = a.contacts.back()->spec().formulation == contact::Formulation::large_sliding;
+    if (!slides && a.contacts.back()->coverage() < 0.999)
+      logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
+                    a.contacts.back()->spec().name, 100 * a.contacts.back()->coverage(),
+                    a.contacts.back()->spec().slave);
+  }
+}
+
+void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {
+  std::vector<algebra::Contribution*> contributions;
+  mechanics::MechanicsOptions options = mechanics_options(spec);
+  for (const auto& pair : a.contacts) {
+    contributions.push_back(&pair->mechanics());
+    options.symmetric = options.symmetric && pair->symmetric();
+    a.initial.contacts.push_back(pair->initial_state());
+  }
+  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(
+      a.mesh, spec.analysis.kind, a.materials, initial_temperature,
+      mechanical_conditions(spec, a.first_stage()), std::move(options), contributions);
+  a.phases.mechanics = a.mechanics.get();
+  a.initial.mechanics = a.mechanics->initial_state();
+}
+
+void build_heat(const CaseSpec& spec, const std::vector<double>& body_temperature, Assembly& a) {
+  std::vector<algebra::Contribution*> contributions;
+  for (const auto& pair : a.contacts)
+    if (pair->heat() != nullptr) contributions.push_back(pair->heat());
+  if (a.structural) contributions.push_back(a.structural.get());
+  heat::HeatOptions options = heat_options(spec);
+  for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->symmetric_heat();
+  a.heat =
+      std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
+                                           thermal_conditions(spec, a.first_stage()), options, contributions);
+  a.phases.heat = a.heat.get();
+  a.initial.heat = a.heat->initial_state(body_temperature);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+/// Says which bodies leave when a stage begins, with how much heat, and what ends with them.
+void announce_departure(const CaseSpec& spec, const StageRun& stage, const StageRun* before, double carried,
+                        const std::vector<std::string>& idle) {
+  std::vector<std::string> leaving;
+  for (const BodySpec& body : spec.bodies)
+    if (!holds(body.stages, &stage) && holds(body.stages, before)) leaving.push_back(body.name);
+  if (leaving.empty()) return;
+  logging::info("stage '{}' at t = {:g} s: {} {}{}{}", stage.stage->name, stage.start, listed(leaving),
+                leaving.size() == 1 ? "leaves" : "leave",
+                spec.has_heat() ? fmt::format(" with {:.6g} J, counted from 20 degC", carried) : "",
+                idle.empty() ? "" : "; without a body: " + listed(idle));
+}
+
+}  // namespace
+
+void apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
+           coupling::State* begins, Assembly& a) {
+  const StageRun& stage = a.stages[number];
+  const std::vector<std::string> idle = without_body(spec, a.mesh, &stage);
+  for (std::size_t i = 0; i < a.contacts.size(); ++i)
+    a.contacts[i]->activate(holds(spec, spec.contacts[i], a.mesh, &stage));
+  if (a.mechanics) a.mechanics->set_conditions(mechanical_conditions(spec, &stage), displacement);
+  double carried = 0;
+  if (a.heat) {
+    // Where a run goes on at the end of a stage, the bodies that left before it have taken their heat
+    // already.
+    if (begins != nullptr && number > 0) a.heat->set_conditions(thermal_conditions(spec, &stage - 1));
+    carried =
+        a.heat->set_conditions(thermal_conditions(spec, &stage), begins != nullptr ? &begins->heat : nullptr);
+  }
+  if (begins != nullptr) announce_departure(spec, stage, number > 0 ? &stage - 1 : nullptr, carried, idle);
+}
+
+void build(const CaseSpec& spec, Assembly& a) {
+  a.stages = stage_runs(spec);
+  if (const auto idle = without_body(spec, a.mesh, a.first_stage()); !idle.empty())
+    logging::warn("these act on bodies that only conduct heat, and do nothing: {}", listed(idle));
+  for (const StageRun& stage : a.stages)
+    if (stage.cycle <= 1) without_body(spec, a.mesh, &stage);  // complains early
+  std::vector<double> body_temperature;
+  for (const BodySpec& body : spec.bodies) body_temperature.push_back(body.initial_temperature);
+  build_contacts(spec, a);
+  a.phases.temperature = nodal_temperature(spec, a.mesh);
+  if (spec.has_mechanics()) {
+    build_mechanics(spec, a.phases.temperature, a);
+    if (spec.has_heat() && spec.coupling.structural_heating != CouplingSpec::StructuralHeating::none) {
+      a.structural = std::make_unique<mechanics::StructuralHeat>(
+          *a.mechanics, structural_form(spec), spec.heat.integration == heat::Integration::closed);
+      a.phases.structural = a.structural.get();
+    }
+  }
+  if (spec.has_heat()) build_heat(spec, body_temperature, a);
+  if (spec.coupled()) a.phases.ambient_temperature = admissibility(spec).ambient_temperature;
+  a.criteria = make_criteria(spec, a.mesh, a.materials, a.phases);
+  if (a.criteria == nullptr) return;
+  a.phases.criteria = a.criteria.get();
+  a.initial.criteria = a.criteria->initial({a.initial.time, a.initial.heat, a.initial.mechanics});
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,198 @@
+#include "model/body_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "algebra/parallel.hpp"
+#include "algebra/presence.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+bool named(const std::vector<std::string>& stages, const StageRun* stage) {
+  return !stages.empty() && stage != nullptr && holds(stages, stage);
+}
+
+/// Whether a group has a node, or as a surface a face, of a body that is there. Collective.
+bool stands(const mesh::Mesh& mesh, const algebra::Presence& presence, const std::string& group,
+            bool needs_faces) {
+  bool found = false;
+  if (needs_faces) {
+    const auto surface = mesh.surfaces.find(group);
+    if (surface != mesh.surfaces.end())
+      for (const mesh::Block& faces : presence.part(mesh, surface->second).faces)
+        found = found || faces.size() > 0;
+  } else if (const auto nodes = mesh.node_sets.find(group); nodes != mesh.node_sets.end()) {
+    found = std::any_of(nodes->second.begin(), nodes->second.end(),
+                        [&](Index node) { return presence.node(node); });
+  }
+  return algebra::any_process(found);
+}
+
+[[noreturn]] void refuse(const SourceLocation& where, const std::string& what, const StageRun& stage) {
+  throw InputError(where,
+                   fmt::format("{} holds in the stage '{}', but its body has gone", what, stage.stage->name),
+                   "stages in which the body is there, or no 'stages': then it ends with the body");
+}
+
+/// Whether bodies behind a contact surface have gone, and whether others have not. Collective.
+struct Sides {
+  bool gone = false, there = false;
+};
+Sides sides(const mesh::Mesh& mesh, const algebra::Presence& presence, const std::string& surface) {
+  Sides found;
+  const auto group = mesh.surfaces.find(surface);
+  if (group == mesh.surfaces.end()) return found;  // a rigid surface
+  for (const mesh::Block& faces : group->second.faces)
+    if (faces.size() > 0) (presence.reversed(faces) ? found.gone : found.there) = true;
+  return {algebra::any_process(found.gone), algebra::any_process(found.there)};
+}
+
+void check_stages_of(const CaseSpec& spec, const BodySpec& body) {
+  if (body.stages.empty()) return;
+  if (spec.dynamics)
+    throw InputError(body.where, fmt::format("the body '{}' leaves, but the analysis has inertia", body.name),
+                     "no [dynamics], or no 'stages' of bodies");
+  bool before = true;
+  for (const StageRun& run : stage_runs(spec)) {
+    const bool now = holds(body.stages, &run);
+    if (run.start == 0 && !now)
+      throw InputError(
+          body.where,
+          fmt::format("the body '{}' is not there in the first stage, '{}'", body.name, run.stage->name),
+          "stages from the first one on");
+    if (now && !before)
+      throw InputError(body.where,
+                       fmt::format("the body '{}' has gone before the stage '{}' and cannot come back",
+                                   body.name, run.stage->name),
+                       "stages from the first one to the last in which the body is there, none left out");
+    before = now;
+  }
+}
+
+}  // namespace
+
+bool only_conducts(const BodySpec& body) {
+  return body.physics == BodySpec::Physics::heat;
+}
+
+std::vector<std::string> gone_bodies(const CaseSpec& spec, const StageRun* stage) {
+  std::vector<std::string> gone;
+  for (const BodySpec& body : spec.bodies)
+    if (!holds(body.stages, stage)) gone.push_back(body.mesh_group());
+  return gone;
+}
+
+std::vector<std::string> absent_from_mechanics(const CaseSpec& spec, const StageRun* stage) {
+  std::vector<std::string> absent;
+  for (const BodySpec& body : spec.bodies)
+    if (only_conducts(body) || !holds(body.stages, stage)) absent.push_back(body.mesh_group());
+  return absent;
+}
+
+void check_bodies(const CaseSpec& spec) {
+  for (const BodySpec& body : spec.bodies) {
+    check_stages_of(spec, body);
+    if (!only_conducts(body)) continue;
+    if (!spec.coupled())
+      throw InputError(
+          body.where,
+          fmt::format("the body '{}' has physics = \"heat\", but the analysis does not couple heat "
+                      "with mechanics",
+                      body.name),
+          "physics = \"thermomechanical\" in [analysis], or no such key");
+    if (!body.initial_velocity.empty())
+      throw InputError(body.where,
+                       fmt::format("the body '{}' only conducts heat and cannot have a velocity", body.name),
+                       "no initial_velocity, or physics = \"all\"");
+  }
+  const auto all = [&](const auto& of) { return std::all_of(spec.bodies.begin(), spec.bodies.end(), of); };
+  if (all(only_conducts))
+    throw InputError(spec.bodies.front().where, "no body deforms: all have physics = \"heat\"",
+                     "physics = \"heat\" in [analysis]");
+  for (const StageRun& run : stage_runs(spec)) {
+    const auto takes_no_part = [&](const BodySpec& body) {
+      return !holds(body.stages, &run) || (spec.coupled() && only_conducts(body));
+    };
+    if (all(takes_no_part))
+      throw InputError(spec.bodies.front().where,
+                       fmt::format("nothing is left in the stage '{}'{}", run.stage->name,
+                                   spec.has_mechanics() ? " that deforms" : ""),
+                       "a body that stays");
+  }
+}
+
+void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactSpec& pair) {
+  std::vector<std::string> conductors;
+  for (const BodySpec& body : spec.bodies)
+    if (only_conducts(body)) conductors.push_back(body.mesh_group());
+  const algebra::Presence deforms(mesh, conductors);
+  if (deforms.complete()) return;
+  const auto is_wall = [&](const std::string& surface) {
+    const Sides side = sides(mesh, deforms, surface);
+    return side.gone && !side.there;
+  };
+  const bool slave = is_wall(pair.slave), master = is_wall(pair.master);
+  if (pair.choose_roles && slave != master) {
+    if (slave) std::swap(pair.slave, pair.master);
+    pair.choose_roles = false;
+  }
+  if (!slave || !master) return;
+  pair.penalty_is_factor = false;
+  pair.penalty = 1;
+}
+
+bool holds(const CaseSpec& spec, const ContactSpec& contact, const mesh::Mesh& mesh, const StageRun* stage) {
+  if (!holds(contact.stages, stage)) return false;
+  const algebra::Presence presence(mesh, gone_bodies(spec, stage));
+  if (presence.complete()) return true;
+  const auto surfaces = contact.sides();
+  return std::none_of(surfaces.begin(), surfaces.end(),
+                      [&](const std::string& surface) { return sides(mesh, presence, surface).gone; });
+}
+
+std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& mesh, const StageRun* stage) {
+  std::vector<std::string> idle;
+  const algebra::Presence there(mesh, gone_bodies(spec, stage)),
+      deforms(mesh, absent_from_mechanics(spec, stage));
+  if (deforms.complete()) return idle;
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    using Kind = ThermalConditionSpec::Kind;
+    if (!holds(c.stages, stage)) continue;
+    const bool needs_faces = c.kind != Kind::temperature && c.kind != Kind::source;
+    if (stands(mesh, there, c.group, needs_faces)) continue;
+    if (named(c.stages, stage)) refuse(c.where, "the thermal condition '" + c.name + "'", *stage);
+    idle.push_back(c.name);
+  }
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    using Kind = MechanicalConditionSpec::Kind;
+    if (!holds(c.stages, stage)) continue;
+    const bool needs_faces = c.kind == Kind::pressure || c.kind == Kind::traction;
+    if (stands(mesh, deforms, c.group, needs_faces)) continue;
+    if (named(c.stages, stage) && !stands(mesh, there, c.group, needs_faces))
+      refuse(c.where, "the mechanical condition '" + c.name + "'", *stage);
+    idle.push_back(c.name);
+  }
+  for (const ContactSpec& c : spec.contacts) {
+    if (!holds(c.stages, stage)) continue;
+    for (const std::string& surface : c.sides()) {
+      const Sides side = sides(mesh, there, surface);
+      if (!side.gone) continue;
+      if (side.there)
+        throw InputError(
+            c.where,
+            fmt::format("the surface '{}' of the contact '{}' belongs to a body that has gone in the "
+                        "stage '{}' and to one that stays",
+                        surface, c.name, stage->stage->name),
+            "one contact, and one surface, for each body");
+      if (named(c.stages, stage)) refuse(c.where, "the contact '" + c.name + "'", *stage);
+      idle.push_back(c.name);
+      break;
+    }
+  }
+  return idle;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,40 @@
+/// Bodies that only conduct heat, and bodies that leave in the course of the stages (shake-out, ejection).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/spec.hpp"
+#include "mesh/mesh.hpp"
+#include "model/case_spec.hpp"
+#include "model/stage_input.hpp"
+
+namespace solidus::model {
+
+/// Whether a body only conducts heat.
+bool only_conducts(const BodySpec& body);
+
+/// The groups of the bodies that are not there in a stage; without a stage none.
+std::vector<std::string> gone_bodies(const CaseSpec& spec, const StageRun* stage);
+
+/// The groups of the bodies that take no part in mechanics: those that only conduct heat, and those gone.
+std::vector<std::string> absent_from_mechanics(const CaseSpec& spec, const StageRun* stage);
+
+/// That bodies are there from the first stage on, do not come back, and that something is left. Throws
+/// InputError.
+void check_bodies(const CaseSpec& spec);
+
+/// A body that only conducts heat is a rigid wall in contact: the master where the program chooses the roles.
+/// Between two such walls no force acts, and the penalty is any. Collective.
+void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactSpec& pair);
+
+/// Whether a contact holds in a stage: it is one of its stages, and no body of its surfaces has gone.
+bool holds(const CaseSpec& spec, const ContactSpec& contact, const mesh::Mesh& mesh, const StageRun* stage);
+
+/// The names of the conditions and contacts of a stage that find no body: all they stand on has gone, or only
+/// conducts heat where they are mechanical. Throws InputError where the user names that stage for one whose
+/// body has gone, or where a contact's surface belongs to a body that has gone and one that stays.
+/// Collective.
+std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& mesh, const StageRun* stage);
+
+}  // namespace solidus::model

@@ -1,0 +1,138 @@
+#include "model/export.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "coupling/contact_states.hpp"
+#include "coupling/passes.hpp"
+#include "mesh/block_geometry.hpp"
+#include "model/assembly.hpp"
+#include "model/case_materials.hpp"
+#include "model/fingerprint.hpp"
+#include "model/mesh_input.hpp"
+#include "results/checkpoint.hpp"
+#include "results/output_file.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// A step so short, as a share of the run, that nothing flows in it.
+constexpr double k_short = 1e-9;
+
+void check_exportable(const CaseSpec& spec) {
+  int size = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  if (size > 1) throw InputError({}, "the export works on one process", "without mpirun");
+  if (!spec.has_mechanics())
+    throw InputError(spec.analysis.where, "there is no stress to export", "a case with mechanics");
+  if (spec.dynamics)
+    throw InputError(spec.dynamics->where, "the stress of bodies in motion is in no equilibrium",
+                     "a quasi-static case");
+}
+
+/// The stresses at the points, with one pressure an element where the volumetric mode is constant: the nodal
+/// forces of both are the same, ∫ B̄ᵀ σ dV = ∫ Bᵀ (dev σ + tr σ̄/3 1) dV.
+std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& mesh, const mesh::Block& block,
+                                                             AnalysisKind kind,
+                                                             const mechanics::BlockHistory& history,
+                                                             bool mean_pressure) {
+  const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
+  const auto n_points = static_cast<std::size_t>(geometry.n_points);
+  std::vector<std::vector<std::array<double, 6>>> stress(static_cast<std::size_t>(block.size()));
+  for (std::size_t e = 0; e < stress.size(); ++e) {
+    const std::size_t batch = e / k_lanes;
+    const int lane = static_cast<int>(e % k_lanes);
+    double pressure = 0, volume = 0;
+    for (std::size_t q = 0; q < n_points; ++q) {
+      std::array<double, 6>& s = stress[e].emplace_back();
+      for (std::size_t i = 0; i < 6; ++i) s[i] = history.values[(batch * n_points + q) * 6 + i][lane];
+      const double weight = geometry.weight[batch * n_points + q][lane];
+      pressure += weight * (s[0] + s[1] + s[2]) / 3;
+      volume += weight;
+    }
+    for (auto& s : stress[e]) {
+      const double change = mean_pressure ? pressure / volume - (s[0] + s[1] + s[2]) / 3 : 0.0;
+      for (std::size_t i = 0; i < 3; ++i) s[i] += change;
+    }
+  }
+  return stress;
+}
+
+std::vector<std::vector<Index>> tied_entries(const algebra::Ties& ties, std::size_t n_entries) {
+  std::map<GlobalIndex, std::vector<Index>> groups;
+  for (std::size_t i = 0; i < n_entries && !ties.empty(); ++i)
+    groups[ties.unknown(static_cast<Index>(i))].push_back(static_cast<Index>(i));
+  std::vector<std::vector<Index>> tied;
+  for (auto& [leader, entries] : groups)
+    if (entries.size() > 1) tied.push_back(std::move(entries));
+  return tied;
+}
+
+}  // namespace
+
+ExportReport export_state(const Case& c, const ExportOptions& options) {
+  const CaseSpec& spec = c.spec;
+  check_exportable(spec);
+  Assembly a;
+  a.materials = load_materials(spec);
+  a.mesh = load_mesh(spec);
+  build(spec, a);
+  results::Checkpoint from = results::CheckpointFolder(options.folder)
+                                 .read(a.mesh, fingerprint(spec, a.mesh, a.materials), a.initial);
+  const coupling::StageStart& stage = from.continuation.stage;
+  check_stage_of_checkpoint(spec, stage, from.state.time);
+  if (stage.number > 0)
+    apply(spec, static_cast<std::size_t>(stage.number - 1), stage.displacement, nullptr, a);
+
+  a.mechanics->keep_stress();
+  coupling::State& state = from.state;
+  state.mechanics.dt_before = 0;  // by backward Euler
+  const std::vector<double>& temperature = a.heat ? state.heat.temperature : a.phases.temperature;
+  const double dt = k_short * std::max(state.time, 1e-3);
+  coupling::restore_contacts(a.phases, state);
+  coupling::State still = state;
+  coupling::StepEffort effort;
+  coupling::mechanical_pass(
+      a.phases, state, still,
+      {.time = state.time, .dt = dt, .temperature = temperature, .iterate_temperature = temperature}, effort);
+
+  ExportReport report{state.time, 0, 0};
+  for (std::size_t i = 0; i < state.mechanics.displacement.size(); ++i)
+    report.adjusted = std::max(report.adjusted,
+                               std::abs(still.mechanics.displacement[i] - state.mechanics.displacement[i]));
+
+  const algebra::Presence& presence = a.mechanics->presence();
+  results::StructuralDeck deck{.title = spec.title.empty() ? "Solidus" : spec.title,
+                               .kind = spec.analysis.kind,
+                               .mesh = a.mesh,
+                               .presence = presence,
+                               .materials = a.materials,
+                               .displacement = {},
+                               .temperature = temperature,
+                               .stress = {},
+                               .plastic_strain = {},
+                               .fixed = a.mechanics->fixed(),
+                               .ties = tied_entries(a.mechanics->ties(), still.mechanics.displacement.size()),
+                               .force = a.mechanics->applied_forces()};
+  if (options.deformed) deck.displacement = still.mechanics.displacement;
+  const std::vector<mechanics::ElementFields> fields = a.mechanics->element_fields();
+  for (std::size_t b = 0; b < a.mesh.blocks.size(); ++b) {
+    const mesh::Block& block = a.mesh.blocks[b];
+    deck.stress.emplace_back();
+    deck.plastic_strain.push_back(fields[b].equivalent_plastic_strain);
+    if (!presence.body(block.body)) continue;
+    const bool mean =
+        spec.mechanics.b_bar && (block.shape == mesh::Shape::quad4 || block.shape == mesh::Shape::hex8);
+    deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], mean);
+    report.elements += deck.stress[b].size();
+  }
+  results::write_file(options.file, results::structural_deck(deck, options.dialect));
+  return report;
+}
+
+}  // namespace solidus::model

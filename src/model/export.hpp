@@ -1,0 +1,30 @@
+/// The end of a run, from its folder, as the start of a structural analysis elsewhere.
+#pragma once
+
+#include <filesystem>
+
+#include "model/case_file.hpp"
+#include "results/structural_deck.hpp"
+
+namespace solidus::model {
+
+struct ExportOptions {
+  std::filesystem::path folder;  ///< of the run: its checkpoint
+  std::filesystem::path file;    ///< to write
+  results::Dialect dialect = results::Dialect::calculix;
+  bool deformed = false;  ///< coordinates with the displacement
+};
+
+struct ExportReport {
+  double time = 0;      ///< of the checkpoint [s]
+  double adjusted = 0;  ///< the largest displacement that equilibrium at the final temperature asks for [m]
+  std::size_t elements = 0;
+};
+
+/// Brings the state of the checkpoint into equilibrium at its own temperature (the phases take turns: the
+/// stress of the last step is that of the temperature before) and writes it. One process. Throws InputError
+/// for a case without mechanics or with inertia, for several processes, and as a restart does; StepRejected
+/// where there is no equilibrium.
+ExportReport export_state(const Case& c, const ExportOptions& options);
+
+}  // namespace solidus::model

@@ -1,0 +1,144 @@
+/// A STEP file, written here by Gmsh's OpenCASCADE kernel, read and meshed by the program: a plate of
+/// 20 × 10 × 5 mm with a pin of 3 mm radius and 8 mm height on it.
+#include <gmock/gmock.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/raw_mesh.hpp"
+#include "sample_mesh.hpp"
+
+namespace {
+
+using namespace solidus;
+using namespace solidus::mesh;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Key;
+
+using Box = std::array<Point, 2>;
+
+constexpr double k_mm = 1e-3, k_plate = 20e-3 * 10e-3 * 5e-3, k_size = 1e-3;
+constexpr double k_pin = std::numbers::pi * 3e-3 * 3e-3 * 8e-3;
+
+class StepFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (test::rank() > 0) GTEST_SKIP() << "files are read on process 0";
+    file_ = (std::filesystem::path(SOLIDUS_BINARY_DIR) / "plate_and_pin.step").string();
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::model::add("plate and pin");
+    const int plate = gmsh::model::occ::addBox(0, 0, 0, 20, 10, 5);
+    const int pin = gmsh::model::occ::addCylinder(10, 5, 5, 0, 0, 8, 3);
+    gmsh::vectorpair all;
+    std::vector<gmsh::vectorpair> map;
+    gmsh::model::occ::fragment({{3, plate}}, {{3, pin}}, all, map);
+    gmsh::model::occ::synchronize();
+    gmsh::write(file_);
+    gmsh::finalize();
+  }
+  RawMesh read(const GeometryChoice& choice = {}, double size = k_size) const {
+    RawMesh mesh = read_mesh(file_, k_mm, size, 1, {}, choice);
+    validate_and_orient(mesh, file_);
+    return mesh;
+  }
+  std::string complaint(const GeometryGroup& group) const {
+    try {
+      read({{group}, false});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  std::string file_;
+};
+
+double measure(const RawMesh& mesh, const std::string& group) {
+  for (const GroupReport& report : assess(mesh).groups)
+    if (report.name == group) return report.measure;
+  return NAN;
+}
+
+std::size_t shared_nodes(const RawMesh& mesh, const std::string& a, const std::string& b) {
+  std::set<Index> of_a;
+  for (const RawBlock& block : mesh.groups.at(a).blocks) of_a.insert(block.nodes.begin(), block.nodes.end());
+  std::set<Index> both;
+  for (const RawBlock& block : mesh.groups.at(b).blocks)
+    for (const Index node : block.nodes)
+      if (of_a.contains(node)) both.insert(node);
+  return both.size();
+}
+
+TEST_F(StepFile, HasItsBodiesAndSurfacesByNumber) {
+  const RawMesh mesh = read();
+  EXPECT_EQ(mesh.dimension, 3);
+  EXPECT_NEAR(measure(mesh, "body_1"), k_plate, 1e-9 * k_plate);
+  // A prism of at least 18 sides: 0.98 of the area.
+  EXPECT_NEAR(measure(mesh, "body_2"), k_pin, 0.03 * k_pin);
+  double outside = 0;
+  for (int number = 1; number <= 10; ++number) outside += measure(mesh, "surface_" + std::to_string(number));
+  const double side = 2 * std::numbers::pi * 3e-3 * 8e-3, end = std::numbers::pi * 9e-6;
+  EXPECT_NEAR(outside, 2 * (200e-6 + 100e-6 + 50e-6) + side + 2 * end, 0.02 * outside);
+  EXPECT_EQ(shared_nodes(mesh, "body_1", "body_2"), 0u);  // for contact
+}
+
+TEST_F(StepFile, HasGroupsByNumberAndByBox) {
+  const RawMesh mesh = read({{{"plate", true, {1}, {}, {}},
+                              {"pin", true, {}, {}, Box{{{5e-3, 0, 5e-3}, {15e-3, 10e-3, 13e-3}}}},
+                              {"below", false, {}, {}, Box{{{0, 0, 0}, {20e-3, 10e-3, 0}}}},
+                              {"sides", false, {1, 2, 3, 4}, {}, {}}},
+                             false});
+  EXPECT_NEAR(measure(mesh, "plate"), k_plate, 1e-9 * k_plate);
+  EXPECT_NEAR(measure(mesh, "pin"), k_pin, 0.03 * k_pin);
+  EXPECT_NEAR(measure(mesh, "below"), 200e-6, 1e-12);
+  EXPECT_NEAR(measure(mesh, "sides"), 2 * (100e-6 + 50e-6), 1e-12);
+  EXPECT_THAT(mesh.groups, ::testing::Not(Contains(Key("body_1"))));
+  EXPECT_THAT(mesh.groups, ::testing::Not(Contains(Key("surface_1"))));
+}
+
+TEST_F(StepFile, SharesFacesOfBodiesThatTouchWhereThatIsAsked) {
+  const RawMesh mesh = read({{}, true});
+  EXPECT_GT(shared_nodes(mesh, "body_1", "body_2"), 5u);
+}
+
+TEST_F(StepFile, NamesBodiesAsTheFileDoes) {
+  std::ostringstream text;
+  text << std::ifstream(file_).rdbuf();
+  const std::string labelled = std::regex_replace(
+      std::regex_replace(text.str(), std::regex("Open CASCADE STEP translator [0-9.]+ [0-9]+\\.1"),
+                         "base plate"),
+      std::regex("Open CASCADE STEP translator [0-9.]+ [0-9]+\\.2"), "pin");
+  std::ofstream(file_) << labelled;
+  EXPECT_THAT(read().groups, AllOf(Contains(Key("base plate")), Contains(Key("pin"))));
+  const RawMesh mesh = read({{{"bottom half", true, {}, "base plate", {}}}, false});
+  EXPECT_NEAR(measure(mesh, "bottom half"), k_plate, 1e-9 * k_plate);
+  EXPECT_THAT(complaint({"x", true, {}, "base plat", {}}),
+              AllOf(HasSubstr("no body of the geometry is labelled 'base plat'"), HasSubstr("base plate")));
+}
+
+TEST_F(StepFile, WhatAGroupCannotFindIsSaid) {
+  EXPECT_THAT(complaint({"top", false, {3, 11}, {}, {}}),
+              AllOf(HasSubstr("the group 'top': the geometry has no surface 11"), HasSubstr("1 to 10")));
+  EXPECT_THAT(complaint({"nothing", false, {}, {}, Box{{{0, 0, 1e-3}, {1e-3, 1e-3, 2e-3}}}}),
+              HasSubstr("no surface of the geometry lies in the box"));
+  EXPECT_THAT(complaint({"label", false, {}, "lid", {}}), HasSubstr("the file has no labels"));
+  try {
+    read({{{"a", true, {1}, {}, {}}, {"b", true, {1}, {}, {}}}, false});
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the body 1 is in two groups"));
+  }
+}
+
+}  // namespace
