@@ -22,6 +22,20 @@ void set_default_option(const std::string& name, const char* value) {
   if (!given) check(PetscOptionsSetValue(nullptr, key.c_str(), value), "PetscOptionsSetValue");
 }
 
+void put(std::span<const double> from, Vec to) {
+  double* values = nullptr;
+  check(VecGetArrayWrite(to, &values), "VecGetArrayWrite");
+  std::copy(from.begin(), from.end(), values);
+  check(VecRestoreArrayWrite(to, &values), "VecRestoreArrayWrite");
+}
+
+void get(Vec from, std::span<double> to) {
+  const double* values = nullptr;
+  check(VecGetArrayRead(from, &values), "VecGetArrayRead");
+  std::copy_n(values, to.size(), to.data());
+  check(VecRestoreArrayRead(from, &values), "VecRestoreArrayRead");
+}
+
 }  // namespace
 
 struct KrylovSolver::Implementation {
@@ -167,10 +181,7 @@ LinearReport KrylovSolver::solve(std::span<const double> b, std::span<double> x,
   if (!my.ksp) return {0, false, "no factorisation"};
   check(KSPSetTolerances(my.ksp, relative, absolute, PETSC_DEFAULT, my.options.max_iterations),
         "KSPSetTolerances");
-  double* values = nullptr;
-  check(VecGetArrayWrite(my.b, &values), "VecGetArrayWrite");
-  std::copy(b.begin(), b.end(), values);
-  check(VecRestoreArrayWrite(my.b, &values), "VecRestoreArrayWrite");
+  put(b, my.b);
 
   LinearReport report;
   KSPConvergedReason reason = my.run(report.iterations);
@@ -181,13 +192,17 @@ LinearReport KrylovSolver::solve(std::span<const double> b, std::span<double> x,
   my.stale = false;
   report.converged = reason > 0;
   if (!report.converged) report.reason = KSPConvergedReasons[reason];
-  const double* solution = nullptr;
-  check(VecGetArrayRead(my.x, &solution), "VecGetArrayRead");
-  std::copy_n(solution, x.size(), x.data());
-  check(VecRestoreArrayRead(my.x, &solution), "VecRestoreArrayRead");
+  get(my.x, x);
   // MUMPS refuses the next factorisation once one has met a singular matrix.
   if (reason == KSP_DIVERGED_PC_FAILED) reset();
   return report;
+}
+
+void KrylovSolver::multiply(std::span<const double> x, std::span<double> y) {
+  Implementation& my = *implementation_;
+  put(x, my.x);
+  check(MatMult(my.op, my.x, my.b), "MatMult");
+  get(my.b, y);
 }
 
 void KrylovSolver::reset() {

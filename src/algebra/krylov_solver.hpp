@@ -39,6 +39,8 @@ class KrylovSolver {
   void set(Mat op, Mat preconditioner, Mat schur = nullptr);
   /// Solves to ‖b − A x‖ <= max(relative ‖b‖, absolute) from x = 0, on owned degrees of freedom. Collective.
   LinearReport solve(std::span<const double> b, std::span<double> x, double relative, double absolute = 0);
+  /// y = A x with the operator of set(), on owned degrees of freedom. Collective.
+  void multiply(std::span<const double> x, std::span<double> y);
   /// The next matrices have another pattern, or nothing of the past shall count.
   void reset();
   double seconds_setup() const;

@@ -13,10 +13,18 @@ inline constexpr double k_volume_tolerance = 1e-11;
 inline constexpr int k_max_volumes = 30;
 /// Of one step of that iteration: beyond it no law holds.
 inline constexpr double k_largest_volume_step = 0.05;
+/// c of τ = c h²/(2Ĝ). What orthogonal sub-scales leave out is of higher order, and the answer hardly depends
+/// on c; algebraic ones soften a body with c (docs/decisions/0007-mixed-simplices.md).
+inline constexpr double k_orthogonal = 1.0, k_algebraic = 0.25;
+
+/// Behind the law's state at a point: e_v, and in axisymmetry p_a − p̄ of its nodes.
+template <int n_nodes, AnalysisKind kind>
+inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 1 + n_nodes : 1;
 
 template <class Law, int n_nodes, AnalysisKind kind>
-class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public MixedKernel {
-  using Base = PointBlock<Law, n_nodes, kind, false, 1>;
+class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_nodes, kind>>,
+                         public MixedKernel {
+  using Base = PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_nodes, kind>>;
   using Base::dim, Base::gather, Base::nodes_of, Base::geometry_, Base::n_kept, Base::n_state;
   using typename Base::Operator, typename Base::Vectors, typename Base::State, typename Base::Properties,
       typename Base::Response, typename Base::Matrix;
@@ -24,6 +32,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
   static_assert(n_nodes == static_cast<int>(dim) + 1, "a linear simplex");
   static_assert(IsotropicTangent<Response>);
   static constexpr bool adiabatic = AdiabaticTangent<Response>;
+  static constexpr bool hoop = kind == AnalysisKind::axisymmetric;
   static constexpr double share = 1.0 / n_nodes;  ///< N_a at the one point
 
  public:
@@ -36,6 +45,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
     twice_shear_.resize(n);
     tau_.resize(n);
     if constexpr (adiabatic) tangent_.resize(n);
+    if constexpr (hoop) masses_ = mesh::basis_integrals(mesh, block, kind);
   }
 
   double prepare(const StepStart& start) override {
@@ -50,7 +60,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
       const auto& properties = this->properties_[i];
       twice_shear_[i] =
           secant_shear(this->law_, properties, this->start_state(batch, 0), this->effective_dt_);
-      tau_[i] = squared_length(b) / twice_shear_[i];
+      tau_[i] = Lane(orthogonal_ ? k_orthogonal : k_algebraic) * squared_length(b) / twice_shear_[i];
       compliance_[i] = Lane(1.0) / bulk;
       if constexpr (adiabatic) {
         tangent_[i] = volume_tangent(this->update(batch, 0, held));
@@ -69,7 +79,8 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
       const Operator b = at_point(batch);
       const Point point = answer(batch, b.strain(gather(u, batch)));
       Vectors f{};
-      b.add_force(geometry_.weight_at(batch, 0) * point.response.stress, f);
+      b.add_force(geometry_.weight_at(batch, 0) * dev(point.response.stress), f);
+      add_pressure_force(b, batch, gather_pressure(pressure_, batch), f);
       if (point.response.status != material::Status::converged) this->spoil(f);
       total += this->counted(batch) * this->squares(f);
       scatter<n_nodes, Operator::dim>(f, nodes_of(batch), forces);
@@ -105,7 +116,8 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
     typename Base::Tally tally;
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Operator b = at_point(batch);
-      const Sym<Lane> old_gradient = b.strain(gather(old_u, batch)), gradient = b.strain(gather(u, batch));
+      const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
+      const Sym<Lane> old_gradient = b.strain(old_displacement), gradient = b.strain(displacement);
       const Lane old_volume = kept_volume(*this->old_history_, batch);
       const Point point = answer(batch, gradient);
       typename Base::Average average;
@@ -113,9 +125,13 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
                                              point.response, trial, average, tally);
       keep_volume(trial, batch, point.volume);
       // What the pressure works on the difference of the volumes: the sub-scales take it up.
-      const Lane left_over = trace(gradient) - point.volume - (trace(old_gradient) - old_volume);
-      tally.stabilisation_work +=
-          this->counted(batch) * geometry_.weight_at(batch, 0) * Lane(1.0 / 3.0) * trace(at_work) * left_over;
+      const Nodal now = volume_change(b, batch, displacement),
+                  before = volume_change(b, batch, old_displacement);
+      const Nodal variation = variation_at_work(batch, trial);
+      const Lane pressure = Lane(1.0 / 3.0) * trace(at_work);
+      Lane left_over = geometry_.weight_at(batch, 0) * pressure * (old_volume - point.volume);
+      for (std::size_t a = 0; a < n_nodes; ++a) left_over += (pressure + variation[a]) * (now[a] - before[a]);
+      tally.stabilisation_work += this->counted(batch) * left_over;
       this->keep(batch, average);
     }
     return this->total(tally);
@@ -140,11 +156,23 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
     return {};
   }
 
+  /// ∫ N_a dV: in axisymmetry exact, as the pressure's forces are, so that a liquid column rests.
+  void add_nodal_volume(double weight, std::span<double> out) const override {
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Nodal mass = masses(batch);
+      for (std::size_t a = 0; a < n_nodes; ++a)
+        for (std::size_t lane = 0; lane < k_lanes; ++lane)
+          out[static_cast<std::size_t>(nodes_of(batch)[a * k_lanes + lane])] +=
+              weight * mass[a][static_cast<int>(lane)];
+    }
+  }
+
   std::size_t bytes() const override {
     return Base::bytes() +
            (volume_.capacity() + compliance_.capacity() + twice_shear_.capacity() + tau_.capacity()) *
                sizeof(Lane) +
-           tangent_.capacity() * sizeof(VolumeTangent) + pressure_slots_.capacity() * sizeof(Slot);
+           tangent_.capacity() * sizeof(VolumeTangent) + masses_.capacity() * sizeof(Lane) +
+           pressure_slots_.capacity() * sizeof(Slot);
   }
 
   void use_pressure(std::span<const double> pressure, PressureField field) override {
@@ -212,17 +240,20 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Operator b = at_point(batch);
       const Lane w = geometry_.weight_at(batch, 0), stabilised = tau_[at(batch)] * w;
-      const Sym<Lane> gradient = b.strain(gather(u, batch));
-      const Nodal p = gather_pressure(pressure_, batch);
-      find_volume(batch, gradient, mean(p));
-      const Lane volume = volume_[at(batch)], change = trace(gradient);
+      const Vectors displacement = gather(u, batch);
+      const Nodal p = gather_pressure(pressure_, batch), mass = masses(batch);
+      find_volume(batch, b.strain(displacement), mean(p, batch));
+      const Lane volume = volume_[at(batch)];
       const auto g = pressure_gradient(p, batch);
-      Nodal here, magnitude;
-      magnitude.fill(Lane(share) * w * (abs(change) + abs(volume)));
+      Nodal here = volume_change(b, batch, displacement), magnitude;
       for (std::size_t a = 0; a < n_nodes; ++a) {
-        here[a] = Lane(share) * w * (change - volume);
-        for (std::size_t i = 0; i < dim; ++i)
-          here[a] -= stabilised * b.gradient[a][i] * (g[i] + body_force(i));
+        magnitude[a] = abs(here[a]) + mass[a] * abs(volume);
+        here[a] -= mass[a] * volume;
+        for (std::size_t i = 0; i < dim; ++i) {
+          const Lane stabilisation = stabilised * b.gradient[a][i] * (g[i] + body_force(i));
+          here[a] -= stabilisation;
+          magnitude[a] += abs(stabilisation);
+        }
       }
       scatter_pressure(here, batch, defect);
       scatter_pressure(magnitude, batch, size);
@@ -236,8 +267,9 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
 
   void add_mass(double scale, algebra::BlockMatrix& matrix) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-      const Lane mass = Lane(scale * share) * geometry_.weight_at(batch, 0) / twice_shear_[at(batch)];
-      for (std::size_t a = 0; a < n_nodes; ++a) add_entry(mass, batch, a, a, matrix);
+      const Nodal mass = masses(batch);
+      const Lane softness = Lane(scale) / twice_shear_[at(batch)];
+      for (std::size_t a = 0; a < n_nodes; ++a) add_entry(softness * mass[a], batch, a, a, matrix);
     }
   }
 
@@ -246,27 +278,26 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
                field = static_cast<std::size_t>(field_.field);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Operator b = at_point(batch);
-      const Lane w = Lane(unit * share) * geometry_.weight_at(batch, 0);
-      Vectors force{};
-      b.add_force(w * Sym<Lane>::identity(), force);
-      Vectors volume = force;
+      const Nodal mass = masses(batch);
       Lane compliance = compliance_[at(batch)];
+      Vectors left{}, right{};  // of the stress and of the volume
       if constexpr (adiabatic) {
         const VolumeTangent& t = tangent_[at(batch)];
-        b.add_force(w * t.left, force);
-        b.add_force(w * t.right, volume);
+        b.add_force(Lane(unit) * t.left, left);
+        b.add_force(Lane(unit) * t.right, right);
         compliance = Lane(1.0) / t.stiffness;
       }
       const Slot* const slots = this->slots_of(batch);
       for (std::size_t a = 0; a < n_nodes; ++a)
         for (std::size_t c = 0; c < n_nodes; ++c)
-          for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-            const Slot slot = slots[(a * n_nodes + c) * k_lanes + lane];
-            double* const to_force = matrix.force_by_temperature(slot);
-            double* const to_volume = matrix.heat_by_displacement(slot);
-            for (std::size_t i = 0; i < dim; ++i) {
-              to_force[i * fields + field] += force[a][i][static_cast<int>(lane)];
-              to_volume[field * dim + i] += volume[c][i][static_cast<int>(lane)];
+          for (std::size_t i = 0; i < dim; ++i) {
+            // Row u_a, column p_c; and row p_a, column u_c.
+            const Lane force = Lane(unit) * divergence(b, batch, a, i, c, mass) + mass[c] * left[a][i];
+            const Lane volume = Lane(unit) * divergence(b, batch, c, i, a, mass) + mass[a] * right[c][i];
+            for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+              const Slot slot = slots[(a * n_nodes + c) * k_lanes + lane];
+              matrix.force_by_temperature(slot)[i * fields + field] += force[static_cast<int>(lane)];
+              matrix.heat_by_displacement(slot)[field * dim + i] += volume[static_cast<int>(lane)];
             }
           }
       add_to_pressures(Lane(-unit * unit), compliance, batch, matrix.temperature());
@@ -321,7 +352,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
 
   /// The law at ∇u and the pressure in use.
   Point answer(Index batch, const Sym<Lane>& gradient) {
-    const Lane pressure = mean(gather_pressure(pressure_, batch));
+    const Lane pressure = mean(gather_pressure(pressure_, batch), batch);
     const bool found = find_volume(batch, gradient, pressure);
     const Lane volume = volume_[at(batch)];
     Point point{strain(gradient, volume), volume, {}};
@@ -364,10 +395,81 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
       for (std::size_t i = 0; i < dim; ++i) g[i] += p[a] * b.gradient[a][i];
     return g;
   }
-  static Lane mean(const Nodal& p) {
+
+  /// ∫ N_a dV.
+  Nodal masses(Index batch) const {
+    Nodal mass;
+    if constexpr (hoop)
+      std::copy_n(masses_.begin() + static_cast<std::ptrdiff_t>(batch) * n_nodes, n_nodes, mass.begin());
+    else
+      mass.fill(Lane(share) * geometry_.weight_at(batch, 0));
+    return mass;
+  }
+  /// The pressure that the law works with, ∫ p dV/V.
+  Lane mean(const Nodal& p, Index batch) const {
     Lane total(0.0);
-    for (const Lane& value : p) total += value;
-    return Lane(share) * total;
+    if constexpr (hoop) {
+      const Nodal mass = masses(batch);
+      Lane volume(0.0);
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        total += mass[a] * p[a];
+        volume += mass[a];
+      }
+      return select(volume > Lane(0.0), total / volume, Lane(0.0));  // padding has no volume
+    } else {
+      for (const Lane& value : p) total += value;
+      return Lane(share) * total;
+    }
+  }
+  /// ∫ b_a N_c dV in direction i, exact: in axisymmetry the hoop part is ∫ N_a N_c 2π dA.
+  Lane divergence(const Operator& b, Index batch, std::size_t a, std::size_t i, std::size_t c,
+                  const Nodal& mass) const {
+    Lane d = b.gradient[a][i] * mass[c];
+    if constexpr (hoop)
+      if (i == 0) d += hoop_integral(batch) * Lane(a == c ? 2.0 : 1.0);
+    return d;
+  }
+  /// ∫ N_a N_c 2π dA, a ≠ c.
+  Lane hoop_integral(Index batch) const {
+    return Lane(1.0 / 12.0) * geometry_.weight_at(batch, 0) * this->inverse_radius(batch, 0);
+  }
+  /// f_a += ∫ b_a p dV.
+  void add_pressure_force(const Operator& b, Index batch, const Nodal& p, Vectors& f) const {
+    const Nodal mass = masses(batch);
+    for (std::size_t a = 0; a < n_nodes; ++a)
+      for (std::size_t c = 0; c < n_nodes; ++c)
+        for (std::size_t i = 0; i < dim; ++i) f[a][i] += divergence(b, batch, a, i, c, mass) * p[c];
+  }
+  /// ∫ N_c div u dV.
+  Nodal volume_change(const Operator& b, Index batch, const Vectors& u) const {
+    const Nodal mass = masses(batch);
+    Nodal change{};
+    for (std::size_t a = 0; a < n_nodes; ++a)
+      for (std::size_t c = 0; c < n_nodes; ++c)
+        for (std::size_t i = 0; i < dim; ++i) change[c] += divergence(b, batch, a, i, c, mass) * u[a][i];
+    return change;
+  }
+  /// p_a − p̄ of the stress whose work the step does; leaves that of its end for the next one. Without a hoop
+  /// it does no work.
+  Nodal variation_at_work(Index batch, BlockHistory& trial) {
+    Nodal variation{};
+    if constexpr (hoop) {
+      const Nodal p = gather_pressure(pressure_, batch);
+      const Lane middle = mean(p, batch);
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        const std::size_t place = at(batch) * n_kept + n_state + 1 + a;
+        variation[a] = trial.values[place] = p[a] - middle;
+        if (this->new_stress_ != nullptr)
+          variation[a] = Lane(this->stress_share_) * variation[a] +
+                         Lane(1.0 - this->stress_share_) * this->old_history_->values[place];
+      }
+      if (this->work_ == StressAtWork::end) return variation;
+      kept_variation_.resize(volume_.size());
+      Nodal& kept = kept_variation_[at(batch)];
+      if (this->work_ == StressAtWork::end_kept) kept = variation;
+      return kept;
+    }
+    return variation;
   }
 
   /// Of a node of an element in an array of [local node][field].
@@ -404,13 +506,14 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
   void add_to_pressures(const Lane& scale, const Lane& compliance, Index batch,
                         algebra::BlockMatrix& matrix) const {
     const Operator b = at_point(batch);
-    const Lane w = scale * geometry_.weight_at(batch, 0), stabilised = w * tau_[at(batch)];
-    const Lane mass = Lane(share * share) * w * compliance;
+    const Lane w = geometry_.weight_at(batch, 0), stabilised = scale * w * tau_[at(batch)];
+    const Nodal mass = masses(batch);
+    const Lane density = select(w > Lane(0.0), scale * compliance / w, Lane(0.0));  // padding has no volume
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t c = 0; c < n_nodes; ++c) {
         Lane product(0.0);
         for (std::size_t i = 0; i < dim; ++i) product += b.gradient[a][i] * b.gradient[c][i];
-        add_entry(mass + stabilised * product, batch, a, c, matrix);
+        add_entry(density * mass[a] * mass[c] + stabilised * product, batch, a, c, matrix);
       }
   }
 
@@ -424,6 +527,8 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, 1>, public
   PackVector<Lane> compliance_;        ///< 1/κ_v at the start of the step [1/Pa]
   PackVector<Lane> twice_shear_;       ///< 2Ĝ of the stabilisation [Pa]
   PackVector<Lane> tau_;               ///< [m²/Pa]
+  PackVector<Lane> masses_;            ///< ∫ N_a dV, axisymmetric only: [batch][node]
+  PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where nobody asked for it
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
 };
 

@@ -5,7 +5,10 @@
 /// one with which its mean stress is p:
 ///
 ///   r_u = ∫ B_devᵀ s + b p dV                         s = dev σ(dev ε + ⅓ e_v 1), b = Bᵀ 1
-///   r_p = ∫ N (div u − e_v(dev ε, p)) dV − S p        S: the stabilisation
+///   r_p = ∫ N (div u − e_v(dev ε, p̄)) dV − S p        S: the stabilisation
+///
+/// The law has the one point and the mean p̄ of the element; ∫ b p dV is exact, in axisymmetry with
+/// ∫ N_a N_b 2π dA of the hoop, as the weight ∫ N dV is: a liquid column rests.
 ///
 /// With g = ∇p of an element and the lumped projection Π_b = Σ_e w_e g_e / Σ_e w_e over the elements at a
 /// node b, w = τV/n:
@@ -13,7 +16,7 @@
 ///   algebraic sub-scales    qᵀ S p = Σ_e τ V ∇q·(g + ρ g_0)             the body force ρ g_0 of the element
 /// Both are symmetric: S p is the slope of Σ_e ½ τ V ‖g − Π‖² or ‖g + ρ g_0‖².
 ///
-/// τ = h²/(2Ĝ) with the secant modulus 2Ĝ at the start of the step. R. Codina, CMAME 190 (2000) 1579; M.
+/// τ = c h²/(2Ĝ) with the secant modulus 2Ĝ at the start of the step. R. Codina, CMAME 190 (2000) 1579; M.
 /// Chiumenti, Q. Valverde, C. Agelet de Saracibar, M. Cervera, CMAME 191 (2002) 5253; M. Cervera, M.
 /// Chiumenti, Q. Valverde, C. Agelet de Saracibar, CMAME 192 (2003) 5249. The projection is weighted with τ,
 /// as symmetry wants it.

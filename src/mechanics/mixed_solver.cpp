@@ -1,6 +1,7 @@
 #include "mechanics/mixed_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "algebra/petsc_handles.hpp"
 
@@ -10,11 +11,21 @@ namespace {
 
 /// Degrees of freedom of both fields; above, a factorisation in three dimensions fills up.
 constexpr GlobalIndex k_direct_limit_3d = 40000;
-/// Of flexible GMRES with a factorisation, whatever the forcing term: a step of it costs a hundredth of the
-/// factorisation, and what it leaves in r_p comes back as a force κ/2Ĝ times as large.
-constexpr double k_direct_tolerance = 1e-10;
+/// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
+constexpr double k_direct_tolerance = 1e-8, k_direct_tightening = 1e-2;
 /// Against the divergence, in parts of 2Ĝ: with it A has the stiffness of Poisson's ratio 1/4.
 constexpr double k_augmentation = 1.0 / 3.0 + 0.5;
+
+/// Of the iteration on the reduced residual.
+constexpr int k_max_rounds = 4;
+constexpr double k_safety = 0.5, k_tightest_round = 1e-4, k_loosest_round = 0.3;
+constexpr double k_correction = 1e-3;  ///< accuracy of the pressure that goes with a displacement
+
+double norm(std::span<const double> a) {
+  double squares = 0;
+  for (const double value : a) squares += value * value;
+  return std::sqrt(algebra::global_sum(squares));
+}
 
 }  // namespace
 
@@ -44,6 +55,7 @@ MixedSolver::MixedSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacem
                .definite = false,
                .symmetric = options.symmetric}),
       petsc_(std::make_unique<Petsc>()) {
+  reset();
   for (MixedKernel* kernel : pressure.kernels())
     kernel->set_augmentation(options.direct ? 0.0 : k_augmentation);
   if (options.direct) return;
@@ -87,15 +99,52 @@ algebra::LinearReport MixedSolver::solve_again(std::span<const double> b, std::s
                                                double forcing) {
   right_.assign(b.begin(), b.end());
   right_.resize(b.size() + static_cast<std::size_t>(mesh_.n_owned_nodes * pressure_.fields()), 0.0);
-  solution_.resize(right_.size());
+  solution_.assign(right_.size(), 0.0);
   const algebra::LinearReport report =
-      solver_.solve(right_, solution_,
-                    options_.direct ? std::min(k_direct_tolerance, options_.relative_tolerance)
-                                    : std::max(forcing, options_.relative_tolerance));
+      solve_to(options_.direct ? std::min(k_direct_tolerance, options_.relative_tolerance)
+                               : std::max(forcing, options_.relative_tolerance),
+               b);
   const auto all = std::span<const double>(solution_);
   std::copy_n(all.begin(), b.size(), x.begin());
   pressure_.expect(all.first(b.size()), all.subspan(b.size()));
   return report;
+}
+
+/// Until ‖r_u + B (C+S)⁻¹ r_p‖ <= relative ‖b‖.
+algebra::LinearReport MixedSolver::solve_to(double relative, std::span<const double> b) {
+  const double goal = relative * norm(b);
+  algebra::LinearReport report;
+  residual_ = right_;
+  direction_.resize(right_.size());
+  for (int round = 0;; ++round) {
+    const algebra::LinearReport part = solver_.solve(residual_, direction_, 0.0, goal * tightening_);
+    report.iterations += part.iterations;
+    report.converged = part.converged;
+    report.reason = part.reason;
+    for (std::size_t i = 0; i < solution_.size(); ++i) solution_[i] += direction_[i];
+    const double reduced = reduced_residual();
+    if (!part.converged || !(reduced > goal) || round == k_max_rounds) return report;
+    tightening_ *= std::clamp(k_safety * goal / reduced, k_tightest_round, k_loosest_round);
+  }
+}
+
+/// Of the present solution, whose pressure becomes the one that goes with its displacement; leaves the whole
+/// residual in residual_.
+double MixedSolver::reduced_residual() {
+  const std::size_t n = right_.size() - static_cast<std::size_t>(mesh_.n_owned_nodes * pressure_.fields());
+  const auto subtract = [this](std::span<const double> x) {
+    solver_.multiply(x, direction_);
+    for (std::size_t i = 0; i < residual_.size(); ++i) residual_[i] -= direction_[i];
+  };
+  residual_ = right_;
+  subtract(solution_);
+  std::vector<double> correction(right_.size(), 0.0);
+  const std::span<double> of_pressure = std::span(correction).subspan(n);
+  pressure_.solve_linear(std::span<const double>(residual_).subspan(n), of_pressure, k_correction);
+  for (std::size_t i = n; i < correction.size(); ++i) correction[i] = -correction[i];
+  for (std::size_t i = n; i < correction.size(); ++i) solution_[i] += correction[i];
+  subtract(correction);
+  return norm(std::span<const double>(residual_).first(n));
 }
 
 /// What the operator has and the assembled matrix has not: the projection, and less augmentation.
@@ -123,6 +172,7 @@ void MixedSolver::forget() {
 }
 
 void MixedSolver::reset() {
+  tightening_ = options_.direct ? k_direct_tightening : 1;
   solver_.reset();
   petsc_->assembled.reset();
 }

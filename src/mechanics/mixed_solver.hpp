@@ -7,8 +7,12 @@
 /// without that part in its preconditioner, which is the LDLᵀ of MUMPS or, for many unknowns, block
 /// triangular: multigrid with rigid-body modes on A, and C + S + ∫ N 1/(2Ĝ) N dV for the Schur complement.
 /// There A gets a stiffness 2Ĝ/3 against the divergence, which the operator is without: alone it is singular
-/// where a body may swell. PETSc options:
-/// mechanics_mixed_, and within the block triangular one mechanics_mixed_fieldsplit_u_ and …_p_.
+/// where a body may swell.
+///
+/// What an iterative solver leaves in the second row comes back in the forces, once the pressure is
+/// eliminated, up to κ/2Ĝ times as large: r = r_u + B (C+S)⁻¹ r_p. The iteration goes on until r is small
+/// enough. PETSc options: mechanics_mixed_, and within the block triangular one mechanics_mixed_fieldsplit_u_
+/// and …_p_.
 #pragma once
 
 #include <memory>
@@ -47,6 +51,8 @@ class MixedSolver final : public algebra::TangentSolver {
 
  private:
   void add_terms(std::span<const double> x, std::span<double> y);
+  algebra::LinearReport solve_to(double relative, std::span<const double> b);
+  double reduced_residual();
 
   const mesh::Mesh& mesh_;
   algebra::BlockMatrix& displacement_;
@@ -58,8 +64,10 @@ class MixedSolver final : public algebra::TangentSolver {
   algebra::CoupledMatrix matrix_;
   algebra::CorrectedMatrix operator_;
   algebra::KrylovSolver solver_;
-  std::vector<double> right_, solution_;  ///< owned, displacements and then pressures
-  std::vector<double> swelling_, pull_;   ///< scratch, [local node][component]
+  std::vector<double> right_, solution_;      ///< owned, displacements and then pressures
+  std::vector<double> residual_, direction_;  ///< of the same
+  double tightening_ = 1;                     ///< of the tolerance, so that the reduced residual is small
+  std::vector<double> swelling_, pull_;       ///< scratch, [local node][component]
   struct Petsc;
   std::unique_ptr<Petsc> petsc_;
 };

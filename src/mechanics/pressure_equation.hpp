@@ -64,6 +64,10 @@ class PressureEquation {
   /// y += factor × unit² × the part of S that couples neighbours of neighbours, taken as positive: S is its
   /// compact part less this one; x in units; owned nodes. Collective.
   void add_projection_to(std::span<const double> x, double factor, std::span<double> y);
+  /// x = (C + S)⁻¹ b, both in units and on owned nodes, to ‖b − …‖ <= relative ‖b‖. Collective.
+  algebra::LinearReport solve_linear(std::span<const double> b, std::span<double> x, double relative) {
+    return solver_.solve(b, x, relative);
+  }
   /// A matrix of pressures, all zero.
   std::unique_ptr<algebra::BlockMatrix> make_matrix() const;
   /// As algebra::TangentSolver::forget().
