@@ -40,6 +40,7 @@ double tube(Choice choice, int n, double poisson) {
   lattice.map = [](const mesh::Point& x) { return mesh::Point{x[0] + k_inner, x[1], 0}; };
   Body body(lattice, AnalysisKind::axisymmetric, test::elastic_material(k_young, poisson));
   body.options.b_bar = choice.b_bar;
+  body.options.simplices = mechanics::Simplices::displacement;  // mixed ones: simplex_cook_test.cpp
   body.hold("bottom", 1);
   body.hold("top", 1);
   body.conditions.pressures.push_back({"left", k_pressure});
@@ -58,6 +59,7 @@ double cook(Choice choice, int n, double poisson) {
   };
   Body body(lattice, AnalysisKind::plane_strain, test::elastic_material(240.565e6, poisson));
   body.options.b_bar = choice.b_bar;
+  body.options.simplices = mechanics::Simplices::displacement;  // mixed ones: simplex_cook_test.cpp
   body.hold("left", 0);
   body.hold("left", 1);
   body.conditions.tractions.push_back({"right", {Table(0.0), Table(6.25e6), Table(0.0)}});
