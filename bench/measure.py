@@ -3,7 +3,9 @@
 
 Every part leaves its rows in build/bench/PART.json; the report shows all that are there, so parts may be run one by one.
 """
+import functools
 import json
+import math
 import os
 import re
 import shutil
@@ -17,7 +19,8 @@ PROGRAMS = Path(os.environ.get("SOLIDUS_BUILD", "build/release"))
 WORK = Path("build/bench")
 REPEAT = int(os.environ.get("REPEAT", "3"))
 SCHEMES = ("isothermal", "isentropic", "simultaneous")
-DIVISIONS = {"100k": 29, "1m": 62}  # unknowns: four at each of (divisions + 1)^3 nodes
+NODES = {"20k": 26, "100k": 45, "300k": 66}    # divisions: 19 683, 97 336 and 300 763 nodes
+UNKNOWNS = {"10k": 13, "100k": 29, "1m": 62}   # divisions: four unknowns at each of (divisions + 1)^3 nodes
 
 
 def load():
@@ -60,7 +63,7 @@ def solidus(name, case, settings, processes=1):
     return {"name": name, "program": "Solidus", "processes": processes, "total": wall, "load": before,
             "processor": processor, "steps": summary["steps"], "prepare": s["mesh"] + s["set_up"], "heat": s.get("heat", 0.0), "mechanics": s.get("mechanics", 0.0),
             "output": s["output"], "memory": summary["peak_memory[bytes]"]["all_processes"] / 2**20,
-            "final": summary["final"], "seconds": s}
+            "final": summary["final"], "seconds": s, "profile": summary["profile[s]"], "nodes": summary["mesh"]["nodes"]}
 
 
 def calculix(name, divisions, element, solver, threads=1, step=1.0):
@@ -70,11 +73,11 @@ def calculix(name, divisions, element, solver, threads=1, step=1.0):
                    check=True)
     before, n = load(), str(threads)
     ccx = shutil.which("ccx") or sys.exit("calculix-ccx is not installed")
-    times = {}
+    times, processor = {}, {}
     memory = 0
     for phase in ("heat", "mechanics"):
-        times[phase], peak, _ = run([ccx, phase], folder / f"{phase}.log", folder, OMP_NUM_THREADS=n,
-                                 CCX_NPROC_EQUATION_SOLVER=n, CCX_NPROC_STIFFNESS=n, CCX_NPROC_RESULTS=n)
+        times[phase], peak, processor[phase] = run([ccx, phase], folder / f"{phase}.log", folder, OMP_NUM_THREADS=n,
+                                                      CCX_NPROC_EQUATION_SOLVER=n, CCX_NPROC_STIFFNESS=n, CCX_NPROC_RESULTS=n)
         memory = max(memory, peak)
     probe = str((divisions + 1) ** 3)  # the corner is the last node
 
@@ -86,7 +89,7 @@ def calculix(name, divisions, element, solver, threads=1, step=1.0):
         return values[-1]
 
     row = {"name": name, "program": f"CalculiX, {solver}", "processes": threads, "total": sum(times.values()), "load": before,
-           **times, "memory": memory, "final": {"T_corner[degC]": corner("heat"), "u_corner[um]": 1e6 * corner("mechanics")}}
+           "processor": sum(processor.values()), **times, "memory": memory, "final": {"T_corner[degC]": corner("heat"), "u_corner[um]": 1e6 * corner("mechanics")}}
     for file in ("heat.frd", "mechanics.frd", "heat.inp", "mechanics.inp"):
         (folder / file).unlink(missing_ok=True)
     return row
@@ -121,7 +124,7 @@ def coupling():
     """Processor time per step by each scheme, the runs of all schemes in turn: the machine may be busy, and not evenly."""
     rows = []
     cases = [("aluminium_cylinder, tri3", "cases/aluminium_cylinder", {}, SCHEMES[:2])]
-    cases += [(f"casting block 100k, {element}", "bench/casting_block", block(DIVISIONS["100k"], element, **{"time.end": "6 s"}), SCHEMES)
+    cases += [(f"casting block 100k, {element}", "bench/casting_block", block(UNKNOWNS["100k"], element, **{"time.end": "6 s"}), SCHEMES)
               for element in ("hex8", "tet4")]
     for name, case_folder, settings, schemes in cases:
         runs = {scheme: [] for scheme in schemes}
@@ -151,22 +154,30 @@ def check():
     return rows
 
 
-def blocks(size):
-    repeat = REPEAT if size == "100k" else 1
-    return [median([solidus(f"block {size}, {element}", "bench/cooling_block", block(DIVISIONS[size], element), p)
-                    for _ in range(repeat)])
-            for element in (("hex8", "tet4") if size == "100k" else ("hex8",)) for p in (1, 2)]
+def side_by_side(size):
+    """Both programs on the same block in turn. Solidus takes eleven steps: the mechanical phase of the first has nothing to do."""
+    rows, n = [], NODES[size]
+    for element in ("hex8", "tet4"):
+        name = f"block {size} nodes, {element}"
+        for p in (1, 2):
+            rows.append(solidus(name, "bench/cooling_block", block(n, element, **{"time.end": "11 s"}), p))
+        rows.append(calculix(name, n, element, "iterative", 1))
+    return [median([row]) for row in rows]
 
 
-def calculix_blocks(size):
-    repeat = REPEAT if size == "100k" else 1
-    runs = [(e, t) for e in ("hex8", "tet4") for t in (1, 2)] if size == "100k" else [("hex8", 2)]
-    return [median([calculix(f"block {size}, {element}", DIVISIONS[size], element, "iterative", threads) for _ in range(repeat)])
-            for element, threads in runs]
+def scaling():
+    """Processor time and memory of Solidus by the number of unknowns."""
+    return [median([solidus(f"block {size} unknowns, {element}", "bench/cooling_block", block(n, element, **{"time.end": "11 s"}))])
+            for element in ("hex8", "tet4") for size, n in UNKNOWNS.items()]
 
 
-PARTS = {"micro": micro, "case": case, "coupling": coupling, "check": check, "block100k": lambda: blocks("100k"), "block1m": lambda: blocks("1m"),
-         "calculix100k": lambda: calculix_blocks("100k"), "calculix1m": lambda: calculix_blocks("1m")}
+def cylinder():
+    """The axisymmetric cylinder, 100 x 100 quads, 100 coupled steps."""
+    return [median([solidus("cylinder 100 x 100, quad4", "bench/cylinder", {}) for _ in range(REPEAT)])]
+
+
+PARTS = {"micro": micro, "case": case, "coupling": coupling, "check": check, "cylinder": cylinder, "scaling": scaling,
+         **{f"nodes{size}": functools.partial(side_by_side, size) for size in NODES}}
 
 
 def table(header, rows):
@@ -192,16 +203,34 @@ def report(parts):
     runs = [r for name in PARTS if name in parts and name not in ("micro", "coupling", "check") for r in parts[name]]
     if runs:
         seconds = lambda r, key: f"{r[key]:.2f}" if key in r else ""
-        text.append(table(["", "program", "processes", "total [s]", "prepare", "heat", "mechanics", "output", "memory [MiB]",
+        text.append(table(["", "program", "processes", "total [s]", "processor", "prepare", "heat", "mechanics", "output", "memory [MiB]",
                            "runs: fastest–slowest [s]", "load"],
-                          [[r["name"], r["program"], str(r["processes"]), seconds(r, "total"), seconds(r, "prepare"),
+                          [[r["name"], r["program"], str(r["processes"]), seconds(r, "total"), seconds(r, "processor"), seconds(r, "prepare"),
                             seconds(r, "heat"), seconds(r, "mechanics"), seconds(r, "output"), f"{r['memory']:.0f}",
                             f"{r['runs']}: {r['spread'][0]:.1f}–{r['spread'][1]:.1f}", f"{r['load']:.1f}"] for r in runs]))
+    profiles = [r for r in runs if "profile" in r]
+    if profiles:
+        names = list(dict.fromkeys(name for r in profiles for name in r["profile"] if r["profile"][name] > 0.01 * r["profile"]["total"]))
+        text.append("Where the wall time goes [s], parts above one per cent somewhere:\n")
+        text.append(table(["", "processes", *names], [[r["name"], str(r["processes"]), *(f"{r['profile'].get(name, 0):.2f}" for name in names)]
+                                                      for r in profiles]))
+    if "scaling" in parts:
+        text.append(cost(parts["scaling"]))
     return "\n".join(text)
 
 
+def cost(rows):
+    """The exponent of the processor time between the sizes, and the memory per unknown."""
+    lines = []
+    for element in ("hex8", "tet4"):
+        of = [r for r in rows if r["name"].endswith(element)]
+        lines += [[a["name"], b["name"], f"{math.log(b['processor'] / a['processor']) / math.log(b['nodes'] / a['nodes']):.2f}",
+                   f"{b['memory'] * 2**10 / (4 * b['nodes']):.2f}"] for a, b in zip(of, of[1:])]
+    return table(["from", "to", "exponent of processor time", "memory of the latter [KiB per unknown]"], lines)
+
+
 def main():
-    asked = sys.argv[1:] or [part for part in PARTS if part != "calculix1m"]
+    asked = sys.argv[1:] or [part for part in PARTS if part != "nodes300k"]
     if unknown := [part for part in asked if part not in PARTS]:
         sys.exit(f"unknown part {', '.join(unknown)}; there are: {', '.join(PARTS)}")
     WORK.mkdir(parents=True, exist_ok=True)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs benchmarks and writes build/bench/report.md; ./dev bench builds first.
-#   bench/run.sh [PART ...]      parts: micro case coupling check block100k block1m calculix100k calculix1m; without: all but the last
-#   REPEAT=3 bench/run.sh case   medians of three runs (the default; the million unknowns run once)
+#   bench/run.sh [PART ...]      parts: micro case coupling check cylinder scaling nodes20k nodes100k nodes300k; without: all but the last
+#   REPEAT=3 bench/run.sh case   medians of three runs (the default; the large blocks run once)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 OMPI_MCA_mpi_yield_when_idle=1

@@ -23,6 +23,9 @@ TYPE = {"hex8": "C3D8", "tet4": "C3D4"}
 MATERIAL = """*MATERIAL, NAME=STEEL
 *ELASTIC
 200.E9,0.3
+*PLASTIC
+150.E6,0.
+2150.E6,1.
 *EXPANSION, ZERO=500.
 1.2E-5
 *CONDUCTIVITY
@@ -76,7 +79,7 @@ def model(n, shape):
 def main():
     n, shape, solver, folder = int(sys.argv[1]), sys.argv[2], sys.argv[3], Path(sys.argv[4])
     step = float(sys.argv[5]) if len(sys.argv) > 5 else 1.0
-    solver = ", SOLVER=ITERATIVE CHOLESKY" if solver == "iterative" else ", SOLVER=SPOOLES"
+    solver = ", SOLVER=ITERATIVE SCALING" if solver == "iterative" else ", SOLVER=SPOOLES"
     folder.mkdir(parents=True, exist_ok=True)
     common, films = model(n, shape)
     with open(folder / "heat.inp", "w") as f:

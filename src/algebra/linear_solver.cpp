@@ -12,12 +12,21 @@
 #include "algebra/multigrid.hpp"
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
+#include "base/profile.hpp"
 
 namespace solidus::algebra {
 
 namespace {
 
-constexpr GlobalIndex k_direct_limit_3d = 50000;  ///< degrees of freedom (design.md section 4, measured)
+/// Degrees of freedom from which on multigrid is the default. In three dimensions it is as fast from 2 000 on
+/// and eight times faster at 15 000 (docs/benchmarks.md), but where it has trouble a factorisation of so few
+/// costs nothing either.
+constexpr GlobalIndex k_direct_limit_3d = 6000, k_direct_limit_2d = 15000;
+/// The same for PETSc's multigrid, which is slower and serves in three dimensions alone.
+constexpr GlobalIndex k_direct_limit_of_petsc = 50000;
+/// Up to so many a factorisation takes over where multigrid has not converged in so many iterations.
+constexpr GlobalIndex k_rescue_limit = 300000;
+constexpr int k_patience = 400;
 constexpr double k_refine_above =
     1e-8;  ///< residual of a direct solve relative to b: above it one step of refinement
 constexpr double k_refuse_above = 1e-2;     ///< after refinement: Newton cannot work with such a direction
@@ -27,11 +36,17 @@ constexpr int k_workspace_attempts = 3;     ///< MUMPS runs with more workspace 
 /// many again as the first one with it and more than a few.
 constexpr double k_slower = 0.5, k_few = 5;
 
-SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components) {
+/// @param of_blocks  multigrid would be ours, not PETSc's
+SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& mesh, int components,
+                          bool of_blocks) {
   if (options.kind != SolverKind::automatic) return options.kind;
   if (options.transient_heat) return SolverKind::incomplete;
-  const bool small = mesh.dimension == 2 || mesh.n_global_nodes * components < k_direct_limit_3d;
-  return small ? SolverKind::direct : SolverKind::multigrid;
+  const bool plane = mesh.dimension == 2;
+  if (!of_blocks && plane) return SolverKind::direct;
+  const GlobalIndex limit = !of_blocks ? k_direct_limit_of_petsc
+                            : plane    ? k_direct_limit_2d
+                                       : k_direct_limit_3d;
+  return mesh.n_global_nodes * components < limit ? SolverKind::direct : SolverKind::multigrid;
 }
 
 bool option_given(const std::string& name) {
@@ -102,11 +117,13 @@ struct LinearSolver::Implementation {
   BlockMatrix* blocks = nullptr;
   MatHandle shell;  ///< multiplies by the blocks
   std::optional<GhostExchange> ghosts;
-  std::vector<double> local;  ///< work, [local node][component]
+  std::vector<double> local;             ///< work, [local node][component]
+  std::unique_ptr<LinearSolver> rescue;  ///< a direct solver, from where multigrid has failed until forget()
   double seconds_setup = 0, seconds_solve = 0;
 
   Implementation(const mesh::Mesh& m, LinearSolverOptions o) : mesh(m), options(std::move(o)) {}
   bool multigrid_of_blocks(const BlockMatrix& a) const;
+  bool can_be_rescued(const BlockMatrix& a) const;
   void create_shell(BlockMatrix& a);
   void multiply(Vec in, Vec out);
   void create(Mat a);
@@ -122,10 +139,14 @@ struct LinearSolver::Implementation {
 
 /// Whether the preconditioner is ours: not where the user asks PETSc for one, and not for tied unknowns.
 bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) const {
-  if (automatic_kind(options, mesh, a.block_size()) != SolverKind::multigrid || !a.ties().empty())
+  if (automatic_kind(options, mesh, a.block_size(), true) != SolverKind::multigrid || !a.ties().empty())
     return false;
   const int n_modes = modes.values.empty() ? a.block_size() : modes.modes;
   return Multigrid::supports(a.block_size(), n_modes) && !option_given(options.prefix + "pc_type");
+}
+
+bool LinearSolver::Implementation::can_be_rescued(const BlockMatrix& a) const {
+  return options.kind == SolverKind::automatic && mesh.n_global_nodes * a.block_size() < k_rescue_limit;
 }
 
 void LinearSolver::Implementation::create_shell(BlockMatrix& a) {
@@ -166,7 +187,7 @@ void LinearSolver::Implementation::attach_modes(Mat a) const {
 void LinearSolver::Implementation::create(Mat a) {
   PetscInt components = 0;
   check(MatGetBlockSize(a, &components), "MatGetBlockSize");
-  kind = automatic_kind(options, mesh, static_cast<int>(components));
+  kind = automatic_kind(options, mesh, static_cast<int>(components), a == shell);
   check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
   check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
   check(KSPSetErrorIfNotConverged(ksp, PETSC_FALSE), "KSPSetErrorIfNotConverged");
@@ -227,6 +248,10 @@ void LinearSolver::Implementation::create(Mat a) {
     }
   }
   if (!options.symmetric && kind != SolverKind::direct) check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
+  if (a == shell && can_be_rescued(*blocks))
+    check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
+                           std::min(k_patience, options.max_iterations)),
+          "KSPSetTolerances");
   check(KSPSetFromOptions(ksp), "KSPSetFromOptions");
   check(KSPGetTolerances(ksp, &tightest, nullptr, nullptr, nullptr), "KSPGetTolerances");
   check(MatCreateVecs(a, x.out(), b.out()), "MatCreateVecs");
@@ -265,12 +290,18 @@ void LinearSolver::Implementation::set_tolerance(double forcing) {
 KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int& iterations) {
   PetscLogDouble t0 = 0, t1 = 0, t2 = 0;
   PetscTime(&t0);
-  check(KSPSetReusePreconditioner(ksp, reuse_hierarchy && !stale ? PETSC_TRUE : PETSC_FALSE),
-        "KSPSetReusePreconditioner");
-  check(KSPSetUp(ksp), "KSPSetUp");
-  if (multigrid && stale) multigrid->set_up(*blocks);
+  {
+    const profile::Part set_up("solver set-up");
+    check(KSPSetReusePreconditioner(ksp, reuse_hierarchy && !stale ? PETSC_TRUE : PETSC_FALSE),
+          "KSPSetReusePreconditioner");
+    check(KSPSetUp(ksp), "KSPSetUp");
+    if (multigrid && stale) multigrid->set_up(*blocks);
+  }
   PetscTime(&t1);
-  check(KSPSolve(ksp, rhs, solution), "KSPSolve");
+  {
+    const profile::Part solving("solve");
+    check(KSPSolve(ksp, rhs, solution), "KSPSolve");
+  }
   PetscTime(&t2);
   seconds_setup += t1 - t0;
   seconds_solve += t2 - t1;
@@ -352,8 +383,17 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
                                  double forcing) {
   Implementation& my = *implementation_;
   if (!my.multigrid_of_blocks(a)) return solve(a.matrix(), b, x, forcing);
+  if (my.rescue) return my.rescue->solve(a, b, x, forcing);
   my.create_shell(a);
-  return solve(my.shell, b, x, forcing);
+  LinearReport report = solve(my.shell, b, x, forcing);
+  if (report.converged || !my.can_be_rescued(a)) return report;
+  LinearSolverOptions direct = my.options;
+  direct.kind = SolverKind::direct;
+  my.rescue = std::make_unique<LinearSolver>(my.mesh, std::move(direct));
+  const int spent = report.iterations;
+  report = my.rescue->solve(a, b, x, forcing);
+  report.iterations += spent;
+  return report;
 }
 
 LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::span<double> x, double forcing) {
@@ -373,6 +413,7 @@ LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::spa
 
 LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<double> x, double forcing) {
   Implementation& my = *implementation_;
+  if (my.rescue) return my.rescue->solve_again(b, x, forcing);
   my.set_tolerance(forcing);
   assert(my.matrix != nullptr);
   const std::size_t n = [&] {
@@ -421,6 +462,7 @@ void LinearSolver::reset() {
   my.ksp.reset();
   my.multigrid.reset();
   my.shell.reset();
+  my.rescue.reset();
   my.matrix = nullptr;
   my.stale = true;
 }
@@ -430,10 +472,12 @@ bool LinearSolver::stale() const {
 }
 
 double LinearSolver::seconds_setup() const {
-  return implementation_->seconds_setup;
+  const Implementation& my = *implementation_;
+  return my.seconds_setup + (my.rescue ? my.rescue->seconds_setup() : 0);
 }
 double LinearSolver::seconds_solve() const {
-  return implementation_->seconds_solve;
+  const Implementation& my = *implementation_;
+  return my.seconds_solve + (my.rescue ? my.rescue->seconds_solve() : 0);
 }
 
 }  // namespace solidus::algebra

@@ -7,12 +7,14 @@
 #include <chrono>
 #include <cstdio>
 #include <new>
+#include <optional>
 #include <thread>
 
 #include "app/verbs.hpp"
 #include "base/errors.hpp"
 #include "base/keys.hpp"
 #include "base/log.hpp"
+#include "base/profile.hpp"
 
 namespace {
 
@@ -167,6 +169,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  profile::begin();
   // What stands behind "--" is PETSc's; its first argument is the program's name.
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
@@ -175,11 +178,13 @@ int main(int argc, char** argv) {
   int petsc_argc = static_cast<int>(for_petsc.size());
   for_petsc.push_back(nullptr);
   char** petsc_argv = for_petsc.data();
+  std::optional<profile::Part> start(std::in_place, "start of the program");
   if (PetscInitialize(&petsc_argc, &petsc_argv, nullptr, nullptr) != 0) {
     std::fputs("solidus: PETSc cannot start; its message stands above, its options behind --\n", stderr);
     return separator == end ? k_our_bug : k_bad_input;
   }
 
+  start.reset();
   const int own_argc = static_cast<int>(separator - argv);
   const ExitCode code = guarded([&] { return parse_and_run(own_argc, argv); });
   PetscFinalize();

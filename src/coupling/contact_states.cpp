@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "base/profile.hpp"
 
 namespace solidus::coupling {
 
@@ -21,6 +22,7 @@ const contact::ContactState& state_of(const std::vector<contact::ContactState>& 
 
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
                     const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass) {
+  const profile::Part part("contact");
   const contact::ContactPass of_contact{
       .time = pass.time,
       .dt = pass.dt,

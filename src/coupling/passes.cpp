@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include "base/errors.hpp"
+#include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 
@@ -31,6 +32,7 @@ void add(const contact::InterfaceSums& pair, EnergyAudit& energy) {
 
 bool mechanical_pass(const Phases& phases, const State& old, State& trial,
                      const mechanics::MechanicalPass& pass, StepEffort& effort) {
+  const profile::Part part("mechanics");
   const double start = MPI_Wtime();
   begin_contacts(phases, old.contacts, old.mechanics, pass);
   mechanics::PhaseReport report;
@@ -44,7 +46,10 @@ bool mechanical_pass(const Phases& phases, const State& old, State& trial,
     } catch (const StepRejected& rejected) {
       reject_with_contacts(phases, rejected);
     }
-    for (contact::ContactPair* pair : phases.contacts) pair->update(next.displacement);
+    {
+      const profile::Part of_contact("contact");
+      for (contact::ContactPair* pair : phases.contacts) pair->update(next.displacement);
+    }
     if (penetrations_small(phases, n_turns)) break;
     turn.start = next.displacement;
   }
@@ -67,6 +72,7 @@ bool mechanical_pass(const Phases& phases, const State& old, State& trial,
 // Γ stays as the mechanical phase left it.
 bool thermal_pass(const Phases& phases, const State& old, State& trial, const heat::ThermalPass& pass,
                   StepEffort& effort) {
+  const profile::Part part("heat");
   const double start = MPI_Wtime();
   const heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
 

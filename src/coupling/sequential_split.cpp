@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
@@ -30,6 +31,7 @@ StepEffort SequentialSplit::advance(const State& old, State& trial, double time,
   if (phases_.mechanics != nullptr) mechanical_phase(old, trial, time, dt, effort);
   if (phases_.heat != nullptr) thermal_pass(phases_, old, trial, {.time = time, .dt = dt}, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
+  const profile::Part part("audit");
   effort.stability = stability_audit(phases_, old, trial, effort);
   summarise(phases_, trial, effort);
   return effort;
@@ -41,7 +43,14 @@ void SequentialSplit::mechanical_phase(const State& old, State& trial, double ti
   ContactWork contact(phases_);
   const std::vector<double>& temperature =
       phases_.heat != nullptr ? old.heat.temperature : phases_.temperature;
-  mechanical_pass(phases_, old, trial, {.time = time, .dt = dt, .temperature = temperature}, effort);
+  const std::vector<double>&u = old.mechanics.displacement, &rate = old.displacement_rate;
+  std::vector<double> guess(rate.size());
+  for (std::size_t i = 0; i < guess.size(); ++i) guess[i] = u[i] + dt * rate[i];
+  mechanical_pass(phases_, old, trial, {.time = time, .dt = dt, .temperature = temperature, .guess = guess},
+                  effort);
+  trial.displacement_rate.resize(u.size());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    trial.displacement_rate[i] = (trial.mechanics.displacement[i] - u[i]) / dt;
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
 }

@@ -77,6 +77,7 @@ void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& fro
     p.stage_start = {staged ? static_cast<int>(p.stage) + 1 : 0, stage.name, start,
                      p.committed.mechanics.displacement};
     p.committed.mechanics.dt_before = 0;
+    p.committed.displacement_rate.clear();
   } else {
     p.stage_start = from->stage;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/stability_audit.hpp"
@@ -123,6 +124,7 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
 StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
                                      const std::vector<contact::ContactState>& contacts,
                                      mechanics::MechanicalPass pass, State& trial) {
+  const profile::Part part("both fields");
   const double start = MPI_Wtime();
   pass.iterate_temperature = newton_->thermal().temperature();
   begin_contacts(phases_, contacts, old, pass);

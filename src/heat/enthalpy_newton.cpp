@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algebra/parallel.hpp"
+#include "base/profile.hpp"
 
 namespace solidus::heat {
 
@@ -45,6 +46,7 @@ void EnthalpyNewton::storage_changed() {
 }
 
 void EnthalpyNewton::evaluate(std::span<const double> temperature) {
+  const profile::Part part("residual");
   double moved = system_.residual(temperature, r_), norm = 0, contents = 0;
   const std::vector<char>& fixed = system_.fixed();
   for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -80,6 +82,7 @@ bool EnthalpyNewton::converged() const {
 
 /// J + D; nodes on a plateau are held.
 void EnthalpyNewton::assemble(std::span<const double> temperature, bool exact_conductivity) {
+  const profile::Part part("assembly");
   system_.assemble(temperature, exact_conductivity);
   double conductance = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/errors.hpp"
+#include "base/profile.hpp"
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
@@ -283,6 +284,7 @@ material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, double
 
 /// Hands the blocks temperatures, the state at t_n and the start of the effective step.
 void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& pass) {
+  const profile::Part part("properties");
   const material::TimeStep step = time_step(old, pass.dt);
   const MechanicalState& held = pass.iterate != nullptr ? *pass.iterate : old;
   const bool extrapolates = step.before != 0;
@@ -329,7 +331,13 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
 }
 
 double MechanicalPhase::residual(std::span<const double> x, std::span<double> r) {
+  const bool known = residual_is_known_ && std::equal(x.begin(), x.end(), x_.begin(), x_.end());
+  if (!algebra::any_process(!known)) {
+    std::copy(residual_.begin(), residual_.end(), r.begin());
+    return balance_.reference();
+  }
   const Stopwatch watch(seconds_residual_);
+  const profile::Part part("law and forces");
   x_.assign(x.begin(), x.end());
   std::fill(forces_.begin(), forces_.end(), 0.0);
   balance_.begin();
@@ -339,7 +347,10 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   // Newton's iteration takes what is not a number for a step too far.
   if (!found) std::fill(forces_.begin(), forces_.end(), std::numeric_limits<double>::quiet_NaN());
   std::fill(r.begin(), r.end(), 0.0);
-  for (algebra::Contribution* contribution : contributions_) contribution->add_residual(x, r);
+  {
+    const profile::Part of_contact("contact");
+    for (algebra::Contribution* contribution : contributions_) contribution->add_residual(x, r);
+  }
   balance_.add_exchanged(r);
   balance_.add_exchanged(external_);
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += forces_[i] - external_[i];
@@ -374,6 +385,7 @@ void MechanicalPhase::add_residual_to_balance(std::span<const double> r) {
 
 algebra::BlockMatrix& MechanicalPhase::tangent() {
   const Stopwatch watch(seconds_assembly_);
+  const profile::Part part("assembly");
   if (algebra::graph_outdated(contributions_)) {
     matrix_->set_graph(graph());
     solver_->reset();
@@ -382,6 +394,7 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
   matrix_->set_zero();
   for (const auto& block : blocks_) block->add_tangent(x_, *matrix_);
   if (inertia_) inertia_->add_tangent(*matrix_);
+  const profile::Part of_contact("contact");
   for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(x_, *matrix_);
   if (mixed_solver_ != nullptr) mixed_solver_->assemble();
   return *matrix_;
@@ -394,12 +407,34 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
   std::vector<double> x = start(old, pass);
+  look_ahead(pass, x);
   PhaseReport report;
   report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
   if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
   report.work = conclude(old, pass, std::move(x), trial);
   return report;
+}
+
+double MechanicalPhase::unbalanced(std::span<const double> x) {
+  std::vector<double> r(external_.size());
+  residual(x, r);
+  for (std::size_t i = 0; i < r.size(); ++i)
+    if (loads_->fixed()[i] != 0) r[i] = 0;
+  matrix_->ties().sum(r);
+  double squares = 0;
+  for (const double value : r) squares += value * value;
+  return std::sqrt(algebra::global_sum(squares));
+}
+
+void MechanicalPhase::look_ahead(const MechanicalPass& pass, std::vector<double>& x) {
+  if (!algebra::any_process(!pass.guess.empty())) return;
+  std::vector<double> guess(pass.guess.begin(), pass.guess.end());
+  loads_->prescribe(pass.time, guess);
+  const double here = unbalanced(x);
+  if (here <= round_off_) return;
+  const double there = unbalanced(guess);
+  if (there < here) x = std::move(guess);
 }
 
 void MechanicalPhase::begin(const MechanicalState& old, const MechanicalPass& pass) {
@@ -437,6 +472,7 @@ void MechanicalPhase::reject(const std::string& reason, std::span<const double> 
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
                                   std::vector<BlockHistory>& history) {
+  const profile::Part part("history");
   BlockWork total;
   history.resize(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -479,10 +515,8 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
                                         const BlockWork& sums, MechanicalState& next) {
   // The residual at the solution: internal + contributions + inertia − loads, the support force where fixed.
   // Newton's iteration ends with it.
-  const bool known = residual_is_known_ && std::equal(x.begin(), x.end(), x_.begin(), x_.end());
-  std::vector<double> r = residual_;
-  r.resize(external_.size());
-  if (algebra::any_process(!known)) residual(x, r);
+  std::vector<double> r(external_.size());
+  residual(x, r);
   double local[9] = {0,
                      0,
                      0,

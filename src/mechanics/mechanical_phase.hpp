@@ -122,6 +122,8 @@ struct MechanicalPass {
   int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
   StressAtWork work = StressAtWork::end;
   std::span<const double> start{};  ///< of Newton's iteration, instead of the iterate's displacement
+  /// Another start, taken where it leaves less out of balance.
+  std::span<const double> guess{};
 };
 
 class MechanicalPhase : private algebra::NonlinearSystem {
@@ -233,6 +235,10 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   void create_pressure();
   void set_in_motion(MechanicalState& state);
   void add_residual_to_balance(std::span<const double> r);
+  /// ‖r(x)‖ of what the unknowns can change.
+  double unbalanced(std::span<const double> x);
+  /// Moves the start to the guess of the pass where that is nearer to equilibrium.
+  void look_ahead(const MechanicalPass& pass, std::vector<double>& x);
   std::string law_failure(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;

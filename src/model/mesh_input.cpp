@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "base/profile.hpp"
 #include "base/units.hpp"
 #include "mesh/distribute.hpp"
 #include "mesh/shapes.hpp"
@@ -77,7 +78,11 @@ mesh::RawMesh raw_mesh(const CaseSpec& spec) {
 
 mesh::Mesh load_mesh(const CaseSpec& spec) {
   mesh::RawMesh raw;
-  results::on_first_process([&] { raw = raw_mesh(spec); });
+  {
+    const profile::Part part("reading and meshing");
+    results::on_first_process([&] { raw = raw_mesh(spec); });
+  }
+  const profile::Part part("partition");
   std::vector<std::string> bodies, replicated;
   std::vector<mesh::BodyWork> work;
   for (const BodySpec& body : spec.bodies) {

@@ -9,6 +9,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
+#include "base/profile.hpp"
 #include "base/units.hpp"
 #include "coupling/simulation.hpp"
 #include "material/library.hpp"
@@ -247,9 +248,13 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   const double start = MPI_Wtime();
   check_restart(c.spec, options);
   Assembly a;
+  std::optional<profile::Part> part;
+  part.emplace("materials");
   a.materials = load_materials(c.spec);
+  part.reset();
   a.mesh = load_mesh(c.spec);
   const double loaded = MPI_Wtime();
+  part.emplace("set-up");
   build(c.spec, a);
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh));
@@ -263,6 +268,7 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   r.summary.seconds.emplace_back("mesh", loaded - start);
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
   results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));
+  part.reset();
   return c.spec.time.steady ? run_steady(c.spec, a, recorder)
                             : run_transient(c.spec, options, a, from, recorder);
 }

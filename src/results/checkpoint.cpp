@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 6";
+constexpr const char* k_format = "Solidus checkpoint 7";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -152,6 +152,10 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     take_nodes(in, "temperature_rate", nodes, rates.temperature);
     take_nodes(in, "displacement_rate", nodes, rates.displacement);
   }
+  if (in.text("first_guess") == k_known) {
+    c.state.displacement_rate.resize(c.state.mechanics.displacement.size());
+    take_nodes(in, "rate_of_last_step", nodes, c.state.displacement_rate);
+  }
   mechanics::MechanicalState& mechanics = c.state.mechanics;
   // A run that went on with backward Euler left no history before the last: the next step is one too.
   if (mechanics.before.empty()) mechanics.dt_before = 0;
@@ -214,6 +218,8 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   nodal("net_force", c.state.mechanics.net_force);
   nodal("load", c.state.mechanics.load);
   if (c.continuation.stage.number > 0) nodal("stage_displacement", c.continuation.stage.displacement);
+  out.text("first_guess", algebra::any_process(!c.state.displacement_rate.empty()) ? k_known : "unknown");
+  nodal("rate_of_last_step", c.state.displacement_rate);
   const coupling::Rates& rates = c.continuation.rates;
   out.text("rates", rates.known() ? k_known : "unknown");
   if (rates.known()) {

@@ -75,8 +75,9 @@ void Progress::step(const coupling::StepRecord& record) {
   if (options_.terminal) draw_bar(record.time);
 }
 
-void Progress::end(const std::string& outcome) {
+void Progress::end(const std::string& outcome, const std::string& profile) {
   line(fmt::format("{} after {}", outcome, duration_text(options_.clock() - began_)));
+  out_ << profile << std::flush;
 }
 
 void Progress::line(const std::string& text) {

@@ -34,7 +34,8 @@ class Progress {
   void begin();
   void step(const coupling::StepRecord& record);
   /// Removes the bar and says how it ended: "finished", "stopped: …", with the time it took.
-  void end(const std::string& outcome);
+  /// @param profile  lines that say where the time went (base/profile.hpp)
+  void end(const std::string& outcome, const std::string& profile = {});
 
  private:
   void line(const std::string& text);

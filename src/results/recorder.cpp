@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/log.hpp"
+#include "base/profile.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::results {
@@ -127,6 +128,7 @@ StepTable Recorder::step_table() const {
 }
 
 void Recorder::begin(const coupling::State& state) {
+  const profile::Part part("output");
   coupling::StepEffort initial;
   coupling::summarise(phases_, state, initial);
   if (progress_) progress_->begin();
@@ -147,6 +149,7 @@ void Recorder::begin(const coupling::State& state) {
 }
 
 void Recorder::step(const coupling::StepRecord& record, const coupling::State& state) {
+  const profile::Part part("output");
   const double start = MPI_Wtime();
   globals_.add(record);
   stage_ = record.stage_of_case;
@@ -166,6 +169,7 @@ void Recorder::step(const coupling::StepRecord& record, const coupling::State& s
 }
 
 void Recorder::checkpoint(const coupling::Continuation& continuation, const coupling::State& state) {
+  const profile::Part part("checkpoints");
   const double start = MPI_Wtime();
   checkpoints_.write(
       mesh_, options_.fingerprint,
@@ -178,12 +182,12 @@ void Recorder::stopped(const coupling::Stop& stop, const coupling::State& state)
   // Without a step of this run there are no stresses to show.
   const bool moved = !options_.continue_from || state.time > options_.continue_from->state.time;
   if (moved) write_fields(state);
-  if (progress_) progress_->end("stopped: " + reason);
+  if (progress_) progress_->end("stopped: " + reason, profile::text());
   write_summary_file("stopped: " + reason, state);
 }
 
 void Recorder::end(const coupling::State& state) {
-  if (progress_) progress_->end("finished");
+  if (progress_) progress_->end("finished", profile::text());
   write_summary_file("finished", state);
   if (progress_) *options_.progress << findings_text(options_.summary.criteria);
 }
@@ -242,6 +246,8 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
     s.table_bytes.emplace_back("criteria", phases_.criteria->bytes());
   }
   s.warnings = logging::warnings();
+  s.profile = profile::rows();
+  s.profile_total = profile::total();
   on_first_process([&] {
     const auto& columns = history_->columns();
     for (std::size_t i = 0; i < columns.size(); ++i)

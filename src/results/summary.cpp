@@ -81,6 +81,8 @@ std::string summary_json(const Summary& s) {
   Json balance;
   balance.add("largest_over_mean", object(s.balance.largest_over_mean))
       .add("elements_computed_again", s.balance.computed_again);
+  Json profile = object(s.profile);
+  profile.add("total", s.profile_total);
   Json json;
   json.add("solidus", SOLIDUS_VERSION)
       .add("case", s.case_file)
@@ -93,6 +95,7 @@ std::string summary_json(const Summary& s) {
       .add("rejected_steps", s.rejected)
       .add("end_time[s]", s.end_time)
       .add("seconds", object(s.seconds))
+      .add("profile[s]", std::move(profile))
       .add("peak_memory[bytes]", std::move(memory))
       .add("balance", std::move(balance))
       .add("tables[bytes]", object(s.table_bytes))

@@ -41,6 +41,9 @@ struct Summary {
   int steps = 0, rejected = 0;
   double end_time = 0;                                  ///< time reached [s]
   std::vector<std::pair<std::string, double>> seconds;  ///< by phase; "total" is the wall time
+  /// Where the wall time of process 0 went: parts that add up to `profile_total` (base/profile.hpp) [s].
+  std::vector<std::pair<std::string, double>> profile;
+  double profile_total = 0;
   PeakMemory memory;
   Balance balance;
   std::vector<std::pair<std::string, std::size_t>> table_bytes;  ///< of process 0

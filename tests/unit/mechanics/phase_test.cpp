@@ -128,6 +128,29 @@ TEST(Phase, ALinearStepTakesOneSolveAndTheNextOneNone) {
   EXPECT_EQ(solved.report.newton.iterations, 0);
 }
 
+TEST(Phase, AGuessIsTheStartWhereItIsNearerToEquilibriumAndOnlyThere) {
+  Body body = cube();
+  stand(body);
+  body.conditions.gravity = {0, -9.81, 0};
+  const Solved solved(body);
+  const auto from_guess = [&](double factor) {
+    const auto phase = body.phase();
+    const mechanics::MechanicalState old = phase->initial_state();
+    mechanics::MechanicalState next;
+    std::vector<double> guess = solved.state.displacement;
+    for (double& u : guess) u *= factor;
+    const int iterations =
+        phase->solve(old, next, {.time = 1, .dt = 1, .temperature = body.temperature, .guess = guess})
+            .newton.iterations;
+    for (std::size_t i = 0; i < guess.size(); ++i)
+      EXPECT_NEAR(next.displacement[i], solved.state.displacement[i], 1e-15);
+    return iterations;
+  };
+  EXPECT_EQ(from_guess(1), 0);
+  EXPECT_EQ(from_guess(0.9), 1);
+  EXPECT_EQ(from_guess(100), 1);
+}
+
 TEST(Phase, SolversAgree) {
   std::vector<double> reference;
   for (auto kind : {algebra::SolverKind::direct, algebra::SolverKind::multigrid, algebra::SolverKind::jacobi,
