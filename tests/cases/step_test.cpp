@@ -1,0 +1,113 @@
+/// A case whose mesh is a STEP file: bodies and surfaces by number, by box and by the names that the program
+/// gives.
+#include <gmock/gmock.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "case_run.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// A hot pin on a cold plate, apart: each has its own face where they meet.
+const std::string k_case = R"(title = "A hot pin on a plate"
+[analysis]
+kind = "solid"
+physics = "heat"
+[mesh]
+file = "pin.step"
+unit = "mm"
+element_size = "2 mm"
+[[mesh.group]]
+name = "plate"
+kind = "body"
+numbers = [1]
+[[mesh.group]]
+name = "below"
+lowest = ["0 mm", "0 mm", "0 mm"]
+highest = ["20 mm", "10 mm", "0 mm"]
+[[mesh.group]]
+name = "under the pin"
+numbers = [7]
+[[mesh.group]]
+name = "on the plate"
+numbers = [10]
+[time]
+end = "2 s"
+step = "1 s"
+[[body]]
+name = "plate"
+material = "steel_mould"
+initial_temperature = "20 degC"
+[[body]]
+name = "pin"
+group = "body_2"
+material = "steel_mould"
+initial_temperature = "500 degC"
+[[contact]]
+name = "foot"
+surfaces = ["under the pin", "on the plate"]
+penalty = "1e12 N/m3"
+[contact.heat]
+conductance = "2000 W/m2/K"
+gap_law = "constant"
+[[thermal_condition]]
+name = "cold"
+group = "below"
+kind = "temperature"
+temperature = "20 degC"
+[[probe]]
+name = "T_pin"
+kind = "mean"
+field = "temperature"
+group = "body_2"
+unit = "degC"
+)";
+
+fs::path root() {
+  return fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "step";
+}
+
+void write_files(const std::string& text) {
+  fs::create_directories(root());
+  std::ofstream(root() / "pin.toml") << text;
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add("pin on plate");
+  const int plate = gmsh::model::occ::addBox(0, 0, 0, 20, 10, 5);
+  const int pin = gmsh::model::occ::addCylinder(10, 5, 5, 0, 0, 8, 3);
+  gmsh::vectorpair all;
+  std::vector<gmsh::vectorpair> map;
+  gmsh::model::occ::fragment({{3, plate}}, {{3, pin}}, all, map);
+  gmsh::model::occ::synchronize();
+  gmsh::write((root() / "pin.step").string());
+  gmsh::finalize();
+}
+
+TEST(StepCase, RunsWithContactBetweenItsBodies) {
+  write_files(k_case);
+  const auto r = solidus::testing::run((root() / "pin.toml").string(), "step/pin");
+  ASSERT_TRUE(r.finished) << r.reason;
+  EXPECT_LT(r.history.at("T_pin[degC]").back(), 490);
+  EXPECT_GT(std::abs(r.history.at("contact_heat[W]").back()), 1);
+}
+
+TEST(StepCase, SaysWhichSurfacesThereAre) {
+  std::string text = k_case;
+  text.replace(text.find("numbers = [10]"), 14, "numbers = [12]");
+  write_files(text);
+  try {
+    solidus::testing::run((root() / "pin.toml").string(), "step/pin");
+    ADD_FAILURE();
+  } catch (const solidus::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the group 'on the plate': the geometry has no surface 12"));
+  }
+}
+
+}  // namespace
