@@ -11,6 +11,8 @@ namespace {
 
 /// ‖r_p‖ over the size of its terms: rounding leaves 1e-16 of each.
 constexpr double k_tolerance = 1e-13;
+/// A volumetric strain that is nothing: a body at rest has a defect of rounding alone.
+constexpr double k_no_strain = 1e-20;
 /// Of one linear solve, so that the next defect is below the tolerance where the law is linear.
 constexpr double k_share = 0.3;
 constexpr int k_max_corrections = 25;
@@ -99,6 +101,7 @@ PressureEquation::PressureEquation(const mesh::Mesh& mesh, int components,
   const auto n = mesh.x.size() * static_cast<std::size_t>(fields());
   pressure_.assign(n, 0.0);
   fixed_.assign(n, 1);
+  std::vector<double> volume(mesh.x.size(), 0.0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     auto* kernel = dynamic_cast<MixedKernel*>(blocks[b].get());
     if (kernel == nullptr) continue;
@@ -108,6 +111,7 @@ PressureEquation::PressureEquation(const mesh::Mesh& mesh, int components,
     kernel->bind_pressure(matrix_);
     if (!body_force.empty()) kernel->set_body_force(body_force[body]);
     kernels_.push_back(kernel);
+    blocks[b]->add_nodal_volume(1.0, volume);
     for (const Index node : mesh.blocks[b].nodes)
       fixed_[static_cast<std::size_t>(node * fields() + field)] = 0;
   }
@@ -120,6 +124,7 @@ PressureEquation::PressureEquation(const mesh::Mesh& mesh, int components,
   n_nodes_ =
       std::max(1.0, algebra::global_sum(static_cast<double>(std::count(
                         fixed_.begin(), fixed_.begin() + static_cast<std::ptrdiff_t>(owned), char{0}))));
+  volume_ = std::sqrt(squares(std::span(volume).first(static_cast<std::size_t>(mesh.n_owned_nodes)), {})[0]);
   right_.resize(owned);
   correction_.resize(owned);
   weight_.assign(n, 0.0);
@@ -220,7 +225,8 @@ bool PressureEquation::solve(std::span<const double> u) {
     for (MixedKernel* kernel : kernels_) kernel->add_volume_defect(u, defect_, size_);
     if (orthogonal_) add_projection(pressure_, 1.0, defect_);
     const auto sums = squares(std::span(defect_).first(owned), std::span(size_).first(owned));
-    const double defect = std::sqrt(sums[0]), goal = k_tolerance * std::sqrt(sums[1]);
+    const double defect = std::sqrt(sums[0]),
+                 goal = std::max(k_tolerance * std::sqrt(sums[1]), k_no_strain * volume_);
     if (!std::isfinite(defect)) break;
     found = defect <= goal || (defect > k_stagnates * last && defect <= k_rounding * goal);
     if (found) break;

@@ -95,6 +95,7 @@ class PressureEquation {
   algebra::KrylovSolver solver_;
   double unit_ = 1;
   double n_nodes_ = 1;  ///< with a pressure
+  double volume_ = 0;   ///< ‖∫ N dV‖ [m³]
   int iterations_ = 0;
   std::vector<double> pressure_;              ///< [local node][field] [Pa]
   std::vector<double> weight_;                ///< 1/Σ w of the projection, zero where there is none
