@@ -37,20 +37,24 @@ inline const Element k_tri3_algebraic{"tri3_algebraic", mesh::Shape::tri3, mecha
 inline const Element k_tet4_algebraic{"tet4_algebraic", mesh::Shape::tet4, mechanics::Simplices::mixed,
                                       mechanics::Stabilisation::algebraic};
 
-/// Volume and centre of the elements of a block, to the accuracy of constant fields.
+/// Volume and centre of volume of the elements of a block.
 struct Cells {
   std::vector<double> volume;
   std::vector<mesh::Point> centre;
 
   Cells(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind) {
-    const mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
+    const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);
+    const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
     for (Index e = 0; e < block.size(); ++e) {
       double v = 0;
       mesh::Point x{};
-      for (int q = 0; q < g.n_points; ++q) v += g.weight_at(e / k_lanes, q)[e % k_lanes];
-      for (int a = 0; a < g.n_nodes; ++a)
+      for (std::size_t a = 0; a < n; ++a) {
+        const double share = integrals[static_cast<std::size_t>(e / k_lanes) * n + a][e % k_lanes];
+        v += share;
         for (std::size_t i = 0; i < 3; ++i)
-          x[i] += mesh.x[static_cast<std::size_t>(block.element(e)[a])][i] / g.n_nodes;
+          x[i] += share * mesh.x[static_cast<std::size_t>(block.element(e)[a])][i];
+      }
+      for (double& coordinate : x) coordinate /= v;
       volume.push_back(v);
       centre.push_back(x);
     }

@@ -1,0 +1,122 @@
+/// A column of melt under its own weight between smooth walls:
+///
+///   ▒│≈≈≈≈│▒   p = ρ g (H − y),   u_y = −ρ g/k (H y − y²/2),   nothing else moves
+///   ▒│    │▒
+///   ▒│    │▒   The only strain is that of the compressed melt, ρ g H/k = 1e-7; a shear strain of the size
+///   ▒└────┘▒   of ρ g h Δt/η would be the element's, and there is no bound to it for a thin melt.
+#include <gtest/gtest.h>
+
+#include "simplex_bodies.hpp"
+
+namespace solidus {
+namespace {
+
+using mesh::Point;
+using test::Body;
+using test::Lattice;
+using verification::Element;
+
+constexpr double k_height = 0.2, k_width = 0.1;  // [m]
+constexpr double k_density = 2400, k_gravity = 9.81;
+constexpr double k_young = 7e10, k_poisson = 0.33;
+constexpr double k_bulk = k_young / (3 * (1 - 2 * k_poisson));
+constexpr double k_weight = k_density * k_gravity;  // [N/m³]
+
+material::Material melt(double viscosity) {
+  material::Material m = test::elastic_material(k_young, k_poisson);
+  m.density = k_density;
+  m.liquid_viscosity = viscosity;
+  m.phase_changes.push_back({.name = "freezing",
+                             .fraction = material::PhaseFraction::linear(800, 900),
+                             .latent_heat = 4e5,
+                             .solidification = true});
+  return m;
+}
+
+struct Errors {
+  double pressure;      ///< largest, over that at the bottom
+  double displacement;  ///< largest, over the sinking of the surface
+  int iterations;       ///< of all steps
+};
+
+Errors rest(const Element& element, AnalysisKind kind, double viscosity, mechanics::Mapping mapping) {
+  const bool solid = kind == AnalysisKind::solid;
+  const int n = solid ? 4 : 6;
+  Lattice lattice{.shape = element.shape,
+                  .cells = {n, 2 * n, n},
+                  .size = {k_width, k_height, k_width},
+                  .distortion = 0.15};
+  Body body(lattice, kind, melt(viscosity));
+  body.initial_temperature.assign(body.mesh.x.size(), 950.0);
+  body.temperature = body.initial_temperature;
+  element.choose(body.options);
+  body.options.mapping = mapping;
+  for (const char* wall : {"left", "right"}) body.hold(wall, 0);
+  body.hold("bottom", 1);
+  if (solid)
+    for (const char* wall : {"back", "front"}) body.hold(wall, 2);
+  body.conditions.gravity = {0, -k_gravity, 0};
+
+  test::Solved solved(body);
+  Errors errors{0, 0, solved.report.newton.iterations};
+  for (int step = 2; step <= 5; ++step) {
+    solved.step(body, step, 1.0);
+    errors.iterations += solved.report.newton.iterations;
+  }
+  const verification::Cells cells(body.mesh, body.mesh.blocks[0], kind);
+  const std::vector<double> pressure = solved.phase->element_fields()[0].pressure;
+  for (std::size_t e = 0; e < pressure.size(); ++e)
+    errors.pressure = std::max(errors.pressure,
+                               std::abs(pressure[e] / k_weight - (k_height - cells.centre[e][1])) / k_height);
+  const double sinking = k_weight / k_bulk * k_height * k_height / 2;
+  const auto components = static_cast<std::size_t>(displacement_components(kind));
+  for (std::size_t node = 0; node < body.mesh.x.size(); ++node)
+    for (std::size_t i = 0; i < components; ++i) {
+      const double y = body.mesh.x[node][1];
+      const double exact = i == 1 ? -k_weight / k_bulk * (k_height * y - y * y / 2) : 0;
+      errors.displacement = std::max(
+          errors.displacement, std::abs(solved.state.displacement[node * components + i] - exact) / sinking);
+    }
+  return errors;
+}
+
+struct Choice {
+  Element element;
+  AnalysisKind kind;
+};
+
+TEST(MeltColumn, OfStabilisedSimplicesCarriesTheHydrostaticPressureAndStaysAtRest) {
+  const std::vector<Choice> choices{{verification::k_tri3, AnalysisKind::plane_strain},
+                                    {verification::k_tri3, AnalysisKind::axisymmetric},
+                                    {verification::k_tri3_algebraic, AnalysisKind::plane_strain},
+                                    {verification::k_tri3_algebraic, AnalysisKind::axisymmetric},
+                                    {verification::k_tet4, AnalysisKind::solid},
+                                    {verification::k_tet4_algebraic, AnalysisKind::solid}};
+  for (const mechanics::Mapping mapping : {mechanics::Mapping::isothermal, mechanics::Mapping::isentropic})
+    for (const double viscosity : {1.0, 1e3, 1e6, 1e9})
+      for (const Choice& c : choices) {
+        const Errors e = rest(c.element, c.kind, viscosity, mapping);
+        printf("%-10s eta %.0e Pa s, %-16s %-12s pressure %.1e, displacement %.1e, %d iterations\n",
+               mapping == mechanics::Mapping::isothermal ? "isothermal" : "isentropic", viscosity,
+               c.element.name, c.kind == AnalysisKind::axisymmetric ? "axisymmetric" : "", e.pressure,
+               e.displacement, e.iterations);
+        // What Newton's criterion leaves. The nodes of a linear element cannot sink along a parabola.
+        EXPECT_LT(e.pressure, 1e-4) << c.element.name;
+        EXPECT_LT(e.displacement, 0.05) << c.element.name;
+      }
+}
+
+// A pressure that is constant within a quad or hex cannot balance a weight that is not: they flow, for ever.
+TEST(MeltColumn, OfQuadsAndHexesOnADistortedMeshFlows) {
+  for (const Choice& c : {Choice{verification::k_quad4, AnalysisKind::plane_strain},
+                          Choice{verification::k_hex8, AnalysisKind::solid}}) {
+    const Errors e = rest(c.element, c.kind, 1e6, mechanics::Mapping::isothermal);
+    printf("eta 1e6 Pa s, %-6s pressure %.1e, displacement %.1e\n", c.element.name, e.pressure,
+           e.displacement);
+    EXPECT_GT(e.pressure, 1e-3) << c.element.name;
+    EXPECT_GT(e.displacement, 10) << c.element.name;
+  }
+}
+
+}  // namespace
+}  // namespace solidus
