@@ -22,6 +22,9 @@ QUANTITY = {"degC": "Temperature", "K": "Temperature", "mm": "Length", "m": "Len
             "W": "Heat flow", "N": "Force", "MPa": "Stress", "Pa": "Stress", "1": "Share", "s": "Time",
             "W/m2/K": "Conductance"}
 
+# Fields whose unit UDUNITS cannot name: the files say 1.
+ROOT_UNITS = {"niyama": "K0.5 s0.5/m"}
+
 # Units a picture may ask for: (SI unit, unit) -> (factor, offset).
 CONVERSIONS = {("K", "degC"): (1.0, -273.15), ("m", "mm"): (1e3, 0.0), ("m", "um"): (1e6, 0.0),
                ("Pa", "MPa"): (1e-6, 0.0), ("1", "%"): (100.0, 0.0), ("J", "kJ"): (1e-3, 0.0),

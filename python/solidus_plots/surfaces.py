@@ -59,9 +59,9 @@ def _surface(grid, run, spec, eye):
 
 
 def _ghost(grid, run, spec):
-    """The bodies that are drawn like glass."""
+    """The bodies that are drawn like glass, in their nominal shape."""
     cells = run.body_mask(grid, spec["ghost"])
-    return outer(grid, cells, _points(grid, spec), ("cell_data", np.zeros(len(cells))))
+    return outer(grid, cells, grid.points, ("cell_data", np.zeros(len(cells))))
 
 
 def _colour(view, grid, colours):
