@@ -15,9 +15,14 @@ enum Slot : std::size_t {
   k_liquidus_at,
   k_evaluated_at,
   k_solidified_at,
-  k_rate,      ///< [K/s]
-  k_gradient,  ///< [K/m]
+  k_rate,       ///< of the node itself [K/s]
+  k_gradient,   ///< [K/m]
+  k_magnitude,  ///< mean of the magnitudes of the elements' gradients [K/m]
   k_mode,
+  // While the front passes: sums over time of gradient and magnitude behind it [K s/m], and that time [s].
+  k_sum_gradient,
+  k_sum_magnitude,
+  k_sum_time,
   k_width
 };
 constexpr double k_never = -1;
@@ -31,11 +36,6 @@ constexpr const char* k_niyama_unit = "K^0.5 s^0.5/m";
 
 double length(const mesh::Point& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
-// The share of the step at which something linear passes a level downwards.
-double passing(double from, double to, double level) {
-  return from > to ? std::clamp((from - level) / (from - to), 0.0, 1.0) : 1.0;
 }
 
 std::vector<char> freezing_bodies(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage) {
@@ -52,7 +52,6 @@ struct Freezing::Step {
   const Moment& next;
   const heat::NodalEnthalpy& storage;
   double dt() const { return next.time - old.time; }
-  bool has_heat() const { return !next.heat.enthalpy.empty(); }
   double time(double at) const { return old.time + at * dt(); }
   double temperature(std::size_t node, double at) const {
     return (1 - at) * old.heat.temperature[node] + at * next.heat.temperature[node];
@@ -60,8 +59,10 @@ struct Freezing::Step {
 };
 
 struct Freezing::PatchGradient {
-  double all = 0, behind = 0;  ///< [K/m]
-  double drop = 0;             ///< the largest temperature difference across an element behind the front [K]
+  double all = 0, behind = 0;                      ///< of the mean vectors [K/m]
+  double all_magnitude = 0, behind_magnitude = 0;  ///< means of the magnitudes [K/m]
+  double drop = 0;          ///< the largest temperature difference across an element behind the front [K]
+  double since = HUGE_VAL;  ///< when the front passed the first of their nodes [s]
   bool has_behind = false;
 };
 
@@ -71,16 +72,8 @@ Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalE
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));
     feeding_.push_back(FeedingLaw::of(material));
-    Levels& levels = levels_.emplace_back();
-    const material::PhaseChange* change = material.solidification();
-    if (change == nullptr) continue;
-    const material::PhaseFraction& fraction = change->fraction;
-    levels.freezes = true;
-    levels.solidus = fraction.solidus();
-    levels.liquidus = fraction.liquidus();
+    Levels& levels = levels_.emplace_back(Levels{FreezingLevels::of(material)});
     levels.evaluation = levels.solidus + options.evaluation * (levels.liquidus - levels.solidus);
-    levels.solidus_jump = fraction.above(levels.solidus) < 1;
-    levels.liquidus_jump = fraction.below(levels.liquidus) > 0;
     levels.at_end = levels.evaluation <= levels.solidus;
   }
   // A node of several bodies that freeze is told by that of which it holds most.
@@ -130,16 +123,11 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
     if (after == 0) return;
   }
   if (before == 1) return;
-  const auto passes = [&](double level, bool jump, bool upper) {
-    if (!jump || !step.has_heat()) return passing(from, to, level);
-    const double heat = upper ? storage_.upper(who.node, level) : storage_.lower(who.node, level);
-    return passing(step.old.heat.enthalpy[i], step.next.heat.enthalpy[i], heat);
-  };
   if (before == 0 && after > 0)
-    h[k_liquidus_at] = step.time(passes(levels.liquidus, levels.liquidus_jump, true));
+    h[k_liquidus_at] = step.time(levels.begin(storage_, who.node, step.old, step.next));
   std::optional<double> evaluated;
   if (after == 1) {
-    const double at = passes(levels.solidus, levels.solidus_jump, false);
+    const double at = levels.end(storage_, who.node, step.old, step.next);
     h[k_solidified_at] = step.time(at);
     if (levels.at_end) evaluated = at;
   }
@@ -151,8 +139,9 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
 }
 
 Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& step, double at,
-                                          std::span<const double> history) const {
-  const double level = levels_[static_cast<std::size_t>(who.body)].evaluation;
+                                          std::span<const double> history, bool only_behind) const {
+  const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
+  const double level = levels.evaluation, liquidus = levels.liquidus;
   const double now = step.time(at), tolerance = k_same_time * step.dt();
   const auto own = static_cast<std::size_t>(who.node);
   const bool at_front = std::abs(history[own * k_width + k_evaluated_at] - now) <= tolerance;
@@ -163,38 +152,69 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
     if (patches_.body(e) != who.body) continue;
     std::array<double, k_most_nodes> values{};
     const std::span<const Index> nodes = patches_.nodes(e);
-    bool passed = true;
-    double coldest = level;
+    // Behind the front: of nodes that it has passed before, and is passing now; no melt.
+    bool some_passed = false, melt = false;
+    double coldest = level, since = HUGE_VAL;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const auto j = static_cast<std::size_t>(nodes[a]);
       // On an isothermal change the temperature is not linear in the step: a node at the front has T_e.
       values[a] = j == own && at_front ? level : step.temperature(j, at);
       const double evaluated = history[j * k_width + k_evaluated_at];
-      passed = passed && (values[a] < level || (evaluated >= 0 && evaluated <= now + tolerance));
+      some_passed = some_passed || values[a] < level || (evaluated >= 0 && evaluated < now - tolerance);
+      if (evaluated >= 0) since = std::min(since, evaluated);
+      melt = melt || values[a] > liquidus;
       coldest = std::min(coldest, values[a]);
     }
+    const bool is_behind = some_passed && !melt;
+    if (only_behind && !is_behind) continue;
     const Patches::Gradient g = patches_.gradient(e, std::span(values).first(nodes.size()));
     volume += g.volume;
+    result.all_magnitude += g.volume * length(g.value);
     for (std::size_t k = 0; k < 3; ++k) all[k] += g.volume * g.value[k];
-    if (!passed) continue;
+    if (!is_behind) continue;
     result.has_behind = true;
     result.drop = std::max(result.drop, level - coldest);
+    result.since = std::min(result.since, since);
     volume_behind += g.volume;
+    result.behind_magnitude += g.volume * length(g.value);
     for (std::size_t k = 0; k < 3; ++k) behind[k] += g.volume * g.value[k];
   }
-  if (volume > 0) result.all = length(all) / volume;
-  if (volume_behind > 0) result.behind = length(behind) / volume_behind;
+  if (volume > 0) {
+    result.all = length(all) / volume;
+    result.all_magnitude /= volume;
+  }
+  if (volume_behind > 0) {
+    result.behind = length(behind) / volume_behind;
+    result.behind_magnitude /= volume_behind;
+  }
   return result;
 }
 
 void Freezing::evaluate(const Passage& passage, const Step& step, std::span<double> history) const {
   double* const h = history.data() + static_cast<std::size_t>(passage.who.node) * k_width;
   const Levels& levels = levels_[static_cast<std::size_t>(passage.who.body)];
-  const PatchGradient g = recover(passage.who, step, passage.at, history);
+  const PatchGradient g = recover(passage.who, step, passage.at, history, false);
   const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
-  h[k_mode] = !g.has_behind ? k_waiting : (sharp ? k_sharp : k_mushy);
-  h[k_gradient] = h[k_mode] == k_sharp ? g.behind : g.all;
   h[k_rate] = passage.rate;
+  h[k_mode] = !g.has_behind ? k_waiting : (sharp ? k_sharp : k_mushy);
+  h[k_gradient] = g.all;
+  h[k_magnitude] = g.all_magnitude;
+  if (h[k_mode] != k_sharp) return;
+  const double share = passage.at * step.dt(), time = h[k_sum_time] + share;
+  h[k_gradient] = time > 0 ? (h[k_sum_gradient] + share * g.behind) / time : g.behind;
+  h[k_magnitude] = time > 0 ? (h[k_sum_magnitude] + share * g.behind_magnitude) / time : g.behind_magnitude;
+}
+
+// While a front passes a node, the gradient behind it swings about its mean.
+void Freezing::accumulate(const FreezingNode& who, const Step& step, std::span<double> history) const {
+  const PatchGradient g = recover(who, step, 1.0, history, true);
+  if (!g.has_behind || g.since == HUGE_VAL) return;
+  double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+  h[k_sum_gradient] += step.dt() * g.behind;
+  h[k_sum_magnitude] += step.dt() * g.behind_magnitude;
+  // Backward Euler lets the heat of a whole step flow off at its end, also of that in which the front comes.
+  h[k_sum_time] +=
+      h[k_sum_time] > 0 ? step.dt() : step.next.time - std::clamp(g.since, step.old.time, step.next.time);
 }
 
 // The first element around a node that waited is passed.
@@ -212,25 +232,30 @@ void Freezing::complete(const FreezingNode& who, const Step& step, std::span<dou
   if (passed_at > step.next.time) return;
   const Levels& levels = levels_[static_cast<std::size_t>(who.body)];
   const double at = std::clamp((passed_at - step.old.time) / step.dt(), 0.0, 1.0);
-  const PatchGradient g = recover(who, step, at, history);
+  const PatchGradient g = recover(who, step, at, history, true);
   double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
   const bool sharp = levels.at_end || g.drop > levels.liquidus - levels.evaluation;
   h[k_mode] = sharp ? k_sharp : k_mushy;
-  if (sharp) h[k_gradient] = g.behind;
+  if (!sharp) return;
+  h[k_gradient] = g.behind;
+  h[k_magnitude] = g.behind_magnitude;
 }
 
 void Freezing::step(const Moment& old, const Moment& next, Record& record) {
   std::vector<double>& history = record.columns[0].values;
   const Step step{old, next, storage_};
   std::vector<Passage> passages;
-  std::vector<FreezingNode> waiting;
+  std::vector<FreezingNode> waiting, freezing;
   for (const FreezingNode& who : nodes_) {
-    if (history[static_cast<std::size_t>(who.node) * k_width + k_mode] == k_waiting) waiting.push_back(who);
+    const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
+    if (h[k_mode] == k_waiting) waiting.push_back(who);
     follow(who, step, history, passages);
+    if (h[k_liquidus_at] >= 0 && h[k_evaluated_at] < 0) freezing.push_back(who);
   }
+  if (!algebra::any_process(!passages.empty() || !waiting.empty() || !freezing.empty())) return;
   ghosts_.update(history, k_width);  // times of neighbours say what lies behind the front
-  if (!algebra::any_process(!passages.empty() || !waiting.empty())) return;
   for (const Passage& passage : passages) evaluate(passage, step, history);
+  for (const FreezingNode& who : freezing) accumulate(who, step, history);
   for (const FreezingNode& who : waiting)
     if (history[static_cast<std::size_t>(who.node) * k_width + k_mode] == k_waiting)
       complete(who, step, history);
@@ -263,9 +288,8 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
   if (h[k_solidified_at] < 0) return {k_never};
   const double time = h[k_solidified_at] - h[k_liquidus_at];
   const double gradient = h[k_gradient];
-  const bool sharp = h[k_mode] == k_sharp;
-  const double speed = sharp ? front_speed(who, history) : (gradient > 0 ? h[k_rate] / gradient : 0.0);
-  const double rate = sharp ? gradient * speed : h[k_rate];
+  const double speed = front_speed(who, history);
+  const double rate = speed > 0 ? h[k_magnitude] * speed : h[k_rate];
   const auto body = static_cast<std::size_t>(who.body);
   const double spacing = arm_spacing(storage_.material(who.body).casting, time);
   const double ny = niyama(gradient, rate);

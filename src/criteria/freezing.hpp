@@ -8,14 +8,18 @@
 ///
 ///   T_e = T_S + x (T_L − T_S),   x = 0.1
 ///
-/// (Carlson and Beckermann 2009). Two cases, node by node:
+/// (Carlson and Beckermann 2009). G is the mean over elements of the body around the node, weighted by
+/// volume:
 ///
-///   mushy  the elements resolve the freezing range: G is the mean over all elements of the body around the
-///          node, weighted by volume, Ṫ that of the step;
-///   sharp  the temperature differs more across an element behind the front than between T_e and the liquidus
-///          (pure metals always): G is that of the elements behind the front, and Ṫ = G v, with the front
-///          speed v = 1/|∇t_e| from the times at which the nodes pass T_e. The rate of a single node is none
-///          of the front's there: it rests until the node has frozen, then falls.
+///   mushy  of all of them, where the elements resolve the freezing range;
+///   sharp  of those behind the front, and over the time in which it passes the node, where the temperature
+///          differs more across an element behind the front than between T_e and the liquidus (pure metals
+///          always).
+///
+/// The isotherm T_e arrives at t_e(x), so that ∇T = Ṫ ∇t_e: the front speed is v = 1/|∇t_e|, and Ṫ = |∇T| v.
+/// Both take means of magnitudes, for fronts that meet are as fast as others; G, the magnitude of a mean,
+/// vanishes there. The rate of a single node is not that of the isotherm: it rests while the node gives off
+/// its latent heat. It stands in where t_e is the same all around.
 ///
 /// A node that freezes before every neighbour (at the mould) has nothing behind it: it waits for its first
 /// element to be passed. Metal that melts again forgets, and is told by its next freezing.
@@ -27,6 +31,7 @@
 
 #include "algebra/parallel.hpp"
 #include "criteria/criterion.hpp"
+#include "criteria/freezing_levels.hpp"
 #include "criteria/niyama.hpp"
 #include "criteria/patches.hpp"
 #include "heat/nodal_enthalpy.hpp"
@@ -57,12 +62,10 @@ class Freezing : public Criterion {
   std::size_t bytes() const override;
 
  private:
-  /// Of a body that can freeze [K].
-  struct Levels {
-    double solidus = 0, liquidus = 0, evaluation = 0;
-    bool solidus_jump = false, liquidus_jump = false;  ///< part of the change is isothermal there
-    bool at_end = false;                               ///< evaluation is where the last melt freezes
-    bool freezes = false;
+  /// Of a body.
+  struct Levels : FreezingLevels {
+    double evaluation = 0;  ///< T_e [K]
+    bool at_end = false;    ///< that is where the last melt freezes
   };
   struct FreezingNode {
     Index node;
@@ -79,8 +82,10 @@ class Freezing : public Criterion {
   void follow(const FreezingNode& who, const Step& step, std::span<double> history,
               std::vector<Passage>& passages) const;
   /// Gradients of a node's patch with temperatures at the share `at` of the step.
-  PatchGradient recover(const FreezingNode& who, const Step& step, double at,
-                        std::span<const double> history) const;
+  /// @param only_behind  of the elements that the front has passed
+  PatchGradient recover(const FreezingNode& who, const Step& step, double at, std::span<const double> history,
+                        bool only_behind) const;
+  void accumulate(const FreezingNode& who, const Step& step, std::span<double> history) const;
   void evaluate(const Passage& passage, const Step& step, std::span<double> history) const;
   void complete(const FreezingNode& who, const Step& step, std::span<double> history) const;
   double front_speed(const FreezingNode& who, std::span<const double> history) const;

@@ -36,9 +36,12 @@ std::optional<FeedingLaw> FeedingLaw::of(const material::Material& material) {
   const material::Casting& casting = material.casting;
   if (change == nullptr || !casting.arm_spacing || !casting.melt_viscosity) return {};
   const double range = change->fraction.liquidus() - change->fraction.solidus();
-  if (range <= 0 || change->volume_change >= 0) return {};
+  double volume_change = 0;  // until the last melt is frozen: graphite forms on the way
+  for (const material::PhaseChange& other : material.phase_changes)
+    if (other.fraction.liquidus() > change->fraction.solidus()) volume_change += other.volume_change;
+  if (range <= 0 || volume_change >= 0) return {};
   FeedingLaw law;
-  law.shrinkage_ = -change->volume_change;
+  law.shrinkage_ = -volume_change;
   const double beta = law.shrinkage_ / (1 - law.shrinkage_);
   law.factor_ = std::sqrt(casting.critical_pressure_drop / (*casting.melt_viscosity * beta * range));
   const auto& points = change->fraction.points();

@@ -62,6 +62,7 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
       options_(std::move(options)),
       feeder_(mesh.x.size(), 0),
       volume_(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0),
+      body_(static_cast<std::size_t>(mesh.n_owned_nodes), -1),
       ghosts_(mesh),
       connectivity_(mesh, ghosts_, melting_bodies(mesh, storage)) {
   for (const std::string& group : options_.feeders) {
@@ -70,11 +71,17 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
       throw InputError({}, "criteria.feeders: the mesh has no group '" + group + "'");
     for (const Index node : nodes->second) feeder_[static_cast<std::size_t>(node)] = 1;
   }
+  const auto n_bodies = static_cast<int>(mesh.bodies.size());
+  for (int b = 0; b < n_bodies; ++b) levels_.push_back(FreezingLevels::of(storage.material(b)));
   double own = 0;
   for (std::size_t i = 0; i < volume_.size(); ++i) {
-    for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
-      if (storage.can_melt(static_cast<int>(b)))
-        volume_[i] += storage.volume(static_cast<Index>(i), static_cast<int>(b));
+    double most = 0;
+    for (int b = 0; b < n_bodies; ++b) {
+      const double volume = storage.can_melt(b) ? storage.volume(static_cast<Index>(i), b) : 0.0;
+      volume_[i] += volume;
+      if (volume > most) body_[i] = b;
+      most = std::max(most, volume);
+    }
     own += volume_[i];
   }
   whole_ = algebra::global_sum(own);
@@ -97,6 +104,15 @@ void Pools::step(const Moment& old, const Moment& next, Record& record) {
   track(&old, next, record);
 }
 
+double Pools::passed_at(std::size_t node, const Moment& old, const Moment& next) const {
+  const double before = old.solid_fraction[node], after = next.solid_fraction[node];
+  if (after <= before || body_[node] < 0) return next.time;
+  const FreezingLevels& levels = levels_[static_cast<std::size_t>(body_[node])];
+  const double solid = after == 1 ? levels.end(storage_, static_cast<Index>(node), old, next) : 1.0;
+  const double at = solid * std::clamp((options_.limit - before) / (after - before), 0.0, 1.0);
+  return old.time + at * (next.time - old.time);
+}
+
 void Pools::track(const Moment* old, const Moment& next, Record& record) const {
   std::vector<double>& number = record.columns[0].values;
   std::vector<Pool> pools = Pools::pools(record);
@@ -117,11 +133,7 @@ void Pools::track(const Moment* old, const Moment& next, Record& record) const {
     const auto in_input = static_cast<double>(mesh_.input_node[i]);
     if (inside[i] == 0) {
       if (pool == 0 || old == nullptr) continue;
-      const double before = old->solid_fraction[i];
-      const double at =
-          fraction > before ? std::clamp((options_.limit - before) / (fraction - before), 0.0, 1.0) : 1.0;
-      const double time = old->time + at * (next.time - old->time);
-      melt.last.push_back({pool, time, in_input, temperature, mesh_.x[i]});
+      melt.last.push_back({pool, passed_at(i, *old, next), in_input, temperature, mesh_.x[i]});
       continue;
     }
     MeltPart& part = own[parts.label[i]];

@@ -12,6 +12,7 @@
 
 #include "criteria/connectivity.hpp"
 #include "criteria/criterion.hpp"
+#include "criteria/freezing_levels.hpp"
 #include "heat/nodal_enthalpy.hpp"
 
 namespace solidus::criteria {
@@ -55,15 +56,19 @@ class Pools : public Criterion {
   static std::vector<Pool> pools(const Record& record);
 
  private:
+  /// When a node of a pool passed the limit in a step [s]: its solid fraction grows evenly until it is solid.
+  double passed_at(std::size_t node, const Moment& old, const Moment& next) const;
   /// Brings the record to `next`; `old` is null at the start.
   void track(const Moment* old, const Moment& next, Record& record) const;
 
   const mesh::Mesh& mesh_;
   const heat::NodalEnthalpy& storage_;
   PoolOptions options_;
-  std::vector<char> feeder_;    ///< [local node]
-  std::vector<double> volume_;  ///< [owned node] of bodies that can melt [m³]
-  double whole_ = 0;            ///< over all processes [m³]
+  std::vector<char> feeder_;            ///< [local node]
+  std::vector<double> volume_;          ///< [owned node] of bodies that can melt [m³]
+  std::vector<int> body_;               ///< [owned node]: that of which it holds most among them, else −1
+  std::vector<FreezingLevels> levels_;  ///< per body
+  double whole_ = 0;                    ///< over all processes [m³]
   algebra::GhostExchange ghosts_;
   Connectivity connectivity_;
 };

@@ -40,6 +40,9 @@ TEST(FeedingLaw, IsNotThereForWhatDoesNotShrinkOrHasNoRangeOrNoArms) {
   expands.phase_changes[0].volume_change = 0.02;
   EXPECT_FALSE(FeedingLaw::of(expands));
   EXPECT_FALSE(FeedingLaw::of(test::metal(0)));
+  material::Material iron = test::metal(40);  // what graphite adds outweighs the shrinkage
+  iron.phase_changes.push_back({"graphite", material::PhaseFraction::linear(860, 880), 0, 0.06, false});
+  EXPECT_FALSE(FeedingLaw::of(iron));
   material::Material unknown = test::metal(40);
   unknown.casting.arm_spacing.reset();
   EXPECT_FALSE(FeedingLaw::of(unknown));

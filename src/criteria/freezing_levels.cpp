@@ -1,0 +1,40 @@
+#include "criteria/freezing_levels.hpp"
+
+#include <algorithm>
+
+namespace solidus::criteria {
+
+double passing(double from, double to, double level) {
+  return from > to ? std::clamp((from - level) / (from - to), 0.0, 1.0) : 1.0;
+}
+
+FreezingLevels FreezingLevels::of(const material::Material& material) {
+  FreezingLevels levels;
+  const material::PhaseChange* change = material.solidification();
+  if (change == nullptr) return levels;
+  const material::PhaseFraction& fraction = change->fraction;
+  levels.freezes = true;
+  levels.solidus = fraction.solidus();
+  levels.liquidus = fraction.liquidus();
+  levels.solidus_jump = fraction.above(levels.solidus) < 1;
+  levels.liquidus_jump = fraction.below(levels.liquidus) > 0;
+  return levels;
+}
+
+double FreezingLevels::begin(const heat::NodalEnthalpy& storage, Index node, const Moment& old,
+                             const Moment& next) const {
+  const auto i = static_cast<std::size_t>(node);
+  if (liquidus_jump && !next.heat.enthalpy.empty())
+    return passing(old.heat.enthalpy[i], next.heat.enthalpy[i], storage.upper(node, liquidus));
+  return passing(old.heat.temperature[i], next.heat.temperature[i], liquidus);
+}
+
+double FreezingLevels::end(const heat::NodalEnthalpy& storage, Index node, const Moment& old,
+                           const Moment& next) const {
+  const auto i = static_cast<std::size_t>(node);
+  if (solidus_jump && !next.heat.enthalpy.empty())
+    return passing(old.heat.enthalpy[i], next.heat.enthalpy[i], storage.lower(node, solidus));
+  return passing(old.heat.temperature[i], next.heat.temperature[i], solidus);
+}
+
+}  // namespace solidus::criteria
