@@ -9,6 +9,7 @@
 #include <string>
 
 #include "algebra/parallel.hpp"
+#include "model/body_input.hpp"
 #include "model/dynamics_input.hpp"
 #include "results/summary.hpp"
 
@@ -32,6 +33,13 @@ std::string analysis_text(const CaseSpec& spec) {
                      spec.isentropic() ? ", isentropic" : (spec.simultaneous() ? ", simultaneous" : ""),
                      spec.dynamics ? ", with inertia by " + method_name(*spec.dynamics) : "",
                      simplices_text(spec.mechanics));
+}
+
+// What a state holds of a body depends on what it takes part in, and how long.
+std::string body_text(const BodySpec& body) {
+  std::string text = body.name + (only_conducts(body) ? " that only conducts" : "");
+  for (std::size_t i = 0; i < body.stages.size(); ++i) text += (i == 0 ? " in " : " + ") + body.stages[i];
+  return text;
 }
 
 std::string mesh_text(const mesh::Mesh& mesh) {
@@ -112,7 +120,7 @@ results::Fingerprint fingerprint(const CaseSpec& spec, const mesh::Mesh& mesh,
   results::Fingerprint result = {{"analysis", analysis_text(spec)}, {"mesh", mesh_text(mesh)}};
   std::string bodies, data;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    bodies += (b > 0 ? ", " : "") + spec.bodies[b].name;
+    bodies += (b > 0 ? ", " : "") + body_text(spec.bodies[b]);
     data += (b > 0 ? ", " : "") + material_text(materials[b]);
   }
   result.emplace_back("list of bodies", bodies);

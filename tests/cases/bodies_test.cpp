@@ -424,6 +424,21 @@ TEST_F(Bodies, ThatLeaveEndTheirContactsAndNoOthers) {
               HasSubstr("the contact 'cavity' holds in the stage 'air', but its body has gone"));
 }
 
+TEST_F(Bodies, ACheckpointIsOfTheBodiesThatWereThere) {
+  ASSERT_TRUE(run("once", k_shake_out).finished);
+  solidus::model::RunOptions options;
+  options.folder = root() / "once";
+  options.restart = true;
+  try {
+    solidus::model::run_case(
+        solidus::model::load_case(write("once.toml", k_shake_out), {"body.sand.physics=heat"}), options);
+    ADD_FAILURE();
+  } catch (const solidus::InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("'part, sand in cool', that of this case 'part, sand that only conducts in cool'"));
+  }
+}
+
 TEST_F(Bodies, WhatNamesAStageInWhichItsBodyHasGoneIsRefused) {
   const std::string film = R"([[thermal_condition]]
 name = "too late"
