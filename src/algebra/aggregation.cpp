@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "algebra/parallel.hpp"
 
 namespace solidus::algebra {
 
@@ -171,20 +175,14 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
             const std::vector<float>& tentative, std::span<const char> fixed,
             std::span<const float> inverse_diagonal, double omega, BlockRows<float>& p) {
   constexpr int k_entries = size * modes;
-  const Index n = a.n_rows();
   RowSum sum(n_coarse, k_entries);
-  for (Index row = 0; row < n; ++row) {
+  for (Index row = 0; row < a.n_rows(); ++row) {
     sum.clear();
     const float* const own = tentative.data() + at(row) * k_entries;
     sum.block(of_row[at(row)]);
-    const std::int64_t begin = a.start[at(row)], end = a.start[at(row) + 1];
-    const bool inner =
-        std::all_of(a.column.begin() + begin, a.column.begin() + end, [&](Index j) { return j < n; });
-    if (inner) {
-      for (std::int64_t s = begin; s < end; ++s) {
-        const Index j = a.column[at(s)];
-        add_product<size, modes>(a.block(s), tentative.data() + at(j) * k_entries, sum.block(of_row[at(j)]));
-      }
+    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
+      const Index j = a.column[at(s)];
+      add_product<size, modes>(a.block(s), tentative.data() + at(j) * k_entries, sum.block(of_row[at(j)]));
     }
     std::vector<Index> columns = sum.columns();
     std::sort(columns.begin(), columns.end());
@@ -205,11 +203,11 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
   }
 }
 
-/// The columns of Pᵀ A P, sorted.
-void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_owned, Index n_local,
+/// The columns of this process's part of Pᵀ A P, sorted; rows of other processes too.
+void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_local,
                       BlockRows<double>& coarse) {
-  std::vector<std::vector<Index>> rows(at(n_owned));
-  std::vector<std::size_t> compressed(at(n_owned), 64);
+  std::vector<std::vector<Index>> rows(at(n_local));
+  std::vector<std::size_t> compressed(at(n_local), 64);
   RowSum reached(n_local, 0);
   const auto compress = [](std::vector<Index>& list) {
     std::sort(list.begin(), list.end());
@@ -279,22 +277,118 @@ void hold_empty_modes(BlockRows<double>& a) {
     if (std::abs(*d) <= k_no_stiffness * mean) *d = mean;
 }
 
-template <int size, int modes>
-void make_level(const MatrixView& a, const std::vector<Index>& of_row, const std::vector<float>& start,
-                std::span<const char> fixed, std::span<const float> inverse_diagonal, double omega,
-                const std::vector<double>& of_ghosts, Coarsening& next) {
-  constexpr int k_entries = size * modes;
-  BlockRows<float>& p = next.interpolation;
-  smooth<size, modes>(a, of_row, next.numbering.n_owned, start, fixed, inverse_diagonal, omega, p);
-  const std::vector<GlobalIndex>& ghosts = next.numbering.ghosts;
-  for (std::size_t g = 0; g < of_ghosts.size(); g += k_entries + 1) {
-    const auto found = std::lower_bound(ghosts.begin(), ghosts.end(), static_cast<GlobalIndex>(of_ghosts[g]));
-    p.column.push_back(next.numbering.n_owned + static_cast<Index>(found - ghosts.begin()));
-    for (std::size_t k = 1; k <= k_entries; ++k) p.value.push_back(static_cast<float>(of_ghosts[g + k]));
+/// Local numbers of coarse rows: this process's own, then ghosts as they turn up.
+class CoarseNumbers {
+ public:
+  explicit CoarseNumbers(Numbering& numbering) : numbering_(numbering) {}
+  Index local(double global) {
+    const auto g = static_cast<GlobalIndex>(global);
+    if (g >= numbering_.first && g < numbering_.first + numbering_.n_owned)
+      return static_cast<Index>(g - numbering_.first);
+    const auto [place, is_new] = places_.emplace(g, numbering_.n_local());
+    if (is_new) numbering_.ghosts.push_back(g);
+    return place->second;
+  }
+  double global(Index local) const {
+    return static_cast<double>(local < numbering_.n_owned
+                                   ? numbering_.first + local
+                                   : numbering_.ghosts[at(local - numbering_.n_owned)]);
+  }
+
+ private:
+  Numbering& numbering_;
+  std::unordered_map<GlobalIndex, Index> places_;
+};
+
+/// A row as messages hold it: of every block its column's number over all processes, then its entries.
+template <class Number>
+void pack_row(const BlockRows<Number>& rows, Index row, const CoarseNumbers& numbers,
+              std::vector<double>& to) {
+  for (std::int64_t t = rows.start[at(row)]; t < rows.start[at(row) + 1]; ++t) {
+    to.push_back(numbers.global(rows.column[at(t)]));
+    to.insert(to.end(), rows.block(t), rows.block(t) + rows.block_entries());
+  }
+}
+
+/// Appends the rows of P that other processes made for ghosts.
+void append_ghost_rows(const RowExchange& ghosts, Index n_local, CoarseNumbers& numbers,
+                       BlockRows<float>& p) {
+  const Index n_rows = p.n_rows();
+  const auto stride = at(p.block_entries()) + 1;
+  std::vector<std::vector<double>> rows(at(n_local - n_rows));
+  ghosts.update([&](Index row, std::vector<double>& to) { pack_row(p, row, numbers, to); },
+                [&](Index ghost, std::span<const double> row) {
+                  rows[at(ghost - n_rows)].assign(row.begin(), row.end());
+                });
+  for (const std::vector<double>& row : rows) {
+    for (std::size_t i = 0; i < row.size(); i += stride) {
+      p.column.push_back(numbers.local(row[i]));
+      for (std::size_t k = 1; k < stride; ++k) p.value.push_back(static_cast<float>(row[i + k]));
+    }
     p.start.push_back(static_cast<std::int64_t>(p.column.size()));
   }
-  galerkin_pattern(a, p, next.numbering.n_owned, next.numbering.n_local(), next.matrix);
+}
+
+/// Adds up what the processes found for each other's coarse rows; own rows stay.
+void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, BlockRows<double>& coarse) {
+  if (!any_process(!numbering.ghosts.empty())) return;
+  struct Block {
+    Index column;
+    const double* values;
+  };
+  const auto entries = at(coarse.block_entries());
+  std::vector<std::vector<Block>> rows(at(numbering.n_owned));
+  for (Index row = 0; row < numbering.n_owned; ++row)
+    for (std::int64_t t = coarse.start[at(row)]; t < coarse.start[at(row) + 1]; ++t)
+      rows[at(row)].push_back({coarse.column[at(t)], coarse.block(t)});
+  std::vector<std::pair<Index, std::vector<double>>> from_others;
+  const RowExchange exchange(numbering.n_owned, numbering.first, numbering.ghosts);
+  exchange.give_back([&](Index row, std::vector<double>& to) { pack_row(coarse, row, numbers, to); },
+                     [&](Index row, std::span<const double> values) {
+                       from_others.emplace_back(row, std::vector<double>(values.begin(), values.end()));
+                     });
+  for (const auto& [row, values] : from_others)
+    for (std::size_t i = 0; i < values.size(); i += entries + 1)
+      rows[at(row)].push_back({numbers.local(values[i]), values.data() + i + 1});
+
+  BlockRows<double> sum;
+  sum.rows = coarse.rows;
+  sum.columns = coarse.columns;
+  for (std::vector<Block>& blocks : rows) {
+    // Stable: blocks of one place are added in the order of the processes.
+    std::stable_sort(blocks.begin(), blocks.end(),
+                     [](const Block& l, const Block& r) { return l.column < r.column; });
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      if (b == 0 || blocks[b].column != blocks[b - 1].column) {
+        sum.column.push_back(blocks[b].column);
+        sum.value.insert(sum.value.end(), blocks[b].values, blocks[b].values + entries);
+        continue;
+      }
+      double* const to = sum.value.data() + sum.value.size() - entries;
+      for (std::size_t k = 0; k < entries; ++k) to[k] += blocks[b].values[k];
+    }
+    sum.start.push_back(static_cast<std::int64_t>(sum.column.size()));
+  }
+  coarse = std::move(sum);
+}
+
+/// What a local row of the fine level, ghosts too, starts from: its aggregate and its block of P₀.
+struct Tentative {
+  std::vector<Index> of_row;
+  std::vector<float> values;
+};
+
+template <int size, int modes>
+void make_level(const MatrixView& a, const RowExchange& ghosts, const Tentative& start,
+                std::span<const char> fixed, std::span<const float> inverse_diagonal, double omega,
+                CoarseNumbers& numbers, Coarsening& next) {
+  BlockRows<float>& p = next.interpolation;
+  smooth<size, modes>(a, start.of_row, next.numbering.n_local(), start.values, fixed, inverse_diagonal, omega,
+                      p);
+  append_ghost_rows(ghosts, static_cast<Index>(start.of_row.size()), numbers, p);
+  galerkin_pattern(a, p, next.numbering.n_local(), next.matrix);
   galerkin<size, modes>(a, p, next.numbering.n_local(), next.matrix);
+  sum_over_processes(numbers, next.numbering, next.matrix);
 }
 
 }  // namespace
@@ -312,7 +406,7 @@ std::vector<float> inverse_diagonal(const MatrixView& a) {
   return inverse;
 }
 
-Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const GhostExchange& ghosts,
+Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const RowExchange& ghosts,
                    std::span<const double> near_null, int modes, std::span<const char> fixed,
                    std::span<const float> inverse_diagonal, double largest) {
   const int entries = a.size * modes;
@@ -320,31 +414,30 @@ Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const GhostE
   next.modes = modes;
   next.interpolation.rows = a.size;
   next.interpolation.columns = next.matrix.rows = next.matrix.columns = modes;
-  std::vector<Index> of_row;
-  next.numbering.n_owned = aggregate(a, of_row);
+  Tentative start;
+  next.numbering.n_owned = aggregate(a, start.of_row);
   GlobalIndex mine = next.numbering.n_owned;
   MPI_Exscan(&mine, &next.numbering.first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
-  const std::vector<float> start =
-      tentative(of_row, next.numbering.n_owned, a.size, near_null, modes, fixed, next.near_null);
-
-  // The rows of ghosts: the number of the aggregate over all processes, then the block of P₀.
-  std::vector<double> rows(at(numbering.n_local()) * at(entries + 1));
-  for (std::size_t row = 0; row < of_row.size(); ++row) {
-    double* const to = rows.data() + row * at(entries + 1);
-    to[0] = static_cast<double>(next.numbering.first + of_row[row]);
-    std::copy_n(start.data() + row * at(entries), entries, to + 1);
-  }
-  ghosts.update(rows, entries + 1);
-  rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(of_row.size()) * (entries + 1));
-  for (std::size_t g = 0; g < rows.size(); g += at(entries + 1))
-    next.numbering.ghosts.push_back(static_cast<GlobalIndex>(rows[g]));
-  std::sort(next.numbering.ghosts.begin(), next.numbering.ghosts.end());
-  next.numbering.ghosts.erase(std::unique(next.numbering.ghosts.begin(), next.numbering.ghosts.end()),
-                              next.numbering.ghosts.end());
+  start.values =
+      tentative(start.of_row, next.numbering.n_owned, a.size, near_null, modes, fixed, next.near_null);
+  CoarseNumbers numbers(next.numbering);
+  start.of_row.resize(at(numbering.n_local()));
+  start.values.resize(at(numbering.n_local()) * at(entries));
+  ghosts.update(
+      [&](Index row, std::vector<double>& to) {
+        const float* const block = start.values.data() + std::int64_t{row} * entries;
+        to.push_back(numbers.global(start.of_row[at(row)]));
+        to.insert(to.end(), block, block + entries);
+      },
+      [&](Index ghost, std::span<const double> row) {
+        start.of_row[at(ghost)] = numbers.local(row[0]);
+        std::transform(row.begin() + 1, row.end(), start.values.begin() + std::int64_t{ghost} * entries,
+                       [](double v) { return static_cast<float>(v); });
+      });
 
   const double omega = largest > 0 ? k_smoothing / largest : 0.0;
   const auto make = [&]<int size, int n>() {
-    make_level<size, n>(a, of_row, start, fixed, inverse_diagonal, omega, rows, next);
+    make_level<size, n>(a, ghosts, start, fixed, inverse_diagonal, omega, numbers, next);
   };
   with_block_sizes(a.size, modes, make);
   hold_empty_modes(next.matrix);

@@ -5,15 +5,16 @@
 /// orthonormal, is the tentative interpolation P₀, so that the coarse level represents it exactly; a step of
 /// Jacobi's method takes the energy out of its edges, P = (I − ω D⁻¹ A) P₀. The coarse matrix is Pᵀ A P.
 ///
-/// Aggregates do not reach over processes, and rows that couple with another process keep P₀: a row of
-/// another process then has one entry, and the coarse matrix needs no sum over processes.
+/// Aggregates do not reach over processes, but their functions do, by the step of Jacobi's method: so the
+/// iterations do not depend on how the rows are divided. What a process finds for coarse rows of another one
+/// is sent there.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "algebra/packed_rows.hpp"
-#include "algebra/parallel.hpp"
+#include "algebra/row_exchange.hpp"
 
 namespace solidus::algebra {
 
@@ -40,18 +41,19 @@ struct Numbering {
 
 /// What the next level is made of.
 struct Coarsening {
-  int modes = 1;                   ///< size of a coarse block
-  BlockRows<float> interpolation;  ///< P, [local fine row], ghosts too; columns are local coarse rows
-  BlockRows<double> matrix;        ///< Pᵀ A P, owned coarse rows
-  Numbering numbering;             ///< of the coarse rows
-  std::vector<double> near_null;   ///< of the coarse level, [owned coarse row × modes][modes]
+  int modes = 1;  ///< size of a coarse block
+  BlockRows<float>
+      interpolation;         ///< P, [local fine row], ghosts too; columns are local coarse rows, ghosts too
+  BlockRows<double> matrix;  ///< Pᵀ A P, owned coarse rows
+  Numbering numbering;       ///< of the coarse rows
+  std::vector<double> near_null;  ///< of the coarse level, [owned coarse row × modes][modes]
 };
 
 /// @param near_null  [owned row × size][modes]
 /// @param fixed      [owned row × size], rows that are decoupled and have no error; empty: none
 /// @param largest    eigenvalue of D⁻¹ A
 /// Collective.
-Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const GhostExchange& ghosts,
+Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const RowExchange& ghosts,
                    std::span<const double> near_null, int modes, std::span<const char> fixed,
                    std::span<const float> inverse_diagonal, double largest);
 

@@ -5,6 +5,7 @@
 
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
+#include "base/large_pages.hpp"
 #include "base/simd.hpp"
 
 namespace solidus::algebra {
@@ -60,7 +61,7 @@ void BlockMatrix::set_graph(NodeGraph graph) {
   ++pattern_;
   graph.compress(row_start_, columns_);
   const auto bs = static_cast<std::size_t>(block_size_);
-  values_.assign((columns_.size() + 1) * bs * bs, 0.0);
+  assign_in_large_pages(values_, (columns_.size() + 1) * bs * bs, 0.0);
   diagonal_.resize(at(mesh_.n_owned_nodes));
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
   order_ghost_columns();

@@ -90,7 +90,8 @@ struct Multigrid::Level {
   PackedRows matrix, interpolation;  ///< the latter to the next level
   int size = 1;
   Numbering numbering;
-  std::optional<GhostExchange> ghosts;  ///< none on the coarsest level
+  std::optional<GhostExchange> ghosts;
+  std::optional<RowExchange> rows;
   std::vector<float> inverse_diagonal;
   double largest = 1;          ///< eigenvalue of D⁻¹ A
   std::vector<float> x, b, r;  ///< [local row × size]
@@ -269,11 +270,13 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
   const std::size_t n_local = at(numbering.n_local()) * at(a.size),
                     n_owned = at(numbering.n_owned) * at(a.size);
   GhostExchange ghosts(numbering.n_owned, numbering.first, numbering.ghosts);
+  RowExchange rows(numbering.n_owned, numbering.first, numbering.ghosts);
   levels_.push_back({PackedRows(a.size, a.size, a.start.data(), a.n_rows(), a.column.data(), a.blocks),
                      {},
                      a.size,
                      std::move(numbering),
                      std::move(ghosts),
+                     std::move(rows),
                      inverse_diagonal(a),
                      1,
                      std::vector<float>(n_local),
@@ -283,7 +286,7 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
   Level& level = levels_.back();
   level.estimate_largest();
   const GlobalIndex before = n_rows(level.numbering);
-  Coarsening next = coarsen(a, level.numbering, *level.ghosts, near_null, modes_.modes, fixed,
+  Coarsening next = coarsen(a, level.numbering, *level.rows, near_null, modes_.modes, fixed,
                             level.inverse_diagonal, level.largest);
   const BlockRows<float>& p = next.interpolation;
   level.interpolation =
@@ -301,6 +304,8 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
   Level last;
   last.size = next.modes;
   last.numbering = std::move(next.numbering);
+  last.ghosts.emplace(last.numbering.n_owned, last.numbering.first, last.numbering.ghosts);
+  last.rows.emplace(last.numbering.n_owned, last.numbering.first, last.numbering.ghosts);
   last.x.resize(n);
   last.b.resize(n);
   levels_.push_back(std::move(last));
@@ -312,10 +317,12 @@ void Multigrid::cycle(std::size_t index) {
   Level& next = levels_[index + 1];
   level.smooth(true);
   level.residual();
-  // Rows of this process interpolate from its own coarse rows alone.
+  // Rows of this process interpolate from coarse rows of others too.
   std::fill(next.b.begin(), next.b.end(), 0.0F);
   level.interpolation.multiply_transposed_add(level.r.data(), next.b.data());
+  next.rows->add_to_owners(next.b, next.size);
   cycle(index + 1);
+  next.ghosts->update(next.x, next.size);
   level.interpolation.multiply_add(next.x.data(), level.x.data());
   level.smooth(false);
 }

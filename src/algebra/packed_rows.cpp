@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/large_pages.hpp"
+
 namespace solidus::algebra {
 
 namespace {
@@ -77,8 +79,9 @@ PackedRows::PackedRows(int rows, int columns, const std::int64_t* start, Index n
                        const Number* blocks)
     : rows_(rows), columns_(columns), start_(start, start + n_rows + 1) {
   const auto n_slots = static_cast<std::size_t>(start_.back());
-  column_.assign(column, column + n_slots);
-  value_.assign(n_slots * static_cast<std::size_t>(rows * columns) + k_overhang, 0.0F);
+  assign_in_large_pages(column_, n_slots, Index{0});
+  std::copy_n(column, n_slots, column_.begin());
+  assign_in_large_pages(value_, n_slots * static_cast<std::size_t>(rows * columns) + k_overhang, 0.0F);
   float* to = value_.data();
   for (std::size_t s = 0; s < n_slots; ++s, blocks += rows * columns)
     for (int c = 0; c < columns; ++c)

@@ -198,7 +198,9 @@ void StateFields::update_friction(const contact::ContactNodalFields& fields, std
     }
     if (closest[k] == 0) continue;
     status[i] = fields.status[k];
-    if (interface != by_name_.end()) (*interface->second)[i] = fields.temperature[k];
+    // The slave's alone: the master remembers none.
+    if (interface != by_name_.end() && std::isfinite(fields.temperature[k]))
+      (*interface->second)[i] = fields.temperature[k];
     for (std::size_t c = 0; c < components; ++c) traction[i * components + c] = fields.traction[k][c];
   }
 }

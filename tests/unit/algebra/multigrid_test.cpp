@@ -81,6 +81,18 @@ TEST(Multigrid, TheNumberOfIterationsHardlyGrowsWithTheMesh) {
   EXPECT_LE(iterations.back(), 2 * iterations.front());
 }
 
+// Functions of aggregates reach over the seams: rough ones there cost half as many iterations again.
+TEST(Multigrid, TheNumberOfIterationsHardlyGrowsWithTheProcesses) {
+  Springs springs(60);
+  LinearSolver solver(springs.grid.mesh,
+                      {.prefix = "test_", .kind = SolverKind::multigrid, .relative_tolerance = 1e-8});
+  solver.use_rigid_body_modes(springs.grid.mesh, 2);
+  std::vector<double> x(springs.n_owned());
+  const LinearReport report = solver.solve(springs.matrix, springs.pattern(0.7), x);
+  ASSERT_TRUE(report.converged) << report.reason;
+  EXPECT_LE(report.iterations, 12);  // measured: 10 on one, two, three and four
+}
+
 TEST(Multigrid, TheCycleIsSymmetricAndPositive) {
   Springs springs(30);
   Multigrid multigrid(springs.grid.mesh, rigid_body_modes(springs.grid.mesh, 2));
@@ -119,7 +131,11 @@ TEST(Multigrid, RigidMotionsOfTheCoarseLevelsAreThoseOfTheFineOne) {
                             {mesh.global_node.begin() + mesh.n_owned_nodes, mesh.global_node.end()}};
   const MatrixView a{2, springs.matrix.row_start(), springs.matrix.columns(), springs.matrix.block(0)};
   const Coarsening next =
-      coarsen(a, numbering, GhostExchange(mesh), modes.values, 3, {}, inverse_diagonal(a), 2.0);
+      coarsen(a, numbering, RowExchange(numbering.n_owned, numbering.first, numbering.ghosts), modes.values,
+              3, {}, inverse_diagonal(a), 2.0);
+  std::vector<double> coarse(next.near_null);
+  coarse.resize(static_cast<std::size_t>(next.numbering.n_local()) * 9);
+  GhostExchange(next.numbering.n_owned, next.numbering.first, next.numbering.ghosts).update(coarse, 9);
 
   // P times the coarse modes is what the smoothing leaves of rigid motions: all of them, as they cost
   // nothing.
@@ -129,18 +145,14 @@ TEST(Multigrid, RigidMotionsOfTheCoarseLevelsAreThoseOfTheFineOne) {
       for (int mode = 0; mode < 3; ++mode) {
         double sum = 0;
         for (std::int64_t s = p.start[Springs::at(row)]; s < p.start[Springs::at(row) + 1]; ++s) {
-          const Index coarse = p.column[static_cast<std::size_t>(s)];
-          ASSERT_LT(coarse, next.numbering.n_owned);
+          const Index column = p.column[static_cast<std::size_t>(s)];
           for (int k = 0; k < 3; ++k)
             sum += static_cast<double>(p.block(s)[i * 3 + k]) *
-                   next.near_null[static_cast<std::size_t>((coarse * 3 + k) * 3 + mode)];
+                   coarse[static_cast<std::size_t>((column * 3 + k) * 3 + mode)];
         }
         EXPECT_NEAR(sum, modes.values[static_cast<std::size_t>((row * 2 + i) * 3 + mode)], 1e-5);
       }
   // And so they cost nothing there: the rows of Pᵀ A P take coarse rigid motions to zero, ghosts included.
-  std::vector<double> coarse(next.near_null);
-  coarse.resize(static_cast<std::size_t>(next.numbering.n_local()) * 9);
-  GhostExchange(next.numbering.n_owned, next.numbering.first, next.numbering.ghosts).update(coarse, 9);
   const BlockRows<double>& m = next.matrix;
   double largest = 0;
   for (const double value : m.value) largest = std::max(largest, std::abs(value));
