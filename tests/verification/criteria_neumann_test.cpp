@@ -57,8 +57,7 @@ Errors run(double range, double superheat, int n, const std::string& file = {}) 
                            conditions, {s.start}, k_time, k_time / n);
   std::ofstream table;
   if (!file.empty())
-    table = verification::csv(file,
-                              "x[mm],G[K/mm],G_exact[K/mm],rate[K/s],rate_exact[K/s],v[mm/s],v_exact[mm/s]");
+    table = verification::csv(file, "x[mm],gradient[1],cooling_rate[1],front_speed[1],exact[1]");
   Errors errors;
   int count = 0;
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
@@ -78,9 +77,9 @@ Errors run(double range, double superheat, int n, const std::string& file = {}) 
           square(fields["local_solidification_time"][i] / (frozen - x * x / (4 * xi_l * xi_l)) - 1);
     ++count;
     if (!file.empty() && mesh.x[i][1] == 0)
-      table << 1e3 * x << ',' << 1e-3 * fields["thermal_gradient"][i] << ',' << 1e-3 * exact.gradient(x)
-            << ',' << fields["cooling_rate"][i] << ',' << exact.rate(x) << ','
-            << 1e3 * fields["front_speed"][i] << ',' << 1e3 * exact.speed(x) << '\n';
+      table << 1e3 * x << ',' << fields["thermal_gradient"][i] / exact.gradient(x) << ','
+            << fields["cooling_rate"][i] / exact.rate(x) << ',' << fields["front_speed"][i] / exact.speed(x)
+            << ",1\n";
   }
   for (double Errors::*e :
        {&Errors::time, &Errors::gradient, &Errors::rate, &Errors::speed, &Errors::freezing_time})
