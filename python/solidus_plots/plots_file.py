@@ -25,6 +25,52 @@ REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps
 NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(FIELD_KEYS - {"field"}, "field")}}
 
 
+def _number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _all(values, fits):
+    return isinstance(values, list) and all(fits(value) for value in values)
+
+
+def _moment(value):
+    return _number(value) or value in ("first", "last")
+
+
+def _text(value):
+    return isinstance(value, str)
+
+
+def _table(value):
+    return isinstance(value, dict)
+
+
+# What the value of a key must be: keys, test, words.
+VALUES = [
+    (("file", "title", "quantity", "field", "unit", "colours", "up", "edges", "table", "x", "name"), _text, "a text"),
+    (("only", "bodies", "plain", "ghost", "clip_bodies", "probes"), lambda v: _all(v, _text), "a list of texts"),
+    (("times",), lambda v: _all(v, _moment) and v, 'a list of moments [s], "first", "last"'),
+    (("time",), _moment, 'a moment [s], "first" or "last"'),
+    (("component", "columns", "bands"), lambda v: _number(v) and v == int(v) and v >= 0, "a whole number"),
+    (("magnification", "above"), _number, "a number"),
+    (("range", "view"), lambda v: _all(v, _number) and len(v) == 2, "two numbers"),
+    (("contours",), lambda v: _number(v) or _all(v, _number), "a number of lines, or a list of values"),
+    (("planes",), lambda v: _all(v, _table) and v, "a list of planes"),
+    (("levels", "moments"), lambda v: _all(v, lambda e: _table(e) and _number(e.get("value"))),
+     'a list of { value = 1, label = "..." }'),
+    (("clip", "keep"), _table, "a table"),
+    (("smooth", "mesh", "mirror", "dimensions", "from_zero"), lambda v: isinstance(v, bool), "true or false"),
+]
+
+
+def _check_values(path, section, picture):
+    for keys, fits, words in VALUES:
+        for key in set(keys) & set(picture):
+            if not fits(picture[key]):
+                raise ResultError(f"{path}: [[{section}]] '{picture['file']}': '{key}' must be {words}, not "
+                                  f"{picture[key]!r}")
+
+
 def find_spec(results, summary):
     """plots.toml beside the case file the run was made of, else cases/CASE/plots.toml of this repository."""
     repository = Path(__file__).resolve().parents[2]
@@ -53,6 +99,7 @@ def read_spec(path):
             for key, needed in NEEDS.get(section, {}).items():
                 if key in picture and needed not in picture:
                     raise ResultError(f"{path}: [[{section}]] '{picture['file']}': '{key}' needs '{needed}'")
+            _check_values(path, section, picture)
     return spec
 
 

@@ -137,10 +137,7 @@ def _camera(spec):
         raise ResultError(f'{place}: edges is "features", "mesh" or "none", not {spec["edges"]!r}')
     if spec.get("up", "z") not in ("x", "y", "z"):
         raise ResultError(f'{place}: up is "x", "y" or "z", not {spec["up"]!r}')
-    view = spec.get("view", [-60, 25])
-    if not isinstance(view, list) or [isinstance(angle, (int, float)) for angle in view] != [True, True]:
-        raise ResultError(f"{place}: view is [azimuth, elevation] in degrees, not {view!r}")
-    return Camera(*view, spec.get("up", "z"))
+    return Camera(*spec.get("view", [-60, 25]), spec.get("up", "z"))
 
 
 def draw(spec, run, folder):

@@ -56,6 +56,18 @@ class Wrong(unittest.TestCase):
         self.assertIn("'clip_bodies' needs 'clip'", text)
         self.assertIn("'range' needs 'field'", self.message('[[surfaces]]\nfile = "a"\nrange = [0, 1]'))
 
+    def test_values_of_the_wrong_kind_are_told_what_they_must_be(self):
+        for line, text in (('view = [30]', "'view' must be two numbers, not [30]"),
+                           ('times = "last"', "'times' must be a list of moments"),
+                           ('times = ["end"]', "'times' must be a list of moments"),
+                           ('bodies = "part"', "'bodies' must be a list of texts"),
+                           ('range = [0, "a"]', "'range' must be two numbers"),
+                           ('smooth = 1', "'smooth' must be true or false"),
+                           ('bands = 2.5', "'bands' must be a whole number"),
+                           ('levels = [3]', "'levels' must be a list of { value")):
+            with self.subTest(line=line):
+                self.assertIn(text, self.message(f'[[surfaces]]\nfile = "a"\nfield = "b"\n{line}'))
+
     def test_a_plane_is_one_axis_or_a_normal_and_a_point(self):
         for entry in ({}, {"w": 0}, {"z": "middle"}, {"z": 0, "y": 0}, {"normal": [0, 0, 1]},
                       {"normal": [0, 0, 0], "through": [0, 0, 0]}, {"normal": [0, 1], "through": [0, 0, 0]}):
@@ -74,7 +86,7 @@ class Wrong(unittest.TestCase):
                             ({"unit": "MPa"}, "cannot show")):
             with self.subTest(wrong=wrong), self.assertRaisesRegex((ResultError, ValueError), text):
                 sections.draw({**spec, **wrong}, run, Path("."))
-        for wrong, text in (({"edges": "all"}, '"features", "mesh" or "none"'), ({"view": [30]}, "view is"),
+        for wrong, text in (({"edges": "all"}, '"features", "mesh" or "none"'),
                             ({"clip": {"field": "temperature"}}, "is no clip"),
                             ({"clip": {"field": "von_mises", "above": 1}}, "one of nodes"),
                             ({"up": "w"}, 'up is "x", "y" or "z"'), ({"plain": ["mould"]}, "no body mould")):
