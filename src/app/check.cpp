@@ -4,6 +4,7 @@
 
 #include "app/verbs.hpp"
 #include "base/units.hpp"
+#include "model/body_input.hpp"
 #include "model/run.hpp"
 #include "model/stage_input.hpp"
 
@@ -60,10 +61,12 @@ ExitCode check(const CaseArguments& arguments) {
                                 text(spec.analysis.kind), text(spec.analysis.physics), counts.nodes);
   for (const auto& [shape, n] : counts.elements_of_shape) out += fmt::format(", {} {}", n, shape);
   for (std::size_t i = 0; i < spec.bodies.size(); ++i)
-    out += fmt::format("\n  body        {}: {} at {:.6g} degC, {} elements", spec.bodies[i].name,
-                       spec.bodies[i].material,
-                       units::to_display(spec.bodies[i].initial_temperature, "K", "degC"),
-                       counts.elements_of_body[i].second);
+    out += fmt::format(
+        "\n  body        {}: {} at {:.6g} degC, {} elements{}{}", spec.bodies[i].name,
+        spec.bodies[i].material, units::to_display(spec.bodies[i].initial_temperature, "K", "degC"),
+        counts.elements_of_body[i].second, model::only_conducts(spec.bodies[i]) ? ", only conducts heat" : "",
+        spec.bodies[i].stages.empty() ? ""
+                                      : fmt::format(", there in {}", fmt::join(spec.bodies[i].stages, ", ")));
   for (const auto& t : spec.thermal_conditions)
     out += fmt::format("\n  heat        {} on {}", t.name, t.group);
   for (const auto& m : spec.mechanical_conditions)
