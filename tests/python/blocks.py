@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from solidus_plots.cells import HEX, HEX_2, TET, TET_2
+from solidus_plots.cells import HEX, HEX_2, TET_2
 from solidus_plots.vtu import Grid
 
 # Corners of a hexahedron and the mid nodes of its edges in VTK's order, in halves of its sides.
