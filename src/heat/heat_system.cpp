@@ -28,8 +28,7 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        bool closed, std::vector<algebra::Contribution*> contributions)
     : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), presence_(mesh) {
   add_conduction(materials);
-  if (!conditions.absent_bodies.empty())
-    throw std::invalid_argument("every body is there when a run begins");
+  if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
 
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, graph());

@@ -122,9 +122,9 @@ enum class Clock { run, stage };
 
 struct BodySpec {
   std::string name;
-  std::optional<std::string> group;      ///< of the mesh; absent: as `name`
-  std::string material;                  ///< name in the library, or a file
-  double initial_temperature = 0;        ///< [K]
+  std::optional<std::string> group;  ///< of the mesh; absent: as `name`
+  std::string material;              ///< name in the library, or a file
+  double initial_temperature = 0;    ///< [K]
   enum class Physics { all, heat };
   Physics physics = Physics::all;
   std::vector<std::string> stages;       ///< in which it is there; empty: all
