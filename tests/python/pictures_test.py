@@ -121,6 +121,24 @@ class Drawn(unittest.TestCase):
             self.pixels(sections.draw, {**spec, "bodies": ["part"]})
         self.pixels(sections.draw, {**spec, "bodies": ["sand"]})
 
+    def test_a_body_that_has_left_is_not_drawn_any_more(self):
+        run = Run(HEX)
+        last = run.at("last")
+        there = last.cell_data["body"] == 0
+        for name in ("cell_types", "offsets"):
+            setattr(last, name, getattr(last, name)[:there.sum()])
+        last.connectivity = last.connectivity.reshape(-1, 8)[there].ravel()
+        last.cell_data = {name: values[there] for name, values in last.cell_data.items()}
+        for work, spec in ((sections.draw, {"planes": [{"z": 15}]}), (surfaces.draw, {"clip": {"z": 15}})):
+            shares = []
+            for times in (["first", "first"], ["first", "last"]):
+                file, = work({"file": "a", "field": "von_mises", "range": [-1, 1], "colours": "Reds", "columns": 2,
+                              "bodies": ["sand"], "times": times, **spec}, run, Path(self._folder.name))
+                picture = image.imread(file)[..., :3]
+                panels = picture[:, :int(0.85 * picture.shape[1])]  # the colour bar stands at the right
+                shares.append((np.ptp(panels, axis=2) > 0.2).mean())
+            self.assertAlmostEqual(shares[1] / shares[0], 0.5, delta=0.05)
+
     def test_where_a_field_has_no_value_it_is_grey(self):
         spec = {"field": "von_mises", "unit": "MPa", "planes": [{"z": 10}], "colours": "inferno"}
         found = self.pixels(sections.draw, {**spec, "above": 20})
