@@ -43,13 +43,15 @@ void SequentialSplit::mechanical_phase(const State& old, State& trial, double ti
   ContactWork contact(phases_);
   const std::vector<double>& temperature =
       phases_.heat != nullptr ? old.heat.temperature : phases_.temperature;
+  // A guess may lift a body off what holds it: where there is contact the step starts from where it stands.
+  const bool guesses = phases_.contacts.empty();
   const std::vector<double>&u = old.mechanics.displacement, &rate = old.displacement_rate;
-  std::vector<double> guess(rate.size());
+  std::vector<double> guess(guesses ? rate.size() : 0);
   for (std::size_t i = 0; i < guess.size(); ++i) guess[i] = u[i] + dt * rate[i];
   mechanical_pass(phases_, old, trial, {.time = time, .dt = dt, .temperature = temperature, .guess = guess},
                   effort);
-  trial.displacement_rate.resize(u.size());
-  for (std::size_t i = 0; i < u.size(); ++i)
+  trial.displacement_rate.resize(guesses ? u.size() : 0);
+  for (std::size_t i = 0; i < trial.displacement_rate.size(); ++i)
     trial.displacement_rate[i] = (trial.mechanics.displacement[i] - u[i]) / dt;
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
