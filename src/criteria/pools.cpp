@@ -193,7 +193,7 @@ std::vector<Finding> Pools::findings(const Record& record) const {
     const std::string name = "pool_" + std::to_string(closed[k].number);
     found.push_back({name + "_volume", "m3", closed[k].largest, false, {}});
     if (closed[k].frozen >= 0)
-      found.push_back({name + "_frozen_at", "s", closed[k].frozen, true, closed[k].where});
+      found.push_back({name + "_frozen", "s", closed[k].frozen, true, closed[k].where});
   }
   return found;
 }
