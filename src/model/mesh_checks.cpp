@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+
+#include "base/log.hpp"
 
 namespace solidus::model {
 
@@ -79,6 +82,33 @@ void check_rigid_names(const CaseSpec& spec, const RawMesh& mesh) {
   }
 }
 
+/// Faces that belong to no element of a body, such as those of surfaces that a geometry program has replaced,
+/// take no part: a film or a contact would be smaller than its group without a word.
+void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
+  std::vector<char> carried(mesh.x.size(), 0);
+  for (const BodySpec& body : spec.bodies)
+    for (const mesh::RawBlock& block : mesh.groups.at(body.mesh_group()).blocks)
+      for (const Index node : block.nodes) carried[static_cast<std::size_t>(node)] = 1;
+  std::set<std::string> used;
+  for (const auto& c : spec.thermal_conditions) used.insert(c.group);
+  for (const auto& c : spec.mechanical_conditions) used.insert(c.group);
+  for (const auto& c : spec.contacts) used.insert({c.sides()[0], c.sides()[1]});
+  for (const std::string& name : used) {
+    const auto group = mesh.groups.find(name);
+    if (group == mesh.groups.end() || group->second.dimension != mesh.dimension - 1) continue;
+    std::size_t faces = 0, loose = 0;
+    for (const mesh::RawBlock& block : group->second.blocks) {
+      const auto n = static_cast<std::size_t>(node_count(block.shape));
+      for (std::size_t first = 0; first < block.nodes.size(); first += n, ++faces)
+        loose += std::any_of(block.nodes.begin() + static_cast<std::ptrdiff_t>(first),
+                             block.nodes.begin() + static_cast<std::ptrdiff_t>(first + n),
+                             [&](Index node) { return carried[static_cast<std::size_t>(node)] == 0; });
+    }
+    if (loose > 0)
+      logging::warn("{} of the {} faces of the surface '{}' lie on no body of the case", loose, faces, name);
+  }
+}
+
 }  // namespace
 
 void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
@@ -117,6 +147,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
   check_rigid_names(spec, mesh);
   for (const auto& p : spec.probes)
     if (!p.group.empty()) require(mesh, p.group, -1, p.where, "probe '" + p.name + "'");
+  warn_of_loose_faces(spec, mesh);
 }
 
 }  // namespace solidus::model
