@@ -16,6 +16,9 @@ constexpr double k_no_strain = 1e-20;
 /// Of one linear solve, so that the next defect is below the tolerance where the law is linear.
 constexpr double k_share = 0.3;
 constexpr int k_max_corrections = 25;
+/// And what of the defect a linear solve takes away at most: refinement, instead of iterations that rounding
+/// has stopped.
+constexpr double k_refinement = 1e-6;
 /// A correction that leaves more of the defect than this has met rounding.
 constexpr double k_stagnates = 0.5;
 /// Defects this much above the tolerance are accepted where rounding stops the iteration.
@@ -232,7 +235,8 @@ bool PressureEquation::solve(std::span<const double> u) {
     if (found) break;
     last = defect;
     for (std::size_t i = 0; i < owned; ++i) right_[i] = unit_ * defect_[i];
-    const algebra::LinearReport report = solver_.solve(right_, correction_, 0.0, k_share * unit_ * goal);
+    const algebra::LinearReport report =
+        solver_.solve(right_, correction_, k_refinement, k_share * unit_ * goal);
     iterations_ += report.iterations;
     for (std::size_t i = 0; i < owned; ++i)
       if (!fixed_[i]) pressure_[i] += unit_ * correction_[i];
