@@ -31,6 +31,8 @@ struct Coupled {
   heat::Integration integration = heat::Integration::closed;
   std::optional<mechanics::DynamicsOptions> dynamics;  ///< absent: no inertia
   double mechanics_tolerance = 1e-11;                  ///< of Newton's method
+  mechanics::Simplices simplices = mechanics::Simplices::automatic;
+  mechanics::Stabilisation stabilisation = mechanics::Stabilisation::orthogonal;
   heat::SensibleForm sensible = heat::SensibleForm::enthalpy;
   coupling::SimultaneousOptions simultaneous;  ///< with Mapping::simultaneous
   bool double_pass = false;                    ///< with Mapping::isentropic
@@ -94,6 +96,8 @@ class Assembly {
     mechanics_options.newton.tolerance = c.mechanics_tolerance;
     mechanics_options.mapping = c.mapping;
     mechanics_options.dynamics = c.dynamics;
+    mechanics_options.simplices = c.simplices;
+    mechanics_options.stabilisation = c.stabilisation;
     mechanics_options.symmetric = !pair_ || pair_->symmetric();
     mechanics_.emplace(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options, mechanical);
     if (c.form)
