@@ -24,7 +24,8 @@ struct Patch {
 
 std::string name(const Patch& p) {
   const char* kinds[] = {"PlaneStrain", "Axisymmetric", "Solid"};
-  return std::string(kinds[static_cast<int>(p.kind)]) + (p.poisson > 0.4 ? "Incompressible" : "Compressible") +
+  return std::string(kinds[static_cast<int>(p.kind)]) +
+         (p.poisson > 0.4 ? "Incompressible" : "Compressible") +
          (p.stabilisation == Stabilisation::orthogonal ? "Orthogonal" : "Algebraic");
 }
 
