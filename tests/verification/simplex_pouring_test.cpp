@@ -1,0 +1,186 @@
+/// A column of melt that freezes from below under its own weight, followed by the strain criteria.
+///
+///   ▒│≈≈≈≈│▒   60 mm wide, 80 mm high, smooth walls that conduct no heat, chilled bottom, both splits.
+///   ▒│melt│▒   Between the walls strains are uniaxial: ε_yy = e^θ + p/k, and so closed forms of the strain
+///   in ▒│────│▒   the melt and since coherency are known from the temperatures, ▒└────┘▒ strain_in_liquid =
+///   ⅔ |e^θ(Θ_c)|,   strain_since_coherency = ⅔ |e^θ(Θ) − e^θ(Θ_c)|,
+///    chilled     Θ_c the temperature of the step in which the element became coherent.
+#include <gtest/gtest.h>
+
+#include "coupling_bodies.hpp"
+#include "criteria/strain_criteria.hpp"
+#include "material/elasticity.hpp"
+#include "plasticity_bodies.hpp"
+#include "simplex_bodies.hpp"
+
+namespace solidus {
+namespace {
+
+using verification::Coupled;
+using verification::Element;
+
+constexpr double k_width = 0.06, k_height = 0.08;  // [m]
+constexpr double k_gravity = 9.81;
+constexpr double k_hot = 950, k_solidus = 860, k_liquidus = 900;  // [K]
+
+material::Material aluminium() {
+  material::Material m =
+      verification::plastic_material(6e10, 0.35, Table({300, 800, 880}, {80e6, 10e6, 1e6}), 2e-5);
+  m.density = 2500;
+  m.conductivity = 100.0;
+  m.specific_heat = 1000.0;
+  m.liquid_viscosity = 1e7;
+  m.phase_changes.push_back({.name = "freezing",
+                             .fraction = material::PhaseFraction::linear(k_solidus, k_liquidus),
+                             .latent_heat = 4e5,
+                             .volume_change = -0.05,
+                             .solidification = true});
+  return m;
+}
+
+Coupled column(const Element& element, mechanics::Mapping mapping) {
+  const bool solid = mesh::dimension(element.shape) == 3;
+  Coupled c;
+  c.mesh = test::make_mesh({.shape = element.shape,
+                            .cells = {solid ? 3 : 6, solid ? 8 : 16, 3},
+                            .size = {k_width, k_height, k_width},
+                            .distortion = 0.1});
+  c.kind = solid ? AnalysisKind::solid : AnalysisKind::plane_strain;
+  c.materials = {aluminium()};
+  c.start = {k_hot};
+  c.form = mechanics::StructuralForm::energy;
+  c.mapping = mapping;
+  c.mechanics_tolerance = 1e-5;
+  c.simplices = element.simplices;
+  c.stabilisation = element.stabilisation;
+  for (const char* wall : {"left", "right"}) c.hold(wall, 0);
+  c.hold("bottom", 1);
+  if (solid)
+    for (const char* wall : {"back", "front"}) c.hold(wall, 2);
+  c.mechanical.gravity = {0, -k_gravity, 0};
+  c.thermal.films.push_back({"chill", "bottom", {5000.0}, Table(300.0)});
+  return c;
+}
+
+/// e^θ of the law, from the temperature at the start.
+double thermal_strain(const material::Material& m, double temperature) {
+  return material::properties_at(m, temperature, k_hot).thermal_strain;
+}
+
+struct Pour {
+  double early_pressure = 0;        ///< largest error of the melt's pressure in the first step, over ρ g H
+  double in_liquid = 0, since = 0;  ///< errors of the mean strains at the end, over those of the closed form
+  double scatter = 0;  ///< root mean square of the difference of single elements, of strain in the melt
+  double sinking = 0;  ///< error of the sinking of the surface, over that of the closed form
+  double most_in_liquid = 0, most_since = 0, most_brittle = 0, most_distortion = 0;
+  double solid = 0;
+  double defect = 0;  ///< of the first law, over the heat moved
+};
+
+Pour pour(const Element& element, mechanics::Mapping mapping) {
+  const Coupled c = column(element, mapping);
+  const material::Material& metal = c.materials[0];
+  verification::Assembly assembly(c);
+  criteria::StrainCriteria strains(c.mesh, c.kind, c.materials);
+  coupling::State state = assembly.start();
+  assembly.scheme().synchronise(state);
+  criteria::Record record = strains.initial({0, state.heat, state.mechanics});
+  const mesh::Block& block = c.mesh.blocks[0];
+  const verification::Cells cells(c.mesh, block, c.kind);
+  const std::size_t n_elements = cells.volume.size();
+  const auto mean = [&](const std::vector<double>& nodal, std::size_t e) {
+    double sum = 0;
+    const int n = mesh::node_count(block.shape);
+    for (int a = 0; a < n; ++a)
+      sum += nodal[static_cast<std::size_t>(block.element(static_cast<Index>(e))[a])] / n;
+    return sum;
+  };
+
+  Pour result;
+  double defect = 0, moved = 0;
+  // The strain follows the temperature of t_n: that of the last step that began as melt, and of the last one.
+  std::vector<double> at_coherency(n_elements, k_hot), last(n_elements, k_hot);
+  constexpr int n_steps = 60;
+  constexpr double dt = 2;
+  for (int n = 1; n <= n_steps; ++n) {
+    coupling::State trial = state;
+    trial.time = n * dt;
+    const coupling::StepEffort effort = assembly.scheme().advance(state, trial, trial.time, dt);
+    strains.step({state.time, state.heat, state.mechanics}, {trial.time, trial.heat, trial.mechanics},
+                 record);
+    defect += effort.energy.defect();
+    moved += effort.energy.heat_exchanged;
+    for (std::size_t e = 0; e < n_elements; ++e) {
+      last[e] = mean(state.heat.temperature, e);
+      if (metal.solid_fraction(last[e]) < metal.casting.coherency_fraction) at_coherency[e] = last[e];
+    }
+    if (n == 1) {
+      const std::vector<double> pressure = assembly.mechanics().element_fields()[0].pressure;
+      const double weight = metal.density * k_gravity;
+      for (std::size_t e = 0; e < n_elements; ++e)
+        result.early_pressure =
+            std::max(result.early_pressure,
+                     std::abs(pressure[e] / weight - (k_height - cells.centre[e][1])) / k_height);
+    }
+    state = std::move(trial);
+  }
+  std::vector<double> in_liquid(n_elements), since(n_elements), brittle(n_elements),
+      distortion(state.mechanics.displacement.size());
+  const std::vector<std::span<double>> fields{in_liquid, since, brittle, distortion};
+  strains.fill({state.time, state.heat, state.mechanics}, record, fields);
+  const auto all_finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  };
+  for (const auto& values : {in_liquid, since, brittle, distortion, state.mechanics.displacement})
+    EXPECT_TRUE(all_finite(values));
+  std::vector<double> exact_in_liquid, exact_since, difference, volume_change;
+  for (std::size_t e = 0; e < n_elements; ++e) {
+    const double melt = thermal_strain(metal, at_coherency[e]), now = thermal_strain(metal, last[e]);
+    exact_in_liquid.push_back(2.0 / 3 * std::abs(melt));
+    exact_since.push_back(2.0 / 3 * std::abs(now - melt));
+    difference.push_back(in_liquid[e] - exact_in_liquid.back());
+    volume_change.push_back(now);
+    result.most_in_liquid = std::max(result.most_in_liquid, in_liquid[e]);
+    result.most_since = std::max(result.most_since, since[e]);
+    result.most_brittle = std::max(result.most_brittle, brittle[e]);
+  }
+  result.in_liquid = std::abs(cells.mean(in_liquid) / cells.mean(exact_in_liquid) - 1);
+  result.since = std::abs(cells.mean(since) / cells.mean(exact_since) - 1);
+  result.scatter = cells.spread(difference);
+  double sinking = 0;
+  const std::vector<Index>& surface = c.mesh.surfaces.at("top").nodes;
+  const auto components = static_cast<std::size_t>(assembly.mechanics().components());
+  for (const Index node : surface)
+    sinking += state.mechanics.displacement[static_cast<std::size_t>(node) * components + 1] /
+               static_cast<double>(surface.size());
+  result.sinking = std::abs(sinking / (cells.mean(volume_change) * k_height) - 1);
+  for (const double u : distortion) result.most_distortion = std::max(result.most_distortion, std::abs(u));
+  result.solid = assembly.heat().mean_solid_fraction(state.heat);
+  result.defect = std::abs(defect) / moved;
+  return result;
+}
+
+TEST(FreezingMeltColumn, IsHydrostaticFirstAndKeepsTheStrainOfTheMeltApartFromThatOfTheSolid) {
+  for (const mechanics::Mapping mapping : {mechanics::Mapping::isothermal, mechanics::Mapping::isentropic})
+    for (const Element& element : {verification::k_quad4, verification::k_tri3}) {
+      const bool simplex = element.shape == mesh::Shape::tri3 || element.shape == mesh::Shape::tet4;
+      const Pour p = pour(element, mapping);
+      printf(
+          "%s, %-16s: first pressure off by %.1e, solid %.3f; mean strain in liquid off by %.1f %%, since "
+          "coherency %.1f %%, scatter %.1e, sinking %.2f %%; most in liquid %.4f, since %.4f, brittle %.4f, "
+          "distortion %.3f mm, first law %.1e\n",
+          mapping == mechanics::Mapping::isothermal ? "isothermal" : "isentropic", element.name,
+          p.early_pressure, p.solid, 100 * p.in_liquid, 100 * p.since, p.scatter, 100 * p.sinking,
+          p.most_in_liquid, p.most_since, p.most_brittle, 1e3 * p.most_distortion, p.defect);
+      EXPECT_LT(p.defect, 1e-8) << element.name;
+      EXPECT_GT(p.solid, 0.3) << element.name;
+      // The surface sinks by what the metal shrinks, whatever single elements do.
+      EXPECT_LT(p.sinking, 0.02) << element.name;
+      if (simplex) {
+        EXPECT_LT(p.early_pressure, 1e-4) << element.name;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace solidus
