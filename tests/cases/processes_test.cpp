@@ -1,0 +1,91 @@
+/// A complete casting on four, two and one process: contact with friction, phase change, plasticity, steps
+/// that adapt, stopped and continued on fewer processes. There are fewer cores than processes where this
+/// runs.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "case_run.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using solidus::testing::Columns;
+
+/// The aluminium cylinder on a coarse mesh, which sticks and slips in its mould far enough to meet other
+/// faces.
+constexpr const char* k_case =
+    " --set mesh.cylinder_in_mould.element_size='\"3.5 mm\"'"
+    " --set mesh.cylinder_in_mould.mould_element_size='\"7 mm\"'"
+    " --set body.part.material='\"aluminium_99_7_plastic\"'"
+    " --set contact.interface.formulation='\"large_sliding\"'"
+    " --set contact.interface.friction.coefficient=0.3"
+    " --set time.adaptive=true --set time.step='\"0.5 s\"' --set output.every='\"4 s\"'"
+    // Steps take the same iterations on any number of processes where rounding alone differs.
+    " --set mechanics.tolerance=1e-9 --set mechanics.max_iterations=60 --set heat.tolerance=1e-11"
+    " --set mechanics.solver='\"direct\"' --set heat.solver='\"direct\"'";
+
+class Processes : public ::testing::Test {
+ protected:
+  static fs::path root() { return fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "processes"; }
+  void SetUp() override { fs::remove_all(root()); }
+
+  /// This program is one of MPI too: its environment would confuse mpirun.
+  static void run(const std::string& folder, int processes, const std::string& more) {
+    const std::string command = fmt::format(
+        "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 "
+        "mpirun -n {} --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
+        "/solidus' run '" SOLIDUS_SOURCE_DIR "/cases/aluminium_cylinder' -o '{}' --no-progress {} {} 2>&1",
+        processes, (root() / folder).string(), k_case, more);
+    std::FILE* pipe = popen(command.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string said;
+    std::array<char, 512> buffer{};
+    while (std::fgets(buffer.data(), buffer.size(), pipe)) said += buffer.data();
+    const int status = pclose(pipe);
+    ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << command << "\n" << said;
+  }
+
+  /// Every column to `tolerance` of its range; joules, which are differences of large heats, of the heat.
+  static void expect_alike(const Columns& a, const Columns& b, double tolerance) {
+    const auto range = [](const std::vector<double>& v) {
+      const auto [low, high] = std::minmax_element(v.begin(), v.end());
+      return *high - *low;
+    };
+    ASSERT_EQ(a.size(), b.size());
+    const double heat = range(a.at("heat_exchanged[J]"));
+    for (const auto& [column, values] : a) {
+      const std::vector<double>& others = b.at(column);
+      ASSERT_EQ(values.size(), others.size()) << column;
+      const double scale = column.find("[J]") != std::string::npos ? heat : std::max(range(values), 1e-12);
+      double worst = 0;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        worst = std::max(worst, std::abs(values[i] - others[i]) / scale);
+      EXPECT_LE(worst, tolerance) << column;
+    }
+  }
+};
+
+// Partition and order of sums differ, the algorithm does not. Between steps of contact with friction rounding
+// grows by the condition of the problem; the criteria above are 1e-9 of the forces: 1e-7 of a column's range.
+TEST_F(Processes, AStoppedCastingGoesOnFromFourToTwoToOneAsIfOneHadComputedItAll) {
+  run("one", 1, "--set time.end='\"12 s\"'");
+  run("moved", 4, "--set time.end='\"4 s\"'");
+  run("moved", 2, "--set time.end='\"8 s\"' --restart");
+  run("moved", 1, "--set time.end='\"12 s\"' --restart");
+  const Columns one = solidus::testing::read_csv(root() / "one/history.csv");
+  expect_alike(one, solidus::testing::read_csv(root() / "moved/history.csv"), 1e-7);
+  // What the comparison is worth: it froze, rubbed and flowed.
+  EXPECT_LT(one.at("solid_fraction[1]").front(), 0.5);
+  EXPECT_GT(one.at("interface_friction_dissipation[J]").back(), 0);
+  EXPECT_GT(one.at("plastic_work[J]").back(), 0);
+}
+
+}  // namespace
