@@ -16,6 +16,8 @@ inline constexpr double k_last_defect = 3e-6;
 inline constexpr int k_max_coupled = 4;
 /// A property keeps this part of its value along its line.
 inline constexpr double k_kept_share = 0.25;
+/// What is added to hardening moduli before that is asked of them, as a part of Young's modulus.
+inline constexpr double k_spare_modulus = 0.01;
 
 /// Where positive numbers stay above k_kept_share of their values.
 template <class T>
@@ -188,9 +190,13 @@ Isentropic::Properties<T> Isentropic::properties_at(const T& temperature,
                               ? zero
                               : detail::line(flow.kinematic_modulus, temperature).slope;
     range.keep(p.flow.saturation_rate, d.saturation_rate);
-    range.keep(p.flow.hardening_modulus, d.hardening_modulus);
+    // Moduli of hardening that end in zero may pass it on their line: the update is unique while G outweighs
+    // them, and a positive value that is all but gone would leave no range.
+    const T spare = T(detail::k_spare_modulus) * p.young.value,
+            spare_slope = T(detail::k_spare_modulus) * p.young.slope;
+    range.keep(p.flow.hardening_modulus + spare, d.hardening_modulus + spare_slope);
     range.keep(p.flow.reference_strain, d.reference_strain);
-    range.keep(p.flow.kinematic_modulus, d.kinematic_modulus);
+    range.keep(p.flow.kinematic_modulus + spare, d.kinematic_modulus + spare_slope);
   }
   p.lowest = range.low();
   p.highest = range.high();

@@ -56,8 +56,8 @@ TEST(RigidTool, CoolsABodyAsAFilmDoes) {
     c.contact->heat->master_emissivity = 1.0;
     Coupled film = block(900);
     film.integration = c.integration;
-    film.thermal.films = {{"film", "lower_y_min", Table(k_conductance), Table(k_tool)}};
-    film.thermal.radiations = {{"radiation", "lower_y_min", Table(0.6), Table(k_tool)}};
+    film.thermal.films = {{"film", "lower_y_min", {k_conductance}, k_tool}};
+    film.thermal.radiations = {{"radiation", "lower_y_min", {0.6}, k_tool}};
     const auto touched = verification::march(c, 2, 10), blown = verification::march(film, 2, 10);
     double heat = 0, expected = 0;
     for (std::size_t n = 0; n < touched.steps.size(); ++n) {
