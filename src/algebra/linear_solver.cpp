@@ -117,13 +117,15 @@ struct LinearSolver::Implementation {
   BlockMatrix* blocks = nullptr;
   MatHandle shell;  ///< multiplies by the blocks
   std::optional<GhostExchange> ghosts;
-  std::vector<double> local;             ///< work, [local node][component]
-  std::unique_ptr<LinearSolver> rescue;  ///< a direct solver, from where multigrid has failed until forget()
+  std::vector<double> local;  ///< work, [local node][component]
+  /// From where multigrid of our own has failed until forget(): a factorisation, or PETSc's multigrid.
+  std::unique_ptr<LinearSolver> rescue;
+  bool petsc_multigrid = false;  ///< of such a rescue
   double seconds_setup = 0, seconds_solve = 0;
 
   Implementation(const mesh::Mesh& m, LinearSolverOptions o) : mesh(m), options(std::move(o)) {}
   bool multigrid_of_blocks(const BlockMatrix& a) const;
-  bool can_be_rescued(const BlockMatrix& a) const;
+  bool factorisation_serves(const BlockMatrix& a) const;
   void create_shell(BlockMatrix& a);
   void multiply(Vec in, Vec out);
   void create(Mat a);
@@ -142,10 +144,11 @@ bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) con
   if (automatic_kind(options, mesh, a.block_size(), true) != SolverKind::multigrid || !a.ties().empty())
     return false;
   const int n_modes = modes.values.empty() ? a.block_size() : modes.modes;
-  return Multigrid::supports(a.block_size(), n_modes) && !option_given(options.prefix + "pc_type");
+  return !petsc_multigrid && Multigrid::supports(a.block_size(), n_modes) &&
+         !option_given(options.prefix + "pc_type");
 }
 
-bool LinearSolver::Implementation::can_be_rescued(const BlockMatrix& a) const {
+bool LinearSolver::Implementation::factorisation_serves(const BlockMatrix& a) const {
   return options.kind == SolverKind::automatic && mesh.n_global_nodes * a.block_size() < k_rescue_limit;
 }
 
@@ -248,7 +251,7 @@ void LinearSolver::Implementation::create(Mat a) {
     }
   }
   if (!options.symmetric && kind != SolverKind::direct) check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
-  if (a == shell && can_be_rescued(*blocks))
+  if (a == shell)
     check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
                            std::min(k_patience, options.max_iterations)),
           "KSPSetTolerances");
@@ -386,10 +389,16 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
   if (my.rescue) return my.rescue->solve(a, b, x, forcing);
   my.create_shell(a);
   LinearReport report = solve(my.shell, b, x, forcing);
-  if (report.converged || !my.can_be_rescued(a)) return report;
-  LinearSolverOptions direct = my.options;
-  direct.kind = SolverKind::direct;
-  my.rescue = std::make_unique<LinearSolver>(my.mesh, std::move(direct));
+  if (report.converged) return report;
+  // Single precision does not see a body that next to nothing holds; double precision does.
+  LinearSolverOptions other = my.options;
+  const bool factorise = my.factorisation_serves(a);
+  other.kind = factorise ? SolverKind::direct : SolverKind::multigrid;
+  my.rescue = std::make_unique<LinearSolver>(my.mesh, std::move(other));
+  if (!factorise) {
+    my.rescue->implementation_->petsc_multigrid = true;
+    if (my.near_null_space) my.rescue->use_rigid_body_modes(my.mesh, a.block_size());
+  }
   const int spent = report.iterations;
   report = my.rescue->solve(a, b, x, forcing);
   report.iterations += spent;
@@ -426,12 +435,6 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   const bool was_fresh = my.stale;
   KSPConvergedReason reason = my.run(my.b, my.x, report.iterations);
   if (reason < 0 && my.reuse_hierarchy && !was_fresh) reason = my.run(my.b, my.x, report.iterations);
-  if (reason == KSP_DIVERGED_INDEFINITE_PC && my.multigrid) {
-    // Near its rounding a cycle in single precision need not be positive: a method that does not ask for it.
-    check(KSPSetType(my.ksp, KSPFGMRES), "KSPSetType");
-    check(KSPSetPCSide(my.ksp, PC_RIGHT), "KSPSetPCSide");
-    reason = my.run(my.b, my.x, report.iterations);
-  }
   const bool direct = my.is_direct();
   for (int attempt = 1; direct && reason == KSP_DIVERGED_PC_FAILED && attempt < k_workspace_attempts;
        ++attempt) {

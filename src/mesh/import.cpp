@@ -109,6 +109,8 @@ void open(const std::string& path) {
     throw InputError({path}, "the mesh cannot be read: " + complaint, advice);
   } catch (const std::exception& e) {
     throw InputError({path}, std::string("the mesh cannot be read: ") + e.what(), advice);
+  } catch (...) {  // the CAD kernel's own exceptions
+    throw InputError({path}, "the mesh cannot be read", advice);
   }
   // A damaged .msh does not make open() throw; what it logs is the only sign.
   if (const std::string complaints = Session::complaints(); !complaints.empty())
@@ -246,6 +248,18 @@ int mesh_dimension() {
   return 0;
 }
 
+void name_groups(const std::string& path, const GeometryChoice& geometry, double unit_in_metres) {
+  try {
+    make_geometry_groups(path, geometry, unit_in_metres, is_cad(path));
+  } catch (const std::exception&) {
+    throw;
+  } catch (const std::string& complaint) {
+    throw InputError({path}, "the geometry cannot be read: " + complaint);
+  } catch (...) {  // the CAD kernel's own exceptions
+    throw InputError({path}, "the geometry cannot be read");
+  }
+}
+
 }  // namespace
 
 RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order,
@@ -260,7 +274,7 @@ RawMesh read_mesh(const std::string& path, double unit_in_metres, double element
   if (extension(path) == ".inp") return read_abaqus_input(path, unit_in_metres);
   const Session session(constants);
   open(path);
-  if (is_geometry(path)) make_geometry_groups(path, geometry, unit_in_metres, is_cad(path));
+  if (is_geometry(path)) name_groups(path, geometry, unit_in_metres);
   if (is_geometry(path)) generate(path, element_size / unit_in_metres, element_order);
 
   RawMesh mesh;

@@ -38,6 +38,10 @@ std::string text(const fs::path& path) {
   return all.str();
 }
 
+/// Of displacements alone: the saddle of mixed triangles does not come through this contact by iteration.
+const std::string k_multigrid =
+    "--set mechanics.solver='\"multigrid\"' --set mechanics.simplices='\"displacement\"'";
+
 /// Heat, mechanics and contact on a coarse mesh: 10 steps, fields and checkpoints every 5 s.
 class Restart : public ::testing::Test {
  protected:
@@ -80,7 +84,7 @@ TEST_F(Restart, GoesOnWithTheSameBitsWhereStepsGrow) {
 }
 
 TEST_F(Restart, GoesOnWithTheSameBitsWithMultigrid) {
-  expect_the_same("--set mechanics.solver='\"multigrid\"'", 1);
+  expect_the_same(k_multigrid, 1);
 }
 
 TEST_F(Restart, GoesOnWithTheSameBitsOfATwoStepMethodAndPlasticHistory) {
@@ -101,7 +105,7 @@ TEST_F(Restart, GoesOnWithTheSameBitsWithInertiaInBackwardEuler) {
 
 // MUMPS on several processes adds in the order in which messages come: two runs never have the same bits.
 TEST_F(Restart, GoesOnWithTheSameBitsOnTwoProcesses) {
-  expect_the_same("--set mechanics.solver='\"multigrid\"'", 2);
+  expect_the_same(k_multigrid, 2);
 }
 
 TEST_F(Restart, OnAnotherNumberOfProcessesAgreesToTheSolversTolerance) {

@@ -33,6 +33,8 @@ step = "0.25 s"
 name = "block"
 material = "steel_mould"
 initial_temperature = "20 degC"
+[mechanics]
+solver = "direct"  # which keeps symmetry to rounding
 [[mechanical_condition]]
 name = "ground"
 group = "y_min"

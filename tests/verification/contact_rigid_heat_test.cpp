@@ -76,7 +76,7 @@ TEST(RigidTool, CoolsABodyAsAFilmDoes) {
 // In the end all heat of friction goes into the tool, through its half of the resistance, 1/(2 h).
 TEST(RigidTool, TakesTheHeatOfFriction) {
   for (const Mapping mapping : {Mapping::isothermal, Mapping::isentropic}) {
-    constexpr double end = 40, speed = 0.01;
+    constexpr double end = 400, speed = 1e-3;
     Coupled c = block(k_tool);
     c.mechanical.displacements.pop_back();
     c.hold("lower_top", 0, Table({0, end}, {0, speed * end}));
@@ -92,9 +92,10 @@ TEST(RigidTool, TakesTheHeatOfFriction) {
         });
     EXPECT_GT(power, 0);
     const double flux = power / k_width;
-    // The time constant ρ c H/(2 h) is 2 s.
-    EXPECT_NEAR(run.end.heat.temperature[0], k_tool + flux / (2 * k_conductance),
-                1e-6 * flux / (2 * k_conductance));
+    // The slowest time constant is 18 s: 4 H²/(π² κ) of conduction and ρ c H/(2 h) of the interface.
+    // Friction bends the block, so pressure and heat differ along it: half a percent at its edge.
+    const double rise = flux / (2 * k_conductance);
+    EXPECT_NEAR(run.end.heat.temperature[0], k_tool + rise, 1e-2 * rise);
     EXPECT_NEAR(run.steps.back().heat_in, -power * end / 200, 1e-6 * power * end / 200);
     for (const auto& step : run.steps)
       EXPECT_LT(std::abs(step.defect()), 1e-8 * (step.heat_exchanged + step.friction));
