@@ -312,6 +312,21 @@ TEST(Isentropic, AnUnreachableEntropyIsOutsideTheRange) {
   EXPECT_LE(p.highest, 1000);
 }
 
+TEST(Isentropic, AHardeningModulusThatIsAllButGoneLeavesItsRange) {
+  Material m = varying_material({IsotropicHardening::linear, KinematicHardening::linear});
+  m.flow->hardening_modulus = m.flow->kinematic_modulus = Table({300, 700}, {4e8, 0});
+  const Isentropic law(m);
+  const Sym<double> strain{{-4e-4, -4e-4, -4e-4, 5e-4, 0, 0}};
+  for (const double below : {1e-12, 1e-6, 0.1}) {
+    const auto [p, r] = step(law, 700 - below, {}, {}, strain, 1.0);
+    EXPECT_EQ(r.status, Status::converged);
+    EXPECT_GT(r.temperature, p.temperature) << "pressed together";
+    // E 1e-2 (1 - 1/4) over the slope of 1e6 Pa/K: hundreds of kelvins, where the modulus alone leaves
+    // `below`.
+    EXPECT_GT(p.highest - p.temperature, 100);
+  }
+}
+
 TEST(Isentropic, MeltingASolidUnderStressStaysInRange) {
   // the elastic strain of a solid in a spring G/f_S that is 1e9 times stiffer
   const Material m = varying_material({});
