@@ -252,15 +252,31 @@ void HeatTerm::add_gap_tangent(std::span<const Point> normal, std::span<const do
   }
 }
 
-double HeatTerm::counted_heat(std::span<const double> temperature) const {
-  if (!active_) return 0;
-  double sum = 0;
+std::vector<SurfaceHeat> HeatTerm::surface_heat(std::span<const double> temperature) const {
+  std::vector<SurfaceHeat> heat(points_.size());
+  if (!active_) return heat;
   for (Index p = 0; p < partners_.n_points(); ++p) {
-    if (partners_.partnered[at(p)] == 0 || partners_.counted[at(p)] == 0) continue;
+    if (partners_.partnered[at(p)] == 0) continue;
     const AtPoint s = see(p, temperature);
-    const double conducted = s.has_temperature ? 0.5 * (s.interface.flux[0] - s.interface.flux[1])
-                                               : s.h.value * (s.slave - s.master);
-    sum += partners_.weight[at(p)] * (conducted + s.radiation * (s.slave_fourth - s.master_fourth));
+    const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
+    const double across = conducted + s.radiation * (s.slave_fourth - s.master_fourth);
+    SurfaceHeat& q = heat[at(p)];
+    if (s.has_temperature)
+      q.by_friction = {conducted - s.interface.flux[0], -conducted - s.interface.flux[1]};
+    q.total = {q.by_friction[0] - across, q.by_friction[1] + across};
+  }
+  return heat;
+}
+
+SurfaceHeat HeatTerm::counted_heat(std::span<const double> temperature) const {
+  SurfaceHeat sum;
+  const std::vector<SurfaceHeat> heat = surface_heat(temperature);
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    if (partners_.counted[at(p)] == 0) continue;
+    for (std::size_t side = 0; side < 2; ++side) {
+      sum.total[side] += partners_.weight[at(p)] * heat[at(p)].total[side];
+      sum.by_friction[side] += partners_.weight[at(p)] * heat[at(p)].by_friction[side];
+    }
   }
   return sum;
 }

@@ -26,6 +26,13 @@ struct HeatPoint {
   InterfaceStep step;
 };
 
+/// Heat into the bodies at a point, slave and master [W/m²]: in all, and what of it is there by friction,
+/// that is beyond conduction and radiation between the two surfaces as they are. What friction makes less
+/// what the interface stores.
+struct SurfaceHeat {
+  std::array<double, 2> total{}, by_friction{};
+};
+
 /// What the interface took in a step, over the points that this process counts [J].
 struct InterfaceHeat {
   double dissipated = 0;  ///< Σ w D_c,mech Δt
@@ -87,9 +94,10 @@ class HeatTerm : public algebra::Contribution {
   /// normals given, [point]. Without what friction's heat changes with the displacement.
   void add_gap_tangent(std::span<const Point> normal, std::span<const double> temperature,
                        algebra::CoupledMatrix& matrix);
-  /// Half of what the slave gives off and the master takes, through the points that this process counts [W]:
-  /// from slave to master by conduction and radiation.
-  double counted_heat(std::span<const double> temperature) const;
+  /// Of every point at these temperatures; zero where there is no partner.
+  std::vector<SurfaceHeat> surface_heat(std::span<const double> temperature) const;
+  /// Its integral over the points that this process counts [W].
+  SurfaceHeat counted_heat(std::span<const double> temperature) const;
   /// h [W/(m² K)] of every point at these temperatures; without any, at room temperature.
   std::vector<double> conductances(std::span<const double> temperature) const;
   /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.

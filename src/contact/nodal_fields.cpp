@@ -9,9 +9,9 @@ namespace solidus::contact {
 
 namespace {
 
-/// Of points that meet somebody, on both sides: opening, pressure, conductance, status and the three
-/// components of the traction.
-constexpr std::size_t k_met = 7;
+/// Of points that meet somebody, on both sides: opening, pressure, conductance, heat in all and by friction,
+/// status and the three components of the traction.
+constexpr std::size_t k_met = 9;
 /// Of all points, on the slave: slip, ζ_c, μ, dissipation, wear, Θ_c.
 constexpr std::size_t k_kept = 6;
 
@@ -47,6 +47,8 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
   const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
   const std::vector<double> conductance =
       heat_ ? heat_->conductances(temperature) : std::vector<double>(now_.points.size(), 0.0);
+  std::vector<SurfaceHeat> heat(now_.points.size());
+  if (heat_ && !temperature.empty()) heat = heat_->surface_heat(temperature);
   NodalAverage<k_met> met(n);
   NodalAverage<k_kept> kept(n);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
@@ -62,10 +64,14 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
     const Point traction = times(motion.push, state.traction);
-    for (std::size_t b = 0; b < motion.nodes.size(); ++b)
-      met.add(motion.nodes[b], motion.weight * motion.share[b] * motion.share[b],
-              {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)],
-               static_cast<double>(state.status), traction[0], traction[1], traction[2]});
+    const SurfaceHeat& q = heat[static_cast<std::size_t>(p)];
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
+      const std::size_t side = b < static_cast<std::size_t>(motion.n_slave) ? 0 : 1;
+      met.add(
+          motion.nodes[b], motion.weight * motion.share[b] * motion.share[b],
+          {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)], q.total[side],
+           q.by_friction[side], static_cast<double>(state.status), traction[0], traction[1], traction[2]});
+    }
   }
   ContactNodalFields fields;
   fields.nodes = surface_nodes_;
@@ -74,9 +80,11 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     fields.opening.push_back(m[0]);
     fields.pressure.push_back(m[1]);
     fields.conductance.push_back(m[2]);
+    fields.heat_flux.push_back(m[3]);
+    fields.frictional_heat_flux.push_back(m[4]);
     if (!law_.friction) continue;
-    fields.status.push_back(m[3]);
-    fields.traction.push_back({m[4], m[5], m[6]});
+    fields.status.push_back(m[5]);
+    fields.traction.push_back({m[6], m[7], m[8]});
     const auto k = kept.at(node);
     fields.slip.push_back(k[0]);
     fields.internal_variable.push_back(k[1]);

@@ -43,7 +43,8 @@ struct ContactSums {
   double energy = 0;       ///< in the springs, normal and tangential [J]
   double work = 0;         ///< of friction so far, ∫ ∫ ‖T‖ dγ dA [J]
   double dissipation = 0;  ///< of friction so far [J]; the work less this is what hardening stores
-  double heat = 0;         ///< from slave to master [W]
+  double heat = 0;         ///< from slave to master by conduction and radiation [W]
+  double heat_to_slave = 0, heat_to_master = 0;  ///< in all, that of friction included [W]
 };
 
 /// Averages around the nodes of both surfaces, [owned node of the surface]; NaN at nodes without a point that
@@ -54,6 +55,9 @@ struct ContactNodalFields {
   std::vector<double> opening;      ///< [m], negative: penetration
   std::vector<double> pressure;     ///< t_N [Pa]
   std::vector<double> conductance;  ///< h without radiation [W/(m² K)]; zero without heat
+  /// Into the body of the node, through the gap, the spots and radiation and from friction; and what of it
+  /// is by friction (SurfaceHeat). Zero without heat or temperatures [W/m²].
+  std::vector<double> heat_flux, frictional_heat_flux;
   /// With friction, else empty: 0 open, 1 sticks, 2 slips; and F T, on the master [Pa].
   std::vector<double> status;
   std::vector<Point> traction;

@@ -72,7 +72,7 @@ double ContactPair::rigid_work(double share) {
 
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
   placement_->place(time_, displacement_, ContactKinematics::Points::own);
-  std::array<double, 16> s{};
+  std::array<double, 18> s{};
   const auto n = static_cast<std::size_t>(components_);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics_->particle(p);
@@ -101,7 +101,12 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
       s[12 + i] += moment[i];
     }
   }
-  s[15] = heat_ && !temperature.empty() ? heat_->counted_heat(temperature) : 0.0;
+  if (heat_ && !temperature.empty()) {
+    const SurfaceHeat heat = heat_->counted_heat(temperature);
+    s[15] = heat.total[1] - heat.by_friction[1];
+    s[16] = heat.total[0];
+    s[17] = heat.total[1];
+  }
   MPI_Allreduce(MPI_IN_PLACE, s.data(), static_cast<int>(s.size()), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   ContactSums sums;
   sums.points = std::llround(s[0]);
@@ -116,6 +121,8 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
   sums.resultant = {s[9], s[10], s[11]};
   sums.moment = {s[12], s[13], s[14]};
   sums.heat = s[15];
+  sums.heat_to_slave = s[16];
+  sums.heat_to_master = s[17];
   return sums;
 }
 

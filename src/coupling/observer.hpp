@@ -62,13 +62,14 @@ struct StabilityAudit {
 
 struct ContactSummary {
   int closed_points = 0, points = 0;
-  double heat = 0;   ///< from slave to master [W]
+  double heat = 0;   ///< from slave to master by conduction and radiation [W]
   double force = 0;  ///< resultant normal force [N]
   int sticking_points = 0;
-  double friction = 0;                   ///< ∫ ‖T‖ dA [N]
-  std::array<double, 3> resultant = {};  ///< force on the master [N]
-  std::array<double, 3> moment = {};     ///< of it about the origin [N m]
-  double dissipation = 0;                ///< of friction, since the start [J]
+  double friction = 0;                           ///< ∫ ‖T‖ dA [N]
+  std::array<double, 3> resultant = {};          ///< force on the master [N]
+  std::array<double, 3> moment = {};             ///< of it about the origin [N m]
+  double dissipation = 0;                        ///< of friction, since the start [J]
+  double heat_to_slave = 0, heat_to_master = 0;  ///< in all, that of friction included [W]
 };
 
 /// What a scheme reports of a step it took.

@@ -44,7 +44,9 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
                                .friction = sums.friction,
                                .resultant = sums.resultant,
                                .moment = sums.moment,
-                               .dissipation = sums.dissipation});
+                               .dissipation = sums.dissipation,
+                               .heat_to_slave = sums.heat_to_slave,
+                               .heat_to_master = sums.heat_to_master});
   }
 }
 

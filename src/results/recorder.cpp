@@ -26,10 +26,12 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
                                  .taken = taken,
                                  .plastic = phases.mechanics != nullptr && phases.mechanics->plastic(),
                                  .dynamics = dynamic(phases),
-                                 .stability = phases.audits_stability()};
+                                 .stability = phases.audits_stability(),
+                                 .heat = phases.heat != nullptr};
   if (phases.mechanics != nullptr)
     for (const contact::ContactPair* pair : phases.contacts)
-      columns.pairs.push_back({pair->spec().name, pair->spec().friction.has_value(), options.kind});
+      columns.pairs.push_back({pair->spec().name, pair->spec().friction.has_value(),
+                               phases.heat != nullptr && pair->spec().heat.has_value(), options.kind});
   return columns;
 }
 
@@ -124,7 +126,10 @@ std::vector<Reading> Recorder::readings() const {
 }
 
 StepTable Recorder::step_table() const {
-  return {.dynamics = dynamic(phases_), .stability = phases_.audits_stability(), .stages = options_.stages};
+  return {.dynamics = dynamic(phases_),
+          .stability = phases_.audits_stability(),
+          .stages = options_.stages,
+          .heat = phases_.heat != nullptr};
 }
 
 void Recorder::begin(const coupling::State& state) {
@@ -222,7 +227,7 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
   s.outcome = outcome;
   s.end_time = state.time;
   s.memory = peak_memory();
-  s.relative_energy_defect = globals_.relative_defect();
+  if (phases_.heat != nullptr) s.relative_energy_defect = globals_.relative_defect();
   s.seconds.emplace_back("heat", seconds_heat_);
   s.seconds.emplace_back("mechanics", seconds_mechanics_);
   s.seconds.emplace_back("output", seconds_output_);

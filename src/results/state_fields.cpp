@@ -24,6 +24,14 @@ bool rubs(const contact::ContactPair* pair) {
   return pair->spec().friction.has_value();
 }
 
+bool heats(const contact::ContactPair* pair) {
+  return pair->spec().heat.has_value();
+}
+
+bool with_heat(const coupling::Phases& phases) {
+  return phases.heat != nullptr && std::any_of(phases.contacts.begin(), phases.contacts.end(), heats);
+}
+
 bool with_friction(const coupling::Phases& phases) {
   return phases.mechanics != nullptr && std::any_of(phases.contacts.begin(), phases.contacts.end(), rubs);
 }
@@ -80,6 +88,10 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
     bodies_.add({field.name, field.unit, components, Place::node, values});
   };
   for (const FieldName& field : k_contact) add_everywhere(field, 1);
+  if (with_heat(phases)) {
+    add_everywhere({"contact_heat_flux", "W/m2"}, 1);
+    if (with_friction(phases)) add_everywhere({"frictional_heat_flux", "W/m2"}, 1);
+  }
   if (with_friction(phases)) {
     add_everywhere({"friction_traction", "Pa"}, phases.mechanics->components());
     for (const FieldName& field : k_remembered) add_everywhere(field, 1);
@@ -177,10 +189,23 @@ void StateFields::update_contacts(std::span<const double> temperature) {
       pressure[i] = fields.pressure[k];
       conductance[i] = fields.conductance[k];
     }
+    if (heats(pair)) update_heat(fields, closest);
     if (phases_.mechanics != nullptr && rubs(pair)) update_friction(fields, closest);
   }
   for (const auto& v : values_)
     if (v->of_contact) ghosts_.update(v->values, v->components);
+}
+
+// Of the closest partner.
+void StateFields::update_heat(const contact::ContactNodalFields& fields, std::span<const char> closest) {
+  const auto show = [&](const char* name, const std::vector<double>& values) {
+    const auto found = by_name_.find(name);
+    if (found == by_name_.end()) return;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (closest[k] != 0) (*found->second)[static_cast<std::size_t>(fields.nodes[k])] = values[k];
+  };
+  show("contact_heat_flux", fields.heat_flux);
+  show("frictional_heat_flux", fields.frictional_heat_flux);
 }
 
 // What surfaces remember of several pairs: the largest. Of the contact that is there: the closest partner's.

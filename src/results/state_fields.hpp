@@ -14,7 +14,8 @@ namespace solidus::results {
 /// temperature [K], solid_fraction, displacement [m], with inertia velocity [m/s] and acceleration [m/s²] at
 /// nodes; stress, von_mises, pressure [Pa], viscous_strain, dissipation [W/m³] in elements, where a material
 /// flows plastically also plastic_strain, equivalent_plastic_strain, back_stress, flow_stress [Pa]; and on
-/// contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)], and with friction
+/// contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)], with heat contact_heat_flux into
+/// the body that has the node and frictional_heat_flux [W/m²], the part by friction, and with friction
 /// friction_traction [Pa] on the master, contact_status (0 open, 1 sticks, 2 slips), interface_temperature
 /// [K], and what surfaces remember: slip, wear_depth [m], internal_variable ζ_c [N/m] (of work; slip is
 /// `slip`), friction_coefficient, friction_dissipation [J/m²]; and what the criteria of the run show
@@ -46,6 +47,7 @@ class StateFields {
   void update_elements();
   void update_contacts(std::span<const double> temperature);
   /// @param closest  of each node of the fields: it shows this pair
+  void update_heat(const contact::ContactNodalFields& fields, std::span<const char> closest);
   void update_friction(const contact::ContactNodalFields& fields, std::span<const char> closest);
 
   const mesh::Mesh& mesh_;

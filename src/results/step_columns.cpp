@@ -32,6 +32,12 @@ void add_pair(const PairColumns& pair, const coupling::ContactSummary& sums, std
         sums.closed_points > 0 ? static_cast<double>(sums.sticking_points) / sums.closed_points : 0.0);
     add("friction_dissipation", "J", sums.dissipation);
   }
+  if (pair.heat) {
+    add("conducted_heat", "W", sums.heat);
+    if (pair.friction) add("frictional_heat", "W", sums.heat_to_slave + sums.heat_to_master);
+    add("heat_to_slave", "W", sums.heat_to_slave);
+    add("heat_to_master", "W", sums.heat_to_master);
+  }
   // Around an axis forces balance in every radial direction, and moments altogether.
   switch (pair.kind) {
     case AnalysisKind::axisymmetric:
@@ -74,17 +80,18 @@ std::vector<Column> step_columns(StepTable table) {
                                  {"solid_fraction", "1"},
                                  {"T_min", "degC"},
                                  {"T_max", "degC"},
-                                 {"stored_heat", "J"},
-                                 {"structural_energy", "J"},
                                  {"contact_energy", "J"},
                                  {"numerical_dissipation", "J"},
                                  {"work", "J"},
-                                 {"heat_in", "J"},
-                                 {"heat_exchanged", "J"},
                                  {"viscous_dissipation", "J"},
                                  {"plastic_dissipation", "J"},
-                                 {"plastic_work", "J"},
-                                 {"energy_defect", "J"}};
+                                 {"plastic_work", "J"}};
+  if (table.heat)
+    columns.insert(columns.end(), {{"stored_heat", "J"},
+                                   {"structural_energy", "J"},
+                                   {"heat_in", "J"},
+                                   {"heat_exchanged", "J"},
+                                   {"energy_defect", "J"}});
   if (table.dynamics) columns.push_back({"kinetic_energy", "J"});
   if (table.stability)
     columns.insert(columns.end(), {{"lyapunov_mechanical", "J"},
@@ -122,17 +129,15 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
                              r.solid_fraction,
                              r.min_temperature - k_zero_celsius,
                              r.max_temperature - k_zero_celsius,
-                             r.energy.stored_heat,
-                             r.energy.structural,
                              r.energy.contact,
                              r.energy.numerical,
                              r.energy.work,
-                             r.energy.heat_in,
-                             r.energy.heat_exchanged,
                              r.energy.viscous_dissipation,
                              r.energy.plastic_dissipation,
-                             r.energy.plastic_work,
-                             r.energy.defect()};
+                             r.energy.plastic_work};
+  if (table.heat)
+    cells.insert(cells.end(), {r.energy.stored_heat, r.energy.structural, r.energy.heat_in,
+                               r.energy.heat_exchanged, r.energy.defect()});
   if (table.dynamics) cells.emplace_back(r.energy.kinetic);
   if (table.stability)
     cells.insert(cells.end(),
@@ -162,12 +167,12 @@ std::vector<Reading> GlobalHistory::all() const {
   for (std::size_t i = 0; i < options_.pairs.size(); ++i)
     add_pair(options_.pairs[i], i < last_.contacts.size() ? last_.contacts[i] : coupling::ContactSummary{},
              all);
-  add("stored_heat", "J", sum_.stored_heat);
-  add("heat_in", "J", sum_.heat_in);
-  if (options_.mechanics) {
-    add("structural_energy", "J", sum_.structural);
-    add("work", "J", sum_.work);
+  if (options_.heat) {
+    add("stored_heat", "J", sum_.stored_heat);
+    add("heat_in", "J", sum_.heat_in);
   }
+  if (options_.mechanics && options_.heat) add("structural_energy", "J", sum_.structural);
+  if (options_.mechanics) add("work", "J", sum_.work);
   if (options_.mechanics && options_.contact) add("contact_energy", "J", sum_.contact);
   if (options_.dynamics) add("kinetic_energy", "J", sum_.kinetic);
   if (options_.dynamics || (options_.mechanics && options_.contact))
@@ -185,8 +190,10 @@ std::vector<Reading> GlobalHistory::all() const {
     add("entropy", "J/K", stability_.entropy);
     add("entropy_production", "J/K", stability_.entropy + stability_.frictional_entropy - sum_.entropy_in);
   }
-  add("heat_exchanged", "J", sum_.heat_exchanged);
-  add("energy_defect", "J", sum_.defect());
+  if (options_.heat) {
+    add("heat_exchanged", "J", sum_.heat_exchanged);
+    add("energy_defect", "J", sum_.defect());
+  }
   return all;
 }
 

@@ -16,6 +16,9 @@ struct StepTable {
   bool dynamics = false;   ///< bodies have inertia: one column more
   bool stability = false;  ///< 𝓛 is followed: five more
   bool stages = false;     ///< the run has stages: two more
+  /// Heat is followed: five for the first law, which mechanics alone does not close, because the energy of
+  /// deformation is not counted there.
+  bool heat = true;
 };
 std::vector<Column> step_columns(StepTable table = {});
 std::vector<Cell> step_row(const coupling::StepRecord& record, StepTable table = {});
@@ -24,6 +27,7 @@ std::vector<Cell> step_row(const coupling::StepRecord& record, StepTable table =
 struct PairColumns {
   std::string name;
   bool friction = false;
+  bool heat = false;
   AnalysisKind kind = AnalysisKind::plane_strain;
 };
 
@@ -40,6 +44,7 @@ class GlobalHistory {
     bool dynamics = false;   ///< bodies have inertia
     bool stability = false;  ///< 𝓛 is followed
     std::vector<PairColumns> pairs = {};
+    bool heat = true;  ///< is followed: the first law is audited
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 

@@ -98,9 +98,9 @@ std::string summary_json(const Summary& s) {
       .add("profile[s]", std::move(profile))
       .add("peak_memory[bytes]", std::move(memory))
       .add("balance", std::move(balance))
-      .add("tables[bytes]", object(s.table_bytes))
-      .add("relative_energy_defect", s.relative_energy_defect)
-      .add("final", object(s.final_values))
+      .add("tables[bytes]", object(s.table_bytes));
+  if (s.relative_energy_defect) json.add("relative_energy_defect", *s.relative_energy_defect);
+  json.add("final", object(s.final_values))
       .add("criteria", findings(s.criteria))
       .add("warnings", std::move(warnings));
   return json.text();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,7 +48,7 @@ struct Summary {
   PeakMemory memory;
   Balance balance;
   std::vector<std::pair<std::string, std::size_t>> table_bytes;  ///< of process 0
-  double relative_energy_defect = 0;
+  std::optional<double> relative_energy_defect;                  ///< absent without heat
   std::vector<std::pair<std::string, double>> final_values;
   std::vector<criteria::Finding> criteria;
   std::vector<std::string> warnings;

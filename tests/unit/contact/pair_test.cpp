@@ -304,6 +304,41 @@ TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
     }
 }
 
+TEST(NodalFields, ShowTheHeatThatEntersEitherBodyAndWhatOfItIsByFriction) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.heat = heat_spec();
+  s.friction = FrictionSpec{};
+  s.friction->coefficient.terms = {Table(0.25)};
+  ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+  const auto temperature =
+      test::nodal_field(mesh, 1, [](const Point&, bool upper) { return std::vector{upper ? 450.0 : 500.0}; });
+  constexpr double k_approach = 1e-6, k_dt = 0.5, k_slid = 1e-4;
+  const auto moved = [&](double slid) {
+    return test::nodal_field(mesh, 2, [&](const Point&, bool upper) {
+      return std::vector{upper ? slid : 0.0, upper ? -k_approach : 0.0};
+    });
+  };
+  pair.update(moved(0));
+  const ContactState start = pair.state();
+  pair.begin(start, {.time = k_dt, .dt = k_dt, .displacement = moved(0), .temperature = temperature});
+  pair.update(moved(k_slid));
+  // Closed: 2300 W/(m² K) over 50 K. Slip: what is left of the way when the spring ε_T = ε_N holds μ p.
+  const double across = 2300 * 50.0, pressure = 1e10 * k_approach;
+  const double power = 0.25 * pressure * (k_slid - 0.25 * pressure / 1e10) / k_dt;
+  const ContactNodalFields fields = pair.nodal_fields(temperature);
+  for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
+    const bool slave = mesh.x[static_cast<std::size_t>(fields.nodes[i])][1] < 0.1 + 1e-9 &&
+                       temperature[static_cast<std::size_t>(fields.nodes[i])] > 475;
+    EXPECT_NEAR(fields.frictional_heat_flux[i], 0.5 * power, 1e-9 * power);
+    EXPECT_NEAR(fields.heat_flux[i], 0.5 * power + (slave ? -across : across), 1e-9 * across);
+  }
+  const ContactSums sums = pair.sums(temperature);
+  EXPECT_NEAR(sums.heat, 0.3 * across, 1e-9 * across);
+  EXPECT_NEAR(sums.heat_to_slave + sums.heat_to_master, 0.3 * power, 1e-9 * power);
+  EXPECT_NEAR(sums.heat_to_master, 0.3 * (0.5 * power + across), 1e-9 * across);
+}
+
 TEST(InterfaceHeat, InNodalFormKeepsTheMatrixOfNonNegativeTypeForLinearShapes) {
   for (Shape shape : {Shape::tri3, Shape::quad4, Shape::tet4, Shape::hex8}) {
     SCOPED_TRACE(mesh::name(shape));

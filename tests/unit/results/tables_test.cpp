@@ -230,6 +230,33 @@ TEST(StepColumns, FitTheRow) {
   EXPECT_DOUBLE_EQ(std::get<double>(cells.back()), -1.5);
 }
 
+TEST(StepColumns, LeaveTheFirstLawOutWhereHeatIsNotFollowed) {
+  const auto columns = step_columns({.heat = false});
+  ASSERT_EQ(columns.size(), step_row(sample_step(), {.heat = false}).size());
+  EXPECT_EQ(columns.size(), step_columns().size() - 5);
+  GlobalHistory history({.heat = false});
+  for (const auto& shown : {columns, history.columns()})
+    for (const Column& column : shown)
+      for (const char* name : {"energy_defect[J]", "stored_heat[J]", "heat_in[J]", "structural_energy[J]"})
+        EXPECT_NE(column.header(), name);
+}
+
+TEST(GlobalHistory, GivesTheHeatOfAPairByItsSides) {
+  GlobalHistory::Options options;
+  options.pairs.push_back({.name = "pad", .friction = true, .heat = true});
+  GlobalHistory history(options);
+  coupling::StepRecord step = sample_step();
+  step.contacts = {{.heat = 100, .heat_to_slave = -70, .heat_to_master = 130}};
+  history.add(step);
+  std::map<std::string, double> by_header;
+  const auto columns = history.columns();
+  for (std::size_t i = 0; i < columns.size(); ++i) by_header[columns[i].header()] = history.values()[i];
+  EXPECT_DOUBLE_EQ(by_header.at("pad_conducted_heat[W]"), 100);
+  EXPECT_DOUBLE_EQ(by_header.at("pad_frictional_heat[W]"), 60);
+  EXPECT_DOUBLE_EQ(by_header.at("pad_heat_to_slave[W]"), -70);
+  EXPECT_DOUBLE_EQ(by_header.at("pad_heat_to_master[W]"), 130);
+}
+
 TEST(StepColumns, GiveTheIncrementsOfTheFunctionalWhereItIsFollowed) {
   coupling::StepRecord step = sample_step();
   step.stability = {.mechanical = -2, .thermal = 0.5, .entropy = 7, .tolerance = 1e-3};
@@ -327,8 +354,8 @@ TEST(GlobalHistory, HasNoColumnsOfPhysicsThatIsNotThere) {
 }
 
 TEST(GlobalHistory, ShowsTheForcesOfEveryPair) {
-  GlobalHistory history(
-      {.pairs = {{"brake", true, AnalysisKind::plane_strain}, {"rest", false, AnalysisKind::solid}}});
+  GlobalHistory history({.pairs = {{"brake", true, false, AnalysisKind::plane_strain},
+                                   {"rest", false, false, AnalysisKind::solid}}});
   coupling::StepEffort step;
   coupling::ContactSummary brake;
   brake.closed_points = 8;
