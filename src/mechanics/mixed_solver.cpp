@@ -100,7 +100,7 @@ algebra::LinearReport MixedSolver::solve_again(std::span<const double> b, std::s
   right_.assign(b.begin(), b.end());
   right_.resize(b.size() + static_cast<std::size_t>(mesh_.n_owned_nodes * pressure_.fields()), 0.0);
   solution_.assign(right_.size(), 0.0);
-  const algebra::LinearReport report =
+  algebra::LinearReport report =
       solve_to(options_.direct ? std::min(k_direct_tolerance, options_.relative_tolerance)
                                : std::max(forcing, options_.relative_tolerance),
                b);
