@@ -55,7 +55,7 @@ class Master {
   /// @param hint a face that may be near, or −1: speeds the search up, never changes its result
   virtual Partner find(const Point& x, const Point& slave_normal, Index hint) const = 0;
   /// Marks faces [face]: may_meet_watched() then tells points apart that find() need not be asked for.
-  virtual void watch(std::vector<char>) {}
+  virtual void watch(std::vector<char>) {}  // NOLINT: who overrides it keeps them
   /// False only where find() has no partner, or one whose closest face is none of the marked ones.
   virtual bool may_meet_watched(const Point&, const Point& /*slave_normal*/, Index /*hint*/) const {
     return false;
