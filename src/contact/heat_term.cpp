@@ -1,6 +1,7 @@
 #include "contact/heat_term.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "contact/face.hpp"
@@ -59,6 +60,41 @@ void HeatTerm::place(std::vector<HeatPoint> points) {
     fixed_[p] = law_.at(-points_[p].penetration, points_[p].pressure, k_room_temperature).value;
 }
 
+void HeatTerm::begin_phase(const HeatSpan& span) {
+  phase_ = Phase{.span = span, .stage_dt = span.dt, .staged = false, .start = {}, .first_flux = {}};
+}
+
+// Θ* of S^e_c* = S^e_c,n + carried (S^e_c − S^e_c,n); of the slip every stage has its part.
+void HeatTerm::begin_stage(const algebra::Stage& stage, std::span<const double> before) {
+  if (!phase_) return;
+  if (stage.carried != 0) {
+    std::vector<double> start(points_.size(), 0.0), flux(points_.size(), 0.0);
+    for (Index p = 0; p < partners_.n_points(); ++p) {
+      const HeatPoint& point = points_[at(p)];
+      start[at(p)] = point.step.temperature;
+      if (!active_ || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;
+      const AtPoint s = see(p, before);
+      start[at(p)] *= std::pow(s.interface.temperature / point.step.temperature, stage.carried);
+      flux[at(p)] = stage.carried * phase_->stage_dt * (s.interface.flux[0] + s.interface.flux[1]);
+    }
+    phase_->start = std::move(start);
+    phase_->first_flux = std::move(flux);
+    phase_->staged = true;
+  }
+  phase_->stage_dt = stage.dt;
+}
+
+InterfaceStep HeatTerm::balance_step(Index point) const {
+  InterfaceStep step = points_[at(point)].step;
+  if (!phase_) return step;
+  const double part = phase_->stage_dt / phase_->span.dt;
+  step.time_step = phase_->stage_dt;
+  step.dissipation *= part;
+  step.structural_entropy *= part;
+  if (phase_->staged) step.temperature = phase_->start[at(point)];
+  return step;
+}
+
 void HeatTerm::add_to_graph(algebra::NodeGraph& graph) const {
   version_ = graph_.add_to(graph);
 }
@@ -75,7 +111,8 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   s.n_slave = static_cast<std::size_t>(partners_.n_slave[at(point)]);
   const bool meshed = s.n_slave < s.nodes.size();
   s.master_takes_heat = meshed || tool_temperature_;
-  if (s.master_takes_heat) s.radiation = law_.radiation_factor();
+  const bool flows = !phase_ || !phase_->span.adiabatic;
+  if (s.master_takes_heat && flows) s.radiation = law_.radiation_factor();
   for (std::size_t a = 0; a < s.nodes.size(); ++a) {
     const double t = temperature[at(s.nodes[a])];
     const bool slave = a < s.n_slave;
@@ -87,15 +124,20 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
     s.master_fourth = fourth(s.master);
   }
   const HeatPoint& p = points_[at(point)];
-  if (fixed_.empty())
+  if (!flows)
+    s.h = {};
+  else if (fixed_.empty())
     s.h = law_.at(-p.penetration, p.pressure, 0.5 * (s.slave + s.master));
   else
     s.h.value = fixed_[at(point)];
   s.has_temperature = p.has_temperature;
   if (!p.has_temperature) return s;
-  const OneSided sides = HeatTransferLaw::one_sided(s.h.value);
-  s.interface = interface_balance(
-      p.step, {{s.slave, s.master}, {sides.slave, s.master_takes_heat ? sides.master : 0.0}});
+  const OneSided one_sided = HeatTransferLaw::one_sided(s.h.value);
+  const InterfaceSides sides{{s.slave, s.master},
+                             {one_sided.slave, s.master_takes_heat ? one_sided.master : 0.0}};
+  s.interface = interface_balance(balance_step(point), sides);
+  if (p.joint && std::isfinite(p.joint->stiffness))
+    s.interface = interface_response(sides, s.interface.temperature, p.joint->stiffness);
   return s;
 }
 
@@ -218,37 +260,93 @@ void HeatTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matr
   flush();
 }
 
-void HeatTerm::add_gap_tangent(std::span<const Point> normal, std::span<const double> temperature,
-                               algebra::CoupledMatrix& matrix) {
+void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperature,
+                             std::span<double> heat) const {
+  const HeatPoint& point = points_[at(s.point)];
+  const double w = partners_.weight[at(s.point)];
+  const Conductance h = law_.at(-point.penetration, point.pressure, 0.5 * (s.slave + s.master));
+  const double slope = w * (h.by_pressure * point.pressure_slope - h.by_opening);
+  if (slope != 0) {
+    add_exchange(s, temperature, slope, 0, heat);
+    if (s.has_temperature) {
+      const std::array<double, 2> flux = flux_by_conductance(s);
+      add_sides(s, {slope * flux[0], slope * flux[1]}, heat);
+    }
+  }
+  if (!point.joint) return;
+  const double source = -w * point.joint->source_by_pressure * point.pressure_slope;
+  add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, heat);
+}
+
+// B of the master is in Θ_m = −Σ B_b Θ_b, and says which node takes the heat.
+void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> temperature, std::size_t b,
+                               std::span<double> heat) const {
+  const double w = partners_.weight[at(s.point)], t = temperature[at(s.nodes[b])];
+  const double across = w * (s.h.value * t + s.radiation * fourth(t));
+  for (std::size_t a = 0; a < (nodal_ ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
+  // What the node takes itself.
+  heat[b] += nodal_
+                 ? w * (s.h.value * (s.slave - t) + s.radiation * (s.slave_fourth - fourth(t)))
+                 : w * (s.h.value * (s.slave - s.master) + s.radiation * (s.slave_fourth - s.master_fourth));
+  std::array<double, 2> by_mean{};
+  if (s.has_temperature) {
+    const double conducted = s.h.value * (s.slave - s.master);
+    heat[b] -= w * (s.interface.flux[1] + conducted);
+    const auto& slope = s.interface.flux_slope;
+    add_sides(s, {-w * t * (slope[0][1] + s.h.value), -w * t * (slope[1][1] - s.h.value)}, heat);
+    by_mean = flux_by_conductance(s);
+  }
+  if (s.h.by_temperature == 0) return;
+  const double by_share = -0.5 * t * w * s.h.by_temperature;
+  add_exchange(s, temperature, by_share, 0, heat);
+  add_sides(s, {by_share * by_mean[0], by_share * by_mean[1]}, heat);
+}
+
+void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index point)>& rates_of,
+                                        std::span<const double> temperature, algebra::CoupledMatrix& matrix) {
   if (!active_) return;
   if (displacement_ != &matrix.displacement()) {
     displacement_ = &matrix.displacement();
     displacement_slots_.bind(*displacement_, n_owned_, partners_.n_points());
   }
   const auto components = static_cast<std::size_t>(matrix.components());
-  std::array<double, k_max_nodes> per_gap;  // ∂r/∂g_N of each node
+  std::array<double, k_max_nodes> per_gap, per_trial, per_share;  // ∂r_a
   Run run;
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
+    const HeatRates rates = rates_of(p);
+    if (rates.penetration.empty()) continue;
     const AtPoint s = see(p, temperature);
-    if (!run.holds(s.nodes)) run.start(p, s.nodes, 0);
-    const HeatPoint& point = points_[at(p)];
-    const Conductance h = law_.at(-point.penetration, point.pressure, 0.5 * (s.slave + s.master));
-    const double slope = partners_.weight[at(p)] * (h.by_pressure * point.pressure_slope - h.by_opening);
-    if (slope == 0) continue;
+    const std::size_t n = s.nodes.size();
+    if (!run.holds(s.nodes)) run.start(p, s.nodes, n * n * components);
+    std::fill(run.values.begin(), run.values.end(), 0.0);
+    const auto add = [&](std::span<const double> heat, const auto& rate_of) {
+      for (std::size_t row = 0; row < n; ++row)
+        for (std::size_t b = 0; b < n; ++b)
+          for (std::size_t c = 0; c < components; ++c)
+            run.values[(row * n + b) * components + c] += heat[row] * rate_of(b)[c];
+    };
     per_gap.fill(0);
-    add_exchange(s, temperature, slope, 0, per_gap);
-    if (s.has_temperature) {
-      const std::array<double, 2> flux = flux_by_conductance(s);
-      add_sides(s, {slope * flux[0], slope * flux[1]}, per_gap);
+    add_gap_slope(s, temperature, per_gap);
+    add(per_gap, [&](std::size_t b) -> const Point& { return rates.penetration[b]; });
+    if (const auto& joint = points_[at(p)].joint; joint && !rates.trial.empty()) {
+      per_trial.fill(0);
+      const double source = -partners_.weight[at(p)] * joint->source_by_trial;
+      add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
+      add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
+    }
+    for (std::size_t a = s.n_slave; a < n; ++a) {
+      const auto moves = rates.share.subspan(a * n, n);
+      if (std::all_of(moves.begin(), moves.end(), [](const Point& v) { return v == Point{}; })) continue;
+      per_share.fill(0);
+      add_share_slope(s, temperature, a, per_share);
+      add(per_share, [&](std::size_t b) -> const Point& { return moves[b]; });
     }
     const auto slots = displacement_slots_.slots(run.first, run.nodes);
-    const std::size_t n = s.nodes.size();
-    for (std::size_t row = 0; row < n; ++row)
-      for (std::size_t a = 0; a < n; ++a) {
-        double* const to = matrix.heat_by_displacement(slots[row * n + a]);
-        for (std::size_t c = 0; c < components; ++c) to[c] += per_gap[row] * s.b[a] * normal[at(p)][c];
-      }
+    for (std::size_t e = 0; e < n * n; ++e) {
+      double* const to = matrix.heat_by_displacement(slots[e]);
+      for (std::size_t c = 0; c < components; ++c) to[c] += run.values[e * components + c];
+    }
   }
 }
 
@@ -309,12 +407,19 @@ InterfaceHeat HeatTerm::interface_heat(std::span<const double> temperature) cons
   if (!active_) return heat;
   for (Index p = 0; p < partners_.n_points(); ++p) {
     const HeatPoint& point = points_[at(p)];
-    if (!point.has_temperature || partners_.partnered[at(p)] == 0 || partners_.counted[at(p)] == 0) continue;
-    const AtPoint s = see(p, temperature);
+    if (!point.has_temperature || partners_.counted[at(p)] == 0) continue;
     const double w = partners_.weight[at(p)];
+    if (partners_.partnered[at(p)] == 0) {
+      heat.dissipated += w * point.step.dissipation;
+      heat.stored += w * point.step.dissipation;
+      continue;
+    }
+    const AtPoint s = see(p, temperature);
+    const double dt = phase_ ? phase_->stage_dt : point.step.time_step;
+    double taken = dt * (s.interface.flux[0] + s.interface.flux[1]);
+    if (phase_ && phase_->staged) taken += phase_->first_flux[at(p)];
     heat.dissipated += w * point.step.dissipation;
-    heat.stored +=
-        w * (point.step.dissipation + point.step.time_step * (s.interface.flux[0] + s.interface.flux[1]));
+    heat.stored += w * (point.step.dissipation + taken);
   }
   return heat;
 }

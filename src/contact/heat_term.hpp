@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "contact/heat_transfer.hpp"
 #include "contact/interface_thermodynamics.hpp"
 #include "contact/partners.hpp"
+#include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
 #include "mesh/mesh.hpp"
 
@@ -24,6 +26,20 @@ struct HeatPoint {
   double pressure_slope = 0;     ///< ∂t_N/∂g_N [Pa/m]
   bool has_temperature = false;  ///< friction acts: Θ_c is balanced, from `step`
   InterfaceStep step;
+  std::optional<JointSlopes> joint;  ///< slip answers Θ_c: dissipation in `step` is that of its solution
+};
+
+/// How a point moves with the displacements of its nodes.
+struct HeatRates {
+  std::span<const Point> penetration;  ///< ∂g_N/∂x_b
+  std::span<const Point> trial;        ///< ∂‖T^trial‖/∂x_b [Pa/m]; empty: zero
+  std::span<const Point> share;        ///< ∂B_a/∂x_b, [a][b]
+};
+
+/// Time over which a thermal phase spreads what one mechanical pass left, where the two differ.
+struct HeatSpan {
+  double dt = 0;           ///< [s]
+  bool adiabatic = false;  ///< nothing flows: the dissipation alone is a term
 };
 
 /// Heat into the bodies at a point, slave and master [W/m²]: in all, and what of it is there by friction,
@@ -75,10 +91,15 @@ class HeatTerm : public algebra::Contribution {
            const HeatTransferLaw& law, bool nodal);
   /// Freezes the configuration, [point]; the partners are those of the list now.
   void place(std::vector<HeatPoint> points);
+  const std::vector<HeatPoint>& points() const { return points_; }
   /// Of a master without nodes [K]; absent: it takes no heat.
   void set_tool_temperature(std::optional<double> temperature) { tool_temperature_ = temperature; }
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
+  /// The thermal phase that follows: dissipation and entropy of the points are spread evenly over it, in one
+  /// or two stages (begin_stage). Until end_phase() a point's balance is that of the stage.
+  void begin_phase(const HeatSpan& span);
+  void end_phase() { phase_.reset(); }
   /// Whether the tangent is symmetric.
   bool symmetric() const { return !law_.of_temperature(); }
 
@@ -90,10 +111,14 @@ class HeatTerm : public algebra::Contribution {
   void bind(const algebra::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
   void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
-  /// Adds ∂r/∂u through the conductance of every point, the gap being g_N = g_N⁰ + Σ_a B_a u_a·n with the
-  /// normals given, [point]. Without what friction's heat changes with the displacement.
-  void add_gap_tangent(std::span<const Point> normal, std::span<const double> temperature,
-                       algebra::CoupledMatrix& matrix);
+  /// In an adiabatic phase heat of friction is taken up on the spot.
+  bool stores() const override { return phase_ && phase_->span.adiabatic; }
+  void begin_stage(const algebra::Stage& stage, std::span<const double> before) override;
+  /// Adds ∂r/∂u: through the conductance, through the heat of friction where slip answers Θ_c (joint), and
+  /// with the partner that moves on.
+  /// @param rates  of a point that has a partner; valid until the next call
+  void add_displacement_tangent(const std::function<HeatRates(Index point)>& rates,
+                                std::span<const double> temperature, algebra::CoupledMatrix& matrix);
   /// Of every point at these temperatures; zero where there is no partner.
   std::vector<SurfaceHeat> surface_heat(std::span<const double> temperature) const;
   /// Its integral over the points that this process counts [W].
@@ -102,6 +127,7 @@ class HeatTerm : public algebra::Contribution {
   std::vector<double> conductances(std::span<const double> temperature) const;
   /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.
   std::vector<double> interface_temperatures(std::span<const double> temperature) const;
+  /// Of the phase, at the temperatures of its end. What a point without a partner has in heat no body takes.
   InterfaceHeat interface_heat(std::span<const double> temperature) const;
   std::size_t bytes() const {
     return slots_.bytes() + points_.capacity() * sizeof(HeatPoint) + fixed_.capacity() * sizeof(double);
@@ -132,6 +158,12 @@ class HeatTerm : public algebra::Contribution {
   /// What the fluxes of the balance change with h at fixed Θ_s, Θ_m, beyond conduction.
   static std::array<double, 2> flux_by_conductance(const AtPoint& at);
   void add_point_tangent(const AtPoint& at, std::span<const double> x, std::span<double> k) const;
+  /// What every node gives off changes with g_N by this much.
+  void add_gap_slope(const AtPoint& at, std::span<const double> temperature, std::span<double> heat) const;
+  /// Adds ∂r_a/∂B_b for one node of the master.
+  void add_share_slope(const AtPoint& at, std::span<const double> temperature, std::size_t b,
+                       std::span<double> heat) const;
+  InterfaceStep balance_step(Index point) const;
 
   Index n_owned_;
   const PartnerList& partners_;
@@ -142,6 +174,14 @@ class HeatTerm : public algebra::Contribution {
   mutable int version_ = 0;  ///< of the graph it has
   std::vector<HeatPoint> points_;
   std::optional<double> tool_temperature_;
+  struct Phase {
+    HeatSpan span;
+    double stage_dt = 0;
+    bool staged = false;             ///< from `start` instead of the Θ_c of the points
+    std::vector<double> start;       ///< Θ_c that the second stage starts from, [point]
+    std::vector<double> first_flux;  ///< heat that the first one took from the bodies, [point] [J/m²]
+  };
+  std::optional<Phase> phase_;
   std::vector<double> fixed_;  ///< h of a law that does not change with the temperature, [point]
   SlotCache slots_, displacement_slots_;
   const algebra::BlockMatrix* displacement_ = nullptr;  ///< that displacement_slots_ know

@@ -25,8 +25,38 @@ bool isolated(double heat_capacity, const InterfaceSides& sides) {
   return heat_capacity == 0 && sum(sides.conductance) == 0;
 }
 
-/// The fluxes at Θ_c and their derivatives.
-InterfaceResponse response(const InterfaceSides& sides, double temperature, double stiffness) {
+/// Half of the heat to either side.
+InterfaceResponse shared_heat(const InterfaceStep& step, const InterfaceSides& sides) {
+  auto r = interface_response(sides, resting_temperature(sides), std::numeric_limits<double>::infinity());
+  r.by_side = {0.5, 0.5};
+  const double heat = step.dissipation - step.temperature * step.structural_entropy;
+  r.flux[0] = r.flux[1] = -0.5 * heat / step.time_step;
+  return r;
+}
+
+/// How slip, and with it dissipation and entropy, answers trial traction and pressure at Θ_c = `theta`.
+void add_slopes(const FrictionLaw& law, const FrictionInput& in, double theta, double rate,
+                InterfaceReturn& r) {
+  const FrictionResponse& f = r.friction;
+  if (f.sticks) return;
+  const double spring = law.tangential_penalty();
+  const double slip_trial = (1 - f.trial_slope) / spring, slip_pressure = -f.pressure_slope / spring;
+  if (!law.stores()) {  // D = γ ‖T‖
+    const double by_slip = in.trial - 2 * spring * f.slip;
+    r.source_by_trial = rate * (by_slip * slip_trial + f.slip);
+    r.source_by_pressure = rate * by_slip * slip_pressure;
+    return;
+  }
+  // D = γ μ_0(Θ_c) t_N; the entropy −K_Θ along the lines of the tables at Θ_n, ζ = ζ_n + γ t_N.
+  const double initial = law.coefficient().point(0, theta).initial;
+  const double by_work = initial + theta * law.coefficient().point(f.internal_variable, in.temperature).theta;
+  r.source_by_trial = rate * by_work * in.pressure * slip_trial;
+  r.source_by_pressure = rate * by_work * (f.slip + in.pressure * slip_pressure);
+}
+
+}  // namespace
+
+InterfaceResponse interface_response(const InterfaceSides& sides, double temperature, double stiffness) {
   InterfaceResponse r;
   r.temperature = temperature;
   r.stiffness = stiffness;
@@ -39,17 +69,6 @@ InterfaceResponse response(const InterfaceSides& sides, double temperature, doub
     for (std::size_t j = 0; j < 2; ++j) r.flux_slope[i][j] = h[i] * ((i == j ? 1 : 0) - r.by_side[j]);
   return r;
 }
-
-/// Half of the heat to either side.
-InterfaceResponse shared_heat(const InterfaceStep& step, const InterfaceSides& sides) {
-  auto r = response(sides, resting_temperature(sides), std::numeric_limits<double>::infinity());
-  r.by_side = {0.5, 0.5};
-  const double heat = step.dissipation - step.temperature * step.structural_entropy;
-  r.flux[0] = r.flux[1] = -0.5 * heat / step.time_step;
-  return r;
-}
-
-}  // namespace
 
 double interface_entropy(const FrictionLaw& law, double temperature, double internal_variable) {
   const double thermal = law.heat_capacity() * std::log(temperature / k_interface_reference);
@@ -79,7 +98,7 @@ InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSi
   const double heat = supply(sides) + step.dissipation * rate;
   if (step.heat_capacity == 0) {
     const double stiffness = step.structural_entropy * rate + conductance;
-    auto r = response(sides, heat / stiffness, stiffness);
+    auto r = interface_response(sides, heat / stiffness, stiffness);
     r.balanced = stiffness > 0;
     return r;
   }
@@ -95,7 +114,7 @@ InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSi
     theta -= change;
     if (std::abs(change) <= k_last_correction * theta) break;
   }
-  return response(sides, theta, slope(theta));
+  return interface_response(sides, theta, slope(theta));
 }
 
 InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionInput& in, double time_step,
@@ -111,6 +130,7 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
     r.friction = law.update(in);
     r.heat = shared_heat(
         {time_step, 0, in.temperature, r.friction.structural_entropy, r.friction.dissipation}, sides);
+    add_slopes(law, in, in.temperature, rate, r);
     return r;
   }
 
@@ -163,7 +183,13 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
     value = balance(theta);
     (value > 0 ? high : low) = theta;
   }
-  r.heat = response(sides, theta, slope);
+  r.heat = interface_response(sides, theta, slope);
+  if (!r.friction.sticks) {
+    const auto now = coefficient.point(r.friction.internal_variable, theta);
+    r.traction_by_temperature =
+        law.tangential_penalty() * in.pressure * (now.theta + now.initial_theta) / r.friction.stiffness;
+  }
+  add_slopes(law, in, theta, rate, r);
   return r;
 }
 

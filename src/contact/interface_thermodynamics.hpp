@@ -63,11 +63,20 @@ struct InterfaceResponse {
 /// to either side (the limit h_1 = h_2 -> 0) and Θ_c is the mean.
 InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSides& sides);
 
-/// The thermal phase as printed (5.32–5.51): slip is found anew together with Θ_c, from the same trial state.
-/// @param in at t_n, with the trial traction and the pressure of the mechanical phase
+/// The fluxes at a known Θ_c, with dr/dΘ_c = `stiffness` of the balance that it comes from.
+InterfaceResponse interface_response(const InterfaceSides& sides, double temperature, double stiffness);
+
+/// Slip and Θ_c as the solution of both equations, Φ_c = 0 and the balance (5.32–5.51, of which 5.40 is the
+/// pair of equations): the return mapping of the simultaneous scheme, where trial traction, pressure and the
+/// bodies' temperatures are those of t_{n+1}.
+/// @param in ζ_c and Θ_c at t_n, trial traction and pressure at t_{n+1}
 struct InterfaceReturn {
-  FrictionResponse friction;  ///< at Θ_c of the end; dissipation by μ_0(Θ_c) (5.51)
-  InterfaceResponse heat;
+  FrictionResponse friction;  ///< at Θ_c of the end; dissipation by μ_0(Θ_c) (5.51); slopes at fixed Θ_c
+  InterfaceResponse heat;     ///< its stiffness holds how slip answers Θ_c
+  double traction_by_temperature = 0;  ///< ∂‖T‖/∂Θ_c [Pa/K]
+  /// What the balance has in heat by trial traction and pressure, ∂(D_c,mech − Θ_c Ṡ^e_c)/∂x at fixed Θ_c
+  /// [W/(m² Pa)]: ∂Θ_c/∂x = source/stiffness, ∂Q_i/∂x = −by_side[i] source.
+  double source_by_trial = 0, source_by_pressure = 0;
 };
 InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionInput& in, double time_step,
                                          const InterfaceSides& sides);

@@ -94,6 +94,8 @@ class ContactKinematics {
   /// for the nodes of the last motion() with rates. @param k  [b][c], 3 × 3 blocks
   virtual void add_geometric_tangent(Index point, double pressure, const Point& traction,
                                      std::span<Tensor> k) const = 0;
+  /// Adds ∂B_a/∂x_b, [a][b], for the nodes of the last motion() with rates: partners that stay have none.
+  virtual void add_share_rates(std::span<Point> /*rates*/) const {}
   /// True when nodes meet that did not at the last add_to_graph(): matrices must be made anew.
   virtual bool graph_outdated() const = 0;
   /// Cliques of nodes that may meet, with a margin for what comes next.

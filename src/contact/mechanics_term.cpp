@@ -74,7 +74,7 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
     if (!kinematics_.concerns(p)) continue;
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
-    const PointForces f = law_.forces(motion, from);
+    const PointForces f = law_.forces(motion, from, step_.together.around(motion));
     if (f.status != status_[at(p)] && from.counted) ++changes_;
     status_[at(p)] = f.status;
     count.add(from, motion, f);
@@ -108,7 +108,7 @@ void MechanicsTerm::log(const Count& count) const {
 
 template <int dim>
 void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) {
-  const PointForces f = law_.forces(motion, step_.from[at(point)]);
+  const PointForces f = law_.forces(motion, step_.from[at(point)], step_.together.around(motion));
   if (!f.normal.closed && stabilisation_ == 0) return;
   const std::size_t n = motion.nodes.size();
   const double w = motion.weight;
@@ -121,6 +121,10 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
     if (!symmetric_)
       by_penetration =
           add_scaled(by_penetration, f.normal.tangent, times(motion.push, f.traction_by_pressure));
+    if (f.joint && !symmetric_)
+      by_penetration =
+          add_scaled(by_penetration, f.conductance.by_pressure * f.normal.tangent - f.conductance.by_opening,
+                     times(motion.push, f.traction_by_conductance));
   }
   const double stabilisation = stabilisation_ * law_.normal.penalty;
   for (std::size_t c = 0; c < n; ++c) {
@@ -192,6 +196,40 @@ void MechanicsTerm::add_tangents(algebra::BlockMatrix& matrix) {
     add_point<dim>(motion, p, run);
   }
   if (run.first >= 0) flush<dim>(run, matrix);
+}
+
+void MechanicsTerm::add_temperature_tangent(algebra::CoupledMatrix& matrix) {
+  if (!active_ || step_.together.law == nullptr) return;
+  if (coupled_ != &matrix.displacement()) {
+    coupled_ = &matrix.displacement();
+    coupled_slots_.bind(*coupled_, n_owned_, kinematics_.n_points());
+  }
+  const auto components = static_cast<std::size_t>(components_);
+  for (Index p = 0; p < kinematics_.n_points(); ++p) {
+    if (!kinematics_.concerns(p)) continue;
+    const PointMotion motion = kinematics_.motion(p, step_.from[at(p)], ContactKinematics::Asked::motion);
+    const std::optional<Surroundings> around = step_.together.around(motion);
+    if (!around) continue;
+    const PointForces f = law_.forces(motion, step_.from[at(p)], around);
+    if (!f.joint || !(norm(f.traction) > 0)) continue;
+    // Θ_c by the sides, at fixed h and through h at their mean.
+    const double by_mean = f.joint->traction_by_conductance * f.conductance.by_temperature;
+    std::array<double, 2> by_side = f.joint->traction_by_side;
+    by_side[0] += around->master_takes_heat ? 0.5 * by_mean : by_mean;
+    by_side[1] += 0.5 * by_mean;
+    if (by_side[0] == 0 && by_side[1] == 0) continue;
+    const Point direction = times(motion.push, scale(1 / norm(f.traction), f.traction));
+    const std::size_t n = motion.nodes.size();
+    const auto slots = coupled_slots_.slots(p, motion.nodes);
+    for (std::size_t row = 0; row < n; ++row)
+      for (std::size_t a = 0; a < n; ++a) {
+        const bool slave = a < static_cast<std::size_t>(motion.n_slave);
+        const double shape = slave ? motion.share[a] : -motion.share[a];
+        const double slope = motion.weight * motion.share[row] * shape * by_side[slave ? 0 : 1];
+        double* const to = matrix.force_by_temperature(slots[row * n + a]);
+        for (std::size_t i = 0; i < components; ++i) to[i] += slope * direction[i];
+      }
+  }
 }
 
 void MechanicsTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {

@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "algebra/contribution.hpp"
+#include "algebra/coupled_matrix.hpp"
 #include "contact/graph.hpp"
 #include "contact/integration.hpp"
 #include "contact/placement.hpp"
 #include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
+#include "contact/together.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::contact {
@@ -21,6 +23,7 @@ struct ContactStep {
   double time = 0;                   ///< t_{n+1} [s]
   double begun = 0;                  ///< t_n [s]
   std::vector<double> displacement;  ///< u_n, [local node][component] [m]
+  Together together;                 ///< of the simultaneous scheme
 };
 
 /// r_b = Σ_p w B_b (t_N n + F T) of the displacement it is called with, from the step's start, and the exact
@@ -52,6 +55,8 @@ class MechanicsTerm : public algebra::Contribution {
   void bind(const algebra::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
   void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
+  /// Adds ∂r/∂Θ at the displacement of the last call, where friction follows the bodies' temperatures.
+  void add_temperature_tangent(algebra::CoupledMatrix& matrix);
 
   /// How many points changed between open, sticking and slipping from the last but one residual to the last.
   Index changes() const { return changes_; }
@@ -82,8 +87,9 @@ class MechanicsTerm : public algebra::Contribution {
   bool symmetric_;
   bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
-  SlotCache slots_;
-  std::vector<PointStatus> status_;  ///< at the last residual
+  SlotCache slots_, coupled_slots_;
+  const algebra::BlockMatrix* coupled_ = nullptr;  ///< that coupled_slots_ know
+  std::vector<PointStatus> status_;                ///< at the last residual
   Index changes_ = 0;
   FrictionStatus failure_ = FrictionStatus::converged;
 };

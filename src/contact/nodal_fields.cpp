@@ -93,6 +93,14 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     fields.wear_depth.push_back(k[4]);
     fields.temperature.push_back(k[5]);
   }
+  if (!worn_ || !law_.friction) return fields;
+  for (const MasterWear::Depth& worn : worn_->depths(now_.master)) {
+    const auto place = std::lower_bound(fields.nodes.begin(), fields.nodes.end(), worn.node);
+    if (place == fields.nodes.end() || *place != worn.node) continue;
+    const auto k = static_cast<std::size_t>(place - fields.nodes.begin());
+    fields.wear_depth[k] = worn.depth;
+    fields.dissipation[k] = worn.dissipation;
+  }
   return fields;
 }
 

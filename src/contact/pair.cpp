@@ -76,6 +76,13 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
   if (!spec_.rigid_master) master.emplace(mesh, spec_.master);
   make_kinematics(kind, slave, master ? &*master : nullptr);
   make_laws(slave, find_penalty(mesh, spec_, slave, master ? &*master : nullptr, body_modulus));
+  if (spec_.wear && spec_.wear->master_share > 0) {
+    if (!master)
+      throw InputError(spec_.wear->where,
+                       fmt::format("contact '{}': a rigid surface does not wear", spec_.name),
+                       "master_share = 0");
+    worn_ = std::make_unique<MasterWear>(mesh, kind, *master);
+  }
   surface_nodes_ = slave.all_nodes();
   if (master)
     surface_nodes_.insert(surface_nodes_.end(), master->all_nodes().begin(), master->all_nodes().end());
@@ -147,8 +154,43 @@ algebra::Contribution* ContactPair::heat() {
 }
 
 std::optional<double> ContactPair::tool_temperature() const {
+  return tool_temperature_at(time_);
+}
+
+std::optional<double> ContactPair::tool_temperature_at(double time) const {
   if (!spec_.rigid_master || !spec_.rigid_master->temperature) return {};
-  return spec_.rigid_master->temperature->value(time_);
+  return spec_.rigid_master->temperature->value(time);
+}
+
+void ContactPair::surround(std::span<const double> temperature) {
+  if (step_.together.law != nullptr)
+    step_.together.temperature.assign(temperature.begin(), temperature.end());
+}
+
+void ContactPair::begin_heat(double dt, bool adiabatic) {
+  if (heat_ && law_.friction) heat_->begin_phase({dt, adiabatic});
+}
+
+void ContactPair::rest() {
+  ahead_.clear();
+  if (!heat_ || !law_.friction) return;
+  step_.from = now_.points;
+  step_.dt = 0;
+  std::vector<HeatPoint> heat;
+  for (const PointState& now : now_.points) heat.push_back(heat_point(now, now, {}));
+  heat_->place(std::move(heat));
+}
+
+void ContactPair::heat_ahead() {
+  if (!heat_ || !law_.friction) return;
+  std::vector<HeatPoint> heat = heat_->points();
+  ahead_.clear();
+  for (HeatPoint& point : heat) {
+    ahead_.push_back({point.step.dissipation, point.step.structural_entropy});
+    point.step.dissipation *= 2;
+    point.step.structural_entropy *= 2;
+  }
+  heat_->place(std::move(heat));
 }
 
 bool ContactPair::symmetric() const {
@@ -178,17 +220,35 @@ ContactState ContactPair::initial_state() const {
     point.status = law_.friction ? PointStatus::sticks : PointStatus::slips;
     point.pressure = point.balance_pressure = law_.normal.penalty * point.penetration;
   }
+  if (worn_) state.master = worn_->initial_state();
   return state;
 }
 
+void ContactPair::set_out_from(const ContactState& state) {
+  if (!state.points.empty()) {
+    step_.from = state.points;
+    worn_from_ = state.master;
+    return;
+  }
+  ContactState initial = initial_state();
+  step_.from = std::move(initial.points);
+  worn_from_ = std::move(initial.master);
+}
+
 void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
-  step_.from = old.points.empty() ? initial_state().points : old.points;
+  set_out_from(old);
   step_.dt = pass.dt;
   step_.time = pass.time;
   step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());
   step_.begun = time_;
   law_.isentropic = pass.isentropic;
   law_.share = pass.share;
+  step_.together = {};
+  if (pass.simultaneous && heat_law_ && law_.friction)
+    step_.together = {.law = &*heat_law_,
+                      .time_step = pass.dt,
+                      .temperature = {pass.temperature.begin(), pass.temperature.end()},
+                      .tool_temperature = tool_temperature_at(pass.time)};
   if (law_.friction && !pass.temperature.empty()) find_interface_temperatures(pass.temperature);
 }
 
@@ -217,19 +277,31 @@ void ContactPair::update(std::span<const double> displacement) {
   const bool fixed = !kinematics_->partners_change() && partners_.n_points() > 0;
   if (!fixed) partners_.clear();
   now_.points.resize(step_.from.size());
+  now_.master = worn_from_;
   std::vector<HeatPoint> heat;
   before_heat_.resize(now_.points.size());
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
-    const PointForces forces = active_ ? law_.forces(motion, from) : PointForces{};
+    const PointForces forces =
+        active_ ? law_.forces(motion, from, step_.together.around(motion)) : PointForces{};
     now_.points[at(p)] = law_.next(motion, from, forces);
     if (!active_) now_.points[at(p)].anchored = false;
+    if (worn_ && forces.status == PointStatus::slips) wear_master(motion, now_.points[at(p)], forces);
     if (!fixed) partners_.add(motion, kinematics_->particle(p).counted);
     before_heat_[at(p)] = now_.points[at(p)].temperature;
     if (heat_) heat.push_back(heat_point(from, now_.points[at(p)], forces));
+    if (ahead_.empty() || !heat_) continue;
+    heat.back().step.dissipation -= ahead_[at(p)][0];
+    heat.back().step.structural_entropy -= ahead_[at(p)][1];
   }
   if (heat_) heat_->place(std::move(heat));
+}
+
+void ContactPair::wear_master(const PointMotion& motion, const PointState& now, const PointForces& forces) {
+  const WearSpec& wear = *law_.wear;
+  const double depth = wear.depth_increment(forces.normal.pressure, forces.friction.slip, now.temperature);
+  worn_->add(motion, wear.master_share * depth, forces.friction.dissipation, now_.master);
 }
 
 HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
@@ -238,10 +310,23 @@ HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
                   .pressure = now.pressure,
                   .pressure_slope = forces.normal.tangent,
                   .has_temperature = law_.friction && step_.dt > 0 && from.temperature > 0,
-                  .step = {}};
+                  .step = {},
+                  .joint = forces.joint};
   point.step = {step_.dt, spec_.interface_heat_capacity, from.temperature, forces.friction.structural_entropy,
                 forces.friction.dissipation};
   return point;
+}
+
+/// For what is shown: the heat of both passes, over the time of both.
+void ContactPair::show_whole_step() {
+  std::vector<HeatPoint> heat = heat_->points();
+  for (std::size_t p = 0; p < heat.size(); ++p) {
+    heat[p].step.time_step *= 2;
+    heat[p].step.dissipation += 2 * ahead_[p][0];
+    heat[p].step.structural_entropy += 2 * ahead_[p][1];
+  }
+  heat_->place(std::move(heat));
+  ahead_.clear();
 }
 
 InterfaceSums ContactPair::settle(std::span<const double> temperature) {
@@ -249,6 +334,8 @@ InterfaceSums ContactPair::settle(std::span<const double> temperature) {
   if (!heat_ || !law_.friction) return sums;
   const std::vector<double> settled = heat_->interface_temperatures(temperature);
   const InterfaceHeat heat = heat_->interface_heat(temperature);
+  if (heat_->stores() && !ahead_.empty()) show_whole_step();
+  heat_->end_phase();
   sums.dissipated = heat.dissipated;
   sums.stored = heat.stored;
   const FrictionLaw& law = *law_.friction;
@@ -280,12 +367,16 @@ bool ContactPair::symmetric_heat() const {
 }
 
 void ContactPair::restore(const ContactState& state, std::span<const double> displacement, double time) {
-  step_.from = state.points.empty() ? initial_state().points : state.points;
+  set_out_from(state);
   step_.time = step_.begun = time;
   step_.dt = 0;
+  step_.together = {};
+  ahead_.clear();
+  if (heat_) heat_->end_phase();
   step_.displacement.assign(displacement.begin(), displacement.end());
-  const ContactState stands{step_.from};
+  const ContactState stands{step_.from, worn_from_};
   update(displacement);
+  now_.master = worn_from_;
   // Of the motion alone: what the last step did is in the state.
   std::vector<HeatPoint> heat;
   for (std::size_t p = 0; p < now_.points.size(); ++p) {
@@ -362,10 +453,29 @@ GlobalIndex ContactPair::changes() const {
 
 void ContactPair::add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const {
   if (!heat_ || !active_) return;
-  std::vector<Point> normal(now_.points.size());
-  for (Index p = 0; p < kinematics_->n_points(); ++p)
-    normal[at(p)] = kinematics_->motion(p, step_.from[at(p)], ContactKinematics::Asked::motion).normal;
-  heat_->add_gap_tangent(normal, temperature, matrix);
+  std::vector<Point> trial, share;
+  const auto rates_of = [&](Index p) -> HeatRates {
+    const PointState& from = step_.from[at(p)];
+    const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::rates);
+    if (!motion.partnered) return {};  // of no node of this process
+    const std::size_t n = motion.nodes.size();
+    share.assign(n * n, Point{});
+    kinematics_->add_share_rates(share);
+    trial.clear();
+    if (law_.friction && now_.points[at(p)].status != PointStatus::open) {
+      const double spring = law_.friction->tangential_penalty();
+      const Point whole = add_scaled(motion.carried, spring, motion.slip);
+      const double size = norm(whole);
+      for (std::size_t b = 0; b < n && size > 0; ++b) {
+        trial.push_back(scale(spring / size, transposed_times(motion.slip_rate[b], whole)));
+        if (!motion.carried_rate.empty())
+          trial.back() = add_scaled(trial.back(), 1 / size, transposed_times(motion.carried_rate[b], whole));
+      }
+    }
+    return {motion.penetration_rate, trial, share};
+  };
+  heat_->add_displacement_tangent(rates_of, temperature, matrix);
+  mechanics_->add_temperature_tangent(matrix);
 }
 
 std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature) const {

@@ -5,12 +5,14 @@
 /// other, and every process brings the points that its nodes can meet to the same state.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "algebra/contribution.hpp"
 #include "algebra/coupled_matrix.hpp"
+#include "contact/master_wear.hpp"
 #include "contact/mechanics_term.hpp"
 #include "contact/partners.hpp"
 #include "contact/spec.hpp"
@@ -19,6 +21,7 @@ namespace solidus::contact {
 
 class HeatTerm;
 struct HeatPoint;
+struct HeatSpan;
 
 /// What the interface took, stored and made in a step, all processes.
 struct InterfaceSums {
@@ -61,7 +64,8 @@ struct ContactNodalFields {
   /// With friction, else empty: 0 open, 1 sticks, 2 slips; and F T, on the master [Pa].
   std::vector<double> status;
   std::vector<Point> traction;
-  /// With friction, else empty: what points remember. μ is that of ζ_c and Θ_c.
+  /// With friction, else empty: what points remember. μ is that of ζ_c and Θ_c. A master that wears has its
+  /// own dissipation and depth.
   std::vector<double> slip, internal_variable, coefficient, dissipation, wear_depth;
   std::vector<double> temperature;  ///< Θ_c [K]
 };
@@ -72,6 +76,7 @@ struct ContactPass {
   std::span<const double> displacement{};  ///< u_n, [local node][component] [m]
   std::span<const double> temperature{};   ///< Θ_n, [local node] [K]; empty: unknown
   bool isentropic = false;                 ///< the pass holds the entropy of the interface, not Θ_c
+  bool simultaneous = false;               ///< Θ_c is found together with the slip (5.40), see surround()
   double share = 1;                        ///< s of normal.hpp
 };
 
@@ -106,6 +111,9 @@ class ContactPair {
   ContactState initial_state() const;
   /// A step sets out from `old`; empty: initial_state(). Local, no communication.
   void begin(const ContactState& old, const ContactPass& pass);
+  /// Within a simultaneous pass: the bodies' temperatures of now, [local node], for mechanics() and the next
+  /// update(). Local.
+  void surround(std::span<const double> temperature);
   /// Forces and history of every point for a displacement, and what heat sees of them: [local
   /// node][component], ghosts up to date [m]. Local, no communication.
   void update(std::span<const double> displacement);
@@ -115,6 +123,14 @@ class ContactPair {
   /// Of the last update() or restore().
   const ContactState& state() const { return now_; }
 
+  /// A thermal phase sets out, over `dt`, which need not be the time of the mechanical pass, nor need
+  /// anything flow in it; settle() ends it. Without this call heat is that of the pass.
+  void begin_heat(double dt, bool adiabatic);
+  /// Drops the heat of friction of the last update(): what follows knows none.
+  void rest();
+  /// After the first of two equal mechanical passes of a step: the thermal phase that follows takes heat and
+  /// entropy of its slip twice, for the second pass too, whose heat is then counted less by as much.
+  void heat_ahead();
   /// After the thermal phase: Θ_c and S^p_c of every point, at the temperatures found [local node]; state()
   /// has them then. Zero without friction or heat. Collective.
   InterfaceSums settle(std::span<const double> temperature);
@@ -136,8 +152,8 @@ class ContactPair {
   /// Points that changed between open, sticking and slipping at the last residual. Collective.
   GlobalIndex changes() const;
 
-  /// Adds the derivative of the heat with respect to the displacement, through the conductances of the last
-  /// update(); nothing without a heat law.
+  /// Adds the derivatives of the heat with respect to the displacement and of the forces with respect to the
+  /// temperature, at the last update(); nothing without a heat law.
   void add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const;
 
   /// Sums at the last update(); `temperature` [local node] or empty (heat = 0). Collective.
@@ -169,7 +185,11 @@ class ContactPair {
  private:
   void make_kinematics(AnalysisKind kind, const ContactSurface& slave, const ContactSurface* master);
   void make_laws(const ContactSurface& slave, double penalty);
+  std::optional<double> tool_temperature_at(double time) const;
+  void set_out_from(const ContactState& state);
+  void wear_master(const PointMotion& motion, const PointState& now, const PointForces& forces);
   HeatPoint heat_point(const PointState& from, const PointState& now, const PointForces& forces) const;
+  void show_whole_step();
   void find_interface_temperatures(std::span<const double> temperature);
   /// Of the augmented Lagrangian: ḡ_a, weighted with w N_a², [local node] [m]. Collective.
   std::vector<double> nodal_penetration() const;
@@ -189,10 +209,14 @@ class ContactPair {
   PointLaw law_;
   std::optional<HeatTransferLaw> heat_law_;
   ContactStep step_;
+  std::unique_ptr<MasterWear> worn_;  ///< absent where the master does not wear
+  std::vector<WornNode> worn_from_;   ///< at t_n
   ContactState now_;
   std::vector<double> displacement_;  ///< of now_
   double time_ = 0;                   ///< likewise
   std::vector<double> before_heat_;   ///< Θ_c that the mechanical phase left, [point]
+  /// Of heat_ahead(), [point]: D_c,mech [J/m²] and entropy [J/(m² K)] that are taken already; or empty.
+  std::vector<std::array<double, 2>> ahead_;
   PartnerList partners_;
   std::vector<Index> surface_nodes_;  ///< owned nodes of both surfaces, sorted
   std::unique_ptr<MechanicsTerm> mechanics_;

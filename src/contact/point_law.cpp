@@ -7,7 +7,31 @@ namespace solidus::contact {
 /// for elastic.
 constexpr double k_on_the_cone = 1e-6;
 
-PointForces PointLaw::forces(const PointMotion& motion, const PointState& from) const {
+FrictionResponse PointLaw::respond(const FrictionInput& in, const std::optional<Surroundings>& around,
+                                   double conductance, std::optional<JointSlopes>& joint) const {
+  if (!around || !(in.temperature > 0)) return isentropic ? friction->isentropic(in) : friction->update(in);
+  const InterfaceSides sides = around->sides(conductance);
+  const InterfaceReturn r = interface_return_mapping(*friction, in, around->time_step, sides);
+  FrictionResponse f = r.friction;
+  if (!r.heat.balanced) {
+    f.status = FrictionStatus::temperature_runs_off;
+    return f;
+  }
+  f.temperature = r.heat.temperature;
+  f.trial_slope += r.traction_by_temperature * r.source_by_trial / r.heat.stiffness;
+  f.pressure_slope += r.traction_by_temperature * r.source_by_pressure / r.heat.stiffness;
+  joint = JointSlopes{r.heat.stiffness, r.source_by_trial, r.source_by_pressure, 0, {}};
+  const OneSided part = HeatTransferLaw::one_sided(1.0);
+  double moved = part.slave * (sides.temperature[0] - f.temperature);
+  if (around->master_takes_heat) moved += part.master * (sides.temperature[1] - f.temperature);
+  joint->traction_by_conductance = r.traction_by_temperature * moved / r.heat.stiffness;
+  for (std::size_t i = 0; i < 2; ++i)
+    joint->traction_by_side[i] = r.traction_by_temperature * r.heat.by_side[i];
+  return f;
+}
+
+PointForces PointLaw::forces(const PointMotion& motion, const PointState& from,
+                             const std::optional<Surroundings>& around) const {
   PointForces f;
   if (!motion.partnered) return f;
   f.normal = normal.update(motion.penetration + from.offset,
@@ -19,13 +43,14 @@ PointForces PointLaw::forces(const PointMotion& motion, const PointState& from) 
   const Point trial = add_scaled(motion.carried, friction->tangential_penalty(), motion.slip);
   f.trial = norm(trial);
   const FrictionInput in{f.trial, f.normal.pressure, from.internal_variable, from.temperature};
-  f.friction = isentropic ? friction->isentropic(in) : friction->update(in);
+  if (around) f.conductance = around->conductance(motion.penetration + from.offset, f.normal.pressure);
+  f.friction = respond(in, around, f.conductance.value, f.joint);
   if (!f.friction.sticks) f.status = PointStatus::slips;
   if (f.friction.sticks && from.status == PointStatus::slips &&
       f.trial >= (1 - k_on_the_cone) * f.friction.coefficient * f.normal.pressure && f.trial > 0) {
     FrictionInput beyond = in;
     beyond.trial = (1 + 2 * k_on_the_cone) * in.trial;
-    const FrictionResponse slipping = isentropic ? friction->isentropic(beyond) : friction->update(beyond);
+    const FrictionResponse slipping = respond(beyond, around, f.conductance.value, f.joint);
     f.friction.trial_slope = slipping.trial_slope;
     f.friction.pressure_slope = slipping.pressure_slope;
   }
@@ -38,6 +63,7 @@ PointForces PointLaw::forces(const PointMotion& motion, const PointState& from) 
     f.traction_by_trial[i][i] += radial;
   }
   f.traction_by_pressure = scale(f.friction.pressure_slope, m);
+  if (f.joint) f.traction_by_conductance = scale(f.joint->traction_by_conductance, m);
   return f;
 }
 
@@ -60,7 +86,9 @@ PointState PointLaw::next(const PointMotion& motion, const PointState& from, con
   to.slip += f.friction.slip;
   to.dissipation += f.friction.dissipation;
   to.work += f.friction.slip * f.friction.traction;
-  if (wear) to.wear_depth += wear->depth_increment(f.normal.pressure, f.friction.slip, to.temperature);
+  if (wear)
+    to.wear_depth +=
+        (1 - wear->master_share) * wear->depth_increment(f.normal.pressure, f.friction.slip, to.temperature);
   return to;
 }
 

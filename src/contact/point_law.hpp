@@ -7,11 +7,37 @@
 #include <optional>
 
 #include "contact/friction.hpp"
+#include "contact/heat_transfer.hpp"
+#include "contact/interface_thermodynamics.hpp"
 #include "contact/kinematics.hpp"
 #include "contact/normal.hpp"
 #include "contact/wear.hpp"
 
 namespace solidus::contact {
+
+/// What an interface is in touch with while slip and Θ_c are found together (5.40).
+struct Surroundings {
+  const HeatTransferLaw* law = nullptr;
+  double time_step = 0;                 ///< Δt [s]
+  std::array<double, 2> temperature{};  ///< of the slave and the master at the point [K]
+  bool master_takes_heat = true;
+
+  Conductance conductance(double penetration, double pressure) const {
+    return law->at(-penetration, pressure, 0.5 * (temperature[0] + temperature[1]));
+  }
+  InterfaceSides sides(double conductance) const {
+    const OneSided h = HeatTransferLaw::one_sided(conductance);
+    return {temperature, {h.slave, master_takes_heat ? h.master : 0.0}};
+  }
+};
+
+/// How the solution of both equations moves, beyond what PointForces hold.
+struct JointSlopes {
+  double stiffness = 0;                                ///< dr/dΘ_c of the balance [W/(m² K)]
+  double source_by_trial = 0, source_by_pressure = 0;  ///< InterfaceReturn
+  double traction_by_conductance = 0;        ///< ∂‖T‖/∂h at fixed trial traction and pressure
+  std::array<double, 2> traction_by_side{};  ///< ∂‖T‖/∂Θ_i of slave and master [Pa/K]
+};
 
 struct PointForces {
   PointStatus status = PointStatus::open;
@@ -21,6 +47,12 @@ struct PointForces {
   Point traction_by_pressure{};  ///< ∂T/∂t_N
   double trial = 0;              ///< ‖T^trial‖ [Pa]
   FrictionResponse friction;     ///< void without a friction law and at open points
+  /// Where Θ_c is found with the slip. The slopes of T then hold how Θ_c answers trial traction and pressure;
+  /// through the conductance they change by traction_by_conductance.
+  std::optional<JointSlopes> joint;
+  /// ∂T/∂h, T ∥ T^trial; zero where Θ_c is not found with the slip [Pa m² K/W].
+  Point traction_by_conductance{};
+  Conductance conductance;  ///< there
 };
 
 struct PointLaw {
@@ -31,12 +63,19 @@ struct PointLaw {
   double share = 1;              ///< s of normal.hpp
 
   /// @param from  the state at t_n with the multipliers of now: λ_N, and T_n or what stands for it
-  PointForces forces(const PointMotion& motion, const PointState& from) const;
+  /// @param around  where slip and Θ_c are found together: the simultaneous scheme
+  PointForces forces(const PointMotion& motion, const PointState& from,
+                     const std::optional<Surroundings>& around = {}) const;
   /// The state that the forces lead to, at t_{n+1}. A point that is open, or where no friction acts, keeps
   /// what friction left.
   PointState next(const PointMotion& motion, const PointState& from, const PointForces& forces) const;
   /// What the springs of a state hold, normal and tangential [J/m²].
   double stored(const PointState& state) const;
+
+ private:
+  /// Friction's answer; with `around` and a known Θ_c of t_n, together with that of the interface.
+  FrictionResponse respond(const FrictionInput& in, const std::optional<Surroundings>& around,
+                           double conductance, std::optional<JointSlopes>& joint) const;
 };
 
 }  // namespace solidus::contact

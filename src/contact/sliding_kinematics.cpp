@@ -316,6 +316,16 @@ void SlidingKinematics::add_geometric_tangent(Index point, double pressure, cons
   }
 }
 
+void SlidingKinematics::add_share_rates(std::span<Point> rates) const {
+  assert(rates.size() == n_nodes_ * n_nodes_);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(frame_.n_face_nodes); ++a)
+    for (std::size_t b = 0; b < n_nodes_; ++b) {
+      Point& rate = rates[(n_slave_ + a) * n_nodes_ + b];
+      for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha)
+        rate = contact::add_scaled(rate, -frame_.slope[a][alpha], xi_rate_[b][alpha]);
+    }
+}
+
 std::span<const Index> SlidingKinematics::allowed(Index slave_face) const {
   const auto f = static_cast<std::size_t>(slave_face);
   return std::span(allowed_).subspan(first_allowed_[f], first_allowed_[f + 1] - first_allowed_[f]);

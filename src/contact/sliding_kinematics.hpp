@@ -44,6 +44,7 @@ class SlidingKinematics : public ContactKinematics {
   PointMotion motion(Index point, const PointState& old, Asked asked) const override;
   void add_geometric_tangent(Index point, double pressure, const Point& traction,
                              std::span<Tensor> k) const override;
+  void add_share_rates(std::span<Point> rates) const override;
   bool graph_outdated() const override;
   void add_to_graph(CliqueSink& sink) override;
 

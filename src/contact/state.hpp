@@ -38,9 +38,17 @@ struct PointState {
   double plastic_entropy = 0;  ///< S^p_c [J/(m² K)] (3.53c)
 };
 
-/// One per point of the pair, in its order.
+/// What a node of a master that wears remembers: it travels with the master's surface, whatever passes.
+struct WornNode {
+  GlobalIndex number = 0;  ///< mesh::Mesh::input_node: of all processes alike
+  bool counted = false;    ///< this process writes it to checkpoints
+  double volume = 0;       ///< worn off around the node [m³]
+  double dissipation = 0;  ///< of friction there [J]
+};
+
 struct ContactState {
-  std::vector<PointState> points;
+  std::vector<PointState> points;  ///< one per point of the pair, in its order
+  std::vector<WornNode> master;    ///< one per node of the master in local order, where it wears; else empty
 };
 
 }  // namespace solidus::contact

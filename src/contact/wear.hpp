@@ -2,6 +2,9 @@
 ///
 ///   dh = k t_N γ/H(Θ)
 ///
+/// of both surfaces together, of which the master loses the share m and the slave 1 − m. The slave remembers
+/// its depth at its points, the master at its nodes (master_wear.hpp).
+///
 /// h [m] depth worn off, k [1] Archard's coefficient, t_N [Pa] pressure, γ [m] slip of the step, H [Pa]
 /// hardness of the softer surface. Validity: mild adhesive wear, k about 1e-8 … 1e-3. Source: Archard 1953,
 /// J. Appl. Phys. 24, 981.
@@ -13,8 +16,9 @@
 namespace solidus::contact {
 
 struct WearSpec {
-  double coefficient = 0;  ///< k [1], >= 0
-  Table hardness{1.0};     ///< H [Pa] over temperature [K], > 0
+  double coefficient = 0;   ///< k [1], >= 0
+  Table hardness{1.0};      ///< H [Pa] over temperature [K], > 0
+  double master_share = 0;  ///< m, 0 to 1
   SourceLocation where;
 
   /// dh of a step.

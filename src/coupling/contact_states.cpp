@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/errors.hpp"
 #include "base/profile.hpp"
@@ -18,6 +19,22 @@ const contact::ContactState& state_of(const std::vector<contact::ContactState>& 
   return contacts.empty() ? k_unmoved : contacts[i];
 }
 
+/// A point's start of the second stage, from t_n and the end of the first one; `start` is the latter.
+void go_on(const contact::PointState& from, const contact::PointState& to, double carried,
+           contact::PointState& start) {
+  if (!from.anchored || !to.anchored) return;
+  for (auto field :
+       {&contact::PointState::penetration, &contact::PointState::internal_variable,
+        &contact::PointState::slip, &contact::PointState::work, &contact::PointState::dissipation,
+        &contact::PointState::wear_depth, &contact::PointState::plastic_entropy})
+    start.*field = from.*field + carried * (to.*field - from.*field);
+  for (auto field : {&contact::PointState::traction, &contact::PointState::anchor})
+    start.*field = contact::add_scaled(from.*field, carried, contact::subtract(to.*field, from.*field));
+  // In the entropy of the interface's capacity.
+  if (from.temperature > 0 && to.temperature > 0)
+    start.temperature = from.temperature * std::pow(to.temperature / from.temperature, carried);
+}
+
 }  // namespace
 
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
@@ -29,6 +46,8 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
       .displacement = old.displacement,
       .temperature = pass.temperature,
       .isentropic = phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::isentropic,
+      .simultaneous =
+          phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::simultaneous,
       .share = phases.mechanics->force_share()};
   for (std::size_t i = 0; i < phases.contacts.size(); ++i)
     phases.contacts[i]->begin(state_of(contacts, i), of_contact);
@@ -45,24 +64,23 @@ void restore_contacts(const Phases& phases, const State& state) {
     phases.contacts[i]->restore(state_of(state.contacts, i), state.mechanics.displacement, state.time);
 }
 
-std::vector<contact::ContactState> second_start(const std::vector<contact::ContactState>& old,
+std::vector<contact::ContactState> second_start(const Phases& phases,
+                                                const std::vector<contact::ContactState>& old,
                                                 const std::vector<contact::ContactState>& stage,
                                                 double carried) {
   std::vector<contact::ContactState> start = stage;
   for (std::size_t i = 0; i < stage.size(); ++i) {
-    if (state_of(old, i).points.empty()) continue;
-    for (std::size_t p = 0; p < stage[i].points.size(); ++p) {
-      const contact::PointState &from = old[i].points[p], &to = stage[i].points[p];
-      contact::PointState& s = start[i].points[p];
-      if (!from.anchored || !to.anchored) continue;
-      const auto go_on = [&](auto field) { s.*field = from.*field + carried * (to.*field - from.*field); };
-      for (auto field : {&contact::PointState::penetration, &contact::PointState::internal_variable,
-                         &contact::PointState::slip, &contact::PointState::work,
-                         &contact::PointState::dissipation, &contact::PointState::wear_depth})
-        go_on(field);
-      for (auto field : {&contact::PointState::traction, &contact::PointState::anchor})
-        s.*field = contact::add_scaled(from.*field, carried, contact::subtract(to.*field, from.*field));
-    }
+    const bool moved = !state_of(old, i).points.empty();
+    const contact::ContactState initial =
+        moved ? contact::ContactState{} : phases.contacts[i]->initial_state();
+    const contact::ContactState& begun = moved ? old[i] : initial;
+    for (std::size_t p = 0; p < stage[i].points.size(); ++p)
+      go_on(begun.points[p], stage[i].points[p], carried, start[i].points[p]);
+    for (std::size_t a = 0; a < stage[i].master.size(); ++a)
+      for (auto field : {&contact::WornNode::volume, &contact::WornNode::dissipation}) {
+        const double from = begun.master[a].*field;
+        start[i].master[a].*field = from + carried * (stage[i].master[a].*field - from);
+      }
   }
   return start;
 }

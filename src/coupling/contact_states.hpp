@@ -13,7 +13,8 @@ std::vector<contact::ContactState> contact_states(const Phases& phases);
 /// Pairs stand as in `state`.
 void restore_contacts(const Phases& phases, const State& state);
 /// y_n + carried (Y_1 − y_n) of all that integrates: the start of the second stage of Alexander's method.
-std::vector<contact::ContactState> second_start(const std::vector<contact::ContactState>& old,
+std::vector<contact::ContactState> second_start(const Phases& phases,
+                                                const std::vector<contact::ContactState>& old,
                                                 const std::vector<contact::ContactState>& stage,
                                                 double carried);
 

@@ -2,6 +2,21 @@
 
 namespace solidus::coupling {
 
+namespace {
+
+/// Heat that a rigid master of given temperature gives in a step, and its entropy at that temperature.
+/// @param into_bodies  heat of the pair's thermal term into the bodies [J]
+void book_tool(const contact::ContactPair& pair, double into_bodies, const contact::InterfaceSums& friction,
+               EnergyAudit& energy) {
+  const std::optional<double> temperature = pair.tool_temperature();
+  if (!temperature) return;
+  const double heat = into_bodies - (friction.dissipated - friction.stored);
+  energy.heat_in += heat;
+  energy.entropy_in += heat / *temperature;
+}
+
+}  // namespace
+
 ContactWork::ContactWork(const Phases& phases) : phases_(phases), begin_(energy()) {}
 
 ContactWork::Energy ContactWork::energy() const {
@@ -41,13 +56,23 @@ void book_interface(EnergyAudit& audit, bool mechanical) {
   audit.numerical += sums.stored + sums.hardening - sums.energy;
 }
 
-void book_tool(const contact::ContactPair& pair, double into_bodies, const contact::InterfaceSums& friction,
-               EnergyAudit& energy) {
-  const std::optional<double> temperature = pair.tool_temperature();
-  if (!temperature) return;
-  const double heat = into_bodies - (friction.dissipated - friction.stored);
-  energy.heat_in += heat;
-  energy.entropy_in += heat / *temperature;
+void add(const contact::InterfaceSums& next, contact::InterfaceSums& sum, double factor) {
+  for (double contact::InterfaceSums::*part :
+       {&contact::InterfaceSums::dissipated, &contact::InterfaceSums::stored,
+        &contact::InterfaceSums::hardening, &contact::InterfaceSums::energy, &contact::InterfaceSums::entropy,
+        &contact::InterfaceSums::mechanical_energy, &contact::InterfaceSums::mechanical_entropy,
+        &contact::InterfaceSums::plastic_entropy})
+    sum.*part += factor * next.*part;
+}
+
+void settle_contacts(const Phases& phases, std::span<const double> temperature,
+                     std::span<const double> into_bodies, EnergyAudit& energy) {
+  std::size_t term = 0;  // the thermal terms of the pairs come first
+  for (contact::ContactPair* pair : phases.contacts) {
+    const contact::InterfaceSums sums = pair->settle(temperature);
+    add(sums, energy.interface);
+    if (pair->heat() != nullptr) book_tool(*pair, into_bodies[term++], sums, energy);
+  }
 }
 
 }  // namespace solidus::coupling

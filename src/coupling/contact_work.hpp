@@ -6,6 +6,8 @@
 /// positive and of second order in the step: numerical dissipation, a term of its own.
 #pragma once
 
+#include <span>
+
 #include "coupling/phases.hpp"
 
 namespace solidus::coupling {
@@ -40,9 +42,15 @@ class ContactWork {
 /// @param mechanical  false where deformation and heat exchange nothing: then friction's heat alone
 void book_interface(EnergyAudit& energy, bool mechanical);
 
-/// Heat that a rigid master of given temperature gives in a step, and its entropy at that temperature.
-/// @param into_bodies  heat of the pair's thermal term into the bodies [J]
-void book_tool(const contact::ContactPair& pair, double into_bodies, const contact::InterfaceSums& friction,
-               EnergyAudit& energy);
+/// After a thermal pass: the interfaces take their temperatures, and the audit what they dissipate and store,
+/// and the heat, with its entropy, that rigid masters of given temperature give. Adds to energy.interface.
+/// Collective.
+/// @param temperature  found, [local node] [K]
+/// @param into_bodies  heat of the thermal phase's contributions, those of the pairs first [J]
+void settle_contacts(const Phases& phases, std::span<const double> temperature,
+                     std::span<const double> into_bodies, EnergyAudit& energy);
+
+/// Sums over two passes.
+void add(const contact::InterfaceSums& next, contact::InterfaceSums& sum, double factor = 1);
 
 }  // namespace solidus::coupling

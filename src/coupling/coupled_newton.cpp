@@ -49,6 +49,7 @@ CoupledNewton::CoupledNewton(const Phases& phases, algebra::CoupledSolverKind so
 CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
                                         const mechanics::MechanicalPass& pass, std::span<const double> x) {
   mechanics_.prepare(old, pass);
+  surround_contacts();
   for (contact::ContactPair* pair : phases_.contacts) pair->update(x);
   reference_ = mechanics_.residual(x, force_);
   const std::vector<char>& fixed = mechanics_.matrix().fixed();
@@ -62,6 +63,10 @@ CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
   mechanics_.finish(old, x, history_);
   thermal_->evaluate();
   return present();
+}
+
+void CoupledNewton::surround_contacts() {
+  for (contact::ContactPair* pair : phases_.contacts) pair->surround(thermal_->temperature());
 }
 
 CoupledResidual CoupledNewton::present() const {
@@ -153,7 +158,10 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
     constexpr double k_none = std::numeric_limits<double>::infinity();
     return {k_none, k_none};
   }
-  if (in_equilibrium_) equilibrate(old, pass, x);
+  if (in_equilibrium_) {
+    surround_contacts();
+    equilibrate(old, pass, x);
+  }
   return evaluate(old, pass, x);
 }
 

@@ -5,8 +5,9 @@
 ///   r_Θ(u, Θ) = (H(Θ) − H_n)/Δt + conduction − sources + contact(u) + structural heat(u, Θ) = 0  [W]
 ///
 /// Both residuals are those of the phases, evaluated at the iterate: properties at Θ, with solid fraction and
-/// straining of phase changes held at Θ_n (4.81); the conductance of contacts at the gap of u. The tangent is
-/// exact, the slope of the conductivity and that of the conductance in the gap included; only radiation
+/// straining of phase changes held at Θ_n (4.81); the conductance of contacts at the gap of u, slip and the
+/// interface's temperature as the solution of 5.40 at u and Θ. The tangent is exact, the slopes of the
+/// conductivity, of the conductance in the gap and of friction in the temperature included; only radiation
 /// across a gap has the symmetric slope of HeatTerm.
 ///
 /// Full steps first, halved only where a law finds no state or a temperature falls below zero: where contact
@@ -73,6 +74,8 @@ class CoupledNewton {
                                    int iteration);
 
  private:
+  /// Interfaces see the temperatures of thermal().
+  void surround_contacts();
   /// Of the last evaluation.
   CoupledResidual present() const;
   bool converged() const;

@@ -30,7 +30,9 @@ void DoublePass::forget() {
 StepEffort DoublePass::advance(const State& old, State& trial, double time, double dt) {
   State half;
   StepEffort effort = first_half(old, half, time, dt);
+  const contact::InterfaceSums first = effort.energy.interface;
   effort += second_half(half, trial, time, dt);
+  add(first, effort.energy.interface);
   summarise(phases_, trial, effort);
   return effort;
 }
@@ -40,6 +42,7 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   const double middle = time - 0.5 * dt;
   ContactWork contact(phases_);
   phases_.mechanics->rest(old.mechanics, old.heat.temperature);
+  for (contact::ContactPair* pair : phases_.contacts) pair->rest();
   State predicted;
   thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
   mechanical_pass(phases_, old, half,
@@ -51,8 +54,10 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
                   effort);
   contact.add();
   contact.book(effort.energy);
+  for (contact::ContactPair* pair : phases_.contacts) pair->heat_ahead();
   thermal_pass(phases_, old, half, {.time = time, .dt = dt, .stepping = heat::ThermalStepping::sdirk2},
                effort);
+  book_interface(effort.energy, true);
   effort.stability = stability_audit(phases_, old, half, effort);
   return effort;
 }
@@ -69,6 +74,7 @@ StepEffort DoublePass::second_half(const State& half, State& trial, double time,
   contact.add(0);  // of the pressure in the middle, as that of the stress
   contact.book(effort.energy);
   thermal_pass(phases_, half, trial, {.time = time, .dt = dt, .adiabatic = true}, effort);
+  book_interface(effort.energy, true);
   effort.energy.heat_exchanged = 0;  // what deformation and heat exchange within a point
   effort.stability = stability_audit(phases_, half, trial, effort);
   return effort;

@@ -11,7 +11,8 @@
 /// Step 0 is not in 4.21. Without inertia the mechanical phase is a constraint, not an evolution: its passes
 /// do not commute with the thermal one to second order, and 4.21 alone is of first order, because the
 /// configuration of the thermal pass lags half a step behind the entropy (docs/theory/coupling.md). Step 4
-/// brings the adiabatic change of temperature to the nodes. Both halves work with σ_½, which is in
+/// brings the adiabatic change of temperature to the nodes. Friction heats step 2 by twice what step 1 has
+/// dissipated, and step 4 by the difference of step 3 to that. Both halves work with σ_½, which is in
 /// equilibrium: a midpoint rule, so the first law closes in the energy form.
 #pragma once
 

@@ -18,16 +18,6 @@ void add(const algebra::NewtonReport& newton, double seconds, PhaseEffort& effor
   effort.seconds += seconds;
 }
 
-void add(const contact::InterfaceSums& pair, EnergyAudit& energy) {
-  contact::InterfaceSums& sum = energy.interface;
-  for (double contact::InterfaceSums::*part :
-       {&contact::InterfaceSums::dissipated, &contact::InterfaceSums::stored,
-        &contact::InterfaceSums::hardening, &contact::InterfaceSums::energy, &contact::InterfaceSums::entropy,
-        &contact::InterfaceSums::mechanical_energy, &contact::InterfaceSums::mechanical_entropy,
-        &contact::InterfaceSums::plastic_entropy})
-    sum.*part += pair.*part;
-}
-
 }  // namespace
 
 bool mechanical_pass(const Phases& phases, const State& old, State& trial,
@@ -38,6 +28,8 @@ bool mechanical_pass(const Phases& phases, const State& old, State& trial,
   mechanics::PhaseReport report;
   mechanics::MechanicalPass turn = pass;
   mechanics::MechanicalState next;
+  // Most of a state is its history: the storage of the one that is overwritten serves again.
+  if (pass.iterate != &trial.mechanics && &old != &trial) next.history = std::move(trial.mechanics.history);
   for (int n_turns = 1;; ++n_turns) {
     try {
       const mechanics::PhaseReport of_turn = phases.mechanics->solve(old.mechanics, next, turn);
@@ -74,6 +66,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
                   StepEffort& effort) {
   const profile::Part part("heat");
   const double start = MPI_Wtime();
+  for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
   const heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
 
   effort.energy.stored_heat = report.balance.stored;
@@ -90,13 +83,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
     effort.energy.friction = 0;
   }
   effort.energy.interface = {};
-  std::size_t term = 0;  // the thermal terms of the pairs come first
-  for (contact::ContactPair* pair : phases.contacts) {
-    const contact::InterfaceSums sums = pair->settle(trial.heat.temperature);
-    add(sums, effort.energy);
-    if (pair->heat() != nullptr)
-      book_tool(*pair, report.balance.contributions.at(term++), sums, effort.energy);
-  }
+  settle_contacts(phases, trial.heat.temperature, report.balance.contributions, effort.energy);
   if (phases.mechanics != nullptr) trial.contacts = contact_states(phases);
   add(report.newton, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;

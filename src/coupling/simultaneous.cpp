@@ -52,6 +52,7 @@ void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried)
         &EnergyAudit::entropy_in, &EnergyAudit::heat_exchanged, &EnergyAudit::viscous_dissipation,
         &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work})
     sum.*part += carried * first.*part;
+  add(first.interface, sum.interface, carried);
 }
 
 }  // namespace
@@ -82,6 +83,7 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
                           : backward_euler(old, trial, time, dt);
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
+  book_interface(effort.energy, true);
   effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
   effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
   summarise(phases_, trial, effort);
@@ -108,7 +110,7 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
   newton_->thermal().begin_stage(old.heat, first.heat, carried, time, share);
   StepEffort effort = stage(
-      start, second_start(old.contacts, first.contacts, carried),
+      start, second_start(phases_, old.contacts, first.contacts, carried),
       {.time = time, .dt = share, .temperature = old.heat.temperature, .iterate = &first.mechanics}, trial);
   drop_carried();
   add_first_stage(effort.energy, of_first.energy, carried);
@@ -141,7 +143,6 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     linear_iterations += report_.linear_iterations;
     if (penetrations_small(phases_, turn)) break;
   }
-  trial.contacts = contact_states(phases_);
   const mechanics::MechanicalWork work =
       phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
   const heat::HeatBalance balance = newton_->thermal().conclude(trial.heat);
@@ -158,9 +159,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   energy.stored_heat = balance.stored;
   for (const heat::ConditionHeat& condition : balance.conditions) energy.heat_in += condition.heat;
   energy.entropy_in = balance.entropy_in;
-  std::size_t term = 0;  // the thermal terms of the pairs come first
-  for (const contact::ContactPair* pair : phases_.contacts)
-    if (pair->spec().heat) book_tool(*pair, balance.contributions.at(term++), {}, energy);
+  settle_contacts(phases_, trial.heat.temperature, balance.contributions, energy);
+  trial.contacts = contact_states(phases_);
   energy.heat_exchanged = balance.exchanged;
   effort.least_dissipation = work.least_dissipation;
   effort.largest_dissipation = work.largest_dissipation;

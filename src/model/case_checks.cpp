@@ -172,12 +172,6 @@ void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
   if (!c.heat)
     throw InputError(c.where, fmt::format("friction of the contact '{}' makes heat, but none passes", c.name),
                      "a section [contact.heat], or physics = \"mechanics\"");
-  using Scheme = CouplingSpec::Scheme;
-  if (spec.coupling.scheme == Scheme::simultaneous || spec.coupling.scheme == Scheme::double_pass)
-    throw InputError(
-        c.friction->where,
-        fmt::format("the heat of friction of the contact '{}' is not part of this scheme", c.name),
-        "scheme = \"isentropic\", \"isothermal\" or \"block_iterative\"");
 }
 
 /// What an interface stores shows in the heat of friction alone.

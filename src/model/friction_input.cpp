@@ -57,7 +57,7 @@ contact::FrictionSpec friction_spec(const FrictionSpec& spec) {
 }
 
 contact::WearSpec wear_spec(const WearSpec& spec) {
-  return {spec.archard, spec.hardness.table, spec.where};
+  return {spec.archard, spec.hardness.table, spec.master_share, spec.where};
 }
 
 }  // namespace solidus::model

@@ -64,13 +64,20 @@ Section<WearSpec> wear_keys() {
   using W = WearSpec;
   Section<W> s(
       "wear",
-      "Depth worn off the slave's surface by Archard's law, dh = k p dg / H, as a field; the geometry "
+      "Depth worn off by Archard's law, dh = k p dg / H, as a field on the surface that wears; the geometry "
       "stays as it is. Needs [contact.friction].");
   s.key("archard", &W::archard).positive().doc("k, the dimensionless coefficient of wear, 1e-8 to 1e-3.");
   s.function("hardness", &W::hardness, "Pa")
       .positive()
       .of({Argument::temperature})
       .doc("H of the softer surface.");
+  s.key("master_share", &W::master_share)
+      .initially(0.0)
+      .range(0, 1)
+      .doc(
+          "Part of the depth that the master loses, the slave the rest: 0 the slave alone wears, 1 the "
+          "master "
+          "alone. The master remembers it at its nodes, wherever the slave goes.");
   s.place(&W::where);
   return s;
 }

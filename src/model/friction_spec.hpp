@@ -31,6 +31,7 @@ struct FrictionSpec {
 struct WearSpec {
   double archard = 0;  ///< k [1]
   Function hardness;   ///< [Pa] of temperature
+  double master_share = 0;
   SourceLocation where;
 };
 

@@ -49,8 +49,38 @@ void write_contacts(TableWriter& out, const std::vector<contact::ContactState>& 
     }
     out.rows<std::int64_t>(table(i) + "/point", 1, keys);
     out.rows<double>(table(i) + "/values", width, values);
+    if (contacts[i].master.empty()) continue;
+    std::vector<std::int64_t> nodes;
+    std::vector<double> worn;
+    for (const contact::WornNode& node : contacts[i].master) {
+      if (!node.counted) continue;
+      nodes.push_back(node.number);
+      worn.insert(worn.end(), {node.volume, node.dissipation});
+    }
+    out.rows<std::int64_t>(table(i) + "/master_node", 1, nodes);
+    out.rows<double>(table(i) + "/master_values", 2, worn);
   }
 }
+
+namespace {
+
+void take_master(TableReader& in, const std::string& pair, std::vector<contact::WornNode>& master) {
+  if (master.empty()) return;
+  std::unordered_map<std::int64_t, contact::WornNode*> places;
+  for (contact::WornNode& node : master) places.emplace(node.number, &node);
+  std::size_t taken = 0;
+  in.each(pair + "/master_node", pair + "/master_values",
+          [&](std::int64_t number, std::span<const double> row) {
+            const auto place = places.find(number);
+            if (place == places.end() || row.size() != 2) return;
+            place->second->volume = row[0];
+            place->second->dissipation = row[1];
+            ++taken;
+          });
+  in.require(taken == master.size(), pair);
+}
+
+}  // namespace
 
 void take_contacts(TableReader& in, std::vector<contact::ContactState>& contacts) {
   const std::size_t width = numbers_of({}).size();
@@ -66,6 +96,7 @@ void take_contacts(TableReader& in, std::vector<contact::ContactState>& contacts
       ++taken;
     });
     in.require(taken == points.size(), table(i));
+    take_master(in, table(i), contacts[i].master);
   }
 }
 

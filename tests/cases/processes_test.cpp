@@ -26,6 +26,8 @@ constexpr const char* k_case =
     " --set body.part.material='\"aluminium_99_7_plastic\"'"
     " --set contact.interface.formulation='\"large_sliding\"'"
     " --set contact.interface.friction.coefficient=0.3"
+    " --set contact.interface.wear.archard=1e-4 --set contact.interface.wear.hardness='\"1 GPa\"'"
+    " --set contact.interface.wear.master_share=0.5"
     " --set time.adaptive=true --set time.step='\"0.5 s\"' --set output.every='\"4 s\"'"
     // Steps take the same iterations on any number of processes where rounding alone differs.
     " --set mechanics.tolerance=1e-9 --set mechanics.max_iterations=60 --set heat.tolerance=1e-11"

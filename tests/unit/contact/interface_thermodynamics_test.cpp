@@ -238,6 +238,47 @@ TEST(InterfaceReturnMapping, SolvesBothEquationsOfThePrintedThermalPhase) {
   EXPECT_GT(slid, 5000);
 }
 
+TEST(InterfaceReturnMapping, HasTheSlopesThatDifferencesShow) {
+  Random random;
+  int slid = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto variable = static_cast<InternalVariable>(i % 3);
+    const FrictionLaw law(hot_law(variable), k_penalty, i % 2 == 0 ? 2000 : 0);
+    const double size = variable == InternalVariable::slip ? 0.01 : k_kilonewton_per_mm;
+    const double pressure = random.decades(1e6, 1e8), theta = random.between(350, 850);
+    const FrictionInput in{pressure * random.between(0.3, 2), pressure, size * random.between(0, 1), theta};
+    const InterfaceSides sides{{theta + random.between(-20, 20), theta + random.between(-20, 20)},
+                               {9e4, 9e4}};
+    constexpr double k_dt = 0.5;
+    const auto r = interface_return_mapping(law, in, k_dt, sides);
+    // Away from the ends of the tables.
+    if (r.friction.sticks || r.heat.temperature < 310 || r.heat.temperature > 890) continue;
+    ++slid;
+    const auto along = [&](bool of_pressure, auto value) {
+      const double x = of_pressure ? in.pressure : in.trial;
+      return difference(
+          [&](double moved) {
+            FrictionInput other = in;
+            (of_pressure ? other.pressure : other.trial) = moved;
+            return value(interface_return_mapping(law, other, k_dt, sides));
+          },
+          x, 1e-5 * x);
+    };
+    const auto temperature = [](const InterfaceReturn& at) { return at.heat.temperature; };
+    const auto traction = [](const InterfaceReturn& at) { return at.friction.traction; };
+    const auto flux = [](const InterfaceReturn& at) { return at.heat.flux[0]; };
+    for (const bool of_pressure : {false, true}) {
+      const double source = of_pressure ? r.source_by_pressure : r.source_by_trial;
+      const double by = source / r.heat.stiffness, per = 1 / pressure;
+      ASSERT_NEAR(by, along(of_pressure, temperature), 1e-6 * theta * per) << i;
+      ASSERT_NEAR(-r.heat.by_side[0] * source, along(of_pressure, flux), 1e-6 * 9e4 * theta * per) << i;
+      const double fixed = of_pressure ? r.friction.pressure_slope : r.friction.trial_slope;
+      ASSERT_NEAR(fixed + r.traction_by_temperature * by, along(of_pressure, traction), 1e-6) << i;
+    }
+  }
+  EXPECT_GT(slid, 200);
+}
+
 TEST(InterfaceReturnMapping, AgreesWithHeldSlipInTheLimitOfSmallSteps) {
   const FrictionLaw law(hot_law(), k_penalty, 2000);
   const InterfaceSides sides{{700, 700}, {3000, 5000}};
@@ -339,7 +380,7 @@ TEST(InterfaceStability, IsentropicMechanicalPhaseDissipatesAtLeastWhatFrictionD
 }
 
 TEST(Wear, GrowsWithPressureAndSlipOverHardness) {
-  const WearSpec wear{1e-4, Table({300, 700}, {2e9, 1e9}), {}};
+  const WearSpec wear{1e-4, Table({300, 700}, {2e9, 1e9}), 0, {}};
   EXPECT_DOUBLE_EQ(wear.depth_increment(4e7, 0.01, 300), 1e-4 * 4e7 * 0.01 / 2e9);
   EXPECT_DOUBLE_EQ(wear.depth_increment(4e7, 0.01, 500), 1e-4 * 4e7 * 0.01 / 1.5e9);
 }

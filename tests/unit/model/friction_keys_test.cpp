@@ -100,6 +100,16 @@ TEST(WearKeys, HardnessMayDependOnTemperature) {
   EXPECT_DOUBLE_EQ(wear.depth_increment(1e7, 0.1, 400), 1e-4 * 1e7 * 0.1 / 1.5e9);
 }
 
+TEST(WearKeys, TheMastersShareIsNoneUnlessGivenAndAtMostAll) {
+  const std::string keys = "archard = 1e-4\nhardness = \"1 GPa\"\n";
+  const auto share = [&](const std::string& more) {
+    return wear_spec(wear_keys().read(parse_document(keys + more, "case.toml"))).master_share;
+  };
+  EXPECT_EQ(share(""), 0);
+  EXPECT_EQ(share("master_share = 0.25\n"), 0.25);
+  EXPECT_THROW(share("master_share = 1.5\n"), InputError);
+}
+
 /// What is said against a contact with these keys.
 std::string contact_error(const std::string& keys) {
   try {

@@ -1,0 +1,22 @@
+/// Friction and the interface's temperature at once: what points see of the bodies' temperatures in the
+/// simultaneous scheme.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contact/point_law.hpp"
+
+namespace solidus::contact {
+
+struct Together {
+  const HeatTransferLaw* law = nullptr;    ///< null: Θ_c is that of t_n, or of fixed entropy
+  double time_step = 0;                    ///< Δt [s]
+  std::vector<double> temperature;         ///< Θ of now, [local node] [K]
+  std::optional<double> tool_temperature;  ///< of a master without nodes; absent: it takes no heat
+
+  /// Of a point that has a partner.
+  std::optional<Surroundings> around(const PointMotion& motion) const;
+};
+
+}  // namespace solidus::contact
