@@ -96,8 +96,10 @@ def calculix(name, divisions, element, solver, threads=1, step=1.0):
 
 
 def block(divisions, element, **more):
+    """Tetrahedra with one constant strain, as CalculiX' C3D4: the default for a steel that yields is the mixed element."""
     n = divisions
-    return {"mesh.element": element, "mesh.block.divisions": f"[{n},{n},{n}]", "output.every": "1000 s", **more}
+    return {"mesh.element": element, "mesh.block.divisions": f"[{n},{n},{n}]", "output.every": "1000 s",
+            **({"mechanics.simplices": "displacement"} if element == "tet4" else {}), **more}
 
 
 def micro():

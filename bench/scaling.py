@@ -31,7 +31,7 @@ ELEMENT = os.environ.get("ELEMENT", "hex8")
 def one_run(divisions: int, processes: int) -> dict:
     folder = OUT / f"{ELEMENT}_{divisions}_on_{processes}"
     command = [str(PROGRAM), "run", str(ROOT / "bench/cooling_block"), "-o", str(folder), "--no-progress"]
-    for setting in (f"mesh.block.divisions=[{divisions},{divisions},{divisions}]", f'time.end="{STEPS} s"', f'mesh.element="{ELEMENT}"'):
+    for setting in (f"mesh.block.divisions=[{divisions},{divisions},{divisions}]", f'time.end="{STEPS} s"', f'mesh.element="{ELEMENT}"', 'mechanics.simplices="displacement"'):
         command += ["--set", setting]
     if processes > 1:
         command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]

@@ -170,11 +170,29 @@ void add_transposed_product(const float* a, const double* b, double* c) {
         c[k * modes + m] += static_cast<double>(a[r * modes + k]) * b[r * modes + m];
 }
 
+/// Room for what smooth() appends, and no more.
+void reserve_smoothed(const MatrixView& a, const std::vector<Index>& of_row, Index n_coarse,
+                      BlockRows<float>& p) {
+  RowSum reached(n_coarse, 0);
+  std::size_t n_slots = 0;
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    reached.clear();
+    reached.block(of_row[at(row)]);
+    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s)
+      reached.block(of_row[at(a.column[at(s)])]);
+    n_slots += reached.columns().size();
+  }
+  p.start.reserve(at(a.n_rows()) + 1);
+  p.column.reserve(n_slots);
+  p.value.reserve(n_slots * at(p.block_entries()) + PackedRows::k_overhang);
+}
+
 template <int size, int modes>
 void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coarse,
             const std::vector<float>& tentative, std::span<const char> fixed,
             std::span<const float> inverse_diagonal, double omega, BlockRows<float>& p) {
   constexpr int k_entries = size * modes;
+  reserve_smoothed(a, of_row, n_coarse, p);
   RowSum sum(n_coarse, k_entries);
   for (Index row = 0; row < a.n_rows(); ++row) {
     sum.clear();
@@ -379,12 +397,13 @@ struct Tentative {
 };
 
 template <int size, int modes>
-void make_level(const MatrixView& a, const RowExchange& ghosts, const Tentative& start,
-                std::span<const char> fixed, std::span<const float> inverse_diagonal, double omega,
-                CoarseNumbers& numbers, Coarsening& next) {
+void make_level(const MatrixView& a, const RowExchange& ghosts, Tentative start, std::span<const char> fixed,
+                std::span<const float> inverse_diagonal, double omega, CoarseNumbers& numbers,
+                Coarsening& next) {
   BlockRows<float>& p = next.interpolation;
   smooth<size, modes>(a, start.of_row, next.numbering.n_local(), start.values, fixed, inverse_diagonal, omega,
                       p);
+  std::vector<float>().swap(start.values);
   append_ghost_rows(ghosts, static_cast<Index>(start.of_row.size()), numbers, p);
   galerkin_pattern(a, p, next.numbering.n_local(), next.matrix);
   galerkin<size, modes>(a, p, next.numbering.n_local(), next.matrix);
@@ -407,7 +426,7 @@ std::vector<float> inverse_diagonal(const MatrixView& a) {
 }
 
 Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const RowExchange& ghosts,
-                   std::span<const double> near_null, int modes, std::span<const char> fixed,
+                   std::vector<double> near_null, int modes, std::span<const char> fixed,
                    std::span<const float> inverse_diagonal, double largest) {
   const int entries = a.size * modes;
   Coarsening next;
@@ -420,6 +439,7 @@ Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const RowExc
   MPI_Exscan(&mine, &next.numbering.first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
   start.values =
       tentative(start.of_row, next.numbering.n_owned, a.size, near_null, modes, fixed, next.near_null);
+  std::vector<double>().swap(near_null);
   CoarseNumbers numbers(next.numbering);
   start.of_row.resize(at(numbering.n_local()));
   start.values.resize(at(numbering.n_local()) * at(entries));
@@ -437,7 +457,7 @@ Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const RowExc
 
   const double omega = largest > 0 ? k_smoothing / largest : 0.0;
   const auto make = [&]<int size, int n>() {
-    make_level<size, n>(a, ghosts, start, fixed, inverse_diagonal, omega, numbers, next);
+    make_level<size, n>(a, ghosts, std::move(start), fixed, inverse_diagonal, omega, numbers, next);
   };
   with_block_sizes(a.size, modes, make);
   hold_empty_modes(next.matrix);

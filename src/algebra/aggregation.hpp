@@ -49,12 +49,12 @@ struct Coarsening {
   std::vector<double> near_null;  ///< of the coarse level, [owned coarse row × modes][modes]
 };
 
-/// @param near_null  [owned row × size][modes]
+/// @param near_null  [owned row × size][modes]; freed as soon as it has been read
 /// @param fixed      [owned row × size], rows that are decoupled and have no error; empty: none
 /// @param largest    eigenvalue of D⁻¹ A
 /// Collective.
 Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const RowExchange& ghosts,
-                   std::span<const double> near_null, int modes, std::span<const char> fixed,
+                   std::vector<double> near_null, int modes, std::span<const char> fixed,
                    std::span<const float> inverse_diagonal, double largest);
 
 }  // namespace solidus::algebra

@@ -32,13 +32,19 @@ void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
 }
 
 void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns) {
-  row_start.assign(1, 0);
-  columns.clear();
+  std::size_t n_columns = 0;
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     auto& list = rows_[at(row)];
     list.push_back(row);  // the diagonal always exists
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
+    n_columns += list.size();
+  }
+  row_start.assign(1, 0);
+  row_start.reserve(rows_.size() + 1);
+  std::vector<Index>().swap(columns);
+  columns.reserve(n_columns);
+  for (auto& list : rows_) {
     columns.insert(columns.end(), list.begin(), list.end());
     row_start.push_back(static_cast<std::int64_t>(columns.size()));
     std::vector<Index>().swap(list);
@@ -134,23 +140,6 @@ std::vector<BlockMatrix::Slot> BlockMatrix::clique_slots(std::span<const Index> 
     const auto clique = nodes.subspan(start, static_cast<std::size_t>(n));
     for (Index a : clique)
       for (Index b : clique) slots.push_back(slot(a, b));
-  }
-  return slots;
-}
-
-std::vector<BlockMatrix::Slot> BlockMatrix::lane_slots(std::span<const Index> nodes, int n,
-                                                       Index n_elements) const {
-  const auto count = static_cast<std::size_t>(n);
-  const std::size_t n_batches = nodes.size() / (count * k_lanes);
-  std::vector<Slot> slots(n_batches * count * count * k_lanes, k_no_slot);
-  for (Index e = 0; e < n_elements; ++e) {
-    const std::size_t batch = at(e) / k_lanes, lane = at(e) % k_lanes;
-    const Index* of_batch = nodes.data() + batch * count * k_lanes;
-    Slot* to = slots.data() + batch * count * count * k_lanes;
-    for (std::size_t a = 0; a < count; ++a)
-      for (std::size_t b = 0; b < count; ++b)
-        to[(a * count + b) * k_lanes + lane] =
-            slot(of_batch[a * k_lanes + lane], of_batch[b * k_lanes + lane]);
   }
   return slots;
 }

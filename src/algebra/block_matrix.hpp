@@ -57,9 +57,6 @@ class BlockMatrix {
   Slot slot(Index row, Index column) const;
   /// Slots of all pairs of the nodes of each element: input [element][n], output [element][a][b].
   std::vector<Slot> clique_slots(std::span<const Index> nodes, int n) const;
-  /// The same in the lane layout of BlockGeometry: input nodes [batch][node][lane], output
-  /// [batch][a][b][lane]; lanes beyond `n_elements` are padding.
-  std::vector<Slot> lane_slots(std::span<const Index> nodes, int n, Index n_elements) const;
 
   void set_zero();
   /// The block of a slot: block_size² doubles to add to.

@@ -30,7 +30,7 @@ CoupledSolver::CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolv
                      .symmetric = false,
                      .relative_tolerance = relative_tolerance}),
       petsc_(std::make_unique<Petsc>()) {
-  if (!direct_) solver_.use_rigid_body_modes(mesh, components);
+  if (!direct_) solver_.use_rigid_body_modes(components);
 }
 
 CoupledSolver::~CoupledSolver() = default;
@@ -53,7 +53,7 @@ LinearReport CoupledSolver::solve(CoupledMatrix& a, std::span<const double> forc
   std::transform(force.begin(), force.end(), right_.begin(), [&](double r) { return weights_.force * r; });
   std::transform(heat.begin(), heat.end(), right_.begin() + middle,
                  [&](double r) { return weights_.heat * r; });
-  const LinearReport report = solver_.solve(matrix, right_, solution_, forcing);
+  LinearReport report = solver_.solve(matrix, right_, solution_, forcing);
   std::copy(solution_.begin(), solution_.begin() + middle, u.begin());
   std::copy(solution_.begin() + middle, solution_.end(), temperature.begin());
   return report;

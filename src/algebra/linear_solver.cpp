@@ -96,6 +96,25 @@ void set_default_option(const std::string& name, const char* value) {
     check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value), "PetscOptionsSetValue");
 }
 
+/// The same in PETSc's format: for its own multigrid.
+NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int components) {
+  VecHandle coordinates;
+  check(VecCreate(PETSC_COMM_WORLD, coordinates.out()), "VecCreate");
+  check(VecSetBlockSize(coordinates, components), "VecSetBlockSize");
+  check(VecSetSizes(coordinates, static_cast<PetscInt>(mesh.n_owned_nodes * components), PETSC_DETERMINE),
+        "VecSetSizes");
+  check(VecSetType(coordinates, VECSTANDARD), "VecSetType");
+  double* values = nullptr;
+  check(VecGetArray(coordinates, &values), "VecGetArray");
+  for (Index node = 0; node < mesh.n_owned_nodes; ++node)
+    for (int i = 0; i < components; ++i)
+      values[node * components + i] = mesh.x[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)];
+  check(VecRestoreArray(coordinates, &values), "VecRestoreArray");
+  NullSpaceHandle modes;
+  check(MatNullSpaceCreateRigidBody(coordinates, modes.out()), "MatNullSpaceCreateRigidBody");
+  return modes;
+}
+
 }  // namespace
 
 struct LinearSolver::Implementation {
@@ -103,7 +122,7 @@ struct LinearSolver::Implementation {
   LinearSolverOptions options;
   KspHandle ksp;
   VecHandle b, x, residual, correction;
-  NullSpaceHandle near_null_space;
+  int rigid_components = 0;  ///< of displacements whose rigid-body modes cost no energy; zero: no such
   SolverKind kind = SolverKind::automatic;  ///< as asked for; what runs may differ through PETSc options
   bool reuse_hierarchy = false;  ///< the preconditioner is set up again only when iterations have grown
   double first_rate = 0;         ///< iterations per digit with the hierarchy just set up
@@ -112,7 +131,6 @@ struct LinearSolver::Implementation {
   int workspace = 35;            ///< MUMPS ICNTL(14), per cent
   Mat matrix = nullptr;          ///< whose operators the solver holds; owned by the BlockMatrix, or `shell`
   // Multigrid of our own, which needs no copy of the matrix in PETSc.
-  NearNullSpace modes;
   std::unique_ptr<Multigrid> multigrid;
   BlockMatrix* blocks = nullptr;
   MatHandle shell;  ///< multiplies by the blocks
@@ -143,7 +161,7 @@ struct LinearSolver::Implementation {
 bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) const {
   if (automatic_kind(options, mesh, a.block_size(), true) != SolverKind::multigrid || !a.ties().empty())
     return false;
-  const int n_modes = modes.values.empty() ? a.block_size() : modes.modes;
+  const int n_modes = rigid_components > 0 ? rigid_body_mode_count(rigid_components) : a.block_size();
   return !petsc_multigrid && Multigrid::supports(a.block_size(), n_modes) &&
          !option_given(options.prefix + "pc_type");
 }
@@ -181,7 +199,8 @@ void LinearSolver::Implementation::multiply(Vec in, Vec out) {
 }
 
 void LinearSolver::Implementation::attach_modes(Mat a) const {
-  if (!near_null_space || multigrid) return;
+  if (rigid_components == 0 || multigrid) return;
+  const NullSpaceHandle near_null_space = petsc_rigid_body_modes(mesh, rigid_components);
   Mat of_modes = a;
   if (kind == SolverKind::field_split) check(MatNestGetSubMat(a, 0, 0, &of_modes), "MatNestGetSubMat");
   check(MatSetNearNullSpace(of_modes, near_null_space), "MatSetNearNullSpace");
@@ -258,13 +277,12 @@ void LinearSolver::Implementation::create(Mat a) {
   check(KSPSetFromOptions(ksp), "KSPSetFromOptions");
   check(KSPGetTolerances(ksp, &tightest, nullptr, nullptr, nullptr), "KSPGetTolerances");
   check(MatCreateVecs(a, x.out(), b.out()), "MatCreateVecs");
-  check(VecDuplicate(b, residual.out()), "VecDuplicate");
-  check(VecDuplicate(x, correction.out()), "VecDuplicate");
+  residual.reset();
 }
 
 void LinearSolver::Implementation::create_multigrid(PC pc) {
-  multigrid =
-      std::make_unique<Multigrid>(mesh, modes.values.empty() ? constants(mesh, blocks->block_size()) : modes);
+  multigrid = std::make_unique<Multigrid>(mesh, blocks->block_size(),
+                                          rigid_components > 0 ? rigid_body_modes : constants);
   check(PCSetType(pc, PCSHELL), "PCSetType");
   check(PCShellSetContext(pc, multigrid.get()), "PCShellSetContext");
   const auto cycle = [](PC of, Vec in, Vec out) -> PetscErrorCode {
@@ -332,6 +350,10 @@ void LinearSolver::Implementation::judge_hierarchy(Vec rhs, int n, bool failed) 
 /// Checks a direct solution against its residual, improves it once if needed, refuses it if that does not
 /// help.
 bool LinearSolver::Implementation::refine(LinearReport& report) {
+  if (!residual) {
+    check(VecDuplicate(b, residual.out()), "VecDuplicate");
+    check(VecDuplicate(x, correction.out()), "VecDuplicate");
+  }
   double size = 0, defect = 0;
   check(VecNorm(b, NORM_2, &size), "VecNorm");
   for (int pass = 0; pass < 2; ++pass) {
@@ -364,22 +386,8 @@ LinearSolver::LinearSolver(const mesh::Mesh& mesh, LinearSolverOptions options)
 
 LinearSolver::~LinearSolver() = default;
 
-void LinearSolver::use_rigid_body_modes(const mesh::Mesh& mesh, int components) {
-  VecHandle coordinates;
-  check(VecCreate(PETSC_COMM_WORLD, coordinates.out()), "VecCreate");
-  check(VecSetBlockSize(coordinates, components), "VecSetBlockSize");
-  check(VecSetSizes(coordinates, static_cast<PetscInt>(mesh.n_owned_nodes * components), PETSC_DETERMINE),
-        "VecSetSizes");
-  check(VecSetType(coordinates, VECSTANDARD), "VecSetType");
-  double* values = nullptr;
-  check(VecGetArray(coordinates, &values), "VecGetArray");
-  for (Index node = 0; node < mesh.n_owned_nodes; ++node)
-    for (int i = 0; i < components; ++i)
-      values[node * components + i] = mesh.x[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)];
-  check(VecRestoreArray(coordinates, &values), "VecRestoreArray");
-  check(MatNullSpaceCreateRigidBody(coordinates, implementation_->near_null_space.out()),
-        "MatNullSpaceCreateRigidBody");
-  implementation_->modes = rigid_body_modes(mesh, components);
+void LinearSolver::use_rigid_body_modes(int components) {
+  implementation_->rigid_components = components;
 }
 
 LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
@@ -397,7 +405,7 @@ LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std:
   my.rescue = std::make_unique<LinearSolver>(my.mesh, std::move(other));
   if (!factorise) {
     my.rescue->implementation_->petsc_multigrid = true;
-    if (my.near_null_space) my.rescue->use_rigid_body_modes(my.mesh, a.block_size());
+    if (my.rigid_components > 0) my.rescue->use_rigid_body_modes(a.block_size());
   }
   const int spent = report.iterations;
   report = my.rescue->solve(a, b, x, forcing);

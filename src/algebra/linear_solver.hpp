@@ -59,7 +59,7 @@ class LinearSolver : public TangentSolver {
   LinearSolver(const mesh::Mesh& mesh, LinearSolverOptions options);
   ~LinearSolver() override;
   /// Rigid-body modes for multigrid from the coordinates of the owned nodes (mechanics).
-  void use_rigid_body_modes(const mesh::Mesh& mesh, int components);
+  void use_rigid_body_modes(int components);
   /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until
   /// iterations have grown by half) between calls. Collective.
   /// @param forcing  ‖b − A x‖/‖b‖ that will do (forcing.hpp); where it is below the relative tolerance, that

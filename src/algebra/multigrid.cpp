@@ -61,7 +61,7 @@ float scattered(GlobalIndex number) {
 
 NearNullSpace rigid_body_modes(const mesh::Mesh& mesh, int components) {
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes), nc = static_cast<std::size_t>(components);
-  const std::size_t modes = nc == 3 ? 6 : 3;
+  const auto modes = static_cast<std::size_t>(rigid_body_mode_count(components));
   NearNullSpace space{static_cast<int>(modes), std::vector<double>(n * nc * modes, 0.0)};
   for (std::size_t node = 0; node < n; ++node) {
     const mesh::Point& x = mesh.x[node];
@@ -77,6 +77,10 @@ NearNullSpace rigid_body_modes(const mesh::Mesh& mesh, int components) {
     rows[0 * modes + 5] = x[2];
   }
   return space;
+}
+
+int rigid_body_mode_count(int components) {
+  return components == 3 ? 6 : 3;
 }
 
 NearNullSpace constants(const mesh::Mesh& mesh, int components) {
@@ -243,7 +247,8 @@ void Multigrid::Coarsest::solve(const std::vector<float>& right, std::vector<flo
   check(VecRestoreArrayRead(x, &from), "VecRestoreArrayRead");
 }
 
-Multigrid::Multigrid(const mesh::Mesh& mesh, NearNullSpace modes) : mesh_(mesh), modes_(std::move(modes)) {}
+Multigrid::Multigrid(const mesh::Mesh& mesh, int components, Modes modes)
+    : mesh_(mesh), components_(components), modes_(modes) {}
 Multigrid::~Multigrid() = default;
 
 bool Multigrid::supports(int block_size, int modes) {
@@ -254,16 +259,18 @@ bool Multigrid::supports(int block_size, int modes) {
 void Multigrid::set_up(BlockMatrix& a) {
   levels_.clear();
   coarsest_.reset();
+  NearNullSpace modes = modes_(mesh_, components_);
   a.constrained([&] {
     Numbering numbering{mesh_.n_owned_nodes, mesh_.first_owned, {}};
     numbering.ghosts.assign(mesh_.global_node.begin() + mesh_.n_owned_nodes, mesh_.global_node.end());
     add_level({a.block_size(), a.row_start(), a.columns(), a.block(0)}, std::move(numbering),
-              std::span(a.fixed()).first(at(mesh_.n_owned_nodes) * at(a.block_size())), modes_.values);
+              std::span(a.fixed()).first(at(mesh_.n_owned_nodes) * at(a.block_size())), modes.modes,
+              std::move(modes.values));
   });
 }
 
-void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<const char> fixed,
-                          std::span<const double> near_null) {
+void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<const char> fixed, int modes,
+                          std::vector<double> near_null) {
   const auto n_rows = [](const Numbering& n) {
     return static_cast<GlobalIndex>(global_sum(static_cast<double>(n.n_owned)));
   };
@@ -271,7 +278,9 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
                     n_owned = at(numbering.n_owned) * at(a.size);
   GhostExchange ghosts(numbering.n_owned, numbering.first, numbering.ghosts);
   RowExchange rows(numbering.n_owned, numbering.first, numbering.ghosts);
-  levels_.push_back({PackedRows(a.size, a.size, a.start.data(), a.n_rows(), a.column.data(), a.blocks),
+  levels_.push_back({PackedRows(a.size, a.start, a.column, a.blocks,
+                                levels_.empty() ? PackedRows::Pattern::referred_to  // it stays
+                                                : PackedRows::Pattern::copied),
                      {},
                      a.size,
                      std::move(numbering),
@@ -286,17 +295,14 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
   Level& level = levels_.back();
   level.estimate_largest();
   const GlobalIndex before = n_rows(level.numbering);
-  Coarsening next = coarsen(a, level.numbering, *level.rows, near_null, modes_.modes, fixed,
+  Coarsening next = coarsen(a, level.numbering, *level.rows, std::move(near_null), modes, fixed,
                             level.inverse_diagonal, level.largest);
-  const BlockRows<float>& p = next.interpolation;
-  level.interpolation =
-      PackedRows(p.rows, p.columns, p.start.data(), level.numbering.n_owned, p.column.data(), p.value.data());
-  next.interpolation = {};
+  level.interpolation = PackedRows(std::move(next.interpolation), level.numbering.n_owned);
   const GlobalIndex after = n_rows(next.numbering);
   const bool stalls = static_cast<double>(after) > k_slow * static_cast<double>(before);
   if (after > k_coarsest && !stalls && levels_.size() < k_most_levels) {
     const MatrixView view{next.modes, next.matrix.start, next.matrix.column, next.matrix.value.data()};
-    add_level(view, std::move(next.numbering), {}, next.near_null);
+    add_level(view, std::move(next.numbering), {}, modes, std::move(next.near_null));
     return;
   }
   coarsest_ = std::make_unique<Coarsest>(next.matrix, next.numbering);

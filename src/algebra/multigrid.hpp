@@ -20,12 +20,14 @@ struct NearNullSpace {
 };
 
 NearNullSpace rigid_body_modes(const mesh::Mesh& mesh, int components);
+int rigid_body_mode_count(int components);
 NearNullSpace constants(const mesh::Mesh& mesh, int components);
 
 class Multigrid {
  public:
-  /// @param modes  as many as a coarse block has rows
-  Multigrid(const mesh::Mesh& mesh, NearNullSpace modes);
+  /// One of the two above. It is asked in every set-up: the modes take as much memory as a dozen vectors.
+  using Modes = NearNullSpace (*)(const mesh::Mesh& mesh, int components);
+  Multigrid(const mesh::Mesh& mesh, int components, Modes modes);
   ~Multigrid();
   /// Whether there are kernels for blocks of this size.
   static bool supports(int block_size, int modes);
@@ -40,11 +42,12 @@ class Multigrid {
   struct Level;
   struct Coarsest;
   void add_level(const struct MatrixView& a, struct Numbering numbering, std::span<const char> fixed,
-                 std::span<const double> near_null);
+                 int modes, std::vector<double> near_null);
   void cycle(std::size_t level);
 
   const mesh::Mesh& mesh_;
-  NearNullSpace modes_;
+  int components_;
+  Modes modes_;
   std::vector<Level> levels_;
   std::unique_ptr<Coarsest> coarsest_;
 };

@@ -1,6 +1,7 @@
 #include "algebra/packed_rows.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/large_pages.hpp"
 
@@ -28,8 +29,6 @@ struct Vector<6> {
   typedef float Type __attribute__((vector_size(32)));
 };
 
-constexpr std::size_t k_overhang = 8;  ///< floats behind the last block
-
 template <class Type>
 Type load(const float* from) {
   Type v;
@@ -38,7 +37,7 @@ Type load(const float* from) {
 }
 
 template <int rows, int columns, bool add>
-void multiply_rows(const std::vector<std::int64_t>& start, const Index* column, const float* value,
+void multiply_rows(std::span<const std::int64_t> start, const Index* column, const float* value,
                    const float* x, float* y) {
   using Type = typename Vector<rows>::Type;
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
@@ -56,7 +55,7 @@ void multiply_rows(const std::vector<std::int64_t>& start, const Index* column, 
 }
 
 template <int rows, int columns>
-void multiply_transposed(const std::vector<std::int64_t>& start, const Index* column, const float* value,
+void multiply_transposed(std::span<const std::int64_t> start, const Index* column, const float* value,
                          const float* x, float* y) {
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
     const float* const from = x + row * rows;
@@ -74,22 +73,44 @@ void multiply_transposed(const std::vector<std::int64_t>& start, const Index* co
 
 }  // namespace
 
-template <class Number>
-PackedRows::PackedRows(int rows, int columns, const std::int64_t* start, Index n_rows, const Index* column,
-                       const Number* blocks)
-    : rows_(rows), columns_(columns), start_(start, start + n_rows + 1) {
+PackedRows::PackedRows(int size, std::span<const std::int64_t> start, std::span<const Index> column,
+                       const double* blocks, Pattern pattern)
+    : rows_(size), columns_(size), start_(start), column_(column) {
+  if (pattern == Pattern::copied) {
+    own_start_.assign(start.begin(), start.end());
+    own_column_.assign(column.begin(), column.begin() + start.back());
+    start_ = own_start_;
+    column_ = own_column_;
+  }
   const auto n_slots = static_cast<std::size_t>(start_.back());
-  assign_in_large_pages(column_, n_slots, Index{0});
-  std::copy_n(column, n_slots, column_.begin());
-  assign_in_large_pages(value_, n_slots * static_cast<std::size_t>(rows * columns) + k_overhang, 0.0F);
+  assign_in_large_pages(value_, n_slots * static_cast<std::size_t>(size * size) + k_overhang, 0.0F);
   float* to = value_.data();
-  for (std::size_t s = 0; s < n_slots; ++s, blocks += rows * columns)
-    for (int c = 0; c < columns; ++c)
-      for (int r = 0; r < rows; ++r) *to++ = static_cast<float>(blocks[r * columns + c]);
+  for (std::size_t s = 0; s < n_slots; ++s, blocks += size * size)
+    for (int c = 0; c < size; ++c)
+      for (int r = 0; r < size; ++r) *to++ = static_cast<float>(blocks[r * size + c]);
 }
 
-template PackedRows::PackedRows(int, int, const std::int64_t*, Index, const Index*, const double*);
-template PackedRows::PackedRows(int, int, const std::int64_t*, Index, const Index*, const float*);
+PackedRows::PackedRows(BlockRows<float> from, Index n_rows)
+    : rows_(from.rows), columns_(from.columns), own_start_(std::move(from.start)) {
+  own_start_.resize(static_cast<std::size_t>(n_rows) + 1);
+  const auto n_slots = static_cast<std::size_t>(own_start_.back());
+  own_column_ = std::move(from.column);
+  own_column_.resize(n_slots);
+  start_ = own_start_;
+  column_ = own_column_;
+  value_ = std::move(from.value);
+  const auto entries = static_cast<std::size_t>(rows_ * columns_);
+  value_.reserve(n_slots * entries + k_overhang);  // not more, as growing would
+  value_.resize(n_slots * entries + k_overhang);
+  // Block by block, each in its place.
+  std::vector<float> block(entries);
+  float* to = value_.data();
+  for (std::size_t s = 0; s < n_slots; ++s) {
+    std::copy_n(to, entries, block.begin());
+    for (int c = 0; c < columns_; ++c)
+      for (int r = 0; r < rows_; ++r) *to++ = block[static_cast<std::size_t>(r * columns_ + c)];
+  }
+}
 
 void PackedRows::multiply(const float* x, float* y) const {
   with_block_sizes(rows_, columns_, [&]<int rows, int columns>() {
@@ -110,7 +131,7 @@ void PackedRows::multiply_transposed_add(const float* x, float* y) const {
 }
 
 std::size_t PackedRows::bytes() const {
-  return start_.capacity() * sizeof start_[0] + column_.capacity() * sizeof column_[0] +
+  return own_start_.capacity() * sizeof own_start_[0] + own_column_.capacity() * sizeof own_column_[0] +
          value_.capacity() * sizeof value_[0];
 }
 

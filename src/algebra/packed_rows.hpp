@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -49,15 +50,17 @@ void with_block_sizes(int rows, int columns, const F& f) {
 
 class PackedRows {
  public:
+  /// Numbers behind the last block: what a product reads of a block reaches beyond it.
+  static constexpr std::size_t k_overhang = 8;
   PackedRows() = default;
-  /// Copies a pattern and its blocks, [slot][row][column].
-  template <class Number>
-  PackedRows(int rows, int columns, const std::int64_t* start, Index n_rows, const Index* column,
-             const Number* blocks);
-  template <class Number>
-  explicit PackedRows(const BlockRows<Number>& from)
-      : PackedRows(from.rows, from.columns, from.start.data(), from.n_rows(), from.column.data(),
-                   from.value.data()) {}
+  enum class Pattern { referred_to, copied };
+  /// Copies square blocks, [slot][row][column].
+  PackedRows(int size, std::span<const std::int64_t> start, std::span<const Index> column,
+             const double* blocks, Pattern pattern);
+  /// Takes the first rows over.
+  PackedRows(BlockRows<float> from, Index n_rows);
+  PackedRows(PackedRows&&) noexcept = default;
+  PackedRows& operator=(PackedRows&&) noexcept = default;
 
   /// y = A x
   void multiply(const float* x, float* y) const;
@@ -69,9 +72,11 @@ class PackedRows {
 
  private:
   int rows_ = 1, columns_ = 1;
-  std::vector<std::int64_t> start_{0};
-  std::vector<Index> column_;
-  std::vector<float> value_;  ///< [slot][column][row], and a register's width more
+  std::vector<std::int64_t> own_start_;  ///< empty where the pattern is another's
+  std::vector<Index> own_column_;
+  std::span<const std::int64_t> start_;  ///< [block row] into `column_`; one more at the end
+  std::span<const Index> column_;        ///< [slot]
+  std::vector<float> value_;             ///< [slot][column][row], and a register's width more
 };
 
 }  // namespace solidus::algebra

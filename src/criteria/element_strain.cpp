@@ -11,7 +11,6 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::Block& block, A
   axisymmetric_ = kind == AnalysisKind::axisymmetric;
   n_elements_ = g.n_elements;
   n_batches_ = g.n_batches;
-  nodes_ = std::move(g.nodes);
   const auto n = static_cast<std::size_t>(n_nodes_), dim = static_cast<std::size_t>(dim_),
              points = static_cast<std::size_t>(g.n_points);
   const std::size_t entries = static_cast<std::size_t>(n_batches_) * n;
@@ -37,6 +36,7 @@ ElementStrain::ElementStrain(const mesh::Mesh& mesh, const mesh::Block& block, A
       }
     }
   }
+  nodes_ = std::move(g.nodes);
 }
 
 namespace {

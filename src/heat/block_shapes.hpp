@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
+#include "algebra/lane_slots.hpp"
 #include "mesh/block_geometry.hpp"
 
 namespace solidus::heat {
@@ -35,11 +35,10 @@ void scatter(const mesh::BlockGeometry& geometry, Index batch, const std::array<
       nodal[static_cast<std::size_t>(nodes[a * k_lanes + lane])] += values[a][static_cast<int>(lane)];
 }
 
+/// @param slot  [a][b][lane] of the batch
 template <int n_nodes>
-void scatter_matrix(std::span<const algebra::BlockMatrix::Slot> slots, Index batch,
-                    const ElementMatrix<n_nodes>& m, algebra::BlockMatrix& matrix) {
-  const algebra::BlockMatrix::Slot* slot =
-      slots.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * n_nodes * k_lanes;
+void scatter_matrix(const algebra::BlockMatrix::Slot* slot, const ElementMatrix<n_nodes>& m,
+                    algebra::BlockMatrix& matrix) {
   for (std::size_t a = 0; a < n_nodes; ++a)
     for (std::size_t b = 0; b < n_nodes; ++b)
       for (int lane = 0; lane < k_lanes; ++lane) *matrix.block(*slot++) += m[a][b][lane];

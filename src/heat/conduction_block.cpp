@@ -1,6 +1,8 @@
 #include "heat/conduction_block.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "heat/block_shapes.hpp"
 #include "mesh/block_geometry.hpp"
@@ -26,26 +28,34 @@ PackVector<Lane> integrated_gradients(const mesh::BlockGeometry& g) {
 }
 
 /// Points at the nodes with the weights ∫ N_a dV, and the constant shift of the gradients that makes their
-/// mean exact.
+/// mean exact; none where it is rounding, as in parallelepipeds.
 mesh::BlockGeometry nodal_geometry(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind) {
+  constexpr double k_rounding = 1e-13;
   mesh::BlockGeometry g(mesh, block, kind, mesh::nodal_rule(block.shape));
   const mesh::BlockGeometry gauss(mesh, block, kind, mesh::gauss_rule(block.shape, 3));
   g.weight = mesh::nodal_weights(mesh, block, kind);
-  const PackVector<Lane> exact = integrated_gradients(gauss), nodal = integrated_gradients(g);
-  const auto stride = static_cast<std::size_t>(g.n_nodes * g.dim),
-             points = static_cast<std::size_t>(g.n_points);
-  for (std::size_t batch = 0; batch < static_cast<std::size_t>(g.n_batches); ++batch) {
+  const PackVector<Lane> exact = integrated_gradients(gauss);
+  PackVector<Lane> shift = integrated_gradients(g);
+  const auto stride = static_cast<std::size_t>(g.n_nodes * g.dim);
+  double largest_shift = 0;
+  for (Index batch = 0; batch < g.n_batches; ++batch) {
     Lane volume(0.0), gauss_volume(0.0);
-    for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(static_cast<Index>(batch), q);
-    for (int q = 0; q < gauss.n_points; ++q) gauss_volume += gauss.weight_at(static_cast<Index>(batch), q);
+    for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(batch, q);
+    for (int q = 0; q < gauss.n_points; ++q) gauss_volume += gauss.weight_at(batch, q);
     const auto empty = volume == Lane(0.0);  // padding
     const Lane per_volume = select(empty, Lane(0.0), Lane(1.0) / select(empty, Lane(1.0), volume));
     const Lane per_gauss = select(empty, Lane(0.0), Lane(1.0) / select(empty, Lane(1.0), gauss_volume));
+    Lane largest(0.0), size(0.0);
     for (std::size_t i = 0; i < stride; ++i) {
-      const Lane shift = exact[batch * stride + i] * per_gauss - nodal[batch * stride + i] * per_volume;
-      for (std::size_t q = 0; q < points; ++q) g.gradients[(batch * points + q) * stride + i] += shift;
+      const std::size_t at = static_cast<std::size_t>(batch) * stride + i;
+      shift[at] = exact[at] * per_gauss - shift[at] * per_volume;
+      largest = max(largest, abs(shift[at]));
+      size = max(size, abs(g.gradients_at(batch, 0)[i]));
     }
+    for (int lane = 0; lane < k_lanes; ++lane)
+      largest_shift = std::max(largest_shift, largest[lane] / size[lane]);
   }
+  if (largest_shift > k_rounding) g.shift_gradients(std::move(shift));
   return g;
 }
 
@@ -64,7 +74,7 @@ class Conduction final : public ConductionBlock {
       : geometry_(geometry_of(mesh, block, kind, closed)), conductivity_(material.conductivity) {}
 
   void bind(const algebra::BlockMatrix& matrix) override {
-    slots_ = matrix.lane_slots(geometry_.nodes, n_nodes, geometry_.n_elements);
+    slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
 
   void add_heat(std::span<const double> temperature, const NodalConductivity& k,
@@ -88,7 +98,7 @@ class Conduction final : public ConductionBlock {
     exact ? assemble<true>(temperature, k, matrix) : assemble<false>(temperature, k, matrix);
   }
 
-  std::size_t bytes() const override { return geometry_.bytes() + slots_.capacity() * sizeof slots_[0]; }
+  std::size_t bytes() const override { return geometry_.bytes() + slots_.bytes(); }
 
  private:
   using Nodal = std::array<Lane, n_nodes>;
@@ -145,7 +155,7 @@ class Conduction final : public ConductionBlock {
         for (std::size_t b = 0; b < a; ++b) m[a][b] = m[b][a];
       if constexpr (exact)
         if (!conductivity_.constant()) add_slope(e, batch, k, m);
-      scatter_matrix<n_nodes>(slots_, batch, m, matrix);
+      scatter_matrix<n_nodes>(slots_.of(batch), m, matrix);
     }
   }
 
@@ -172,7 +182,7 @@ class Conduction final : public ConductionBlock {
 
   mesh::BlockGeometry geometry_;
   const Table& conductivity_;
-  std::vector<algebra::BlockMatrix::Slot> slots_;
+  algebra::LaneSlots slots_;
 };
 
 }  // namespace

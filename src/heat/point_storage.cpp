@@ -25,7 +25,7 @@ class Storage final : public PointStorage {
         old_(geometry_.weight.size()) {}
 
   void bind(const algebra::BlockMatrix& matrix) override {
-    slots_ = matrix.lane_slots(geometry_.nodes, n_nodes, geometry_.n_elements);
+    slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
 
   void start(std::span<const double> old_temperature, double dt) override {
@@ -72,7 +72,7 @@ class Storage final : public PointStorage {
         for (std::size_t a = 0; a < n_nodes; ++a)
           for (std::size_t b = 0; b < n_nodes; ++b) m[a][b] += Lane(n[a] * n[b]) * c;
       }
-      scatter_matrix<n_nodes>(slots_, batch, m, matrix);
+      scatter_matrix<n_nodes>(slots_.of(batch), m, matrix);
     }
   }
 
@@ -118,7 +118,7 @@ class Storage final : public PointStorage {
   }
 
   std::size_t bytes() const override {
-    return geometry_.bytes() + slots_.capacity() * sizeof slots_[0] + old_.capacity() * sizeof old_[0];
+    return geometry_.bytes() + slots_.bytes() + old_.capacity() * sizeof old_[0];
   }
 
  private:
@@ -161,7 +161,7 @@ class Storage final : public PointStorage {
   SensibleForm form_;
   PackVector<Lane> old_;              ///< h(Θ_n), [batch][point] [J/m³]
   PackVector<Lane> old_temperature_;  ///< Θ_n, with a printed form only [K]
-  std::vector<algebra::BlockMatrix::Slot> slots_;
+  algebra::LaneSlots slots_;
   double dt_ = 1;
 };
 

@@ -29,11 +29,12 @@ class CoupledBlock final : public LawBlock<material::Viscoplastic, n_nodes, kind
   using Base::Base;
 
   void bind_heat(const algebra::BlockMatrix& matrix) override {
-    heat_slots_ = matrix.lane_slots(this->geometry_.nodes, n_nodes, this->geometry_.n_elements);
+    heat_slots_ = {matrix, this->geometry_.nodes, n_nodes, this->geometry_.n_elements};
   }
 
   double prepare(const StepStart& start) override {
     initial_temperature_ = start.initial_temperature;
+    this->points_.keep();
     return Base::prepare(start);
   }
 
@@ -81,7 +82,7 @@ class CoupledBlock final : public LawBlock<material::Viscoplastic, n_nodes, kind
   }
 
   std::size_t bytes() const override {
-    return Base::bytes() + heat_slots_.capacity() * sizeof(heat_slots_[0]) +
+    return Base::bytes() + heat_slots_.bytes() +
            (carried_.capacity() + before_.capacity()) * sizeof(StructuralDensities);
   }
 
@@ -135,7 +136,7 @@ class CoupledBlock final : public LawBlock<material::Viscoplastic, n_nodes, kind
     auto p =
         thermal_properties(this->law_, theta, temperature_at(this->geometry_, batch, q, initial_temperature_),
                            material::Frozen{.phase = true});
-    const auto& held = this->properties_[index(batch, q)].elastic;
+    const auto held = this->properties_[index(batch, q)].elastic;
     p.elastic.thermal_strain.v = held.thermal_strain;
     p.elastic.solid_fraction.v = held.solid_fraction;
     return p;
@@ -181,25 +182,26 @@ class CoupledBlock final : public LawBlock<material::Viscoplastic, n_nodes, kind
   }
 
   void scatter(const Element& element, Index batch, algebra::CoupledMatrix& matrix) const {
-    const std::size_t first = static_cast<std::size_t>(batch) * n_nodes * n_nodes * k_lanes;
+    const algebra::BlockMatrix::Slot *const slots = this->slots_of(batch), *const heat_slots =
+                                                                               heat_slots_.of(batch);
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t b = 0; b < n_nodes; ++b) {
-        const std::size_t pair = first + (a * n_nodes + b) * k_lanes;
+        const std::size_t pair = (a * n_nodes + b) * k_lanes;
         for (std::size_t lane = 0; lane < k_lanes; ++lane) {
           const auto l = static_cast<int>(lane);
-          double* const force = matrix.force_by_temperature(this->slots_[pair + lane]);
-          double* const heat = matrix.heat_by_displacement(this->slots_[pair + lane]);
+          double* const force = matrix.force_by_temperature(slots[pair + lane]);
+          double* const heat = matrix.heat_by_displacement(slots[pair + lane]);
           for (std::size_t i = 0; i < dim; ++i) {
             force[i] += element.force[a][b][i][l];
             heat[i] += element.heat[a][b][i][l];
           }
-          *matrix.temperature().block(heat_slots_[pair + lane]) += element.capacity[a][b][l];
+          *matrix.temperature().block(heat_slots[pair + lane]) += element.capacity[a][b][l];
         }
       }
   }
 
-  std::span<const double> initial_temperature_;         ///< of the phase, which outlives the block
-  std::vector<algebra::BlockMatrix::Slot> heat_slots_;  ///< [batch][a][b][lane]
+  std::span<const double> initial_temperature_;  ///< of the phase, which outlives the block
+  algebra::LaneSlots heat_slots_;
   // Of the second stage, [batch][point]; else empty.
   PackVector<StructuralDensities> carried_;  ///< S*, E*
   PackVector<StructuralDensities> before_;   ///< S_n, E_n

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "algebra/block_matrix.hpp"
+#include "algebra/lane_slots.hpp"
 #include "mechanics/element_matrix.hpp"
 
 namespace solidus::mechanics {

@@ -2,6 +2,7 @@
 /// shape and analysis kind, eight elements at a time.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "mechanics/element_matrix.hpp"
@@ -20,9 +21,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       typename Base::Matrix;
 
   LawBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
-      : Base(mesh, block, material) {
-    if constexpr (b_bar) compute_means();
-  }
+      : Base(mesh, block, material) {}
 
   double prepare(const StepStart& start) override {
     this->begin_step(start);
@@ -128,37 +127,38 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     return {};
   }
 
-  std::size_t bytes() const override { return Base::bytes() + means_.capacity() * sizeof(Lane); }
-
  protected:  // for the kernel of the simultaneous scheme (coupled_block.hpp)
   Operator at_point(Index batch, int point) const {
-    const Lane* mean = b_bar ? means_.data() + static_cast<std::size_t>(batch) * n_nodes * dim : nullptr;
-    return Operator(geometry_.gradients_at(batch, point), this->values_at(point),
-                    this->inverse_radius(batch, point), mean);
+    if constexpr (b_bar)
+      if (batch != held_batch_) hold_mean(batch);
+    return operator_at(batch, point, b_bar ? mean_.data() : nullptr);
   }
 
  private:
+  Operator operator_at(Index batch, int point, const Lane* mean) const {
+    return Operator(geometry_.gradients_at(batch, point), this->values_at(point),
+                    this->inverse_radius(batch, point), mean);
+  }
   /// b̄_a of 6.23.
-  void compute_means() {
-    means_.assign(static_cast<std::size_t>(geometry_.n_batches) * n_nodes * dim, Lane(0.0));
-    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-      Lane* mean = means_.data() + static_cast<std::size_t>(batch) * n_nodes * dim;
-      Lane volume(0.0);
-      Vectors total{};
-      for (int q = 0; q < geometry_.n_points; ++q) {
-        const Operator b = at_point(batch, q);  // its own mean is zero still and not used
-        volume += geometry_.weight_at(batch, q);
-        for (std::size_t a = 0; a < n_nodes; ++a)
-          for (std::size_t i = 0; i < dim; ++i)
-            total[a][i] += geometry_.weight_at(batch, q) * b.divergence(a, i);
-      }
-      const Lane inverse = select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));
+  void hold_mean(Index batch) const {
+    const std::array<Lane, n_nodes * dim> unused{};
+    std::array<Lane, n_nodes * dim> total{};
+    Lane volume(0.0);
+    for (int q = 0; q < geometry_.n_points; ++q) {
+      const Operator b = operator_at(batch, q, unused.data());
+      const Lane w = geometry_.weight_at(batch, q);
+      volume += w;
       for (std::size_t a = 0; a < n_nodes; ++a)
-        for (std::size_t i = 0; i < dim; ++i) mean[a * dim + i] = inverse * total[a][i];
+        for (std::size_t i = 0; i < dim; ++i) total[a * dim + i] += w * b.divergence(a, i);
     }
+    const Lane inverse = select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));
+    for (std::size_t i = 0; i < n_nodes * dim; ++i) mean_[i] = inverse * total[i];
+    held_batch_ = batch;
   }
 
-  PackVector<Lane> means_;  ///< b̄_a, B-bar only: [batch][node][dim]
+  // B-bar only: of the batch that was asked for last, as the gradients are.
+  mutable Index held_batch_ = -1;
+  mutable std::array<Lane, n_nodes * dim> mean_{};  ///< b̄_a, [node][dim]
 };
 
 }  // namespace solidus::mechanics

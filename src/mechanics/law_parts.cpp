@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace solidus::mechanics {
 
 namespace {
@@ -31,7 +33,48 @@ void set_flow(ViscoplasticValues<Lane>& v, const material::Viscoplastic::State<L
   v.back_stress = Lane(-2.0 / 3.0) * strength * kinematic_modulus * state.back_strain;
 }
 
+/// Appends the lanes of a member of a state.
+template <class State, class Member>
+void append_lanes(Member State::*member, std::vector<std::size_t>& lanes) {
+  const State state{};
+  const auto from = reinterpret_cast<const char*>(&(state.*member)) - reinterpret_cast<const char*>(&state);
+  const auto first = static_cast<std::size_t>(from) / sizeof(Lane);
+  for (std::size_t i = 0; i < sizeof(Member) / sizeof(Lane); ++i) lanes.push_back(first + i);
+}
+
+/// A block that takes part has a history: one lane at least.
+std::vector<std::size_t> one_at_least(std::vector<std::size_t> lanes) {
+  if (lanes.empty()) lanes.push_back(0);
+  return lanes;
+}
+
+/// Of the state that both viscoplastic laws share.
+std::vector<std::size_t> kept_lanes(const material::Material& material) {
+  using State = material::Viscoplastic::State<Lane>;
+  std::vector<std::size_t> lanes;
+  if (material.solidification() != nullptr) append_lanes(&State::viscous_strain, lanes);
+  if (!material.flow) return one_at_least(std::move(lanes));
+  append_lanes(&State::plastic_strain, lanes);
+  if (material.flow->kinematic != material::KinematicHardening::none)
+    append_lanes(&State::back_strain, lanes);
+  append_lanes(&State::hardening, lanes);
+  return lanes;
+}
+
 }  // namespace
+
+std::vector<std::size_t> kept_lanes(const material::Viscoelastic& law) {
+  std::vector<std::size_t> lanes;
+  if (law.material().solidification() != nullptr)
+    append_lanes(&material::Viscoelastic::State<Lane>::viscous_strain, lanes);
+  return one_at_least(std::move(lanes));
+}
+std::vector<std::size_t> kept_lanes(const material::Viscoplastic& law) {
+  return kept_lanes(law.material());
+}
+std::vector<std::size_t> kept_lanes(const material::Isentropic& law) {
+  return kept_lanes(law.material());
+}
 
 ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
                                    const material::Viscoplastic::Properties<Lane>& p,

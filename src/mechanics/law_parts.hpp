@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "material/isentropic.hpp"
 #include "material/viscoelastic.hpp"
@@ -46,6 +47,12 @@ inline void hold_phase(const material::Isentropic& law, const Lane& temperature,
                        const Lane& phase_temperature, material::Isentropic::Properties<Lane>& p) {
   material::hold_phase(law.material(), temperature, phase_temperature, p.strain_offset, p.solid_fraction);
 }
+
+/// The lanes of a state that the material can change, rising: no viscous strain without a melt, no back
+/// strain without kinematic hardening. Others are zero. One at least.
+std::vector<std::size_t> kept_lanes(const material::Viscoelastic& law);
+std::vector<std::size_t> kept_lanes(const material::Viscoplastic& law);
+std::vector<std::size_t> kept_lanes(const material::Isentropic& law);
 
 /// What to subtract from the strain for the elastic one.
 template <class T>

@@ -201,7 +201,7 @@ void MechanicalPhase::create_solver() {
                                           .kind = options_.solver,
                                           .symmetric = options_.symmetric,
                                           .relative_tolerance = options_.linear_tolerance});
-  solver->use_rigid_body_modes(mesh_, components_);
+  solver->use_rigid_body_modes(components_);
   solver_ = std::move(solver);
 }
 
@@ -497,6 +497,8 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
 MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
                                          std::vector<double> x, MechanicalState& trial) {
   MechanicalState next;
+  // Most of a state is its history: the storage of the one that is overwritten serves again.
+  if (&trial != &old) next.history = std::move(trial.history);
   const BlockWork total = finish(old, x, next.history);
   const MechanicalWork work = measure(old, x, total, next);
   next.displacement = std::move(x);

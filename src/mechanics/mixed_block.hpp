@@ -22,7 +22,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
                          public PressureNodes<n_nodes, kind> {
   using Base = PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_nodes, kind>>;
   using Nodes = PressureNodes<n_nodes, kind>;
-  using Base::dim, Base::gather, Base::nodes_of, Base::n_kept, Base::n_state;
+  using Base::dim, Base::gather, Base::nodes_of, Base::n_kept_, Base::n_state_;
   using Nodes::at, Nodes::at_point, Nodes::weight, Nodes::mean, Nodes::masses;
   using typename Base::Operator, typename Base::Vectors, typename Base::State, typename Base::Properties,
       typename Base::Response, typename Base::Matrix;
@@ -242,10 +242,10 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
     return e;
   }
   Lane kept_volume(const BlockHistory& history, Index batch) const {
-    return history.values[at(batch) * n_kept + n_state];
+    return history.values[at(batch) * n_kept_ + n_state_];
   }
   void keep_volume(BlockHistory& history, Index batch, const Lane& volume) const {
-    history.values[at(batch) * n_kept + n_state] = volume;
+    history.values[at(batch) * n_kept_ + n_state_] = volume;
   }
 
   /// The law at ∇u and the pressure in use.
@@ -265,7 +265,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
   bool find_volume(Index batch, const Sym<Lane>& gradient, const Lane& pressure) {
     Lane& volume = volume_[at(batch)];
     if constexpr (!adiabatic) {
-      const auto& p = elastic_part(this->law_, this->properties_[at(batch)]);
+      const auto p = elastic_part(this->law_, this->properties_[at(batch)]);
       volume = pressure / p.bulk + p.thermal_strain;
       return true;
     } else {
@@ -289,7 +289,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
       const Nodal p = this->gather_pressure(this->pressure_, batch);
       const Lane middle = mean(p, batch);
       for (std::size_t a = 0; a < n_nodes; ++a) {
-        const std::size_t place = at(batch) * n_kept + n_state + 1 + a;
+        const std::size_t place = at(batch) * n_kept_ + n_state_ + 1 + a;
         variation[a] = trial.values[place] = p[a] - middle;
         if (this->new_stress_ != nullptr)
           variation[a] = Lane(this->stress_share_) * variation[a] +

@@ -5,12 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "base/common_packs.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/element_transfer.hpp"
 #include "mechanics/law_parts.hpp"
@@ -61,35 +65,38 @@ class PointBlock : public BlockKernel {
   using Matrix = ElementMatrix<n_nodes, Operator::dim>;
   static constexpr std::size_t dim = Operator::dim;
   static_assert(sizeof(State) % sizeof(Lane) == 0, "a state is made of lanes");
-  static constexpr int n_state = static_cast<int>(sizeof(State) / sizeof(Lane));
-  static constexpr int n_kept = n_state + n_extra;
+  using Lanes = std::array<Lane, sizeof(State) / sizeof(Lane)>;
 
   PointBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
       : geometry_(mesh, block, kind, mesh::stiffness_rule(block.shape)),
         block_(block),
         law_(material),
-        points_(geometry_, material) {
-    properties_.resize(static_cast<std::size_t>(geometry_.n_batches * geometry_.n_points));
-    averages_.resize(static_cast<std::size_t>(geometry_.n_batches));
-  }
+        points_(geometry_, material),
+        kept_(kept_lanes(law_)),
+        n_state_(kept_.size()),
+        n_kept_(n_state_ + n_extra),
+        properties_(static_cast<std::size_t>(geometry_.n_batches * geometry_.n_points)),
+        averages_(static_cast<std::size_t>(geometry_.n_batches)) {}
 
   bool symmetric() const override { return law_.symmetric(); }
 
   void bind(const algebra::BlockMatrix& matrix) override {
-    slots_ = matrix.lane_slots(geometry_.nodes, n_nodes, geometry_.n_elements);
+    slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
 
   BlockHistory initial_history() const override {
-    BlockHistory history{n_kept, geometry_.n_points, {}};
-    history.values.assign(properties_.size() * n_kept, Lane(0.0));
+    BlockHistory history{static_cast<int>(n_kept_), geometry_.n_points, {}};
+    history.values.assign(properties_.size() * n_kept_, Lane(0.0));
     return history;
   }
 
   ElementFields fields() const override {
     ElementFields out;
-    for (Index e = 0; e < geometry_.n_elements; ++e)
-      append(out, element_of<typename Values::OfOne>(averages_[static_cast<std::size_t>(e / k_lanes)],
-                                                     e % k_lanes));
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Values values = averages_[static_cast<std::size_t>(batch)];
+      for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane)
+        append(out, element_of<typename Values::OfOne>(values, lane));
+    }
     return out;
   }
 
@@ -105,7 +112,10 @@ class PointBlock : public BlockKernel {
     }
   }
 
-  void spread_heat_as_stored(const PackVector<Lane>& weights) override { points_.spread_as_stored(weights); }
+  void spread_heat_as_stored(const PackVector<Lane>& weights) override {
+    points_.keep();
+    points_.spread_as_stored(weights);
+  }
   void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                            std::span<double> out) const override {
     points_.add_heat(form, temperature, tangent, out);
@@ -116,8 +126,7 @@ class PointBlock : public BlockKernel {
   const StructuralPoints& structural_points() const override { return points_; }
 
   std::size_t bytes() const override {
-    return geometry_.bytes() + points_.bytes() + properties_.capacity() * sizeof(properties_[0]) +
-           slots_.capacity() * sizeof(slots_[0]) + averages_.capacity() * sizeof(averages_[0]) +
+    return geometry_.bytes() + points_.bytes() + properties_.bytes() + slots_.bytes() + averages_.bytes() +
            kept_stress_.capacity() * sizeof(Sym<Lane>);
   }
 
@@ -148,15 +157,13 @@ class PointBlock : public BlockKernel {
     else
       return Lane(0.0);
   }
-  const algebra::BlockMatrix::Slot* slots_of(Index batch) const {
-    return slots_.data() + static_cast<std::size_t>(batch) * n_nodes * n_nodes * k_lanes;
-  }
+  const algebra::BlockMatrix::Slot* slots_of(Index batch) const { return slots_.of(batch); }
 
   State state_of(const BlockHistory& history, Index batch, int point) const {
-    State state;
-    std::memcpy(static_cast<void*>(&state), history.values.data() + index(batch, point) * n_kept,
-                sizeof(State));
-    return state;
+    Lanes lanes{};
+    const Lane* from = history.values.data() + index(batch, point) * n_kept_;
+    for (const std::size_t lane : kept_) lanes[lane] = *from++;
+    return std::bit_cast<State>(lanes);
   }
   State old_state(Index batch, int point) const { return state_of(*old_history_, batch, point); }
   State start_state(Index batch, int point) const { return state_of(*start_history_, batch, point); }
@@ -174,6 +181,7 @@ class PointBlock : public BlockKernel {
     stress_share_ = start.stress_share;
     work_ = start.work;
     effective_dt_ = start.effective_dt;
+    temperature_ = start.temperature;
     points_.set_dt(start.dt);
   }
 
@@ -184,11 +192,12 @@ class PointBlock : public BlockKernel {
     const bool iterates = start.pass_temperature.data() != start.temperature.data();
     const Lane old_theta = temperature_at(geometry_, batch, q, start.temperature);
     const Lane theta = iterates ? temperature_at(geometry_, batch, q, start.pass_temperature) : old_theta;
-    Properties& properties = properties_[index(batch, q)];
-    properties = law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
+    Properties properties =
+        law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
     if (iterates) hold_phase(law_, theta, old_theta, properties);
     if constexpr (HoldsEntropy<Properties>)
       properties.entropy = law_.entropy(properties, held_strain, state_of(*start.held_history, batch, q));
+    properties_.set(index(batch, q), properties);
     const auto& p = elastic_part(law_, properties);
     points_.set_temperature(batch, q, old_theta, theta, p.thermal_strain);
     return p.bulk;
@@ -210,25 +219,29 @@ class PointBlock : public BlockKernel {
   Sym<Lane> record(Index batch, int q, const Sym<Lane>& old_strain, const Sym<Lane>& strain,
                    const Response& response, BlockHistory& trial, Average& average, Tally& tally) {
     const Lane w = geometry_.weight_at(batch, q), share = counted(batch) * w;
-    const auto& p = properties_[index(batch, q)];
-    std::memcpy(static_cast<void*>(trial.values.data() + index(batch, q) * n_kept), &response.state,
-                sizeof(State));
+    const Properties p = properties_[index(batch, q)];
+    const auto lanes = std::bit_cast<Lanes>(response.state);
+    Lane* to = trial.values.data() + index(batch, q) * n_kept_;
+    for (const std::size_t lane : kept_) *to++ = lanes[lane];
     average.volume += w;
     add_weighted(average.sums, w, values_of(law_, p, response, strain));
 
-    const LaneMask solid = is_solid(batch, q);
-    auto& point = points_.at(batch, q);
-    if constexpr (HoldsEntropy<Properties>) point.pass_temperature = response.temperature;
-    const State old = old_state(batch, q);
-    point.now = deformation(strain, response.state, solid);
-    point.change = change(strain, response.state, old_strain, old, solid);
-    point.dissipated = Lane(dt_) * response.dissipation;
     const Sym<Lane> at_work = stress_at_work(batch, q, mean_stress(batch, q, response.stress));
-    point.work = dot(at_work, strain - old_strain);
-    points_.set_old(batch, q, deformation(old_strain, old, solid));
+    const Lane work = dot(at_work, strain - old_strain);
+    if (points_.kept()) {
+      const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
+      auto& point = points_.at(batch, q);
+      if constexpr (HoldsEntropy<Properties>) point.pass_temperature = response.temperature;
+      const State old = old_state(batch, q);
+      point.now = deformation(strain, response.state, solid);
+      point.change = change(strain, response.state, old_strain, old, solid);
+      point.dissipated = Lane(dt_) * response.dissipation;
+      point.work = work;
+      points_.set_old(batch, q, deformation(old_strain, old, solid));
+    }
 
     const PlasticPower power = plastic_power(law_, response);
-    tally.internal_work += share * point.work;
+    tally.internal_work += share * work;
     tally.dissipation += share * response.dissipation;
     tally.plastic.dissipation += share * power.dissipation;
     tally.plastic.power += share * power.power;
@@ -240,9 +253,9 @@ class PointBlock : public BlockKernel {
   void keep(Index batch, const Average& average) {
     const Lane inverse = select(average.volume > Lane(0.0), Lane(1.0) / average.volume,
                                 Lane(0.0));  // padding has no volume
-    Values& kept = averages_[static_cast<std::size_t>(batch)];
-    kept = Values{};
-    add_weighted(kept, inverse, average.sums);
+    Values mean{};
+    add_weighted(mean, inverse, average.sums);
+    averages_.set(static_cast<std::size_t>(batch), mean);
   }
 
   BlockWork total(const Tally& tally) const {
@@ -273,8 +286,8 @@ class PointBlock : public BlockKernel {
       return fmt::format(
           "element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, at the start of the step {}",
           block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)],
-          points_.at(batch, q).temperature[lane], elastic_part(law_, p).solid_fraction, text(strain_of_one),
-          text(start));
+          temperature_at(geometry_, batch, q, temperature_)[lane], elastic_part(law_, p).solid_fraction,
+          text(strain_of_one), text(start));
     }
     return {};
   }
@@ -350,9 +363,12 @@ class PointBlock : public BlockKernel {
   const mesh::Block& block_;
   Law law_;
   StructuralPoints points_;
-  PackVector<Properties> properties_;              ///< at Θ_n: [batch][point]
-  std::vector<algebra::BlockMatrix::Slot> slots_;  ///< [batch][a][b][lane]
-  PackVector<Values> averages_;                    ///< [batch]
+  std::vector<std::size_t> kept_;       ///< lanes of the state that the material can change, rising
+  std::size_t n_state_, n_kept_;        ///< of them; with n_extra: lanes of a point's history
+  CommonPacks<Properties> properties_;  ///< at Θ_n: [batch][point]
+  algebra::LaneSlots slots_;
+  CommonPacks<Values> averages_;         ///< [batch]
+  std::span<const double> temperature_;  ///< Θ_n of the step, [local node]
   const BlockHistory* old_history_ = nullptr;
   const BlockHistory* start_history_ = nullptr;
   const BlockHistory* old_stress_ = nullptr;

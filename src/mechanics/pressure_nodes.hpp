@@ -39,7 +39,7 @@ class PressureNodes : public MixedKernel {
     field_ = field;
   }
   void bind_pressure(const algebra::BlockMatrix& matrix) override {
-    pressure_slots_ = matrix.lane_slots(geometry_.nodes, n_nodes, geometry_.n_elements);
+    pressure_slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
   void set_body_force(const std::array<double, 3>& force) override { body_force_ = force; }
   std::array<double, 2> mean_stiffness() const override {
@@ -230,8 +230,7 @@ class PressureNodes : public MixedKernel {
                  algebra::BlockMatrix& matrix) const {
     const auto fields = static_cast<std::size_t>(field_.n_fields),
                field = static_cast<std::size_t>(field_.field);
-    const Slot* const slots =
-        pressure_slots_.data() + (at(batch) * n_nodes * n_nodes + a * n_nodes + c) * k_lanes;
+    const Slot* const slots = pressure_slots_.of(batch) + (a * n_nodes + c) * k_lanes;
     for (std::size_t lane = 0; lane < k_lanes; ++lane)
       matrix.block(slots[lane])[field * fields + field] += value[static_cast<int>(lane)];
   }
@@ -265,7 +264,7 @@ class PressureNodes : public MixedKernel {
   std::size_t bytes_of_nodes() const {
     return (compliance_.capacity() + twice_shear_.capacity() + tau_.capacity() + masses_.capacity()) *
                sizeof(Lane) +
-           pressure_slots_.capacity() * sizeof(Slot);
+           pressure_slots_.bytes();
   }
 
   bool orthogonal_;
@@ -277,9 +276,9 @@ class PressureNodes : public MixedKernel {
 
  private:
   const mesh::BlockGeometry& geometry_;
-  std::vector<Slot> pressure_slots_;  ///< [batch][a][b][lane]
-  PackVector<Lane> tau_;              ///< [m²/Pa]
-  PackVector<Lane> masses_;           ///< ∫ N_a dV, axisymmetric only: [batch][node]
+  algebra::LaneSlots pressure_slots_;
+  PackVector<Lane> tau_;     ///< [m²/Pa]
+  PackVector<Lane> masses_;  ///< ∫ N_a dV, axisymmetric only: [batch][node]
 };
 
 }  // namespace solidus::mechanics

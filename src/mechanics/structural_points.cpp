@@ -24,12 +24,13 @@ Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
 StructuralPoints::StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material)
     : geometry_(geometry),
       material_(material),
-      points_(static_cast<std::size_t>(geometry.n_batches) * static_cast<std::size_t>(geometry.n_points)) {
+      n_points_(static_cast<std::size_t>(geometry.n_batches) * static_cast<std::size_t>(geometry.n_points)) {
   material_.phase_changes.clear();
 }
 
 void StructuralPoints::set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature,
                                        Lane thermal_strain) {
+  if (!kept()) return;
   Point& p = at(batch, point);
   p.temperature = temperature;
   p.pass_temperature = pass_temperature;
@@ -54,6 +55,7 @@ void StructuralPoints::set_old(Index batch, int point, const Deformation& deform
 }
 
 void StructuralPoints::rest(Index batch, int point, const Deformation& deformation) {
+  if (!kept()) return;
   Point& p = at(batch, point);
   p.now = deformation;
   p.change = {Lane(0.0), Lane(0.0), Lane(0.0), Lane(0.0)};

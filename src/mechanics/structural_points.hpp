@@ -42,9 +42,13 @@ class StructuralPoints {
   /// Keeps a reference to the geometry.
   StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material);
 
+  /// Until this is called nothing is kept, and only what says so may be called: nobody asks without
+  /// structural heat.
+  void keep() { points_.resize(n_points_); }
+  bool kept() const { return !points_.empty(); }
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }
   const Point& at(Index batch, int point) const { return points_[index(batch, point)]; }
-  /// A step of one stage begins.
+  /// A step of one stage begins, kept or not.
   void set_dt(double dt) {
     stage_ = {dt};
     carried_.clear();
@@ -55,13 +59,13 @@ class StructuralPoints {
   /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every
   /// node of an element alike whatever the shape and rule.
   void spread_as_stored(const PackVector<Lane>& weights);
-  /// Fills temperature, pass_temperature and strain_offset.
+  /// Fills temperature, pass_temperature and strain_offset, if kept.
   /// @param temperature     Θ_n
   /// @param thermal_strain  e^θ of the mechanical phase, which works at `pass_temperature`
   void set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature, Lane thermal_strain);
   /// Fills the old entropy and energy from the deformation at t_n.
   void set_old(Index batch, int point, const Deformation& old);
-  /// Fills all but the temperatures of a point that does not move.
+  /// Fills all but the temperatures of a point that does not move, if kept.
   void rest(Index batch, int point, const Deformation& deformation);
 
   /// At a temperature and the deformation at t_{n+1}.
@@ -103,6 +107,7 @@ class StructuralPoints {
 
   const mesh::BlockGeometry& geometry_;
   material::Material material_;  ///< without phase changes: their fraction and straining are held
+  std::size_t n_points_;         ///< of all batches
   PackVector<Point> points_;
   PackVector<Lane> correction_;  ///< share of a node less what the points give it, [batch][node]; empty: none
   algebra::Stage stage_;

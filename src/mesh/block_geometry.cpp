@@ -4,33 +4,68 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace solidus::mesh {
 
 namespace {
 
+/// Of J_ij = ∂x_i/∂ξ_j.
+template <std::size_t dim>
 struct Jacobian {
-  std::array<std::array<double, 3>, 3> inverse{};
-  double determinant = 0;
+  std::array<std::array<Lane, dim>, dim> inverse;
+  Lane determinant;
 };
 
-// J_ij = ∂x_i/∂ξ_j in `dim` dimensions.
-Jacobian invert(const std::array<std::array<double, 3>, 3>& j, int dim) {
-  Jacobian r;
-  if (dim == 2) {
+template <std::size_t dim>
+Jacobian<dim> invert(const std::array<std::array<Lane, dim>, dim>& j) {
+  Jacobian<dim> r;
+  if constexpr (dim == 2) {
     r.determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-    const double s = 1 / r.determinant;
-    r.inverse = {{{s * j[1][1], -s * j[0][1], 0}, {-s * j[1][0], s * j[0][0], 0}, {0, 0, 0}}};
-    return r;
+    const Lane s = Lane(1.0) / r.determinant;
+    r.inverse = {{{s * j[1][1], -s * j[0][1]}, {-s * j[1][0], s * j[0][0]}}};
+  } else {
+    const auto cofactor = [&j](std::size_t a, std::size_t b) {
+      const std::size_t a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
+      return j[a1][b1] * j[a2][b2] - j[a1][b2] * j[a2][b1];
+    };
+    r.determinant = j[0][0] * cofactor(0, 0) + j[0][1] * cofactor(0, 1) + j[0][2] * cofactor(0, 2);
+    const Lane s = Lane(1.0) / r.determinant;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) r.inverse[b][a] = s * cofactor(a, b);
   }
-  const auto cofactor = [&j](std::size_t a, std::size_t b) {
-    const std::size_t a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
-    return j[a1][b1] * j[a2][b2] - j[a1][b2] * j[a2][b1];
-  };
-  r.determinant = j[0][0] * cofactor(0, 0) + j[0][1] * cofactor(0, 1) + j[0][2] * cofactor(0, 2);
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t b = 0; b < 3; ++b) r.inverse[b][a] = cofactor(a, b) / r.determinant;
   return r;
+}
+
+/// @param nodes      [node][lane]
+/// @param reference  ∂N_a/∂ξ_j, [point][node][dim]
+template <std::size_t n_nodes, std::size_t dim>
+void gradients_of(const std::vector<Point>& x, const Index* nodes, const double* reference, int n_points,
+                  Lane* gradients, Lane* determinants) {
+  std::array<std::array<Lane, dim>, n_nodes> corner;
+  for (std::size_t a = 0; a < n_nodes; ++a) {
+    alignas(sizeof(Lane)) double values[dim][k_lanes];
+    for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+      const Point& of_node = x[static_cast<std::size_t>(nodes[a * k_lanes + lane])];
+      for (std::size_t i = 0; i < dim; ++i) values[i][lane] = of_node[i];
+    }
+    for (std::size_t i = 0; i < dim; ++i) corner[a][i] = Lane::load(values[i]);
+  }
+  for (int point = 0; point < n_points; ++point) {
+    std::array<std::array<Lane, dim>, dim> jacobian{};
+    for (std::size_t a = 0; a < n_nodes; ++a)
+      for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t j = 0; j < dim; ++j) jacobian[i][j] += corner[a][i] * Lane(reference[a * dim + j]);
+    const Jacobian<dim> j = invert<dim>(jacobian);
+    *determinants++ = j.determinant;
+    for (std::size_t a = 0; a < n_nodes; ++a)
+      for (std::size_t i = 0; i < dim; ++i) {
+        Lane g = Lane(reference[a * dim]) * j.inverse[0][i];
+        for (std::size_t k = 1; k < dim; ++k) g += Lane(reference[a * dim + k]) * j.inverse[k][i];
+        *gradients++ = g;
+      }
+    reference += n_nodes * dim;
+  }
 }
 
 double revolution(AnalysisKind kind, double radius) {
@@ -55,60 +90,93 @@ BlockGeometry::BlockGeometry(const Mesh& mesh, const Block& block, AnalysisKind 
       n_points(static_cast<int>(rule.size())),
       n_elements(block.size()),
       n_batches(batches(block.size())),
-      n_counted(block.n_counted) {
+      n_counted(block.n_counted),
+      mesh_(&mesh) {
   const auto nn = static_cast<std::size_t>(n_nodes), nd = static_cast<std::size_t>(dim),
              np = static_cast<std::size_t>(n_points), nb = static_cast<std::size_t>(n_batches);
   values.resize(np * nn);
-  std::vector<double> reference(np * nn * nd);
+  reference_.resize(np * nn * nd);
   for (std::size_t p = 0; p < np; ++p) {
     basis_values(shape, rule[p].xi, std::span(values).subspan(p * nn, nn));
-    basis_gradients(shape, rule[p].xi, std::span(reference).subspan(p * nn * nd, nn * nd));
+    basis_gradients(shape, rule[p].xi, std::span(reference_).subspan(p * nn * nd, nn * nd));
   }
+  held_gradients_.resize(np * nn * nd);
+  held_determinants_.resize(np);
 
   const bool axisymmetric = kind == AnalysisKind::axisymmetric;
-  gradients.resize(nb * np * nn * nd);
   weight.resize(nb * np);
   inverse_radius.resize(axisymmetric ? nb * np : 0);
   nodes.resize(nb * nn * k_lanes);
   counted.resize(nb);
 
-  for (Index b = 0; b < n_batches; ++b)
+  for (std::size_t b = 0; b < nb; ++b) {
     for (int lane = 0; lane < k_lanes; ++lane) {
-      const Index e = element_of(b, lane, n_elements);
-      const bool padding = b * k_lanes + lane >= n_elements;
-      const auto bb = static_cast<std::size_t>(b);
-      const Index* element = block.element(e);
-      counted[bb].set(lane, !padding && e < n_counted ? 1.0 : 0.0);
+      const Index e = element_of(static_cast<Index>(b), lane, n_elements);
+      const bool padding = static_cast<Index>(b) * k_lanes + lane >= n_elements;
+      counted[b].set(lane, !padding && e < n_counted ? 1.0 : 0.0);
       for (std::size_t a = 0; a < nn; ++a)
-        nodes[(bb * nn + a) * k_lanes + static_cast<std::size_t>(lane)] = element[a];
-
+        nodes[(b * nn + a) * k_lanes + static_cast<std::size_t>(lane)] = block.element(e)[a];
+    }
+    hold_gradients(static_cast<Index>(b));
+    for (int lane = 0; lane < k_lanes; ++lane) {
+      const bool padding = static_cast<Index>(b) * k_lanes + lane >= n_elements;
+      const Index* element = block.element(element_of(static_cast<Index>(b), lane, n_elements));
       for (std::size_t p = 0; p < np; ++p) {
-        const double* dn = reference.data() + p * nn * nd;
-        std::array<std::array<double, 3>, 3> jacobian{};
         double radius = 0;
-        for (std::size_t a = 0; a < nn; ++a) {
-          const Point& x = mesh.x[static_cast<std::size_t>(element[a])];
-          radius += values[p * nn + a] * x[0];
-          for (std::size_t i = 0; i < nd; ++i)
-            for (std::size_t j = 0; j < nd; ++j) jacobian[i][j] += x[i] * dn[a * nd + j];
-        }
-        const Jacobian j = invert(jacobian, dim);
-        const std::size_t at = bb * np + p;
-        weight[at].set(lane, padding ? 0.0 : rule[p].weight * j.determinant * revolution(kind, radius));
-        if (axisymmetric) inverse_radius[at].set(lane, radius > 0 ? 1 / radius : 0.0);
         for (std::size_t a = 0; a < nn; ++a)
-          for (std::size_t i = 0; i < nd; ++i) {
-            double g = 0;
-            for (std::size_t k = 0; k < nd; ++k) g += dn[a * nd + k] * j.inverse[k][i];
-            gradients[(at * nn + a) * nd + i].set(lane, g);
-          }
+          radius += values[p * nn + a] * mesh.x[static_cast<std::size_t>(element[a])][0];
+        const std::size_t at = b * np + p;
+        weight[at].set(
+            lane, padding ? 0.0 : rule[p].weight * held_determinants_[p][lane] * revolution(kind, radius));
+        if (axisymmetric) inverse_radius[at].set(lane, radius > 0 ? 1 / radius : 0.0);
       }
     }
+  }
+}
+
+void BlockGeometry::hold_gradients(Index batch) const {
+  const auto find = [&]<std::size_t nn, std::size_t nd>() {
+    gradients_of<nn, nd>(mesh_->x, nodes.data() + static_cast<std::ptrdiff_t>(batch) * n_nodes * k_lanes,
+                         reference_.data(), n_points, held_gradients_.data(), held_determinants_.data());
+  };
+  switch (shape) {
+    case Shape::tri3:
+      find.operator()<3, 2>();
+      break;
+    case Shape::tri6:
+      find.operator()<6, 2>();
+      break;
+    case Shape::quad4:
+      find.operator()<4, 2>();
+      break;
+    case Shape::quad8:
+      find.operator()<8, 2>();
+      break;
+    case Shape::tet4:
+      find.operator()<4, 3>();
+      break;
+    case Shape::tet10:
+      find.operator()<10, 3>();
+      break;
+    case Shape::hex8:
+      find.operator()<8, 3>();
+      break;
+    case Shape::hex20:
+      find.operator()<20, 3>();
+      break;
+    default:
+      throw std::invalid_argument("no element of a body has this shape");
+  }
+  held_batch_ = batch;
+  if (shift_.empty()) return;
+  const auto stride = static_cast<std::size_t>(n_nodes * dim);
+  const Lane* const of_batch = shift_.data() + static_cast<std::size_t>(batch) * stride;
+  for (std::size_t i = 0; i < held_gradients_.size(); ++i) held_gradients_[i] += of_batch[i % stride];
 }
 
 std::size_t BlockGeometry::bytes() const {
   return sizeof(double) * values.size() + sizeof(Index) * nodes.size() +
-         sizeof(Lane) * (gradients.size() + weight.size() + inverse_radius.size() + counted.size());
+         sizeof(Lane) * (shift_.size() + weight.size() + inverse_radius.size() + counted.size());
 }
 
 namespace {

@@ -1,6 +1,10 @@
-/// Everything geometric about a block of elements, computed once, in batches of k_lanes elements.
+/// Everything geometric about a block of elements, in batches of k_lanes elements.
+///
+/// Gradients are not kept: for an 8-node hexahedron they are 1.5 kB, which come from memory no sooner than
+/// they are computed from its corners.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "base/simd.hpp"
@@ -10,7 +14,7 @@
 namespace solidus::mesh {
 
 /// Gradients, weights and node numbers of a block at the points of a rule. The last batch is padded with
-/// copies of the last element whose weights are zero.
+/// copies of the last element whose weights are zero. Keeps a reference to the mesh.
 struct BlockGeometry {
   BlockGeometry(const Mesh& mesh, const Block& block, AnalysisKind kind, const Rule& rule);
 
@@ -19,20 +23,37 @@ struct BlockGeometry {
   Index n_elements = 0, n_batches = 0, n_counted = 0;
 
   std::vector<double> values;       ///< N_a at the points: [point][node], the same for every element
-  PackVector<Lane> gradients;       ///< ∂N_a/∂x_i [1/m]: [batch][point][node][dim]
   PackVector<Lane> weight;          ///< quadrature weight × det J × (2π r | 1): [batch][point] [m³]
   PackVector<Lane> inverse_radius;  ///< 1/r at the points (axisymmetric only, else empty): [batch][point]
   std::vector<Index> nodes;         ///< local node numbers: [batch][node][lane]
   PackVector<Lane> counted;         ///< one for elements this process counts, else zero: [batch]
 
+  /// ∂N_a/∂x_i [1/m], [node][dim]; holds until another batch is asked for. Not for several threads.
   const Lane* gradients_at(Index batch, int point) const {
-    return gradients.data() + (static_cast<std::ptrdiff_t>(batch) * n_points + point) * n_nodes * dim;
+    if (batch != held_batch_) hold_gradients(batch);
+    return held_gradients_.data() + static_cast<std::ptrdiff_t>(point) * n_nodes * dim;
+  }
+  /// From now on adds this to the gradients at all points, [batch][node][dim].
+  void shift_gradients(PackVector<Lane> by) {
+    shift_ = std::move(by);
+    held_batch_ = k_none;
   }
   Lane weight_at(Index batch, int point) const {
     return weight[static_cast<std::size_t>(batch) * static_cast<std::size_t>(n_points) +
                   static_cast<std::size_t>(point)];
   }
   std::size_t bytes() const;
+
+ private:
+  static constexpr Index k_none = -1;
+  void hold_gradients(Index batch) const;
+
+  const Mesh* mesh_;
+  std::vector<double> reference_;  ///< ∂N_a/∂ξ_j: [point][node][dim]
+  PackVector<Lane> shift_;         ///< empty: none
+  mutable Index held_batch_ = k_none;
+  mutable PackVector<Lane> held_gradients_;     ///< [point][node][dim]
+  mutable PackVector<Lane> held_determinants_;  ///< det J without the shift, [point]
 };
 
 /// The nodal weights of the closed rule, ∫ N_a dV > 0 for linear shapes; for quadratic shapes diagonal

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "algebra/parallel.hpp"
+#include "base/free_memory.hpp"
 #include "base/log.hpp"
 #include "base/profile.hpp"
 #include "base/units.hpp"
@@ -165,7 +167,7 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
 }
 
 RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
-                        const std::optional<results::Checkpoint>& from, results::Recorder& recorder) {
+                        std::optional<results::Checkpoint> from, results::Recorder& recorder) {
   coupling::TimeOptions times = time_options(spec);
   std::optional<coupling::ErrorEstimate> estimate;
   if (spec.time.adaptive) {
@@ -192,11 +194,13 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   simulation.at_stage([&](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
     apply(spec, stage, start.displacement, begins, a);
   });
-  const coupling::State& start = from ? from->state : a.initial;
+  // A state is large: the one at the start is not needed beside those of the run.
+  coupling::State start = std::move(from ? from->state : a.initial);
+  a.initial = {};
   coupling::StepEffort at_start;
   coupling::summarise(a.phases, start, at_start);
-  const coupling::Outcome outcome =
-      simulation.run(start, at_start.solid_fraction, from ? std::optional(from->continuation) : std::nullopt);
+  const coupling::Outcome outcome = simulation.run(std::move(start), at_start.solid_fraction,
+                                                   from ? std::optional(from->continuation) : std::nullopt);
   if (outcome == coupling::Outcome::finished) return {};
   std::vector<CouplingEstimate> couplings;
   if (spec.coupled() && spec.coupling.scheme == CouplingSpec::Scheme::isothermal)
@@ -256,12 +260,13 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   const double loaded = MPI_Wtime();
   part.emplace("set-up");
   build(c.spec, a);
+  return_free_memory();
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh));
 
   results::RecorderOptions r = recorder_options(c, options, a);
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials);
-  const std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);
+  std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);
   if (from) r.progress_options.start = from->state.time;
   r.continue_from = from;
   const results::RunFolder folder(options.folder, c.toml(), options.restart);
@@ -270,7 +275,7 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));
   part.reset();
   return c.spec.time.steady ? run_steady(c.spec, a, recorder)
-                            : run_transient(c.spec, options, a, from, recorder);
+                            : run_transient(c.spec, options, a, std::move(from), recorder);
 }
 
 }  // namespace solidus::model

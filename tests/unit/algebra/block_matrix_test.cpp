@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "algebra/lane_slots.hpp"
 #include "algebra/parallel.hpp"
 #include "base/simd.hpp"
 #include "grid.hpp"
@@ -114,13 +115,13 @@ TEST(BlockMatrix, LaneSlotsScatterTheSameMatrix) {
     for (std::size_t p = 0; p < 4; ++p)
       nodes[(e / k_lanes * 4 + p) * k_lanes + e % k_lanes] =
           grid.quads[std::min(e, static_cast<std::size_t>(n) - 1) * 4 + p];
-  const auto slots = matrix.lane_slots(nodes, 4, n);
+  const LaneSlots slots(matrix, nodes, 4, n);
   matrix.set_zero();
   for (std::size_t batch = 0; batch < n_batches; ++batch)
     for (std::size_t p = 0; p < 4; ++p)
       for (std::size_t q = 0; q < 4; ++q)
         for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-          double* block = matrix.block(slots[((batch * 4 + p) * 4 + q) * k_lanes + lane]);
+          double* block = matrix.block(slots.of(static_cast<Index>(batch))[(p * 4 + q) * k_lanes + lane]);
           const GlobalIndex row = grid.global(nodes[(batch * 4 + p) * k_lanes + lane]);
           const GlobalIndex column = grid.global(nodes[(batch * 4 + q) * k_lanes + lane]);
           for (int a = 0; a < 2; ++a)

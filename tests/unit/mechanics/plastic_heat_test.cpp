@@ -1,6 +1,7 @@
 /// The heat of plastic flow and the energy that hardening stores, in both forms of structural heat.
 #include <gtest/gtest.h>
 
+#include "heated.hpp"
 #include "material/free_energy.hpp"
 #include "mechanics/structural_heat.hpp"
 #include "plastic_material.hpp"
@@ -13,7 +14,7 @@ using mechanics::StructuralForm;
 using mechanics::StructuralHeat;
 using mesh::Shape;
 using test::Body;
-using test::Solved;
+using Solved = test::Heated;
 
 material::Material material_of(material::IsotropicHardening isotropic, KinematicHardening kinematic) {
   material::Material m = test::plastic_material(kinematic);

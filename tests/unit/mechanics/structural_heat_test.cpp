@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "body.hpp"
+#include "heated.hpp"
 #include "mechanics/structural_heat.hpp"
 
 namespace solidus {
@@ -11,7 +12,7 @@ using mechanics::StructuralForm;
 using mechanics::StructuralHeat;
 using mesh::Shape;
 using test::Body;
-using test::Solved;
+using Solved = test::Heated;
 
 /// A distorted block stretched through its sides; moduli and expansion vary with temperature.
 struct Stretched {

@@ -115,6 +115,25 @@ TEST_P(EveryBodyShape, GradientsOfALinearFieldAreExactOnADistortedMesh) {
   }
 }
 
+TEST_P(EveryBodyShape, GradientsAreTheSameInWhateverOrderBatchesAreAskedFor) {
+  RawMesh raw = sample_box(GetParam());
+  distort(raw, 0.05);
+  const Mesh m = distribute(raw, {"block"}, {});
+  for (const Block& block : m.blocks) {
+    const BlockGeometry up(m, block, plain_kind(GetParam()), stiffness_rule(block.shape));
+    BlockGeometry down = up;
+    if (up.n_batches == 0) continue;
+    const auto stride = static_cast<std::size_t>(up.n_nodes * up.dim);
+    down.gradients_at(0, 0);
+    down.shift_gradients(PackVector<Lane>(static_cast<std::size_t>(up.n_batches) * stride, Lane(0.25)));
+    for (Index batch = 0; batch < up.n_batches; ++batch)
+      for (const Index other : {up.n_batches - 1 - batch, batch})
+        for (int p = up.n_points - 1; p >= 0; --p)
+          for (std::size_t i = 0; i < stride; ++i)
+            EXPECT_EQ(down.gradients_at(other, p)[i][0], up.gradients_at(other, p)[i][0] + 0.25);
+  }
+}
+
 TEST_P(EveryBodyShape, VolumeOfABoxIsExactAndNothingIsCountedTwice) {
   const Mesh m = distribute(sample_box(GetParam()), {"block"}, {});
   EXPECT_NEAR(volume(m, plain_kind(GetParam())), m.dimension == 3 ? 0.06 : 0.15, 1e-15);
