@@ -26,7 +26,12 @@ void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
     for (Index row : clique) {
       if (row >= mesh_.n_owned_nodes) continue;
       auto& columns = rows_[at(row)];
-      columns.insert(columns.end(), clique.begin(), clique.end());
+      if (left_out_.empty()) {
+        columns.insert(columns.end(), clique.begin(), clique.end());
+      } else if (!left_out_[at(row)]) {
+        std::copy_if(clique.begin(), clique.end(), std::back_inserter(columns),
+                     [&](Index column) { return !left_out_[at(column)]; });
+      }
     }
   }
 }
@@ -65,6 +70,7 @@ BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph
 
 void BlockMatrix::set_graph(NodeGraph graph) {
   ++pattern_;
+  left_out_ = graph.left_out();
   graph.compress(row_start_, columns_);
   const auto bs = static_cast<std::size_t>(block_size_);
   assign_in_large_pages(values_, (columns_.size() + 1) * bs * bs, 0.0);
@@ -129,6 +135,7 @@ BlockMatrix::Slot BlockMatrix::slot(Index row, Index column) const {
   if (row >= mesh_.n_owned_nodes) return k_no_slot;
   const auto begin = columns_.begin() + row_start_[at(row)], end = columns_.begin() + row_start_[at(row) + 1];
   const auto found = std::lower_bound(begin, end, column);
+  if (!left_out_.empty() && (left_out_[at(row)] || left_out_[at(column)]) && row != column) return k_no_slot;
   assert(found != end && *found == column && "this pair of nodes was not announced to the graph");
   return found - columns_.begin();
 }

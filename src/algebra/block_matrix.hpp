@@ -25,18 +25,23 @@ class NodeGraph {
   explicit NodeGraph(const mesh::Mesh& mesh);
   /// All nodes of each clique of `n` nodes couple with each other.
   void add_cliques(std::span<const Index> nodes, int n);
+  /// These nodes, [local node], have no unknowns: they couple with nothing, and what is added to their pairs
+  /// is lost. Before the first clique.
+  void leave_out(std::vector<char> nodes) { left_out_ = std::move(nodes); }
+  const std::vector<char>& left_out() const { return left_out_; }
   /// Sorted unique columns of every owned row; call once, after all cliques.
   void compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns);
 
  private:
   const mesh::Mesh& mesh_;
   std::vector<std::vector<Index>> rows_;
+  std::vector<char> left_out_;  ///< empty: none
 };
 
 class BlockMatrix {
  public:
   using Slot = std::int64_t;
-  /// The row belongs to another process, or the lane is padding. Its block is a scrap block that may be added
+  /// The row belongs to another process, a node has no unknowns, or the lane is padding. Its block is a scrap block that may be added
   /// to and is never read, so kernels scatter without a branch.
   static constexpr Slot k_no_slot = -1;
 
@@ -52,8 +57,8 @@ class BlockMatrix {
   int pattern() const { return pattern_; }
 
   int block_size() const { return block_size_; }
-  /// The slot of a pair of local nodes, k_no_slot where the row is not owned. The pair must be in the graph
-  /// (assert).
+  /// The slot of a pair of local nodes, k_no_slot where the row is not owned or a node is left out. Any other
+  /// pair must be in the graph (assert).
   Slot slot(Index row, Index column) const;
   /// Slots of all pairs of the nodes of each element: input [element][n], output [element][a][b].
   std::vector<Slot> clique_slots(std::span<const Index> nodes, int n) const;
@@ -106,6 +111,7 @@ class BlockMatrix {
   std::vector<std::int64_t> row_start_;
   std::vector<Index> columns_;
   std::vector<Slot> diagonal_;
+  std::vector<char> left_out_;  ///< as of the graph
   std::vector<std::int64_t> ghost_start_;  ///< [owned node], into ghost_slots_
   std::vector<Slot> ghost_slots_;          ///< slots of ghost columns in global order
   std::vector<double> values_;             ///< the scrap block, then a block per slot

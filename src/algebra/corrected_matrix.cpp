@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "algebra/petsc_handles.hpp"
+#include "algebra/petsc_vectors.hpp"
 
 namespace solidus::algebra {
 
@@ -17,16 +17,7 @@ PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
   Parts* parts = nullptr;
   check(MatShellGetContext(shell, &parts), "MatShellGetContext");
   check(MatMult(parts->assembled, x, y), "MatMult");
-  PetscInt n = 0, m = 0;
-  check(VecGetLocalSize(x, &n), "VecGetLocalSize");
-  check(VecGetLocalSize(y, &m), "VecGetLocalSize");
-  const double* from = nullptr;
-  double* to = nullptr;
-  check(VecGetArrayRead(x, &from), "VecGetArrayRead");
-  check(VecGetArray(y, &to), "VecGetArray");
-  parts->term({from, static_cast<std::size_t>(n)}, {to, static_cast<std::size_t>(m)});
-  check(VecRestoreArray(y, &to), "VecRestoreArray");
-  check(VecRestoreArrayRead(x, &from), "VecRestoreArrayRead");
+  with_values(x, y, parts->term);
   return 0;
 }
 

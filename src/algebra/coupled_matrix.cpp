@@ -3,7 +3,6 @@
 #include <petsc/private/petscimpl.h>
 
 #include <algorithm>
-#include <cassert>
 
 #include "algebra/petsc_handles.hpp"
 
@@ -26,15 +25,20 @@ CoupledMatrix::CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, 
 
 CoupledMatrix::~CoupledMatrix() = default;
 
-/// PETSc leaves out entries with a negative number and adds up those of the same place: what is prescribed
-/// and what is tied needs nothing else.
 void CoupledMatrix::create_rectangles() {
   pattern_u_ = displacement_.pattern();
   pattern_t_ = temperature_.pattern();
   petsc_->nest.reset();
-  const int n_components = components(), n_fields = fields();
-  force_.assign((displacement_.columns().size() + 1) * at(n_components * n_fields), 0.0);
+  petsc_->force.reset();
+  petsc_->heat.reset();
+  force_.assign((displacement_.columns().size() + 1) * at(components() * fields()), 0.0);
   heat_.assign(force_.size(), 0.0);
+}
+
+/// PETSc leaves out entries with a negative number and adds up those of the same place: what is prescribed
+/// and what is tied needs nothing else.
+void CoupledMatrix::create_petsc_rectangles() {
+  const int n_components = components(), n_fields = fields();
   const std::vector<char>&fixed_u = displacement_.fixed(), &fixed_t = temperature_.fixed();
   const auto displacement_number = [&](Index node, int i) -> PetscInt {
     const std::int64_t entry = std::int64_t{node} * n_components + i;
@@ -88,35 +92,47 @@ bool CoupledMatrix::set_zero() {
   return false;
 }
 
-void CoupledMatrix::multiply_heat(std::span<const double> x, std::span<double> y) const {
-  const std::int64_t n = components();
-  assert(fields() == 1);
-  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
-    double sum = 0;
-    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
-      const double* const a = heat_.data() + (s + 1) * n;
-      const double* const from = x.data() + displacement_.columns()[at(s)] * n;
-      for (std::int64_t i = 0; i < n; ++i) sum += a[i] * from[i];
+namespace {
+
+/// y = A x for rows of blocks [m][n]; one of m and n is known beforehand where it is not zero.
+template <int m_known, int n_known>
+void multiply_rectangles(const BlockMatrix& graph, const double* blocks, int m_any, int n_any,
+                         std::span<const double> x, std::span<double> y) {
+  const int m = m_known ? m_known : m_any, n = n_known ? n_known : n_any;
+  const std::span<const std::int64_t> start = graph.row_start();
+  const std::span<const Index> columns = graph.columns();
+  for (std::size_t row = 0; row + 1 < start.size(); ++row) {
+    double* const to = y.data() + row * at(m);
+    std::fill_n(to, m, 0.0);
+    for (std::int64_t s = start[row]; s < start[row + 1]; ++s) {
+      const double* const a = blocks + (s + 1) * m * n;
+      const double* const from = x.data() + std::int64_t{columns[at(s)]} * n;
+      for (int i = 0; i < m; ++i)
+        for (int j = 0; j < n; ++j) to[i] += a[i * n + j] * from[j];
     }
-    y[at(row)] = sum;
   }
+}
+
+}  // namespace
+
+void CoupledMatrix::multiply_heat(std::span<const double> x, std::span<double> y) const {
+  const int m = fields(), n = components();
+  const auto multiply = m == 1 && n == 3   ? multiply_rectangles<1, 3>
+                        : m == 1 && n == 2 ? multiply_rectangles<1, 2>
+                                           : multiply_rectangles<0, 0>;
+  multiply(displacement_, heat_.data(), m, n, x, y);
 }
 
 void CoupledMatrix::multiply_force(std::span<const double> x, std::span<double> y) const {
-  const std::int64_t n = components();
-  assert(fields() == 1);
-  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
-    double* const to = y.data() + row * n;
-    std::fill_n(to, n, 0.0);
-    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
-      const double* const a = force_.data() + (s + 1) * n;
-      const double from = x[at(displacement_.columns()[at(s)])];
-      for (std::int64_t i = 0; i < n; ++i) to[i] += a[i] * from;
-    }
-  }
+  const int m = components(), n = fields();
+  const auto multiply = n == 1 && m == 3   ? multiply_rectangles<3, 1>
+                        : n == 1 && m == 2 ? multiply_rectangles<2, 1>
+                                           : multiply_rectangles<0, 0>;
+  multiply(displacement_, force_.data(), m, n, x, y);
 }
 
 Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {
+  if (!petsc_->force) create_petsc_rectangles();
   const std::ptrdiff_t scrap = components() * fields();
   check(MatSetValuesCOO(petsc_->force, force_.data() + scrap, INSERT_VALUES), "MatSetValuesCOO");
   check(MatSetValuesCOO(petsc_->heat, heat_.data() + scrap, INSERT_VALUES), "MatSetValuesCOO");
@@ -136,6 +152,7 @@ Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {
 std::size_t CoupledMatrix::bytes() const {
   std::size_t total = (force_.capacity() + heat_.capacity()) * sizeof(double);
   for (const MatHandle* a : {&petsc_->force, &petsc_->heat}) {
+    if (!*a) continue;
     MatInfo info;
     check(MatGetInfo(*a, MAT_LOCAL, &info), "MatGetInfo");
     total += static_cast<std::size_t>(info.memory);

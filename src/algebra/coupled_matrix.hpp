@@ -42,8 +42,7 @@ class CoupledMatrix {
   /// ∂r_Θ/∂u of a pair (row node, column node), [field][component].
   double* heat_by_displacement(Slot s) { return heat_.data() + (s + 1) * components() * fields(); }
 
-  /// y = K_Θu x for local x (ghosts up to date), y on owned nodes; ignores what is prescribed or tied. Of one
-  /// field.
+  /// y = K_Θu x for local x (ghosts up to date), y on owned nodes; ignores what is prescribed or tied.
   void multiply_heat(std::span<const double> x, std::span<double> y) const;
   /// y = K_uΘ x, likewise.
   void multiply_force(std::span<const double> x, std::span<double> y) const;
@@ -55,6 +54,7 @@ class CoupledMatrix {
 
  private:
   void create_rectangles();
+  void create_petsc_rectangles();
 
   const mesh::Mesh& mesh_;
   BlockMatrix& displacement_;

@@ -4,6 +4,7 @@
 
 #include <petscksp.h>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,7 +17,7 @@ namespace solidus::algebra {
 enum class Preconditioner {
   factorisation,  ///< MUMPS
   multigrid,      ///< GAMG
-  saddle          ///< of a MATNEST {u, p}: multigrid on u, and a given matrix for the Schur complement of p
+  given           ///< that of use()
 };
 
 struct KrylovOptions {
@@ -31,12 +32,12 @@ class KrylovSolver {
  public:
   explicit KrylovSolver(KrylovOptions options);
   ~KrylovSolver();
-  /// Rigid-body modes of the first block (Preconditioner::saddle), from the coordinates of the owned nodes.
-  void use_rigid_body_modes(const mesh::Mesh& mesh, int components);
+  /// Of Preconditioner::given: z ≈ A⁻¹ r on owned degrees of freedom. Collective.
+  using Cycle = std::function<void(std::span<const double> r, std::span<double> z)>;
+  void use(Cycle cycle);
 
   /// From here on the operator and what preconditions it, set up at the next solve.
-  /// @param schur  of Preconditioner::saddle: near the Schur complement of the second block
-  void set(Mat op, Mat preconditioner, Mat schur = nullptr);
+  void set(Mat op, Mat preconditioner);
   /// Solves to ‖b − A x‖ <= max(relative ‖b‖, absolute) from x = 0, on owned degrees of freedom. Collective.
   LinearReport solve(std::span<const double> b, std::span<double> x, double relative, double absolute = 0);
   /// y = A x with the operator of set(), on owned degrees of freedom. Collective.

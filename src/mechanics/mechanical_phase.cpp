@@ -11,6 +11,7 @@
 
 #include "base/errors.hpp"
 #include "base/profile.hpp"
+#include "base/stopwatch.hpp"
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
@@ -34,19 +35,6 @@ BlockHistory no_stress(const BlockHistory& history) {
   stress.values.assign(n_points * k_components, Lane(0.0));
   return stress;
 }
-
-/// Adds the time that it lives to a counter.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(MPI_Wtime()) {}
-  ~Stopwatch() { seconds_ += MPI_Wtime() - start_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  double start_;
-};
 
 }  // namespace
 
@@ -142,6 +130,11 @@ void MechanicalPhase::remove_bodies(const algebra::Presence& presence) {
 
 algebra::NodeGraph MechanicalPhase::graph() const {
   algebra::NodeGraph graph(mesh_);
+  if (!presence_.complete()) {
+    std::vector<char> absent(mesh_.x.size());
+    for (std::size_t i = 0; i < absent.size(); ++i) absent[i] = !presence_.node(static_cast<Index>(i));
+    graph.leave_out(std::move(absent));
+  }
   for (const mesh::Block& block : mesh_.blocks)
     if (presence_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);

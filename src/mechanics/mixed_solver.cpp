@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/function_matrix.hpp"
 #include "algebra/petsc_handles.hpp"
+#include "base/profile.hpp"
+#include "base/stopwatch.hpp"
 
 namespace solidus::mechanics {
 
@@ -11,6 +14,10 @@ namespace {
 
 /// Degrees of freedom of both fields; above, a factorisation in three dimensions fills up.
 constexpr GlobalIndex k_direct_limit_3d = 40000;
+/// Up to so many it takes over where multigrid fails.
+constexpr GlobalIndex k_rescue_limit = 200000;
+/// A hierarchy is made anew where a solve takes half as many iterations again as the first one with it.
+constexpr double k_slower = 0.5, k_few = 5;
 /// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
 constexpr double k_direct_tolerance = 1e-8, k_direct_tightening = 1e-2;
 /// Against the divergence, in parts of 2Ĝ: with it A has the stiffness of Poisson's ratio 1/4.
@@ -35,7 +42,8 @@ bool factorises(algebra::SolverKind kind, const mesh::Mesh& mesh, int components
 }
 
 struct MixedSolver::Petsc {
-  algebra::MatHandle assembled;  ///< the nest as one matrix, for the factorisation
+  algebra::MatHandle assembled;                   ///< the nest as one matrix, for the factorisation
+  std::unique_ptr<algebra::FunctionMatrix> free;  ///< saddle_
 };
 
 MixedSolver::MixedSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacement,
@@ -49,21 +57,70 @@ MixedSolver::MixedSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacem
       compliance_(pressure.make_matrix()),
       matrix_(mesh, displacement, *compliance_),
       operator_([this](std::span<const double> x, std::span<double> y) { add_terms(x, y); }),
-      solver_({.prefix = "mechanics_mixed_",
-               .preconditioner =
-                   options.direct ? algebra::Preconditioner::factorisation : algebra::Preconditioner::saddle,
-               .definite = false,
-               .symmetric = options.symmetric}),
       petsc_(std::make_unique<Petsc>()) {
-  reset();
-  for (MixedKernel* kernel : pressure.kernels())
-    kernel->set_augmentation(options.direct ? 0.0 : k_augmentation);
-  if (options.direct) return;
-  solver_.use_rigid_body_modes(mesh, displacement.block_size());
-  schur_ = pressure.make_matrix();
+  make_solver(options.direct || !SaddlePreconditioner::serves(displacement));
+  for (MixedKernel* kernel : pressure.kernels()) kernel->set_augmentation(direct_ ? 0.0 : k_augmentation);
+  augmented_ = !direct_;
 }
 
 MixedSolver::~MixedSolver() = default;
+
+void MixedSolver::make_solver(bool direct) {
+  direct_ = direct;
+  petsc_->assembled.reset();
+  solver_.emplace(algebra::KrylovOptions{
+      .prefix = "mechanics_mixed_",
+      .preconditioner = direct ? algebra::Preconditioner::factorisation : algebra::Preconditioner::given,
+      .definite = false,
+      .symmetric = options_.symmetric});
+  tightening_ = direct ? k_direct_tightening : 1;
+  stale_ = true;
+  if (direct) return;
+  preconditioner_.emplace(mesh_, displacement_.block_size());
+  schur_ = pressure_.make_matrix();
+  saddle_.emplace(mesh_, matrix_, pressure_, ghosts_);
+  solver_->use([this](std::span<const double> r, std::span<double> z) {
+    on_whole(r, z, [this] { preconditioner_->apply(*saddle_, whole_in_, whole_out_); });
+  });
+  petsc_->free = std::make_unique<algebra::FunctionMatrix>(
+      static_cast<std::int64_t>(saddle_->n_free()), [this](std::span<const double> x, std::span<double> y) {
+        on_whole(x, y, [this] { saddle_->multiply(whole_in_, whole_out_); });
+      });
+}
+
+/// y = f(x), both of the free degrees of freedom, for an f from whole_in_ to whole_out_.
+template <class Function>
+void MixedSolver::on_whole(std::span<const double> x, std::span<double> y, Function&& f) {
+  whole_in_.resize(right_.size());
+  whole_out_.resize(right_.size());
+  saddle_->expand(x, whole_in_);
+  f();
+  saddle_->restrict_to_free(whole_out_, y);
+}
+
+/// Solves for the right-hand side residual_; the solution goes to direction_.
+algebra::LinearReport MixedSolver::solve_once(double absolute) {
+  if (direct_) return solver_->solve(residual_, direction_, 0.0, absolute);
+  free_in_.resize(saddle_->n_free());
+  free_out_.resize(saddle_->n_free());
+  saddle_->restrict_to_free(residual_, free_in_);
+  const algebra::LinearReport report = solver_->solve(free_in_, free_out_, 0.0, absolute);
+  saddle_->expand(free_out_, direction_);
+  return report;
+}
+
+/// y = K x, zero where prescribed.
+void MixedSolver::multiply(std::span<const double> x, std::span<double> y) {
+  if (direct_) return solver_->multiply(x, y);
+  free_in_.resize(saddle_->n_free());
+  saddle_->multiply(x, y);
+  saddle_->restrict_to_free(y, free_in_);
+  saddle_->expand(free_in_, y);
+}
+
+bool MixedSolver::factorisation_serves() const {
+  return mesh_.n_global_nodes * (displacement_.block_size() + pressure_.fields()) < k_rescue_limit;
+}
 
 void MixedSolver::assemble() {
   if (matrix_.set_zero()) reset();
@@ -73,41 +130,81 @@ void MixedSolver::assemble() {
 
 algebra::LinearReport MixedSolver::solve(algebra::BlockMatrix&, std::span<const double> b,
                                          std::span<double> x, double forcing) {
-  using algebra::check;
-  Mat preconditioner = matrix_.matrix(1, 1), schur = nullptr;
-  if (options_.direct) {
+  set_operators();
+  return solve_again(b, x, forcing);
+}
+
+void MixedSolver::set_operators() {
+  const profile::Part set_up("solver set-up");
+  const Stopwatch watch(seconds_setup_);
+  if (direct_) {
+    Mat nest = matrix_.matrix(1, 1);
     const MatReuse reuse = petsc_->assembled ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
     Mat assembled = petsc_->assembled;
-    check(MatConvert(preconditioner, MATAIJ, reuse,
-                     reuse == MAT_REUSE_MATRIX ? &assembled : petsc_->assembled.out()),
-          "MatConvert");
-    preconditioner = petsc_->assembled;
-  } else {
-    const double scale = pressure_.unit() * pressure_.unit();
-    schur_->set_zero();
-    for (const MixedKernel* kernel : pressure_.kernels()) {
-      kernel->add_compliance(-scale, *schur_);
-      kernel->add_mass(-scale, *schur_);
-    }
-    schur = schur_->matrix();
+    algebra::check(
+        MatConvert(nest, MATAIJ, reuse, reuse == MAT_REUSE_MATRIX ? &assembled : petsc_->assembled.out()),
+        "MatConvert");
+    solver_->set(operator_.with(nest), petsc_->assembled);
+    return;
   }
-  solver_.set(operator_.with(preconditioner), preconditioner, schur);
-  return solve_again(b, x, forcing);
+  const double scale = pressure_.unit() * pressure_.unit();
+  schur_->set_zero();
+  for (const MixedKernel* kernel : pressure_.kernels()) {
+    kernel->add_compliance(-scale, *schur_);
+    kernel->add_mass(-scale, *schur_);
+  }
+  preconditioner_->set_schur(schur_->matrix());
+  solver_->set(petsc_->free->matrix(), petsc_->free->matrix());
+  if (stale_) set_up_hierarchy();
+}
+
+void MixedSolver::set_up_hierarchy() {
+  preconditioner_->set_up(displacement_);
+  first_rate_ = 0;
+  stale_ = false;
 }
 
 algebra::LinearReport MixedSolver::solve_again(std::span<const double> b, std::span<double> x,
                                                double forcing) {
-  right_.assign(b.begin(), b.end());
-  right_.resize(b.size() + static_cast<std::size_t>(mesh_.n_owned_nodes * pressure_.fields()), 0.0);
-  solution_.assign(right_.size(), 0.0);
-  algebra::LinearReport report =
-      solve_to(options_.direct ? std::min(k_direct_tolerance, options_.relative_tolerance)
-                               : std::max(forcing, options_.relative_tolerance),
-               b);
+  algebra::LinearReport report = attempt(b, forcing);
+  const auto again = [&] {
+    const int spent = report.iterations;
+    report = attempt(b, forcing);
+    report.iterations += spent;
+  };
+  if (!report.converged && !direct_ && first_rate_ > 0) {
+    set_up_hierarchy();
+    again();
+  }
+  if (!report.converged && !direct_ && factorisation_serves()) {
+    make_solver(true);
+    set_operators();
+    again();
+  }
   const auto all = std::span<const double>(solution_);
   std::copy_n(all.begin(), b.size(), x.begin());
   pressure_.expect(all.first(b.size()), all.subspan(b.size()));
   return report;
+}
+
+algebra::LinearReport MixedSolver::attempt(std::span<const double> b, double forcing) {
+  const Stopwatch watch(seconds_solve_);
+  right_.assign(b.begin(), b.end());
+  right_.resize(b.size() + static_cast<std::size_t>(mesh_.n_owned_nodes * pressure_.fields()), 0.0);
+  solution_.assign(right_.size(), 0.0);
+  return solve_to(direct_ ? std::min(k_direct_tolerance, options_.relative_tolerance)
+                          : std::max(forcing, options_.relative_tolerance),
+                  b);
+}
+
+/// Decides whether the hierarchy serves again. Tolerances differ from solve to solve: what counts are
+/// iterations per digit.
+void MixedSolver::judge_hierarchy(double from, double to, int iterations) {
+  if (direct_ || !(to > 0 && to < from)) return;
+  const double digits = std::log10(from / to);
+  if (first_rate_ <= 0) first_rate_ = iterations / digits;
+  const double expected = first_rate_ * digits;
+  stale_ = stale_ || iterations > expected + std::max(k_slower * expected, k_few);
 }
 
 /// Until ‖r_u + B (C+S)⁻¹ r_p‖ <= relative ‖b‖.
@@ -117,7 +214,9 @@ algebra::LinearReport MixedSolver::solve_to(double relative, std::span<const dou
   residual_ = right_;
   direction_.resize(right_.size());
   for (int round = 0;; ++round) {
-    const algebra::LinearReport part = solver_.solve(residual_, direction_, 0.0, goal * tightening_);
+    const double from = norm(residual_), to = goal * tightening_;
+    const algebra::LinearReport part = solve_once(to);
+    judge_hierarchy(from, to, part.iterations);
     report.iterations += part.iterations;
     report.converged = part.converged;
     report.reason = part.reason;
@@ -133,7 +232,7 @@ algebra::LinearReport MixedSolver::solve_to(double relative, std::span<const dou
 double MixedSolver::reduced_residual() {
   const std::size_t n = right_.size() - static_cast<std::size_t>(mesh_.n_owned_nodes * pressure_.fields());
   const auto subtract = [this](std::span<const double> x) {
-    solver_.multiply(x, direction_);
+    multiply(x, direction_);
     for (std::size_t i = 0; i < residual_.size(); ++i) residual_[i] -= direction_[i];
   };
   residual_ = right_;
@@ -151,7 +250,7 @@ double MixedSolver::reduced_residual() {
 void MixedSolver::add_terms(std::span<const double> x, std::span<double> y) {
   const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes * displacement_.block_size());
   pressure_.add_projection_to(x.subspan(n), 1.0, y.subspan(n));
-  if (options_.direct) return;
+  if (!augmented_) return;
   const std::vector<char>& fixed = displacement_.fixed();
   swelling_.resize(fixed.size());
   pull_.assign(fixed.size(), 0.0);
@@ -172,13 +271,12 @@ void MixedSolver::forget() {
 }
 
 void MixedSolver::reset() {
-  tightening_ = options_.direct ? k_direct_tightening : 1;
-  solver_.reset();
-  petsc_->assembled.reset();
+  make_solver(!augmented_);
 }
 
 std::size_t MixedSolver::bytes() const {
-  return matrix_.bytes() + compliance_->bytes() + (schur_ ? schur_->bytes() : 0);
+  return matrix_.bytes() + compliance_->bytes() + (schur_ ? schur_->bytes() : 0) +
+         (preconditioner_ ? preconditioner_->bytes() : 0);
 }
 
 }  // namespace solidus::mechanics

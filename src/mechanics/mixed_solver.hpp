@@ -5,21 +5,23 @@
 ///
 /// S couples neighbours of neighbours and is never assembled: flexible GMRES has it in its operator and goes
 /// without that part in its preconditioner, which is the LDLᵀ of MUMPS or, for many unknowns, block
-/// triangular: multigrid with rigid-body modes on A, and C + S + ∫ N 1/(2Ĝ) N dV for the Schur complement.
-/// There A gets a stiffness 2Ĝ/3 against the divergence, which the operator is without: alone it is singular
-/// where a body may swell.
+/// triangular (saddle_preconditioner.hpp). There A gets a stiffness 2Ĝ/3 against the divergence, which the
+/// operator is without: alone it is singular where a body may swell. Where that does not converge, and a
+/// factorisation is possible, it takes over until forget().
 ///
 /// What an iterative solver leaves in the second row comes back in the forces, once the pressure is
 /// eliminated, up to κ/2Ĝ times as large: r = r_u + B (C+S)⁻¹ r_p. The iteration goes on until r is small
-/// enough. PETSc options: mechanics_mixed_, and within the block triangular one mechanics_mixed_fieldsplit_u_
-/// and …_p_.
+/// enough. PETSc options: mechanics_mixed_, and for the pressure of the block triangular one
+/// mechanics_mixed_p_.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "mechanics/pressure_equation.hpp"
+#include "mechanics/saddle_preconditioner.hpp"
 
 namespace solidus::mechanics {
 
@@ -45,11 +47,23 @@ class MixedSolver final : public algebra::TangentSolver {
   algebra::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override;
   void forget() override;
   void reset() override;
-  double seconds_setup() const override { return solver_.seconds_setup(); }
-  double seconds_solve() const override { return solver_.seconds_solve(); }
+  double seconds_setup() const override { return seconds_setup_; }
+  double seconds_solve() const override { return seconds_solve_; }
   std::size_t bytes() const;
 
  private:
+  struct Petsc;
+
+  void make_solver(bool direct);
+  void set_operators();
+  void set_up_hierarchy();
+  bool factorisation_serves() const;
+  algebra::LinearReport attempt(std::span<const double> b, double forcing);
+  void judge_hierarchy(double from, double to, int iterations);
+  template <class Function>
+  void on_whole(std::span<const double> x, std::span<double> y, Function&& f);
+  algebra::LinearReport solve_once(double absolute);
+  void multiply(std::span<const double> x, std::span<double> y);
   void add_terms(std::span<const double> x, std::span<double> y);
   algebra::LinearReport solve_to(double relative, std::span<const double> b);
   double reduced_residual();
@@ -63,12 +77,19 @@ class MixedSolver final : public algebra::TangentSolver {
   std::unique_ptr<algebra::BlockMatrix> schur_;       ///< of the block triangular preconditioner
   algebra::CoupledMatrix matrix_;
   algebra::CorrectedMatrix operator_;
-  algebra::KrylovSolver solver_;
+  bool augmented_ = false;  ///< A has the stiffness against the divergence
+  bool direct_ = true;
+  std::optional<algebra::KrylovSolver> solver_;
+  std::optional<SaddlePreconditioner> preconditioner_;
+  std::optional<SaddleOperator> saddle_;  ///< for which it is
+  bool stale_ = true;                     ///< the next solve makes a new hierarchy
+  double first_rate_ = 0;                 ///< iterations per digit with the hierarchy just made
+  double seconds_setup_ = 0, seconds_solve_ = 0;
   std::vector<double> right_, solution_;      ///< owned, displacements and then pressures
   std::vector<double> residual_, direction_;  ///< of the same
   double tightening_ = 1;                     ///< of the tolerance, so that the reduced residual is small
-  std::vector<double> swelling_, pull_;       ///< scratch, [local node][component]
-  struct Petsc;
+  std::vector<double> whole_in_, whole_out_, free_in_, free_out_;  ///< scratch
+  std::vector<double> swelling_, pull_;                            ///< scratch, [local node][component]
   std::unique_ptr<Petsc> petsc_;
 };
 

@@ -1,0 +1,66 @@
+#include "algebra/factorisation.hpp"
+
+#include <petsc/private/petscimpl.h>
+
+#include "algebra/petsc_handles.hpp"
+
+namespace solidus::algebra {
+
+namespace {
+
+/// Up to here every process keeps the whole: some 100 MB of factors.
+constexpr GlobalIndex k_redundant_limit = 40000;
+constexpr int k_attempts = 3;  ///< with three times the workspace each time
+
+bool is_redundant(PC pc) {
+  PetscBool redundant = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), PCREDUNDANT, &redundant),
+        "PetscObjectTypeCompare");
+  return redundant == PETSC_TRUE;
+}
+
+/// The factorisation itself, of all processes or of this one.
+PC innermost(PC pc) {
+  if (!is_redundant(pc)) return pc;
+  KSP of_process = nullptr;
+  PC inner = nullptr;
+  check(PCRedundantGetKSP(pc, &of_process), "PCRedundantGetKSP");
+  check(KSPGetPC(of_process, &inner), "KSPGetPC");
+  return inner;
+}
+
+}  // namespace
+
+void set_default_option(const std::string& name, const std::string& value) {
+  const std::string key = "-" + name;
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, key.c_str(), &given), "PetscOptionsHasName");
+  if (!given) check(PetscOptionsSetValue(nullptr, key.c_str(), value.c_str()), "PetscOptionsSetValue");
+}
+
+void Factorisation::set_type(PC pc, const std::string& prefix, bool symmetric, GlobalIndex n_unknowns) {
+  int n_processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const bool redundant = n_processes > 1 && n_unknowns < k_redundant_limit;
+  if (redundant) check(PCSetType(pc, PCREDUNDANT), "PCSetType");
+  PC inner = innermost(pc);
+  check(PCSetType(inner, symmetric ? PCCHOLESKY : PCLU), "PCSetType");
+  check(PCFactorSetMatSolverType(inner, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
+  set_default_option(prefix + (redundant ? "redundant_" : "") + "mat_mumps_icntl_14",
+                     std::to_string(workspace_));
+}
+
+bool Factorisation::try_again(PC pc, Mat matrix) {
+  PC inner = innermost(pc);
+  PCFailedReason why = PC_NOERROR;
+  check(PCGetFailedReason(inner, &why), "PCGetFailedReason");
+  if ((why != PC_FACTOR_OUTMEMORY && why != PC_FACTOR_OTHER) || ++attempts_ == k_attempts) return false;
+  Mat factor = nullptr;
+  check(PCFactorGetMatrix(inner, &factor), "PCFactorGetMatrix");
+  workspace_ *= 3;
+  check(MatMumpsSetIcntl(factor, 14, workspace_), "MatMumpsSetIcntl");
+  check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)), "PetscObjectStateIncrease");
+  return true;
+}
+
+}  // namespace solidus::algebra
