@@ -51,7 +51,13 @@ ElementsOfNodes elements_of_nodes(Index n_nodes, const std::vector<const RawBloc
 constexpr double k_mechanics_row = 0.9, k_heat_row = 0.03;
 constexpr double k_mechanics_element = 4.5e-3, k_heat_element = 1e-3;
 // Contact costs a surface's node about as much as the rows of a node inside (docs/benchmarks.md).
-constexpr double k_contact_node = 25;
+constexpr double k_mechanics_contact = 25, k_heat_contact = 1;
+// What the work of a part may have above the mean, in mechanics and in heat.
+constexpr double k_mechanics_imbalance = 1.01, k_heat_imbalance = 1.05;
+
+double sum(const std::vector<double>& a) {
+  return std::accumulate(a.begin(), a.end(), 0.0);
+}
 
 }  // namespace
 
@@ -79,29 +85,29 @@ NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blo
   return graph;
 }
 
-std::vector<double> node_work(const NodeNeighbours& graph, const std::vector<const RawBlock*>& blocks,
-                              const std::vector<BodyWork>& of_block, std::span<const char> in_contact) {
-  std::vector<double> work(at(graph.n_nodes()), 0.0);
-  std::vector<char> moves(work.size(), 0);
+NodeWork node_work(const NodeNeighbours& graph, const std::vector<const RawBlock*>& blocks,
+                   const std::vector<BodyWork>& of_block, std::span<const char> in_contact) {
+  const std::size_t n = at(graph.n_nodes());
+  NodeWork work{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const bool mechanics = of_block[b] == BodyWork::all;
     const int nn = node_count(blocks[b]->shape);
-    const auto points = static_cast<double>(stiffness_rule(blocks[b]->shape).size());
-    const double share = nn * points * (k_heat_element + (mechanics ? k_mechanics_element : 0.0));
+    const double entries = nn * static_cast<double>(stiffness_rule(blocks[b]->shape).size());
     for (const Index i : blocks[b]->nodes) {
-      work[at(i)] += share;
-      if (mechanics) moves[at(i)] = 1;
+      work.heat[at(i)] += entries * k_heat_element;
+      if (mechanics) work.mechanics[at(i)] += entries * k_mechanics_element;
     }
   }
-  for (std::size_t i = 0; i < work.size(); ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const auto entries = static_cast<double>(graph.start[i + 1] - graph.start[i] + 1);
-    work[i] += entries * (k_heat_row + (moves[i] != 0 ? k_mechanics_row : 0.0));
-    if (in_contact[i] != 0) work[i] += k_contact_node;
+    const double contact = in_contact[i] != 0 ? 1.0 : 0.0;
+    work.heat[i] += entries * k_heat_row + contact * k_heat_contact;
+    if (work.mechanics[i] > 0) work.mechanics[i] += entries * k_mechanics_row + contact * k_mechanics_contact;
   }
   return work;
 }
 
-std::vector<int> assign_owners(const NodeNeighbours& graph, std::span<const double> work, int n_processes) {
+std::vector<int> assign_owners(const NodeNeighbours& graph, const NodeWork& work, int n_processes) {
   const auto n = static_cast<std::size_t>(graph.n_nodes());
   std::vector<int> owner(n, 0);
   if (n_processes == 1) return owner;
@@ -109,21 +115,37 @@ std::vector<int> assign_owners(const NodeNeighbours& graph, std::span<const doub
     throw InputError({}, "the mesh has fewer nodes than there are processes", "fewer processes");
   if (graph.node.size() > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()))
     throw InputError({}, "the mesh is too large for this build of METIS", "METIS with 64-bit indices");
-  const double all = std::accumulate(work.begin(), work.end(), 0.0);
-  // Whole numbers whose sum METIS can count.
-  const double scale = std::min(100.0 * static_cast<double>(n), 1e9) / all;
+  const bool only_heat = std::find(work.mechanics.begin(), work.mechanics.end(), 0.0) != work.mechanics.end();
+  const std::size_t n_constraints = only_heat && sum(work.mechanics) > 0 ? 2 : 1;
   std::vector<idx_t> start(graph.start.begin(), graph.start.end()),
-      node(graph.node.begin(), graph.node.end()), weight(n), part(n);
-  std::transform(work.begin(), work.end(), weight.begin(),
-                 [&](double w) { return std::max<idx_t>(1, static_cast<idx_t>(std::lround(scale * w))); });
-  idx_t vertices = static_cast<idx_t>(n), constraints = 1, parts = n_processes, cut = 0;
+      node(graph.node.begin(), graph.node.end()), weight(n * n_constraints), part(n);
+  // Whole numbers whose sum METIS can count.
+  const auto set_weights = [&](std::size_t constraint, auto work_of, double all) {
+    const double scale = std::min(100.0 * static_cast<double>(n), 1e9) / all;
+    for (std::size_t i = 0; i < n; ++i)
+      weight[i * n_constraints + constraint] = static_cast<idx_t>(std::lround(scale * work_of(i)));
+  };
+  if (n_constraints == 2) {
+    set_weights(
+        0, [&](std::size_t i) { return work.mechanics[i]; }, sum(work.mechanics));
+    set_weights(
+        1, [&](std::size_t i) { return work.heat[i]; }, sum(work.heat));
+  } else {
+    set_weights(
+        0, [&](std::size_t i) { return work.mechanics[i] + work.heat[i]; },
+        sum(work.mechanics) + sum(work.heat));
+  }
+  real_t imbalance[2] = {static_cast<real_t>(k_mechanics_imbalance), static_cast<real_t>(k_heat_imbalance)};
+  idx_t vertices = static_cast<idx_t>(n), constraints = static_cast<idx_t>(n_constraints),
+        parts = n_processes, cut = 0;
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;  // the same parts in every run
   // Halves of halves cut less where the parts are few, says METIS' manual.
   const auto partition = n_processes <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
-  const int status = partition(&vertices, &constraints, start.data(), node.data(), weight.data(), nullptr,
-                               nullptr, &parts, nullptr, nullptr, options, &cut, part.data());
+  const int status =
+      partition(&vertices, &constraints, start.data(), node.data(), weight.data(), nullptr, nullptr, &parts,
+                nullptr, n_constraints == 2 ? imbalance : nullptr, options, &cut, part.data());
   if (status != METIS_OK) throw std::runtime_error("METIS could not partition the mesh");
   std::copy(part.begin(), part.end(), owner.begin());
   // METIS may leave a part of a tiny mesh empty; every process must own a node.

@@ -21,14 +21,21 @@ NodeNeighbours neighbours(Index n_nodes, const std::vector<const RawBlock*>& blo
 /// Work of a time step that a node brings its owner, in microseconds of one process [node]: its rows of the
 /// matrices, a share of the elements around it, and of contact where it lies on such a surface. Measured on
 /// blocks of hexahedra and tetrahedra (docs/decisions/scaling.md); only ratios matter.
+struct NodeWork {
+  std::vector<double> mechanics;  ///< zero at nodes of bodies that only conduct heat
+  std::vector<double> heat;
+};
+
 /// @param of_block    what the elements of each block are computed for
 /// @param in_contact  [node], non-zero on surfaces in contact
-std::vector<double> node_work(const NodeNeighbours& graph, const std::vector<const RawBlock*>& blocks,
-                              const std::vector<BodyWork>& of_block, std::span<const char> in_contact);
+NodeWork node_work(const NodeNeighbours& graph, const std::vector<const RawBlock*>& blocks,
+                   const std::vector<BodyWork>& of_block, std::span<const char> in_contact);
 
-/// The owner of every node: parts of equal work with few cut edges (METIS). Throws InputError for a mesh that
-/// has fewer nodes than there are processes, or more neighbours than METIS can count.
-std::vector<int> assign_owners(const NodeNeighbours& graph, std::span<const double> work, int n_processes);
+/// The owner of every node: parts of equal work with few cut edges (METIS). Where bodies only conduct heat,
+/// the parts are equal in the work of each phase, for processes wait for each other after either. Throws
+/// InputError for a mesh that has fewer nodes than there are processes, or more neighbours than METIS can
+/// count.
+std::vector<int> assign_owners(const NodeNeighbours& graph, const NodeWork& work, int n_processes);
 
 /// New number of every node: processes one behind the other, within each the reverse Cuthill–McKee order,
 /// which keeps neighbours close in memory.
