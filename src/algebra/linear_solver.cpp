@@ -1,7 +1,5 @@
 #include "algebra/linear_solver.hpp"
 
-#include <petsc/private/petscimpl.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "algebra/factorisation.hpp"
 #include "algebra/multigrid.hpp"
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
@@ -31,7 +30,7 @@ constexpr double k_refine_above =
     1e-8;  ///< residual of a direct solve relative to b: above it one step of refinement
 constexpr double k_refuse_above = 1e-2;     ///< after refinement: Newton cannot work with such a direction
 constexpr int k_field_split_restart = 100;  ///< directions that FGMRES keeps
-constexpr int k_workspace_attempts = 3;     ///< MUMPS runs with more workspace each time
+constexpr int k_first_workspace = 35;       ///< of MUMPS, per cent
 /// A hierarchy is made anew, which costs as much as twenty iterations or more, where a solve takes half as
 /// many again as the first one with it and more than a few.
 constexpr double k_slower = 0.5, k_few = 5;
@@ -90,13 +89,7 @@ class WriteArray {
   PetscInt n_ = 0;
 };
 
-/// The solver within a block of Jacobi's preconditioner does not exist before its set-up, but its options do.
-void set_default_option(const std::string& name, const char* value) {
-  if (!option_given(name))
-    check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value), "PetscOptionsSetValue");
-}
-
-/// The same in PETSc's format: for its own multigrid.
+/// Rigid-body modes for PETSc's own multigrid.
 NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int components) {
   VecHandle coordinates;
   check(VecCreate(PETSC_COMM_WORLD, coordinates.out()), "VecCreate");
@@ -128,8 +121,8 @@ struct LinearSolver::Implementation {
   double first_rate = 0;         ///< iterations per digit with the hierarchy just set up
   double tightest = 0;           ///< relative tolerance
   bool stale = true;             ///< set up again at the next solve
-  int workspace = 35;            ///< MUMPS ICNTL(14), per cent
-  Mat matrix = nullptr;          ///< whose operators the solver holds; owned by the BlockMatrix, or `shell`
+  Factorisation factorisation{k_first_workspace};
+  Mat matrix = nullptr;  ///< whose operators the solver holds; owned by the BlockMatrix, or `shell`
   // Multigrid of our own, which needs no copy of the matrix in PETSc.
   std::unique_ptr<Multigrid> multigrid;
   BlockMatrix* blocks = nullptr;
@@ -154,7 +147,7 @@ struct LinearSolver::Implementation {
   KSPConvergedReason run(Vec rhs, Vec solution, int& iterations);
   void judge_hierarchy(Vec rhs, int n, bool failed);
   bool refine(LinearReport& report);
-  void grow_workspace();
+  bool try_again();
 };
 
 /// Whether the preconditioner is ours: not where the user asks PETSc for one, and not for tied unknowns.
@@ -207,7 +200,7 @@ void LinearSolver::Implementation::attach_modes(Mat a) const {
 }
 
 void LinearSolver::Implementation::create(Mat a) {
-  PetscInt components = 0;
+  PetscInt components = 0, n_unknowns = 0;
   check(MatGetBlockSize(a, &components), "MatGetBlockSize");
   kind = automatic_kind(options, mesh, static_cast<int>(components), a == shell);
   check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
@@ -220,6 +213,8 @@ void LinearSolver::Implementation::create(Mat a) {
   PC pc = nullptr;
   check(KSPGetPC(ksp, &pc), "KSPGetPC");
   const KSPType krylov = options.symmetric ? KSPCG : KSPGMRES;
+  // The solver within a block of Jacobi's preconditioner does not exist before its set-up, but its options
+  // do.
   const auto set_sub_default = [&](const char* key, const char* value) {
     set_default_option(options.prefix + key, value);
   };
@@ -227,8 +222,8 @@ void LinearSolver::Implementation::create(Mat a) {
     case SolverKind::automatic:
     case SolverKind::direct:
       check(KSPSetType(ksp, KSPPREONLY), "KSPSetType");
-      check(PCSetType(pc, options.symmetric ? PCCHOLESKY : PCLU), "PCSetType");
-      check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
+      check(MatGetSize(a, &n_unknowns, nullptr), "MatGetSize");
+      factorisation.set_type(pc, options.prefix, options.symmetric, n_unknowns);
       break;
     case SolverKind::multigrid:
       // The cycle rounds to single precision: what it makes of a sum is not the sum of what it made.
@@ -370,15 +365,10 @@ bool LinearSolver::Implementation::refine(LinearReport& report) {
   return false;
 }
 
-/// MUMPS may need more workspace than its analysis foresaw: pivoting is not known beforehand.
-void LinearSolver::Implementation::grow_workspace() {
+bool LinearSolver::Implementation::try_again() {
   PC pc = nullptr;
-  Mat factor = nullptr;
   check(KSPGetPC(ksp, &pc), "KSPGetPC");
-  check(PCFactorGetMatrix(pc, &factor), "PCFactorGetMatrix");
-  workspace *= 3;
-  check(MatMumpsSetIcntl(factor, 14, workspace), "MatMumpsSetIcntl");
-  check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)), "PetscObjectStateIncrease");
+  return factorisation.try_again(pc, matrix);
 }
 
 LinearSolver::LinearSolver(const mesh::Mesh& mesh, LinearSolverOptions options)
@@ -444,16 +434,9 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
   KSPConvergedReason reason = my.run(my.b, my.x, report.iterations);
   if (reason < 0 && my.reuse_hierarchy && !was_fresh) reason = my.run(my.b, my.x, report.iterations);
   const bool direct = my.is_direct();
-  for (int attempt = 1; direct && reason == KSP_DIVERGED_PC_FAILED && attempt < k_workspace_attempts;
-       ++attempt) {
-    PC pc = nullptr;
-    PCFailedReason why = PC_NOERROR;
-    check(KSPGetPC(my.ksp, &pc), "KSPGetPC");
-    check(PCGetFailedReason(pc, &why), "PCGetFailedReason");
-    if (why != PC_FACTOR_OUTMEMORY && why != PC_FACTOR_OTHER) break;
-    my.grow_workspace();
+  my.factorisation.begin();
+  while (direct && reason == KSP_DIVERGED_PC_FAILED && my.try_again())
     reason = my.run(my.b, my.x, report.iterations);
-  }
   report.converged = reason > 0 || (direct && reason == KSP_CONVERGED_ITERATING);
   if (!report.converged) {
     report.reason = KSPConvergedReasons[reason];

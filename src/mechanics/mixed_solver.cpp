@@ -16,8 +16,6 @@ namespace {
 constexpr GlobalIndex k_direct_limit_3d = 40000;
 /// Up to so many it takes over where multigrid fails.
 constexpr GlobalIndex k_rescue_limit = 200000;
-/// A hierarchy is made anew where a solve takes half as many iterations again as the first one with it.
-constexpr double k_slower = 0.5, k_few = 5;
 /// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
 constexpr double k_direct_tolerance = 1e-8, k_direct_tightening = 1e-2;
 /// Against the divergence, in parts of 2Ĝ: with it A has the stiffness of Poisson's ratio 1/4.
@@ -74,7 +72,6 @@ void MixedSolver::make_solver(bool direct) {
       .definite = false,
       .symmetric = options_.symmetric});
   tightening_ = direct ? k_direct_tightening : 1;
-  stale_ = true;
   if (direct) return;
   preconditioner_.emplace(mesh_, displacement_.block_size());
   schur_ = pressure_.make_matrix();
@@ -155,31 +152,18 @@ void MixedSolver::set_operators() {
   }
   preconditioner_->set_schur(schur_->matrix());
   solver_->set(petsc_->free->matrix(), petsc_->free->matrix());
-  if (stale_) set_up_hierarchy();
-}
-
-void MixedSolver::set_up_hierarchy() {
   preconditioner_->set_up(displacement_);
-  first_rate_ = 0;
-  stale_ = false;
 }
 
 algebra::LinearReport MixedSolver::solve_again(std::span<const double> b, std::span<double> x,
                                                double forcing) {
   algebra::LinearReport report = attempt(b, forcing);
-  const auto again = [&] {
-    const int spent = report.iterations;
-    report = attempt(b, forcing);
-    report.iterations += spent;
-  };
-  if (!report.converged && !direct_ && first_rate_ > 0) {
-    set_up_hierarchy();
-    again();
-  }
   if (!report.converged && !direct_ && factorisation_serves()) {
     make_solver(true);
     set_operators();
-    again();
+    const int spent = report.iterations;
+    report = attempt(b, forcing);
+    report.iterations += spent;
   }
   const auto all = std::span<const double>(solution_);
   std::copy_n(all.begin(), b.size(), x.begin());
@@ -197,16 +181,6 @@ algebra::LinearReport MixedSolver::attempt(std::span<const double> b, double for
                   b);
 }
 
-/// Decides whether the hierarchy serves again. Tolerances differ from solve to solve: what counts are
-/// iterations per digit.
-void MixedSolver::judge_hierarchy(double from, double to, int iterations) {
-  if (direct_ || !(to > 0 && to < from)) return;
-  const double digits = std::log10(from / to);
-  if (first_rate_ <= 0) first_rate_ = iterations / digits;
-  const double expected = first_rate_ * digits;
-  stale_ = stale_ || iterations > expected + std::max(k_slower * expected, k_few);
-}
-
 /// Until ‖r_u + B (C+S)⁻¹ r_p‖ <= relative ‖b‖.
 algebra::LinearReport MixedSolver::solve_to(double relative, std::span<const double> b) {
   const double goal = relative * norm(b);
@@ -214,9 +188,7 @@ algebra::LinearReport MixedSolver::solve_to(double relative, std::span<const dou
   residual_ = right_;
   direction_.resize(right_.size());
   for (int round = 0;; ++round) {
-    const double from = norm(residual_), to = goal * tightening_;
-    const algebra::LinearReport part = solve_once(to);
-    judge_hierarchy(from, to, part.iterations);
+    const algebra::LinearReport part = solve_once(goal * tightening_);
     report.iterations += part.iterations;
     report.converged = part.converged;
     report.reason = part.reason;

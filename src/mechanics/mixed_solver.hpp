@@ -5,9 +5,10 @@
 ///
 /// S couples neighbours of neighbours and is never assembled: flexible GMRES has it in its operator and goes
 /// without that part in its preconditioner, which is the LDLᵀ of MUMPS or, for many unknowns, block
-/// triangular (saddle_preconditioner.hpp). There A gets a stiffness 2Ĝ/3 against the divergence, which the
-/// operator is without: alone it is singular where a body may swell. Where that does not converge, and a
-/// factorisation is possible, it takes over until forget().
+/// triangular (saddle_preconditioner.hpp), set up for every matrix: that costs as much as ten iterations and
+/// saves more. There A gets a stiffness 2Ĝ/3 against the divergence, which the operator is without: alone it
+/// is singular where a body may swell. Where that does not converge, and a factorisation is possible, it
+/// takes over until forget().
 ///
 /// What an iterative solver leaves in the second row comes back in the forces, once the pressure is
 /// eliminated, up to κ/2Ĝ times as large: r = r_u + B (C+S)⁻¹ r_p. The iteration goes on until r is small
@@ -56,10 +57,8 @@ class MixedSolver final : public algebra::TangentSolver {
 
   void make_solver(bool direct);
   void set_operators();
-  void set_up_hierarchy();
   bool factorisation_serves() const;
   algebra::LinearReport attempt(std::span<const double> b, double forcing);
-  void judge_hierarchy(double from, double to, int iterations);
   template <class Function>
   void on_whole(std::span<const double> x, std::span<double> y, Function&& f);
   algebra::LinearReport solve_once(double absolute);
@@ -82,8 +81,6 @@ class MixedSolver final : public algebra::TangentSolver {
   std::optional<algebra::KrylovSolver> solver_;
   std::optional<SaddlePreconditioner> preconditioner_;
   std::optional<SaddleOperator> saddle_;  ///< for which it is
-  bool stale_ = true;                     ///< the next solve makes a new hierarchy
-  double first_rate_ = 0;                 ///< iterations per digit with the hierarchy just made
   double seconds_setup_ = 0, seconds_solve_ = 0;
   std::vector<double> right_, solution_;      ///< owned, displacements and then pressures
   std::vector<double> residual_, direction_;  ///< of the same

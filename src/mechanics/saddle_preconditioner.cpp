@@ -31,17 +31,17 @@ void SaddlePreconditioner::Petsc::create(Mat schur) {
 
 bool SaddlePreconditioner::serves(const algebra::BlockMatrix& displacement) {
   const int components = displacement.block_size();
-  return displacement.ties().empty() && algebra::Multigrid::supports(components, components == 3 ? 6 : 3);
+  return displacement.ties().empty() &&
+         algebra::Multigrid::supports(components, algebra::rigid_body_mode_count(components));
 }
 
 SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, int components)
-    : multigrid_(mesh, algebra::rigid_body_modes(mesh, components)), petsc_(std::make_unique<Petsc>()) {}
+    : multigrid_(mesh, components, algebra::rigid_body_modes), petsc_(std::make_unique<Petsc>()) {}
 
 SaddlePreconditioner::~SaddlePreconditioner() = default;
 
 void SaddlePreconditioner::set_up(algebra::BlockMatrix& a) {
   multigrid_.set_up(a);
-  ready_ = true;
 }
 
 void SaddlePreconditioner::set_schur(Mat schur) {

@@ -27,7 +27,6 @@ class SaddlePreconditioner {
 
   /// A new hierarchy for A as it stands. Collective.
   void set_up(algebra::BlockMatrix& a);
-  bool has_hierarchy() const { return ready_; }
   /// @param schur  −S̃, which must live until the next call. Collective.
   void set_schur(Mat schur);
   /// On owned degrees of freedom, displacements and then pressures, of the saddle point with this B.
@@ -37,7 +36,6 @@ class SaddlePreconditioner {
 
  private:
   algebra::Multigrid multigrid_;
-  bool ready_ = false;
   struct Petsc;
   std::unique_ptr<Petsc> petsc_;
 };
