@@ -42,7 +42,21 @@ bool factorises(algebra::SolverKind kind, const mesh::Mesh& mesh, int components
 struct MixedSolver::Petsc {
   algebra::MatHandle assembled;                   ///< the nest as one matrix, for the factorisation
   std::unique_ptr<algebra::FunctionMatrix> free;  ///< saddle_
+
+  void assemble(Mat nest);
 };
+
+/// A conversion in place counts as another pattern on several processes, and MUMPS would analyse it anew.
+void MixedSolver::Petsc::assemble(Mat nest) {
+  using algebra::check;
+  if (!assembled) {
+    check(MatConvert(nest, MATAIJ, MAT_INITIAL_MATRIX, assembled.out()), "MatConvert");
+    return;
+  }
+  algebra::MatHandle values;
+  check(MatConvert(nest, MATAIJ, MAT_INITIAL_MATRIX, values.out()), "MatConvert");
+  check(MatCopy(values, assembled, SAME_NONZERO_PATTERN), "MatCopy");
+}
 
 MixedSolver::MixedSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacement,
                          PressureEquation& pressure, const algebra::GhostExchange& ghosts,
@@ -136,11 +150,7 @@ void MixedSolver::set_operators() {
   const Stopwatch watch(seconds_setup_);
   if (direct_) {
     Mat nest = matrix_.matrix(1, 1);
-    const MatReuse reuse = petsc_->assembled ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX;
-    Mat assembled = petsc_->assembled;
-    algebra::check(
-        MatConvert(nest, MATAIJ, reuse, reuse == MAT_REUSE_MATRIX ? &assembled : petsc_->assembled.out()),
-        "MatConvert");
+    petsc_->assemble(nest);
     solver_->set(operator_.with(nest), petsc_->assembled);
     return;
   }
