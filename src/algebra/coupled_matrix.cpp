@@ -116,19 +116,33 @@ void multiply_rectangles(const BlockMatrix& graph, const double* blocks, int m_a
 }  // namespace
 
 void CoupledMatrix::multiply_heat(std::span<const double> x, std::span<double> y) const {
-  const int m = fields(), n = components();
-  const auto multiply = m == 1 && n == 3   ? multiply_rectangles<1, 3>
-                        : m == 1 && n == 2 ? multiply_rectangles<1, 2>
-                                           : multiply_rectangles<0, 0>;
-  multiply(displacement_, heat_.data(), m, n, x, y);
+  if (fields() > 1)
+    return multiply_rectangles<0, 0>(displacement_, heat_.data(), fields(), components(), x, y);
+  const std::int64_t n = components();
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    double sum = 0;
+    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
+      const double* const a = heat_.data() + (s + 1) * n;
+      const double* const from = x.data() + displacement_.columns()[at(s)] * n;
+      for (std::int64_t i = 0; i < n; ++i) sum += a[i] * from[i];
+    }
+    y[at(row)] = sum;
+  }
 }
 
 void CoupledMatrix::multiply_force(std::span<const double> x, std::span<double> y) const {
-  const int m = components(), n = fields();
-  const auto multiply = n == 1 && m == 3   ? multiply_rectangles<3, 1>
-                        : n == 1 && m == 2 ? multiply_rectangles<2, 1>
-                                           : multiply_rectangles<0, 0>;
-  multiply(displacement_, force_.data(), m, n, x, y);
+  if (fields() > 1)
+    return multiply_rectangles<0, 0>(displacement_, force_.data(), components(), fields(), x, y);
+  const std::int64_t n = components();
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
+    double* const to = y.data() + row * n;
+    std::fill_n(to, n, 0.0);
+    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
+      const double* const a = force_.data() + (s + 1) * n;
+      const double from = x[at(displacement_.columns()[at(s)])];
+      for (std::int64_t i = 0; i < n; ++i) to[i] += a[i] * from;
+    }
+  }
 }
 
 Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {
