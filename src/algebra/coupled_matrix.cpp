@@ -94,11 +94,9 @@ bool CoupledMatrix::set_zero() {
 
 namespace {
 
-/// y = A x for rows of blocks [m][n]; one of m and n is known beforehand where it is not zero.
-template <int m_known, int n_known>
-void multiply_rectangles(const BlockMatrix& graph, const double* blocks, int m_any, int n_any,
+/// y = A x for rows of blocks [m][n].
+void multiply_rectangles(const BlockMatrix& graph, const double* blocks, int m, int n,
                          std::span<const double> x, std::span<double> y) {
-  const int m = m_known ? m_known : m_any, n = n_known ? n_known : n_any;
   const std::span<const std::int64_t> start = graph.row_start();
   const std::span<const Index> columns = graph.columns();
   for (std::size_t row = 0; row + 1 < start.size(); ++row) {
@@ -116,33 +114,11 @@ void multiply_rectangles(const BlockMatrix& graph, const double* blocks, int m_a
 }  // namespace
 
 void CoupledMatrix::multiply_heat(std::span<const double> x, std::span<double> y) const {
-  if (fields() > 1)
-    return multiply_rectangles<0, 0>(displacement_, heat_.data(), fields(), components(), x, y);
-  const std::int64_t n = components();
-  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
-    double sum = 0;
-    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
-      const double* const a = heat_.data() + (s + 1) * n;
-      const double* const from = x.data() + displacement_.columns()[at(s)] * n;
-      for (std::int64_t i = 0; i < n; ++i) sum += a[i] * from[i];
-    }
-    y[at(row)] = sum;
-  }
+  multiply_rectangles(displacement_, heat_.data(), fields(), components(), x, y);
 }
 
 void CoupledMatrix::multiply_force(std::span<const double> x, std::span<double> y) const {
-  if (fields() > 1)
-    return multiply_rectangles<0, 0>(displacement_, force_.data(), components(), fields(), x, y);
-  const std::int64_t n = components();
-  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
-    double* const to = y.data() + row * n;
-    std::fill_n(to, n, 0.0);
-    for (Slot s = displacement_.row_start()[at(row)]; s < displacement_.row_start()[at(row) + 1]; ++s) {
-      const double* const a = force_.data() + (s + 1) * n;
-      const double from = x[at(displacement_.columns()[at(s)])];
-      for (std::int64_t i = 0; i < n; ++i) to[i] += a[i] * from;
-    }
-  }
+  multiply_rectangles(displacement_, force_.data(), components(), fields(), x, y);
 }
 
 Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "admissible_ambient.hpp"
 #include "coupling/block_iterative.hpp"
 #include "coupling/double_pass.hpp"
 #include "coupling/isentropic.hpp"
@@ -38,8 +39,7 @@ struct Coupled {
   bool double_pass = false;                    ///< with Mapping::isentropic
   /// Present: passes of `mapping` in turn until they agree.
   std::optional<coupling::IterationOptions> iteration;
-  /// Θ_a where the conditions are admissible for 𝓛 (2.26, coupling_stability.md, 2): every quasi-static step
-  /// of the isentropic split is then checked not to raise it.
+  /// Θ_a of 𝓛; absent: as the conditions say, where they are admissible (admissible_ambient.hpp).
   std::optional<double> ambient;
 
   /// Every node of a group at rest in a direction, or as the table says.
@@ -77,7 +77,12 @@ struct CoupledRun {
 /// seen is the scheme's. Keeps references to the body.
 class Assembly {
  public:
-  explicit Assembly(const Coupled& c) {
+  /// @param end  of the run that is to come [s]
+  Assembly(const Coupled& c, double end)
+      : ambient_(c.ambient ? c.ambient
+                           : admissible_ambient(c.thermal, c.mechanical, c.contact, c.start, end)),
+        falls_(c.form && c.mapping == mechanics::Mapping::isentropic && !c.iteration && !c.dynamics &&
+               !c.double_pass) {
     std::vector<algebra::Contribution*> mechanical, thermal;
     if (c.contact) {
       std::vector<double> moduli;
@@ -116,7 +121,7 @@ class Assembly {
     phases.heat = &*heat_;
     phases.mechanics = &*mechanics_;
     phases.structural = structural_ ? &*structural_ : nullptr;
-    phases.ambient_temperature = c.ambient;
+    phases.ambient_temperature = ambient_;
     if (pair_) phases.contacts = {&*pair_};
     if (c.iteration)
       scheme_ = std::make_unique<coupling::BlockIterative>(phases, *c.iteration);
@@ -138,7 +143,24 @@ class Assembly {
   const mechanics::MechanicalPhase& mechanics() const { return *mechanics_; }
   coupling::CouplingScheme& scheme() { return *scheme_; }
 
+  /// A step of the scheme from `old` to `trial`. Where the conditions are admissible, every quasi-static step
+  /// of the isentropic split is checked not to raise 𝓛 and to make entropy.
+  coupling::StepEffort advance(const coupling::State& old, coupling::State& trial, double time, double dt) {
+    trial = old;
+    trial.time = time;
+    const coupling::StepEffort effort = scheme_->advance(old, trial, time, dt);
+    if (falls_ && ambient_) {
+      const coupling::StabilityAudit& l = effort.stability;
+      EXPECT_LE(l.increment(), l.tolerance) << "step of " << dt << " s to " << time << " s";
+      EXPECT_GE(l.entropy - effort.energy.entropy_in, -l.tolerance / *ambient_)
+          << "step of " << dt << " s to " << time << " s";
+    }
+    return effort;
+  }
+
  private:
+  std::optional<double> ambient_;
+  bool falls_;
   std::optional<contact::ContactPair> pair_;
   std::optional<mechanics::MechanicalPhase> mechanics_;
   std::optional<mechanics::StructuralHeat> structural_;
@@ -152,24 +174,15 @@ class Assembly {
 template <class Watch = void (*)(const coupling::State&)>
 CoupledRun march(
     const Coupled& c, double end, int n_steps, Watch watch = [](const coupling::State&) {}) {
-  Assembly assembly(c);
-  const bool falls = c.ambient && c.mapping == mechanics::Mapping::isentropic && !c.iteration &&
-                     !c.dynamics && !c.double_pass;
+  Assembly assembly(c, end);
   CoupledRun run;
   run.end = assembly.start();
   assembly.scheme().synchronise(run.end);
   for (int n = 1; n <= n_steps; ++n) {
-    coupling::State trial = run.end;
-    trial.time = end * n / n_steps;
-    const coupling::StepEffort effort = assembly.scheme().advance(run.end, trial, trial.time, end / n_steps);
+    coupling::State trial;
+    const coupling::StepEffort effort = assembly.advance(run.end, trial, end * n / n_steps, end / n_steps);
     run.steps.push_back(effort.energy);
     run.stability.push_back(effort.stability);
-    if (falls) {
-      EXPECT_LE(effort.stability.increment(), effort.stability.tolerance)
-          << "step " << n << " of " << n_steps;
-      EXPECT_GE(effort.stability.entropy - effort.energy.entropy_in, -effort.stability.tolerance / *c.ambient)
-          << "step " << n << " of " << n_steps;
-    }
     run.iterations.push_back(effort.coupling_iterations);
     run.end = std::move(trial);
     if constexpr (std::is_invocable_v<Watch, const coupling::State&, const coupling::StepEffort&>)

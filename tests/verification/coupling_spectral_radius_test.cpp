@@ -77,7 +77,7 @@ Coupled wall(const Scheme& scheme, double expansion_factor, int quads) {
 /// integrators remember enters their work, which is of second order here.)
 class StepMap {
  public:
-  explicit StepMap(const Coupled& c) : assembly_(c), dynamic_(c.dynamics.has_value()) {
+  explicit StepMap(const Coupled& c) : assembly_(c, 1), dynamic_(c.dynamics.has_value()) {
     std::map<double, std::vector<std::size_t>> by_radius;
     for (std::size_t n = 0; n < c.mesh.x.size(); ++n)
       by_radius[std::round(c.mesh.x[n][0] * 1e9)].push_back(n);

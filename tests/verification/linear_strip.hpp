@@ -96,13 +96,12 @@ inline StripFields strip_fields(const Coupled& c, const Assembly& assembly, cons
 /// Equal steps; `watch` sees the number of every step and the fields after it.
 template <class Watch>
 void march_strip(const Coupled& c, const LinearSolid& solid, double dt, int n_steps, const Watch& watch) {
-  Assembly assembly(c);
+  Assembly assembly(c, n_steps * dt);
   coupling::State state = assembly.start();
   assembly.scheme().synchronise(state);
   for (int n = 1; n <= n_steps; ++n) {
-    coupling::State trial = state;
-    trial.time = n * dt;
-    assembly.scheme().advance(state, trial, trial.time, dt);
+    coupling::State trial;
+    assembly.advance(state, trial, n * dt, dt);
     state = std::move(trial);
     watch(n, strip_fields(c, assembly, state, solid));
   }

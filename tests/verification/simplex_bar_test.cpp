@@ -67,19 +67,18 @@ struct History {
 };
 
 History cool(const Element& element, mechanics::Mapping mapping) {
+  constexpr int n_steps = 40;
+  constexpr double dt = 2;
   const Coupled c = bar(element, mapping);
-  verification::Assembly assembly(c);
+  verification::Assembly assembly(c, n_steps * dt);
   History history;
   coupling::State state = assembly.start();
   assembly.scheme().synchronise(state);
   const auto components = static_cast<std::size_t>(assembly.mechanics().components());
   const verification::Cells cells(c.mesh, c.mesh.blocks[0], c.kind);
-  constexpr int n_steps = 40;
-  constexpr double dt = 2;
   for (int n = 1; n <= n_steps; ++n) {
-    coupling::State trial = state;
-    trial.time = n * dt;
-    assembly.scheme().advance(state, trial, trial.time, dt);
+    coupling::State trial;
+    assembly.advance(state, trial, n * dt, dt);
     state = std::move(trial);
     double force = 0;
     for (const Index node : c.mesh.surfaces.at("right").nodes)

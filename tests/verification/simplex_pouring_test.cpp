@@ -78,9 +78,11 @@ struct Pour {
 };
 
 Pour pour(const Element& element, mechanics::Mapping mapping) {
+  constexpr int n_steps = 60;
+  constexpr double dt = 2;
   const Coupled c = column(element, mapping);
+  verification::Assembly assembly(c, n_steps * dt);
   const material::Material& metal = c.materials[0];
-  verification::Assembly assembly(c);
   criteria::StrainCriteria strains(c.mesh, c.kind, c.materials);
   coupling::State state = assembly.start();
   assembly.scheme().synchronise(state);
@@ -100,12 +102,9 @@ Pour pour(const Element& element, mechanics::Mapping mapping) {
   double defect = 0, moved = 0;
   // The strain follows the temperature of t_n: that of the last step that began as melt, and of the last one.
   std::vector<double> at_coherency(n_elements, k_hot), last(n_elements, k_hot);
-  constexpr int n_steps = 60;
-  constexpr double dt = 2;
   for (int n = 1; n <= n_steps; ++n) {
-    coupling::State trial = state;
-    trial.time = n * dt;
-    const coupling::StepEffort effort = assembly.scheme().advance(state, trial, trial.time, dt);
+    coupling::State trial;
+    const coupling::StepEffort effort = assembly.advance(state, trial, n * dt, dt);
     strains.step({state.time, state.heat, state.mechanics}, {trial.time, trial.heat, trial.mechanics},
                  record);
     defect += effort.energy.defect();
