@@ -43,6 +43,10 @@ std::array<Point, 2> Face::tangents(const Point& xi) const {
 }
 
 std::array<Point, 3> Face::curvatures(const Point& xi) const {
+  if (mesh::order(shape) == 1) {
+    if (shape != Shape::quad4) return {};
+    return {Point{}, Point{}, scale(0.25, subtract(add(x[0], x[2]), add(x[1], x[3])))};
+  }
   // The tangents are polynomials of degree two or less in each direction, for which the central difference
   // is exact whatever its width.
   constexpr double h = 0.5;

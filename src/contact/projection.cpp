@@ -50,13 +50,15 @@ bool minimise(const Face& face, const Point& p, Point& xi) {
     // Near the minimum the values no longer tell rounding from descent: accept the step there.
     const double slack = 1e-14 * (value + 1e-300);
     Point next = xi;
+    double there = value;
     for (int cut = 0; cut < 30; ++cut, alpha *= 0.5) {
       next = {xi[0] + alpha * s.d1, xi[1] + alpha * s.d2, 0};
-      if (half_square(face, next, p) <= value + slack || length < 1e-7) break;
+      there = half_square(face, next, p);
+      if (there <= value + slack || length < 1e-7) break;
     }
     if (outside_by(face.shape, next) > 4) return false;  // the minimum is not on this face: edges decide
     xi = next;
-    value = half_square(face, xi, p);
+    value = there;
   }
   return false;
 }

@@ -82,14 +82,15 @@ void SlidingSearch::move(std::span<const Face> faces) {
   if (moved_beyond_margin()) build();
 }
 
-void SlidingSearch::collect(const Point& p, double radius, const Point& facing) const {
+void SlidingSearch::collect(const Point& p, double radius, const Point& facing,
+                            const SurfacePoint& known) const {
   near_.clear();
   double best = radius;
   const auto consider = [&](const Entry& entry) {
     const Face& face = faces_[static_cast<std::size_t>(entry.second)];
     const double slack = k_same * (best + 1e-3 * size_);
     if (distance_to_box(p, face.box()) > best + slack) return;
-    const Projection projection = closest_point(face, p);
+    const Projection projection = entry.second == known.face ? known.projection : closest_point(face, p);
     if (projection.distance > best + slack) return;
     if (dot(face.normal(projection.xi), facing) >= k_facing_cosine) return;
     best = std::min(best, projection.distance);
@@ -122,14 +123,15 @@ bool SlidingSearch::may_meet_watched(const Point& p, double max_distance, const 
 SurfacePoint SlidingSearch::closest(const Point& p, double max_distance, const Point& facing,
                                     Index hint) const {
   double radius = 0.5 * size_;
+  SurfacePoint known{.face = hint, .projection = {}};
   if (hint >= 0) {
     // No face is needed that is farther than the one that was met last.
-    const Projection there = closest_point(faces_[static_cast<std::size_t>(hint)], p);
-    radius = there.distance * (1 + 4 * k_same) + 4e-3 * k_same * size_;
+    known.projection = closest_point(faces_[static_cast<std::size_t>(hint)], p);
+    radius = known.projection.distance * (1 + 4 * k_same) + 4e-3 * k_same * size_;
   }
   for (;; radius *= 4) {
     const bool last = radius >= max_distance;
-    collect(p, last ? max_distance : radius, facing);
+    collect(p, last ? max_distance : radius, facing, known);
     if (near_.empty()) {
       if (last) return {};
       continue;

@@ -35,8 +35,8 @@ class SlidingSearch {
  private:
   void build();
   bool moved_beyond_margin() const;
-  /// All faces within `radius` that may be the closest, in near_.
-  void collect(const Point& p, double radius, const Point& facing) const;
+  /// All faces within `radius` that may be the closest, in near_; `known` is projected already.
+  void collect(const Point& p, double radius, const Point& facing, const SurfacePoint& known) const;
 
   std::span<const Face> faces_;
   double margin_, size_;
