@@ -1,0 +1,314 @@
+/// A step of the mechanical phase: residual, tangent, solution, works and energies.
+#include <mpi.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "base/profile.hpp"
+#include "base/stopwatch.hpp"
+#include "mechanics/block_kernel.hpp"
+#include "mechanics/loads.hpp"
+#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/mixed_solver.hpp"
+#include "mechanics/stress_history.hpp"
+
+namespace solidus::mechanics {
+
+namespace {
+
+/// Forces that a strain of this size would cause count as round-off: the criterion of a body without load.
+constexpr double k_round_off_strain = 1e-13;
+
+}  // namespace
+
+/// The first step, and one that grows beyond what the two-step method stands, are backward Euler steps.
+material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, double dt) const {
+  const bool two_step = options_.integration == TimeIntegration::two_step && old.dt_before > 0 &&
+                        dt <= material::k_largest_growth * old.dt_before;
+  return two_step ? material::TimeStep::two_step(dt, old.dt_before) : material::TimeStep::backward_euler(dt);
+}
+
+/// Hands the blocks temperatures, the state at t_n and the start of the effective step.
+void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& pass) {
+  const profile::Part part("properties");
+  const material::TimeStep step = time_step(old, pass.dt);
+  const MechanicalState& held = pass.iterate != nullptr ? *pass.iterate : old;
+  const bool extrapolates = step.before != 0;
+  if (extrapolates) {
+    start_ = old.history;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      PackVector<Lane>& start = start_[b].values;
+      const PackVector<Lane>& before = old.before[b].values;
+      for (std::size_t i = 0; i < start.size(); ++i)
+        start[i] = Lane(step.now) * start[i] + Lane(step.before) * before[i];
+    }
+  }
+  const bool remembers = inertia_ && inertia_->motion().remembers();
+  const bool keeps = keeps_stress_ && !remembers;
+  if (remembers) stress_ = old.stress;  // of the right size
+  if (keeps) {
+    no_stress_.clear();
+    for (const BlockHistory& history : old.history) no_stress_.push_back(no_stress(history));
+    stress_ = no_stress_;
+  }
+  double stiffness = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    stiffness += blocks_[b]->prepare(
+        {.temperature = pass.temperature,
+         .pass_temperature = pass.iterate_temperature.empty() ? pass.temperature : pass.iterate_temperature,
+         .initial_temperature = initial_temperature_,
+         .held_displacement = held.displacement,
+         .held_history = &held.history[b],
+         .old_history = &old.history[b],
+         .start_history = extrapolates ? &start_[b] : &old.history[b],
+         .dt = pass.dt,
+         .effective_dt = step.dt,
+         .old_stress = remembers ? &old.stress[b]
+                       : keeps   ? &no_stress_[b]
+                                 : nullptr,
+         .new_stress = remembers || keeps ? &stress_[b] : nullptr,
+         .stress_share = remembers ? inertia_->motion().work_share : 1,
+         .work = pass.work});
+  if (pressure_) pressure_->begin(held.pressure);
+  stress_at_work_ = pass.work;
+  residual_is_known_ = false;
+  round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
+  if (inertia_) round_off_ += inertia_->round_off();
+}
+
+double MechanicalPhase::residual(std::span<const double> x, std::span<double> r) {
+  const bool known = residual_is_known_ && std::equal(x.begin(), x.end(), x_.begin(), x_.end());
+  if (!algebra::any_process(!known)) {
+    std::copy(residual_.begin(), residual_.end(), r.begin());
+    return balance_.reference();
+  }
+  const Stopwatch watch(seconds_residual_);
+  const profile::Part part("law and forces");
+  x_.assign(x.begin(), x.end());
+  std::fill(forces_.begin(), forces_.end(), 0.0);
+  balance_.begin();
+  const bool found = !pressure_ || pressure_->solve(x);
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    balance_.add_internal(mesh_.blocks[b].body, blocks_[b]->add_forces(x, forces_));
+  // Newton's iteration takes what is not a number for a step too far.
+  if (!found) std::fill(forces_.begin(), forces_.end(), std::numeric_limits<double>::quiet_NaN());
+  std::fill(r.begin(), r.end(), 0.0);
+  {
+    const profile::Part of_contact("contact");
+    for (algebra::Contribution* contribution : contributions_) contribution->add_residual(x, r);
+  }
+  balance_.add_exchanged(r);
+  balance_.add_exchanged(external_);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] += forces_[i] - external_[i];
+  if (inertia_) {
+    inertia_->force(x, inertial_);
+    balance_.add_exchanged(inertial_);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] += inertial_[i];
+  }
+  add_residual_to_balance(r);
+  residual_.assign(r.begin(), r.end());
+  residual_is_known_ = true;
+  return balance_.reference();
+}
+
+/// What keeps a face plane are forces that the body exchanges, like those of a support; their sum is
+/// residual.
+void MechanicalPhase::add_residual_to_balance(std::span<const double> r) {
+  if (matrix_->ties().empty()) {
+    balance_.add_residual(r, loads_->fixed(), loads_->supported());
+    return;
+  }
+  std::vector<double> holding(r.size(), 0.0), rest(r.begin(), r.end());
+  for (const auto& group : loads_->ties())
+    for (const Index entry : group) {
+      const auto at = static_cast<std::size_t>(entry);
+      if (at < r.size()) holding[at] = r[at];
+    }
+  matrix_->ties().sum(rest);
+  balance_.add_exchanged(holding);
+  balance_.add_residual(rest, loads_->fixed(), loads_->supported());
+}
+
+algebra::BlockMatrix& MechanicalPhase::tangent() {
+  const Stopwatch watch(seconds_assembly_);
+  const profile::Part part("assembly");
+  if (algebra::graph_outdated(contributions_)) {
+    matrix_->set_graph(graph());
+    solver_->reset();
+    bind();
+  }
+  matrix_->set_zero();
+  for (const auto& block : blocks_) block->add_tangent(x_, *matrix_);
+  if (inertia_) inertia_->add_tangent(*matrix_);
+  const profile::Part of_contact("contact");
+  for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(x_, *matrix_);
+  if (mixed_solver_ != nullptr) mixed_solver_->assemble();
+  return *matrix_;
+}
+
+PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
+                                   const MechanicalPass& pass) {
+  begin(old, pass);
+  algebra::NewtonOptions newton_options = options_.newton;
+  newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
+  if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
+  std::vector<double> x = start(old, pass);
+  look_ahead(pass, x);
+  PhaseReport report;
+  report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
+  const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
+  if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
+  report.work = conclude(old, pass, std::move(x), trial);
+  return report;
+}
+
+double MechanicalPhase::unbalanced(std::span<const double> x) {
+  std::vector<double> r(external_.size());
+  residual(x, r);
+  for (std::size_t i = 0; i < r.size(); ++i)
+    if (loads_->fixed()[i] != 0) r[i] = 0;
+  matrix_->ties().sum(r);
+  double squares = 0;
+  for (const double value : r) squares += value * value;
+  return std::sqrt(algebra::global_sum(squares));
+}
+
+void MechanicalPhase::look_ahead(const MechanicalPass& pass, std::vector<double>& x) {
+  if (!algebra::any_process(!pass.guess.empty())) return;
+  std::vector<double> guess(pass.guess.begin(), pass.guess.end());
+  loads_->prescribe(pass.time, guess);
+  const double here = unbalanced(x);
+  if (here <= round_off_) return;
+  const double there = unbalanced(guess);
+  if (there < here) x = std::move(guess);
+}
+
+void MechanicalPhase::begin(const MechanicalState& old, const MechanicalPass& pass) {
+  assert(old.displacement.size() == forces_.size() && old.history.size() == blocks_.size() && pass.dt > 0);
+  loads_->evaluate(pass.time, external_);
+  if (inertia_) inertia_->begin(old, pass.dt);
+  prepare(old, pass);
+}
+
+std::vector<double> MechanicalPhase::start(const MechanicalState& old, const MechanicalPass& pass) const {
+  std::vector<double> x = pass.iterate != nullptr ? pass.iterate->displacement : old.displacement;
+  if (!pass.start.empty()) x.assign(pass.start.begin(), pass.start.end());
+  loads_->prescribe(pass.time, x);
+  return x;
+}
+
+void MechanicalPhase::rest(const MechanicalState& state, std::span<const double> temperature) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    blocks_[b]->rest({.temperature = temperature,
+                      .pass_temperature = temperature,
+                      .initial_temperature = initial_temperature_,
+                      .held_displacement = state.displacement,
+                      .held_history = &state.history[b],
+                      .old_history = &state.history[b],
+                      .start_history = &state.history[b],
+                      .dt = 1,
+                      .effective_dt = 1});
+}
+
+BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
+                                  std::vector<BlockHistory>& history) {
+  const profile::Part part("history");
+  BlockWork total;
+  history.resize(blocks_.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    history[b].n_components = old.history[b].n_components;
+    history[b].n_points = old.history[b].n_points;
+    if (presence_.body(mesh_.blocks[b].body))
+      history[b].values.resize(old.history[b].values.size());
+    else  // of the layout that a checkpoint knows
+      history[b].values.assign(old.history[b].values.size(), Lane(0.0));
+    const BlockWork work = blocks_[b]->finish(old.displacement, x, history[b]);
+    total.internal_work += work.internal_work;
+    total.stabilisation_work += work.stabilisation_work;
+    total.dissipation += work.dissipation;
+    total.plastic_dissipation += work.plastic_dissipation;
+    total.plastic_work += work.plastic_work;
+    total.least_dissipation = std::min(total.least_dissipation, work.least_dissipation);
+    total.largest_dissipation = std::max(total.largest_dissipation, work.largest_dissipation);
+  }
+  return total;
+}
+
+MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
+                                         std::vector<double> x, MechanicalState& trial) {
+  MechanicalState next;
+  // Most of a state is its history: the storage of the one that is overwritten serves again.
+  if (&trial != &old) next.history = std::move(trial.history);
+  const BlockWork total = finish(old, x, next.history);
+  const MechanicalWork work = measure(old, x, total, next);
+  next.displacement = std::move(x);
+  next.stress = std::move(stress_);
+  if (pressure_) next.pressure = pressure_->pressure();
+  if (options_.integration == TimeIntegration::two_step) {
+    next.before = old.history;
+    next.dt_before = pass.dt;
+  }
+  trial = std::move(next);
+  return work;
+}
+
+/// Works and energies at the solution; with inertia also the motion of the next state.
+MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
+                                        const BlockWork& sums, MechanicalState& next) {
+  // The residual at the solution: internal + contributions + inertia − loads, the support force where fixed.
+  // Newton's iteration ends with it.
+  std::vector<double> r(external_.size());
+  residual(x, r);
+  double local[9] = {0,
+                     0,
+                     0,
+                     sums.internal_work,
+                     sums.dissipation,
+                     sums.plastic_dissipation,
+                     sums.plastic_work,
+                     0,
+                     sums.stabilisation_work};
+  if (stress_at_work_ != StressAtWork::kept) kept_ = {external_, r};
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double increment = x[i] - old.displacement[i];
+    reactions_[i] = loads_->fixed()[i] ? r[i] : 0.0;
+    local[0] += kept_.external[i] * increment;
+    local[loads_->fixed()[i] ? 1 : 2] += kept_.residual[i] * increment;
+  }
+  if (inertia_) {
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= inertial_[i];
+    residual_is_known_ = false;  // inertial_ becomes another force
+    const MotionWork motion = inertia_->conclude(x, r, external_, loads_->fixed(), next);
+    // The support force of t_{n+1}, not the method's mean over the step.
+    inertia_->mass().multiply(next.acceleration, components_, inertial_);
+    for (std::size_t i = 0; i < r.size(); ++i)
+      if (loads_->fixed()[i] != 0) reactions_[i] = r[i] + inertial_[i];
+    local[0] = motion.external;
+    local[1] = motion.support;
+    local[7] = motion.kinetic;
+    local[8] += motion.numerical;
+  }
+  double all[9];
+  MPI_Allreduce(local, all, 9, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return {.external_work = all[0],
+          .support_work = all[1],
+          .residual_work = all[2],
+          .internal_work = all[3],
+          .dissipation = all[4],
+          .plastic_dissipation = all[5],
+          .plastic_work = all[6],
+          .least_dissipation = algebra::global_min(sums.least_dissipation),
+          .largest_dissipation = algebra::global_max(sums.largest_dissipation),
+          .kinetic = all[7],
+          .numerical = all[8]};
+}
+
+std::vector<double> MechanicalPhase::applied_forces() const {
+  std::vector<double> force(residual_.size());
+  for (std::size_t i = 0; i < force.size(); ++i) force[i] = forces_[i] - residual_[i];
+  return force;
+}
+
+}  // namespace solidus::mechanics
