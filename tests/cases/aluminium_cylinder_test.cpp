@@ -54,6 +54,19 @@ TEST(AluminiumCylinder, ShowsWhatTheMonographShows) {
   EXPECT_NEAR(h.at("contact_force[N]").back(), weight, 0.02 * weight);
 }
 
+// Only the bottom stays in contact: it slides inwards under the casting's weight.
+TEST(AluminiumCylinder, FrictionActsWhereTheCastingRests) {
+  const CaseRun free = small("free", {}),
+                rubbing = run("cases/aluminium_cylinder/friction.toml", "friction", k_small);
+  ASSERT_TRUE(free.finished && rubbing.finished);
+  const auto& h = rubbing.history;
+  EXPECT_EQ(h.at("interface_sticking_fraction[1]").back(), 0);
+  EXPECT_NEAR(h.at("interface_friction_force[N]").back(), 0.2 * h.at("contact_force[N]").back(), 1e-9);
+  // A quarter of a newton does not hold the casting.
+  EXPECT_NEAR(h.at("gap[mm]").back(), free.history.at("gap[mm]").back(), 1e-6);
+  EXPECT_LT(relative_defect(rubbing), 1e-8);
+}
+
 TEST(AluminiumCylinder, TheGapIsWhatKeepsItWarm) {
   const CaseRun gap = small("gap", {}),
                 constant = run("cases/aluminium_cylinder/h_const.toml", "h_const", k_small);
