@@ -101,6 +101,7 @@ void HeatTerm::add_to_graph(algebra::NodeGraph& graph) const {
 
 void HeatTerm::bind(const algebra::BlockMatrix& matrix) {
   slots_.bind(matrix, n_owned_, partners_.n_points());
+  displacement_ = nullptr;  // whose pattern has changed with this one
 }
 
 HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature) const {

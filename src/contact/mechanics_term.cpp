@@ -61,6 +61,7 @@ void MechanicsTerm::add_to_graph(algebra::NodeGraph& graph) const {
 
 void MechanicsTerm::bind(const algebra::BlockMatrix& matrix) {
   slots_.bind(matrix, n_owned_, kinematics_.n_points());
+  coupled_ = nullptr;  // the places of coupled_slots_ are void too
 }
 
 void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r) {
