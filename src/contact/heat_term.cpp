@@ -10,7 +10,6 @@ namespace solidus::contact {
 
 namespace {
 
-constexpr std::size_t k_max_nodes = 2 * k_max_face_nodes;
 constexpr double k_room_temperature = 293.15;
 
 std::size_t at(Index i) {
@@ -168,12 +167,12 @@ void HeatTerm::add_sides(const AtPoint& s, const std::array<double, 2>& flux, st
 
 void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
   if (!active_) return;
-  std::array<double, k_max_nodes> heat;
+  std::vector<double> heat;
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
     const AtPoint s = see(p, x);
     const double w = partners_.weight[at(p)];
-    heat.fill(0);
+    heat.assign(s.nodes.size(), 0.0);
     add_exchange(s, x, w * s.h.value, w * s.radiation, heat);
     if (s.has_temperature) {
       const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
@@ -230,7 +229,7 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
         k[a * n + b] += shape(a) * (w * s.interface.flux_slope[i][j] - conducted) * shape(b);
       }
   if (s.h.by_temperature == 0) return;
-  std::array<double, k_max_nodes> per_h{};
+  std::vector<double> per_h(n, 0.0);
   add_exchange(s, x, w * s.h.by_temperature, 0, per_h);
   if (s.has_temperature) {
     const std::array<double, 2> flux = flux_by_conductance(s);
@@ -311,7 +310,7 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     displacement_slots_.bind(*displacement_, n_owned_, partners_.n_points());
   }
   const auto components = static_cast<std::size_t>(matrix.components());
-  std::array<double, k_max_nodes> per_gap, per_trial, per_share;  // ∂r_a
+  std::vector<double> per_gap, per_trial, per_share;  // ∂r_a
   Run run;
   for (Index p = 0; p < partners_.n_points(); ++p) {
     if (partners_.partnered[at(p)] == 0) continue;
@@ -327,11 +326,11 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
           for (std::size_t c = 0; c < components; ++c)
             run.values[(row * n + b) * components + c] += heat[row] * rate_of(b)[c];
     };
-    per_gap.fill(0);
+    per_gap.assign(n, 0.0);
     add_gap_slope(s, temperature, per_gap);
     add(per_gap, [&](std::size_t b) -> const Point& { return rates.penetration[b]; });
     if (const auto& joint = points_[at(p)].joint; joint && !rates.trial.empty()) {
-      per_trial.fill(0);
+      per_trial.assign(n, 0.0);
       const double source = -partners_.weight[at(p)] * joint->source_by_trial;
       add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
       add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
@@ -339,7 +338,7 @@ void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index poin
     for (std::size_t a = s.n_slave; a < n; ++a) {
       const auto moves = rates.share.subspan(a * n, n);
       if (std::all_of(moves.begin(), moves.end(), [](const Point& v) { return v == Point{}; })) continue;
-      per_share.fill(0);
+      per_share.assign(n, 0.0);
       add_share_slope(s, temperature, a, per_share);
       add(per_share, [&](std::size_t b) -> const Point& { return moves[b]; });
     }
