@@ -112,7 +112,9 @@ void MechanicalPhase::remove_bodies(const algebra::Presence& presence) {
 
 algebra::NodeGraph MechanicalPhase::graph() const {
   algebra::NodeGraph graph(mesh_);
-  if (!presence_.complete()) {
+  // The coupled matrix of the simultaneous scheme has this pattern: what a body that only conducts takes
+  // depends on the displacement of those that it touches.
+  if (!presence_.complete() && options_.mapping != Mapping::simultaneous) {
     std::vector<char> absent(mesh_.x.size());
     for (std::size_t i = 0; i < absent.size(); ++i) absent[i] = !presence_.node(static_cast<Index>(i));
     graph.leave_out(std::move(absent));
