@@ -189,7 +189,7 @@ void StateFields::update_contacts(std::span<const double> temperature) {
       pressure[i] = fields.pressure[k];
       conductance[i] = fields.conductance[k];
     }
-    if (heats(pair)) update_heat(fields, closest);
+    update_heat(fields, closest);
     if (phases_.mechanics != nullptr && rubs(pair)) update_friction(fields, closest);
   }
   for (const auto& v : values_)
