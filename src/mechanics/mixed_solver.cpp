@@ -86,9 +86,12 @@ void MixedSolver::make_solver(bool direct) {
       .definite = false,
       .symmetric = options_.symmetric});
   tightening_ = direct ? k_direct_tightening : 1;
-  if (direct) return;
+  if (direct) {
+    preconditioner_.reset();  // the factors need its memory
+    return;
+  }
   preconditioner_.emplace(mesh_, displacement_.block_size());
-  schur_ = pressure_.make_matrix();
+  if (!schur_) schur_ = pressure_.make_matrix();
   saddle_.emplace(mesh_, matrix_, pressure_, ghosts_);
   solver_->use([this](std::span<const double> r, std::span<double> z) {
     on_whole(r, z, [this] { preconditioner_->apply(*saddle_, whole_in_, whole_out_); });
