@@ -267,8 +267,12 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   results::RecorderOptions r = recorder_options(c, options, a);
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials);
   std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);
-  if (from) r.progress_options.start = from->state.time;
-  r.continue_from = from;
+  if (from) {
+    r.progress_options.start = from->state.time;
+    // A state is large: of this one the recorder asks for the time.
+    r.continue_from = {{}, from->continuation, from->energy, from->rejected, from->stability};
+    r.continue_from->state.time = from->state.time;
+  }
   const results::RunFolder folder(options.folder, c.toml(), options.restart);
   r.summary.seconds.emplace_back("mesh", loaded - start);
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
