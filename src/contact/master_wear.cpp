@@ -53,11 +53,11 @@ std::vector<WornNode> MasterWear::initial_state() const {
 void MasterWear::add(const PointMotion& motion, double depth, double dissipation,
                      std::vector<WornNode>& nodes) const {
   const auto first = static_cast<std::size_t>(motion.n_slave);
-  std::vector<double> shares;
-  for (std::size_t b = first; b < motion.nodes.size(); ++b) shares.push_back(-motion.share[b]);
-  make_shares(shares);
+  const auto share = [&](std::size_t b) { return std::max(-motion.share[b], 0.0); };
+  double sum = 0;
+  for (std::size_t b = first; b < motion.nodes.size(); ++b) sum += share(b);
   for (std::size_t b = first; b < motion.nodes.size(); ++b) {
-    const double part = motion.weight * shares[b - first];
+    const double part = motion.weight * (share(b) / sum);
     if (part == 0) continue;
     WornNode& node = nodes[place_of(nodes_, motion.nodes[b])];
     node.volume += part * depth;

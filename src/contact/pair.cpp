@@ -279,6 +279,7 @@ void ContactPair::update(std::span<const double> displacement) {
   now_.points.resize(step_.from.size());
   now_.master = worn_from_;
   std::vector<HeatPoint> heat;
+  if (heat_) heat.reserve(now_.points.size());
   before_heat_.resize(now_.points.size());
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const PointState& from = step_.from[at(p)];
