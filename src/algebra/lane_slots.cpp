@@ -1,5 +1,6 @@
 #include "algebra/lane_slots.hpp"
 
+#include <cassert>
 #include <limits>
 #include <stdexcept>
 
@@ -21,7 +22,11 @@ LaneSlots::LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, in
         for (std::size_t lane = 0; lane < k_lanes; ++lane, ++to) {
           const Index row = of_batch[a * k_lanes + lane];
           const Slot slot = matrix.slot(row, of_batch[b * k_lanes + lane]);
-          if (slot == BlockMatrix::k_no_slot) continue;
+          if (slot == BlockMatrix::k_no_slot) {
+            assert(row >= static_cast<Index>(row_start.size()) - 1 &&
+                   "an element of a node that is left out");
+            continue;
+          }
           const Slot place = slot - row_start[static_cast<std::size_t>(row)];
           if (place > std::numeric_limits<std::uint16_t>::max())
             throw std::length_error("a node is coupled with more than 65 536 others");
