@@ -166,7 +166,7 @@ void check_conditions(const CaseSpec& spec) {
   }
 }
 
-/// Friction makes heat: it needs a way out of the interface, and a scheme that knows it.
+/// Friction makes heat: it needs a way out of the interface.
 void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
   if (!c.friction || !spec.coupled()) return;
   if (!c.heat)

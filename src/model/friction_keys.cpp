@@ -76,8 +76,7 @@ Section<WearSpec> wear_keys() {
       .range(0, 1)
       .doc(
           "Part of the depth that the master loses, the slave the rest: 0 the slave alone wears, 1 the "
-          "master "
-          "alone. The master remembers it at its nodes, wherever the slave goes.");
+          "master alone. The master remembers it at its nodes, wherever the slave goes.");
   s.place(&W::where);
   return s;
 }
