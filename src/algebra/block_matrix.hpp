@@ -41,8 +41,8 @@ class NodeGraph {
 class BlockMatrix {
  public:
   using Slot = std::int64_t;
-  /// The row belongs to another process, a node has no unknowns, or the lane is padding. Its block is a scrap block that may be added
-  /// to and is never read, so kernels scatter without a branch.
+  /// The row belongs to another process, a node has no unknowns, or the lane is padding. Its block is a scrap
+  /// block that may be added to and is never read, so kernels scatter without a branch.
   static constexpr Slot k_no_slot = -1;
 
   BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph);
@@ -111,7 +111,7 @@ class BlockMatrix {
   std::vector<std::int64_t> row_start_;
   std::vector<Index> columns_;
   std::vector<Slot> diagonal_;
-  std::vector<char> left_out_;  ///< as of the graph
+  std::vector<char> left_out_;             ///< as of the graph
   std::vector<std::int64_t> ghost_start_;  ///< [owned node], into ghost_slots_
   std::vector<Slot> ghost_slots_;          ///< slots of ghost columns in global order
   std::vector<double> values_;             ///< the scrap block, then a block per slot

@@ -24,7 +24,7 @@ class CommonPacks {
   explicit CommonPacks(std::size_t n_points = 0) : n_points_(n_points) {}
 
   std::size_t size() const { return n_points_; }
-  /// Zeros where nothing has been set.
+  /// A point that has not been set reads as the first that was, zeros before that.
   T operator[](std::size_t point) const {
     Lanes lanes = common_;
     const Lane* from = values_.data() + point * own_.size();

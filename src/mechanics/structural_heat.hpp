@@ -44,9 +44,9 @@ struct StructuralChange {
 /// that the thermal matrix stays symmetric and of non-negative type.
 class StructuralHeat : public algebra::Contribution {
  public:
-  /// @param phase   its last solve() is the configuration; from now on it keeps what is needed, not before.
-  /// Must
-  ///                outlive this object
+  /// @param phase   must outlive this object; its last
+  ///                solve() is the configuration; from now
+  ///                on it keeps what is needed, not before
   /// @param closed  the thermal phase stores heat by the closed rule
   StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed = true);
 

@@ -31,9 +31,9 @@ struct RawMesh {
 /// @param unit_in_metres length of one unit of the file in metres (0.001 for millimetres)
 /// @param element_size   target size [m] for files that Gmsh meshes itself (.geo, STEP); 0: as the file says
 /// @param element_order  1 or 2, for files that Gmsh meshes itself
-/// @param constants      values for the constants that a .geo script declares with DefineConstant, by name,
-/// in
-///                       the script's units; InputError for one that it does not declare
+/// @param constants      values for the constants that a .geo script declares with DefineConstant,
+///                       by name and in the script's units; InputError for one that it does not
+///                       declare
 /// @param geometry       groups of files that Gmsh meshes itself
 RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size = 0,
                   int element_order = 1, const std::map<std::string, double>& constants = {},

@@ -29,6 +29,9 @@ void add_friction(const ContactSpec& c, Physics physics, contact::ContactSpec& p
   if (c.wear && !c.friction)
     throw InputError(c.wear->where, "wear without friction: nothing slides against a resistance",
                      "a section [contact.friction] beside [contact.wear]");
+  if (c.wear && c.wear->master_share > 0 && !c.surfaces.empty())
+    throw InputError(c.wear->where, "'master_share' where the program chooses which surface is the master",
+                     "'slave' and 'master' in place of 'surfaces'");
   if (c.friction) pair.friction = friction_spec(*c.friction);
   if (c.wear) pair.wear = wear_spec(*c.wear);
   pair.interface_heat_capacity = c.interface.heat_capacity;

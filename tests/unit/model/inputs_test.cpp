@@ -129,6 +129,17 @@ TEST(ModelInput, ContactTakesItsPenaltyAsANumberOrAsAFactor) {
   EXPECT_FALSE(absolute.nodal_heat);
 }
 
+TEST(ModelInput, WearIsSharedOnlyWhereTheCaseSaysWhichSurfaceIsTheMaster) {
+  const std::string wear =
+      "[contact.friction]\ncoefficient = 0.2\n[contact.wear]\narchard = 1e-4\nhardness = \"1 GPa\"\n"
+      "master_share = 0.3\n";
+  const std::string named =
+      "[[contact]]\nname = \"c\"\nslave = \"part_surface\"\nmaster = \"mould_surface\"\n";
+  EXPECT_EQ(contact_specs(read(named + wear))[0].wear->master_share, 0.3);
+  const std::string chosen = "[[contact]]\nname = \"c\"\nsurfaces = [\"part_surface\", \"mould_surface\"]\n";
+  EXPECT_THROW(contact_specs(read(chosen + wear)), InputError);
+}
+
 TEST(ModelInput, TheSplitChoosesWhatTheMechanicalPhaseHolds) {
   using mechanics::Mapping;
   EXPECT_EQ(mechanics_options(read()).mapping, Mapping::isentropic);
