@@ -131,7 +131,8 @@ TEST(ModelInput, ContactTakesItsPenaltyAsANumberOrAsAFactor) {
 
 TEST(ModelInput, WearIsSharedOnlyWhereTheCaseSaysWhichSurfaceIsTheMaster) {
   const std::string wear =
-      "[contact.heat]\nconductance = \"1 N/mm/s/K\"\n[contact.friction]\ncoefficient = "
+      "[contact.heat]\nconductance = \"1 N/mm/s/K\"\ngap_law = \"constant\"\n[contact.friction]\ncoefficient "
+      "= "
       "0.2\n[contact.wear]\narchard = 1e-4\nhardness = \"1 GPa\"\n"
       "master_share = 0.3\n";
   const std::string named =
