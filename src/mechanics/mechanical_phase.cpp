@@ -140,6 +140,7 @@ void MechanicalPhase::bind() {
 
 /// Without mixed elements there is none.
 void MechanicalPhase::create_pressure() {
+  if (pressure_) seconds_before_ += pressure_->seconds();
   const bool any = std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) {
     return dynamic_cast<const MixedKernel*>(block.get()) != nullptr;
   });
@@ -162,6 +163,7 @@ void MechanicalPhase::create_pressure() {
 }
 
 void MechanicalPhase::create_solver() {
+  if (solver_) seconds_before_ += solver_->seconds_setup() + solver_->seconds_solve();
   mixed_solver_ = nullptr;
   if (pressure_) {
     auto solver = std::make_unique<MixedSolver>(
@@ -259,7 +261,8 @@ std::vector<ElementFields> MechanicalPhase::element_fields() const {
 }
 
 double MechanicalPhase::seconds_solver() const {
-  return solver_->seconds_setup() + solver_->seconds_solve() + (pressure_ ? pressure_->seconds() : 0.0);
+  return seconds_before_ + solver_->seconds_setup() + solver_->seconds_solve() +
+         (pressure_ ? pressure_->seconds() : 0.0);
 }
 
 std::size_t MechanicalPhase::bytes() const {

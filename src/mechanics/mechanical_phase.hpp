@@ -281,6 +281,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
     std::vector<double> external, residual;
   } kept_;  ///< of the stress at work, [owned node][component]
   double seconds_assembly_ = 0, seconds_residual_ = 0;
+  double seconds_before_ = 0;  ///< of solvers that others have replaced
 };
 
 }  // namespace solidus::mechanics
