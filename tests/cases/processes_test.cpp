@@ -43,7 +43,7 @@ class Processes : public ::testing::Test {
   static void run(const std::string& folder, int processes, const std::string& more) {
     const std::string command = fmt::format(
         "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
-        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
         "mpirun -n {} --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
         "/solidus' run '" SOLIDUS_SOURCE_DIR "/cases/aluminium_cylinder' -o '{}' --no-progress {} {} 2>&1",
         processes, (root() / folder).string(), k_case, more);

@@ -18,6 +18,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "../cases/case_run.hpp"
@@ -41,10 +42,10 @@ std::string launcher(int processes) {
                         variable("LD_LIBRARY_PATH") + " OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1";
   if (processes > 1)
     command += fmt::format(
-        " OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 mpirun -n "
-        "{} "
+        " OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle={} mpirun "
+        "-n {} "
         "--bind-to none --oversubscribe",
-        processes);
+        processes > static_cast<int>(std::thread::hardware_concurrency()) ? 1 : 0, processes);
   return command;
 }
 
