@@ -78,7 +78,7 @@ def panel(title, x, y):
 
 
 def draw_laws(images):
-    figure, axes = panel("Friction over the normal work (figure 7.11b)", "ζ_c [kN/mm]", "μ")
+    figure, axes = panel("Friction over the normal work (figure 7.11b)", "Normal work ζ$_c$ [kN/mm]", "Coefficient of friction μ")
     zeta = np.linspace(0, 10, 201)
     for index, (steel, terms) in enumerate(STEELS.items()):
         axes.plot(zeta, np.polynomial.polynomial.polyval(zeta, terms), label=steel.upper(), **style.line_style(index))
@@ -99,12 +99,12 @@ def draw_forces(run, closed, strip, images, name, title):
     axes.set_ylim(bottom=0)
     axes.set_xlim(0, closed[-1, 0])
     axes.set_xticks(range(0, 21, 2))
-    axes.legend(loc="lower left", ncol=3, frameon=True, framealpha=0.9, edgecolor="none")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncol=3)
     return style.save(figure, images, name, vector=False)
 
 
 def draw_passes(runs, images, name, title):
-    figure, panels = plt.subplots(2, 2, figsize=(7.2, 5.2), sharex=True, layout="constrained")
+    figure, panels = plt.subplots(2, 2, figsize=(6.4, 4.6), sharex=True, layout="constrained")
     for axes, run in zip(panels.flat, runs):
         shown = (1, 2, 5, 10, 15, 20)
         for number, colour in zip(shown, plt.get_cmap("viridis")(np.linspace(0, 0.9, len(shown)))):
@@ -120,13 +120,13 @@ def draw_passes(runs, images, name, title):
 
 
 def draw_wear(runs, images):
-    figure, axes = panel("Wear of the sheet after 20 passes (figure 7.16)", "Distance from the left edge [mm]", "ζ_c [kN/mm]")
+    figure, axes = panel("Wear of the sheet after 20 passes (figure 7.16)", "Distance from the left edge [mm]", "Normal work ζ$_c$ [kN/mm]")
     for index, run in enumerate(runs):
         axes.plot(run.x, run.zeta, label=f"{run.force / 1000:g} kN", **style.line_style(index))
         axes.plot(PLATEAU, 2 * [20 * run.force * 1e-4], color="black", linewidth=0.8, linestyle=":")
     axes.margins(x=0)
     axes.set_ylim(bottom=0)
-    axes.legend(title="GA; dotted: closed form", title_fontsize=8)
+    axes.legend(title="GA; dotted: closed form", title_fontsize=8, loc="lower center", ncol=2)
     return style.save(figure, images, "sheet_sliding_7_16", vector=False)
 
 
@@ -152,6 +152,7 @@ def main():
     parser.add_argument("--images", type=Path, default=ROOT / "docs/verification/images")
     options = parser.parse_args()
     style.setup()
+    plt.rcParams["savefig.dpi"] = 100
     options.images.mkdir(parents=True, exist_ok=True)
     closed, strip, runs = reference("closed_form"), reference("strip"), read_runs(options.results)
     files = draw_laws(options.images)
