@@ -7,12 +7,12 @@ What is drawn stands in verification.toml beside this file, one section a pictur
     title, x, y        words with units
     table              the table, where it is not called like the picture
     x_column           its abscissa, where that is not the first column
-    curves             [column, label] or [column, label, column of the closed form]; a column without its unit. "other:column" is
-                       one of another table, "column where name = value" has only those rows
+    curves             [column, label] or [column, label, column of the closed form]; a column without its unit.
+                       "other:column" is one of another table, "column where name = value" has only those rows
     exact, exact_label column of one closed form for all curves; what closed forms are called in the legend
     level              [value, label] of a horizontal line
-    kind               "lines" (where nothing is said); "order": logarithmic axes and the slope of the last two points; "newton":
-                       residuals over iterations, and counts (label of their axis) beside them
+    kind               "lines" (where nothing is said); "order": logarithmic axes and the slope of the last two
+                       points; "newton": residuals over iterations, and counts (label of their axis) beside them
     panels             [low, high] of the ordinate, of panels one above the other
     log                axes that are logarithmic: "x", "y", "xy"
     powers             { x = n }: the column holds a common logarithm, drawn is ten to the power of n times it; y too
@@ -42,8 +42,8 @@ SIZE = (5.2, 3.4)  # [in]
 MARKERS = "osD^vPX*"
 POINTS = 40  # marked on a curve
 SPREAD = 60  # on all curves together
-KEYS = {"title", "x", "y", "table", "x_column", "curves", "exact", "exact_label", "level", "kind", "counts", "log", "powers",
-        "panels", "legend", "markers", "spread", "factor", "relative", "invert", "ticks"}
+KEYS = {"title", "x", "y", "table", "x_column", "curves", "exact", "exact_label", "level", "kind", "counts", "log",
+        "powers", "panels", "legend", "markers", "spread", "factor", "relative", "invert", "ticks"}
 KINDS = {"lines", "order", "newton"}
 
 
@@ -147,7 +147,8 @@ def draw_lines(axes, picture, tables):
                   marker=MARKERS[index % len(MARKERS)] if picture.get("markers", True) else "", markersize=4,
                   markevery=marked, markerfacecolor="white", markeredgewidth=0.9, label=label)
     if "exact" in picture:
-        closed = axes.plot(*points(picture, tables, picture["exact"]), color="black", linewidth=0.9, label=word, zorder=1.9)
+        closed = axes.plot(*points(picture, tables, picture["exact"]), color="black", linewidth=0.9, label=word,
+                           zorder=1.9)
     if "level" in picture:
         value, text = picture["level"]
         axes.axhline(value, color="black", linewidth=0.8, linestyle=(0, (4, 3)), label=text or None, zorder=1.5)

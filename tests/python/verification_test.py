@@ -24,7 +24,8 @@ class List(unittest.TestCase):
     def test_a_key_or_kind_that_means_nothing_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "pictures.toml"
-            for text, problem in (('titel = "a"', "titel"), ('kind = "pie"', "pie"), ('title = "a"\nx = "b"', "needs y")):
+            for text, problem in (('titel = "a"', "titel"), ('kind = "pie"', "pie"),
+                                  ('title = "a"\nx = "b"', "needs y")):
                 file.write_text(f"[a]\n{text}\n")
                 with self.assertRaisesRegex(ValueError, problem):
                     read_pictures(file)
@@ -35,7 +36,8 @@ class Pictures(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
-        (self.folder / "a.csv").write_text("kind,step[s],T[K],u: x,exact_T[K]\nslow,1,2,30,1\nslow,0.5,0.5,20,2\nfast,0.25,7,10,3\n")
+        (self.folder / "a.csv").write_text("kind,step[s],T[K],u: x,exact_T[K]\n"
+                                           "slow,1,2,30,1\nslow,0.5,0.5,20,2\nfast,0.25,7,10,3\n")
         (self.folder / "b.csv").write_text("step[s],T[K]\n1,4\n2,5\n")
         self.tables = Tables(self.folder)
         _, self.axes = plt.subplots()
@@ -46,7 +48,8 @@ class Pictures(unittest.TestCase):
         return {line.get_label(): line for line in self.axes.lines}
 
     def test_columns_come_from_this_table_or_another_all_rows_or_some(self):
-        for column, values in (("T", [2, 0.5, 7]), ("u: x", [30, 20, 10]), ("b:T", [4, 5]), ("T where kind = slow", [2, 0.5])):
+        for column, values in (("T", [2, 0.5, 7]), ("u: x", [30, 20, 10]), ("b:T", [4, 5]),
+                               ("T where kind = slow", [2, 0.5])):
             np.testing.assert_array_equal(self.tables.values("a", "step", column)[1], values)
 
     def test_a_closed_form_is_a_line_in_the_colour_of_what_is_computed(self):
