@@ -9,46 +9,27 @@
 #include <sstream>
 #include <string>
 
-#include "case_run.hpp"
+#include "case_folder.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using solidus::testing::at;
 using solidus::testing::CaseRun;
+using solidus::testing::read_text;
 using ::testing::HasSubstr;
 
-fs::path root() {
-  return fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "bodies";
-}
-
-std::string write(const std::string& name, const std::string& text) {
-  fs::create_directories(root());
-  std::ofstream(root() / name) << text;
-  return (root() / name).string();
-}
-
-CaseRun run(const std::string& name, const std::string& text,
-            const std::vector<std::string>& overrides = {}) {
-  return solidus::testing::run(write(name + ".toml", text), "bodies/" + name, overrides);
-}
-
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
+const solidus::testing::CaseFolder k_here("bodies");
 
 /// A number of summary.json.
 double summary(const std::string& name, const std::string& key) {
-  const std::string text = read(root() / name / "summary.json");
+  const std::string text = read_text(k_here.root() / name / "summary.json");
   const std::size_t found = text.find("\"" + key + "\":");
   return found == std::string::npos ? NAN : std::strtod(text.c_str() + found + key.size() + 3, nullptr);
 }
 
 double mechanical_bytes(const std::string& name) {
-  const std::string text = read(root() / name / "summary.json");
+  const std::string text = read_text(k_here.root() / name / "summary.json");
   const std::string key = "\"mechanics\":";
   const std::size_t found = text.find(key, text.find("tables[bytes]"));
   return found == std::string::npos ? NAN : std::strtod(text.c_str() + found + key.size(), nullptr);
@@ -175,8 +156,8 @@ unit = "mm"
 class Bodies : public ::testing::Test {
  protected:
   void SetUp() override {
-    write("stiff_sand.toml", k_stiff_sand);
-    write("box.geo", k_box);
+    k_here.write("stiff_sand.toml", k_stiff_sand);
+    k_here.write("box.geo", k_box);
   }
 };
 
@@ -186,11 +167,11 @@ double defect(const std::string& name) {
 }
 
 TEST_F(Bodies, ThatLeaveLetThePartSpringBackAndCoolInAir) {
-  const CaseRun r = run("shake_out", k_shake_out);
+  const CaseRun r = k_here.run("shake_out", k_shake_out);
   ASSERT_TRUE(r.finished) << r.reason;
   // Held by sand of 2000 GPa the part cannot shrink. Without it, it is what it would be in sand that had
   // never held it: it is elastic, and deformation hardly moves temperatures.
-  const CaseRun free = run("free", k_shake_out, {"body.sand.physics=heat"});
+  const CaseRun free = k_here.run("free", k_shake_out, {"body.sand.physics=heat"});
   ASSERT_TRUE(free.finished) << free.reason;
   EXPECT_GT(at(r.history, "sxx[MPa]", 200), 100);
   EXPECT_LT(at(free.history, "sxx[MPa]", 200), 10);
@@ -204,43 +185,23 @@ TEST_F(Bodies, ThatLeaveLetThePartSpringBackAndCoolInAir) {
   EXPECT_LT(at(r.history, "T_part[degC]", 300), at(r.history, "T_part[degC]", 200) - 100);
   EXPECT_EQ(at(r.history, "T_sand[degC]", 300), at(r.history, "T_sand[degC]", 210));
   EXPECT_LT(std::abs(defect("shake_out")), 1e-6);
-  EXPECT_THAT(read(root() / "shake_out/fields/fields_00002.vtu"), HasSubstr("vtkGhostType"));
+  EXPECT_THAT(read_text(k_here.root() / "shake_out/fields/fields_00002.vtu"), HasSubstr("vtkGhostType"));
 }
 
 TEST_F(Bodies, LeaveBySchemesOfEveryKind) {
   for (const char* scheme : {"isothermal", "simultaneous", "block_iterative"}) {
-    const CaseRun r = run(scheme, k_shake_out, {std::string("coupling.scheme=") + scheme});
+    const CaseRun r = k_here.run(scheme, k_shake_out, {std::string("coupling.scheme=") + scheme});
     ASSERT_TRUE(r.finished) << scheme << ": " << r.reason;
     EXPECT_LT(at(r.history, "sxx[MPa]", 210), 10) << scheme;
     EXPECT_LT(std::abs(defect(scheme)), 1e-6) << scheme;
   }
 }
 
-/// Runs until so many steps are taken, then goes on; the history is that of a run that never stopped.
-void expect_the_same(const std::string& name, int stop_after,
-                     const std::vector<std::string>& overrides = {}) {
-  const std::string file = write(name + ".toml", k_shake_out);
-  const auto go = [&](const std::string& folder, bool restart, int steps) {
-    solidus::model::RunOptions options;
-    options.folder = root() / folder;
-    options.restart = restart;
-    int asked = 0;
-    options.stop_asked = [&asked, steps] { return asked++ == steps; };
-    return solidus::model::run_case(solidus::model::load_case(file, overrides), options).finished;
-  };
-  constexpr int k_never = -1;
-  ASSERT_TRUE(go(name + "_whole", false, k_never));
-  ASSERT_FALSE(go(name + "_parts", false, stop_after));
-  ASSERT_TRUE(go(name + "_parts", true, k_never));
-  EXPECT_EQ(read(root() / (name + "_whole") / "history.csv"),
-            read(root() / (name + "_parts") / "history.csv"));
-}
-
 TEST_F(Bodies, GoOnWithTheSameBitsBeforeAtAndAfterTheyLeave) {
-  expect_the_same("before", 6);
-  expect_the_same("at", 10);
-  expect_the_same("after", 14);
-  expect_the_same("conducting", 14, {"body.sand.physics=heat"});
+  k_here.expect_to_go_on("before", k_shake_out, 6);
+  k_here.expect_to_go_on("at", k_shake_out, 10);
+  k_here.expect_to_go_on("after", k_shake_out, 14);
+  k_here.expect_to_go_on("conducting", k_shake_out, 14, {"body.sand.physics=heat"});
 }
 
 // Sand of 2000 GPa against sand that stands still by definition: what is left of its yielding is the bound of
@@ -317,8 +278,8 @@ component = "y"
 point = ["60 mm", "50 mm"]
 unit = "mm"
 )";
-  const CaseRun elastic = run("elastic", touching),
-                rigid = run("rigid", touching, {"body.lower.physics=heat"});
+  const CaseRun elastic = k_here.run("elastic", touching),
+                rigid = k_here.run("rigid", touching, {"body.lower.physics=heat"});
   ASSERT_TRUE(elastic.finished && rigid.finished) << elastic.reason << rigid.reason;
   for (const double time : {10.0, 50.0, 100.0}) {
     EXPECT_NEAR(at(rigid.history, "T[degC]", time), at(elastic.history, "T[degC]", time), 1e-4) << time;
@@ -330,18 +291,18 @@ unit = "mm"
 }
 
 TEST_F(Bodies, OnTwoProcessesAreTheSame) {
-  const CaseRun r = run("serial", k_shake_out);
+  const CaseRun r = k_here.run("serial", k_shake_out);
   ASSERT_TRUE(r.finished) << r.reason;
-  const std::string file = write("parallel.toml", k_shake_out);
+  const std::string file = k_here.write("parallel.toml", k_shake_out);
   // This program is one of MPI too: its environment would confuse mpirun.
   const std::string command =
       "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
       "OMPI_ALLOW_RUN_AS_ROOT=1 "
       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n 2 --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
       "/solidus' run '" +
-      file + "' -o '" + (root() / "parallel").string() + "' >/dev/null";
+      file + "' -o '" + (k_here.root() / "parallel").string() + "' >/dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  const auto two = solidus::testing::read_csv(root() / "parallel/history.csv");
+  const auto two = solidus::testing::read_csv(k_here.root() / "parallel/history.csv");
   for (const char* column : {"T_part[degC]", "T_highest[degC]", "sxx[MPa]", "ux[mm]"})
     for (const double time : {200.0, 210.0, 300.0})
       EXPECT_NEAR(at(two, column, time), at(r.history, column, time),
@@ -351,7 +312,7 @@ TEST_F(Bodies, OnTwoProcessesAreTheSame) {
 
 std::string refusal(const std::string& name, const std::string& text) {
   try {
-    run(name, text);
+    k_here.run(name, text);
   } catch (const solidus::InputError& error) {
     return error.what();
   }
@@ -407,7 +368,7 @@ Physical Curve("cope_top") = {7}; Physical Curve("drag_top") = {11};
 )";
 
 TEST_F(Bodies, ThatLeaveEndTheirContactsAndNoOthers) {
-  write("two_moulds.geo", k_two_moulds_geo);
+  k_here.write("two_moulds.geo", k_two_moulds_geo);
   EXPECT_THAT(refusal("two_moulds", k_two_moulds),
               HasSubstr("the surface 'moulds' of the contact 'cavity' belongs to a body that has gone in the "
                         "stage 'air' and to one that stays"));
@@ -415,7 +376,7 @@ TEST_F(Bodies, ThatLeaveEndTheirContactsAndNoOthers) {
   two.replace(two.find("\"moulds\""), 8, "\"cope_top\"");
   second.replace(second.find("\"moulds\""), 8, "\"drag_top\"");
   second.replace(second.find("\"cavity\""), 8, "\"drag\"");
-  const CaseRun r = run("two_contacts", two + second);
+  const CaseRun r = k_here.run("two_contacts", two + second);
   ASSERT_TRUE(r.finished) << r.reason;
   EXPECT_GT(at(r.history, "contact_heat[W]", 1), 1.5 * at(r.history, "contact_heat[W]", 2));
   EXPECT_GT(at(r.history, "contact_heat[W]", 2), 1);
@@ -425,13 +386,14 @@ TEST_F(Bodies, ThatLeaveEndTheirContactsAndNoOthers) {
 }
 
 TEST_F(Bodies, ACheckpointIsOfTheBodiesThatWereThere) {
-  ASSERT_TRUE(run("once", k_shake_out).finished);
+  ASSERT_TRUE(k_here.run("once", k_shake_out).finished);
   solidus::model::RunOptions options;
-  options.folder = root() / "once";
+  options.folder = k_here.root() / "once";
   options.restart = true;
   try {
     solidus::model::run_case(
-        solidus::model::load_case(write("once.toml", k_shake_out), {"body.sand.physics=heat"}), options);
+        solidus::model::load_case(k_here.write("once.toml", k_shake_out), {"body.sand.physics=heat"}),
+        options);
     ADD_FAILURE();
   } catch (const solidus::InputError& error) {
     EXPECT_THAT(error.what(),

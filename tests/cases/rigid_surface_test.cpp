@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "case_run.hpp"
+#include "case_folder.hpp"
 
 namespace {
 
@@ -63,24 +63,10 @@ search_distance = "1 mm"
 
 const std::string k_coarse = "mesh.block.divisions=[80, 40]";
 
-fs::path root() {
-  return fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "rigid_surface";
-}
-
-std::string write(const std::string& name, const std::string& text) {
-  fs::create_directories(root());
-  const fs::path path = root() / (name + ".toml");
-  std::ofstream(path) << text;
-  return path.string();
-}
-
-CaseRun run(const std::string& name, const std::string& text,
-            const std::vector<std::string>& overrides = {}) {
-  return solidus::testing::run(write(name, text), "rigid_surface/" + name, overrides);
-}
+const solidus::testing::CaseFolder k_here("rigid_surface");
 
 TEST(RigidSurface, ACylinderPressedIntoABlockHasThePressureOfHertz) {
-  const CaseRun r = run("press", k_press);
+  const CaseRun r = k_here.run("press", k_press);
   ASSERT_TRUE(r.finished) << r.reason;
   const double force = r.history.at("press_force_y[N]").back();
   constexpr double k_star = 196e9 / (1 - 0.3 * 0.3), k_radius = 0.1;
@@ -96,7 +82,7 @@ TEST(RigidSurface, ACylinderPressedIntoABlockHasThePressureOfHertz) {
 }
 
 TEST(RigidSurface, ItsWorkIsInTheFirstLaw) {
-  const CaseRun r = run("first_law", k_press, {"analysis.physics=thermomechanical", k_coarse});
+  const CaseRun r = k_here.run("first_law", k_press, {"analysis.physics=thermomechanical", k_coarse});
   ASSERT_TRUE(r.finished) << r.reason;
   const double work = r.history.at("work[J]").back();
   EXPECT_GT(work, 10);
@@ -110,7 +96,7 @@ const std::vector<std::string> k_turn = {"time.end=2 s", k_coarse,
                                          "\"0 degree\"], [\"2 s\", \"0.1 degree\"]] }"};
 
 TEST(RigidSurface, ThatTurnsDragsTheBodyByFriction) {
-  const CaseRun r = run("turn", k_friction, k_turn);
+  const CaseRun r = k_here.run("turn", k_friction, k_turn);
   ASSERT_TRUE(r.finished) << r.reason;
   // The block's side of the tool moves along +x: the tool feels -x. Every point slips.
   const double normal = r.history.at("press_force_y[N]").back();
@@ -119,22 +105,8 @@ TEST(RigidSurface, ThatTurnsDragsTheBodyByFriction) {
 }
 
 TEST(RigidSurface, ARunGoesOnWithTheSameBits) {
-  const std::string file = write("again", k_friction);
-  const auto go = [&](const std::string& folder, bool restart, int steps) {
-    solidus::model::RunOptions options;
-    options.folder = root() / folder;
-    options.restart = restart;
-    int asked = 0;
-    options.stop_asked = [&asked, steps] { return asked++ == steps; };
-    return solidus::model::run_case(solidus::model::load_case(file, k_turn), options).finished;
-  };
-  constexpr int k_never = -1;
-  ASSERT_TRUE(go("whole", false, k_never));
-  ASSERT_FALSE(go("parts", false, 5));
-  ASSERT_TRUE(go("parts", true, k_never));
-  const auto whole = solidus::testing::read_csv(root() / "whole" / "history.csv");
-  EXPECT_EQ(whole.at("time[s]").size(), 9u);
-  EXPECT_EQ(whole, solidus::testing::read_csv(root() / "parts" / "history.csv"));
+  k_here.expect_to_go_on("again", k_friction, 5, k_turn);
+  EXPECT_EQ(solidus::testing::read_csv(k_here.root() / "again_whole/history.csv").at("time[s]").size(), 9u);
 }
 
 }  // namespace

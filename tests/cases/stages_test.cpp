@@ -9,13 +9,14 @@
 #include <sstream>
 #include <string>
 
-#include "case_run.hpp"
+#include "case_folder.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using solidus::testing::CaseRun;
 using solidus::testing::Columns;
+using solidus::testing::read_text;
 using ::testing::HasSubstr;
 
 /// A plate on a block: pressed by 10 MPa, pushed by 2 mm, let go, lifted and brought back without contact.
@@ -124,28 +125,7 @@ point = ["20 mm", "15.1 mm"]
 unit = "mm"
 )";
 
-fs::path root() {
-  return fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "stages";
-}
-
-std::string write(const std::string& name, const std::string& text) {
-  fs::create_directories(root());
-  const fs::path path = root() / (name + ".toml");
-  std::ofstream(path) << text;
-  return path.string();
-}
-
-CaseRun run(const std::string& name, const std::string& text,
-            const std::vector<std::string>& overrides = {}) {
-  return solidus::testing::run(write(name, text), "stages/" + name, overrides);
-}
-
-std::string text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
+const solidus::testing::CaseFolder k_here("stages");
 
 /// The value of a column at the end of a stage of a cycle.
 double at_end(const Columns& c, const std::string& column, int stage, int cycle) {
@@ -156,7 +136,7 @@ double at_end(const Columns& c, const std::string& column, int stage, int cycle)
 }
 
 TEST(Stages, SwitchLoadsSupportsAndContact) {
-  const CaseRun r = run("strokes", k_strokes);
+  const CaseRun r = k_here.run("strokes", k_strokes);
   ASSERT_TRUE(r.finished) << r.reason;
   ASSERT_EQ(r.history.at("time[s]").size(), 37u);
   for (int cycle = 1; cycle <= 3; ++cycle) {
@@ -177,66 +157,48 @@ TEST(Stages, SwitchLoadsSupportsAndContact) {
 }
 
 TEST(Stages, AToolIsLiftedAndBackInOneStep) {
-  const CaseRun r = run("one_step", k_strokes, {"stage.return.steps=1", "stage.release.steps=1"});
+  const CaseRun r = k_here.run("one_step", k_strokes, {"stage.return.steps=1", "stage.release.steps=1"});
   ASSERT_TRUE(r.finished) << r.reason;
   EXPECT_EQ(r.history.at("time[s]").size(), 31u);
   EXPECT_NEAR(at_end(r.history, "ux[mm]", 4, 3), 0, 1e-12);
   EXPECT_NEAR(at_end(r.history, "contact_force[N]", 2, 3), 400e3, 1e-3);
 }
 
-/// Runs until so many steps are taken, then goes on; the history is that of a run that never stopped.
-void expect_the_same(const std::string& name, int stop_after, const std::vector<std::string>& overrides) {
-  const std::string file = write(name, k_strokes);
-  const auto go = [&](const std::string& folder, bool restart, int steps) {
-    solidus::model::RunOptions options;
-    options.folder = root() / folder;
-    options.restart = restart;
-    int asked = 0;
-    options.stop_asked = [&asked, steps] { return asked++ == steps; };
-    return solidus::model::run_case(solidus::model::load_case(file, overrides), options).finished;
-  };
-  constexpr int k_never = -1;
-  ASSERT_TRUE(go(name + "_whole", false, k_never));
-  ASSERT_FALSE(go(name + "_parts", false, stop_after));
-  ASSERT_TRUE(go(name + "_parts", true, k_never));
-  EXPECT_EQ(text(root() / (name + "_whole") / "history.csv"),
-            text(root() / (name + "_parts") / "history.csv"));
-}
-
 TEST(Stages, ARunGoesOnInsideAStageWithTheSameBits) {
-  expect_the_same("inside_slide", 18, {});
-  expect_the_same("inside_return", 23, {});
+  k_here.expect_to_go_on("inside_slide", k_strokes, 18);
+  k_here.expect_to_go_on("inside_return", k_strokes, 23);
 }
 
 TEST(Stages, ARunGoesOnBetweenStagesWithTheSameBits) {
-  expect_the_same("between", 16, {});
+  k_here.expect_to_go_on("between", k_strokes, 16);
 }
 
 TEST(Stages, ARunGoesOnInsideAStageWithTheSameBitsOfATwoStepMethodAndAdaptiveSteps) {
-  expect_the_same("two_step", 18, {"mechanics.integration=bdf2", "body.lower.material=aluminium_99_7"});
-  expect_the_same("adaptive", 20, {"time.adaptive=true"});
+  k_here.expect_to_go_on("two_step", k_strokes, 18,
+                         {"mechanics.integration=bdf2", "body.lower.material=aluminium_99_7"});
+  k_here.expect_to_go_on("adaptive", k_strokes, 20, {"time.adaptive=true"});
 }
 
 TEST(Stages, InertiaGoesOnThroughThem) {
   for (const char* method : {"backward_euler", "generalised_alpha"}) {
-    const CaseRun r = run(method, k_strokes, {std::string("dynamics.method=") + method});
+    const CaseRun r = k_here.run(method, k_strokes, {std::string("dynamics.method=") + method});
     ASSERT_TRUE(r.finished) << r.reason;
     EXPECT_NEAR(at_end(r.history, "ux[mm]", 2, 3), 2, 1e-12);
   }
 }
 
 TEST(Stages, MoreCyclesMakeAFinishedRunLonger) {
-  const std::string file = write("longer", k_strokes);
+  const std::string file = k_here.write("longer.toml", k_strokes);
   const auto go = [&](const std::string& repeat, bool restart) {
     solidus::model::RunOptions options;
-    options.folder = root() / "longer";
+    options.folder = k_here.root() / "longer";
     options.restart = restart;
     const auto c = solidus::model::load_case(file, {"cycle.strokes.repeat=" + repeat});
     return solidus::model::run_case(c, options).finished;
   };
   ASSERT_TRUE(go("1", false));
   ASSERT_TRUE(go("2", true));
-  EXPECT_EQ(solidus::testing::read_csv(root() / "longer/history.csv").at("time[s]").back(), 8);
+  EXPECT_EQ(solidus::testing::read_csv(k_here.root() / "longer/history.csv").at("time[s]").back(), 8);
 }
 
 /// A casting in a cold block; later out of it, in air.
@@ -318,7 +280,7 @@ double at(const CaseRun& r, const std::string& name, double time) {
 }
 
 TEST(Stages, APartIsPouredCooledAndEjected) {
-  const CaseRun r = run("ejection", k_ejection);
+  const CaseRun r = k_here.run("ejection", k_ejection);
   ASSERT_TRUE(r.finished) << r.reason;
   EXPECT_NEAR(at(r, "T_top[degC]", 2), 680, 1e-9);
   EXPECT_GT(at(r, "heat_in[J]", 2), 0);                                // the stream holds its temperature
@@ -335,16 +297,17 @@ TEST(Stages, APartIsPouredCooledAndEjected) {
 }
 
 TEST(Stages, TwoProcessesAgree) {
-  const CaseRun one = run("serial", k_strokes), hot = run("serial_hot", k_ejection);
+  const CaseRun one = k_here.run("serial", k_strokes), hot = k_here.run("serial_hot", k_ejection);
   const auto two = [](const std::string& name, const std::string& c) {
-    const fs::path folder = root() / name;
+    const fs::path folder = k_here.root() / name;
     const std::string command =
         "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
         "OMPI_ALLOW_RUN_AS_ROOT=1 "
         "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n 2 --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
         "/solidus' run '" +
-        write(name, c) + "' -o '" + folder.string() + "' > '" + folder.string() + ".log' 2>&1";
-    EXPECT_EQ(std::system(command.c_str()), 0) << text(folder.string() + ".log");
+        k_here.write(name + std::string(".toml"), c) + "' -o '" + folder.string() + "' > '" +
+        folder.string() + ".log' 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << read_text(folder.string() + ".log");
     return solidus::testing::read_csv(folder / "history.csv");
   };
   const Columns strokes = two("parallel", k_strokes), ejection = two("parallel_hot", k_ejection);
