@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "../mechanics/plastic_material.hpp"
+#include "coupled_tangent.hpp"
 
 namespace solidus {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 using coupling::SimultaneousOptions;
 using mechanics::StructuralForm;
 using mesh::Shape;
+using test::noise;
 
 constexpr double k_start = 420;  // [K]
 
@@ -69,24 +71,9 @@ struct Model {
     state.heat = heat->initial_state(std::vector<double>{k_start});
     state.mechanics = mechanics->initial_state();
   }
-
-  /// Numbers between −1 and 1 that every process computes alike, [local node][component].
-  std::vector<double> noise(int components, double seed) const {
-    std::vector<double> values;
-    for (const GlobalIndex node : body.mesh.input_node)
-      for (int i = 0; i < components; ++i)
-        values.push_back(std::sin(seed * static_cast<double>(node * components + i + 1)));
-    return values;
-  }
 };
 
-double norm(std::span<const double> a) {
-  double s = 0;
-  for (const double x : a) s += x * x;
-  return std::sqrt(algebra::global_sum(s));
-}
-
-/// The largest of the two errors of A d against central differences, in parts of ‖A d‖ of its field.
+/// The errors of A d against central differences, in parts of ‖A d‖ of each field.
 double tangent_error(Model& m, double strain) {
   m.structural->leave_tangent();
   coupling::CoupledNewton newton(m.phases, algebra::CoupledSolverKind::direct);
@@ -99,9 +86,9 @@ double tangent_error(Model& m, double strain) {
   m.mechanics->begin(m.state.mechanics, pass);
 
   // Some state: a jump from the start.
-  std::vector<double> u = m.noise(nc, 1.3), warmer = m.noise(1, 0.7);
-  for (double& x : u) x *= strain * 0.01;
-  for (double& x : warmer) x *= 30;
+  const mesh::Mesh& mesh = m.body.mesh;
+  const std::vector<double> u = noise(mesh, nc, 1.3, strain * 0.01);
+  std::vector<double> warmer = noise(mesh, 1, 0.7, 30);
   newton.evaluate(m.state.mechanics, pass, std::vector<double>(u.size(), 0.0));
   newton.assemble(m.state.mechanics, std::vector<double>(u.size(), 0.0), 0);
   thermal.set_direction(warmer, {});
@@ -109,31 +96,10 @@ double tangent_error(Model& m, double strain) {
   newton.evaluate(m.state.mechanics, pass, u);
   algebra::CoupledMatrix& a = newton.assemble(m.state.mechanics, u, 0);
 
-  std::vector<double> du = m.noise(nc, 2.1), dt = m.noise(1, 1.9);
-  for (double& x : du) x *= strain * 0.01;
-  for (double& x : dt) x *= 20;
-  thermal.set_direction(dt, {});
-  const auto n_owned = static_cast<std::size_t>(m.body.mesh.n_owned_nodes);
-  std::vector<double> force(n_owned * static_cast<std::size_t>(nc)), heat(n_owned), part(force.size());
-  a.displacement().multiply(du, force);
-  a.multiply_force(dt, part);
-  for (std::size_t i = 0; i < force.size(); ++i) force[i] += part[i];
-  a.temperature().multiply(dt, heat);
-  part.resize(n_owned);
-  a.multiply_heat(du, part);
-  for (std::size_t i = 0; i < heat.size(); ++i) heat[i] += part[i];
-
   constexpr double k_h = 1e-5;  // error h² of the differences, rounding 1e-16/h: 1e-10 of either
-  std::vector<double> force_error = force, heat_error = heat;
-  for (const double sign : {1.0, -1.0}) {
-    std::vector<double> x = u;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += sign * k_h * du[i];
-    thermal.move(sign * k_h);
-    newton.evaluate(m.state.mechanics, pass, x);
-    for (std::size_t i = 0; i < force.size(); ++i) force_error[i] -= sign * newton.force()[i] / (2 * k_h);
-    for (std::size_t i = 0; i < heat.size(); ++i) heat_error[i] -= sign * thermal.residual()[i] / (2 * k_h);
-  }
-  return std::max(norm(force_error) / norm(force), norm(heat_error) / norm(heat));
+  const auto error = test::tangent_errors(newton, a, m.state.mechanics, pass, u,
+                                          noise(mesh, nc, 2.1, strain * 0.01), noise(mesh, 1, 1.9, 20), k_h);
+  return std::hypot(error.force, error.heat);
 }
 
 struct Case {
