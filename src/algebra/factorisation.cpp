@@ -2,6 +2,9 @@
 
 #include <petsc/private/petscimpl.h>
 
+#include <algorithm>
+
+#include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
 
 namespace solidus::algebra {
@@ -54,10 +57,14 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   PC inner = innermost(pc);
   PCFailedReason why = PC_NOERROR;
   check(PCGetFailedReason(inner, &why), "PCGetFailedReason");
-  if ((why != PC_FACTOR_OUTMEMORY && why != PC_FACTOR_OTHER) || ++attempts_ == k_attempts) return false;
+  // Where every process factorises for itself, one may lack memory that another has.
+  if (!any_process(why == PC_FACTOR_OUTMEMORY || why == PC_FACTOR_OTHER) || ++attempts_ == k_attempts)
+    return false;
   Mat factor = nullptr;
   check(PCFactorGetMatrix(inner, &factor), "PCFactorGetMatrix");
-  workspace_ *= 3;
+  PetscInt present = 0;  // the user may have asked for more
+  check(MatMumpsGetIcntl(factor, 14, &present), "MatMumpsGetIcntl");
+  workspace_ = 3 * std::max(workspace_, static_cast<int>(present));
   check(MatMumpsSetIcntl(factor, 14, workspace_), "MatMumpsSetIcntl");
   check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)), "PetscObjectStateIncrease");
   return true;
