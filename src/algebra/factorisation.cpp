@@ -49,8 +49,8 @@ void Factorisation::set_type(PC pc, const std::string& prefix, bool symmetric, G
   PC inner = innermost(pc);
   check(PCSetType(inner, symmetric ? PCCHOLESKY : PCLU), "PCSetType");
   check(PCFactorSetMatSolverType(inner, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
-  set_default_option(prefix + (redundant ? "redundant_" : "") + "mat_mumps_icntl_14",
-                     std::to_string(workspace_));
+  option_ = prefix + (redundant ? "redundant_" : "") + "mat_mumps_icntl_14";
+  set_default_option(option_, std::to_string(workspace_));
 }
 
 bool Factorisation::try_again(PC pc, Mat matrix) {
@@ -65,7 +65,17 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   PetscInt present = 0;  // the user may have asked for more
   check(MatMumpsGetIcntl(factor, 14, &present), "MatMumpsGetIcntl");
   workspace_ = 3 * std::max(workspace_, static_cast<int>(present));
-  check(MatMumpsSetIcntl(factor, 14, workspace_), "MatMumpsSetIcntl");
+  // PETSc never hands a failed factor to MUMPS again: the next attempt needs a new one.
+  check(PetscOptionsSetValue(nullptr, ("-" + option_).c_str(), std::to_string(workspace_).c_str()),
+        "PetscOptionsSetValue");
+  Mat a = nullptr, p = nullptr;
+  check(PCGetOperators(inner, &a, &p), "PCGetOperators");
+  check(PetscObjectReference(reinterpret_cast<PetscObject>(a)), "PetscObjectReference");
+  check(PetscObjectReference(reinterpret_cast<PetscObject>(p)), "PetscObjectReference");
+  check(PCReset(inner), "PCReset");
+  check(PCSetOperators(inner, a, p), "PCSetOperators");
+  check(MatDestroy(&a), "MatDestroy");
+  check(MatDestroy(&p), "MatDestroy");
   check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)), "PetscObjectStateIncrease");
   return true;
 }

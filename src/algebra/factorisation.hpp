@@ -30,6 +30,7 @@ class Factorisation {
 
  private:
   int workspace_;
+  std::string option_;  ///< that sets it
   int attempts_ = 0;
 };
 
