@@ -13,7 +13,8 @@ namespace {
 
 /// Up to here every process keeps the whole: some 100 MB of factors.
 constexpr GlobalIndex k_redundant_limit = 40000;
-constexpr int k_attempts = 3;  ///< with three times the workspace each time
+constexpr int k_attempts = 3;              ///< with three times the workspace each time
+constexpr int k_largest_workspace = 5000;  ///< per cent: who fails with it does not lack workspace
 
 bool is_redundant(PC pc) {
   PetscBool redundant = PETSC_FALSE;
@@ -64,6 +65,7 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   check(PCFactorGetMatrix(inner, &factor), "PCFactorGetMatrix");
   PetscInt present = 0;  // the user may have asked for more
   check(MatMumpsGetIcntl(factor, 14, &present), "MatMumpsGetIcntl");
+  if (present >= k_largest_workspace) return false;
   workspace_ = 3 * std::max(workspace_, static_cast<int>(present));
   // PETSc never hands a failed factor to MUMPS again: the next attempt needs a new one.
   check(PetscOptionsSetValue(nullptr, ("-" + option_).c_str(), std::to_string(workspace_).c_str()),

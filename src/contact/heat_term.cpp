@@ -197,7 +197,8 @@ std::array<double, 2> HeatTerm::flux_by_conductance(const AtPoint& s) {
           both ? share[1] * (difference[1] - s.h.value * moved) + conducted : 0.0};
 }
 
-void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, std::span<double> k) const {
+void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, std::span<double> k,
+                                 std::vector<double>& per_h) const {
   const std::size_t n = s.nodes.size(), n_slave = s.n_slave;
   const double w = partners_.weight[at(s.point)];
   const double h = w * s.h.value, e = w * s.radiation;
@@ -229,7 +230,7 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
         k[a * n + b] += shape(a) * (w * s.interface.flux_slope[i][j] - conducted) * shape(b);
       }
   if (s.h.by_temperature == 0) return;
-  std::vector<double> per_h(n, 0.0);
+  per_h.assign(n, 0.0);
   add_exchange(s, x, w * s.h.by_temperature, 0, per_h);
   if (s.has_temperature) {
     const std::array<double, 2> flux = flux_by_conductance(s);
@@ -243,6 +244,7 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
 void HeatTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {
   if (!active_) return;
   Run run;
+  std::vector<double> per_h;
   const auto flush = [&] {
     if (run.first < 0) return;
     const auto slots = slots_.slots(run.first, run.nodes);
@@ -255,7 +257,7 @@ void HeatTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matr
       flush();
       run.start(p, s.nodes, s.nodes.size() * s.nodes.size());
     }
-    add_point_tangent(s, x, run.values);
+    add_point_tangent(s, x, run.values, per_h);
   }
   flush();
 }

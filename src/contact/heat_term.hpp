@@ -157,7 +157,9 @@ class HeatTerm : public algebra::Contribution {
   static void add_sides(const AtPoint& at, const std::array<double, 2>& flux, std::span<double> heat);
   /// What the fluxes of the balance change with h at fixed Θ_s, Θ_m, beyond conduction.
   static std::array<double, 2> flux_by_conductance(const AtPoint& at);
-  void add_point_tangent(const AtPoint& at, std::span<const double> x, std::span<double> k) const;
+  /// @param per_h  scratch
+  void add_point_tangent(const AtPoint& at, std::span<const double> x, std::span<double> k,
+                         std::vector<double>& per_h) const;
   /// What every node gives off changes with g_N by this much.
   void add_gap_slope(const AtPoint& at, std::span<const double> temperature, std::span<double> heat) const;
   /// Adds ∂r_a/∂B_b for one node of the master.
