@@ -25,7 +25,9 @@ std::size_t at(std::int64_t i) {
 }
 
 /// Greedy: first whole neighbourhoods that are still free, then the rows between them join a neighbour's
-/// aggregate, then what is left. Returns how many there are.
+/// aggregate, then what is left. Rows that couple with no other, such as those of nodes without unknowns, are
+/// in none: smoothing alone solves them, and no coarsening would ever make them fewer. Returns how many there
+/// are.
 Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   const Index n = a.n_rows();
   of_row.assign(at(n), k_none);
@@ -33,8 +35,10 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   const auto neighbours = [&](Index row) {
     return a.column.subspan(at(a.start[at(row)]), at(a.start[at(row) + 1] - a.start[at(row)]));
   };
+  const auto is_alone = [&](Index row) { return neighbours(row).size() < 2; };
   for (Index row = 0; row < n; ++row) {
     const auto around = neighbours(row);
+    if (is_alone(row)) continue;
     if (std::any_of(around.begin(), around.end(), [&](Index j) { return j < n && of_row[at(j)] != k_none; }))
       continue;
     for (const Index j : around)
@@ -48,7 +52,7 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   for (const Index aggregate : first)
     if (aggregate != k_none) ++members[at(aggregate)];
   for (Index row = 0; row < n; ++row) {
-    if (first[at(row)] != k_none) continue;
+    if (first[at(row)] != k_none || is_alone(row)) continue;
     Index best = k_none;
     for (const Index j : neighbours(row)) {
       const Index candidate = j < n ? first[at(j)] : k_none;
@@ -60,7 +64,7 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
     ++members[at(best)];
   }
   for (Index row = 0; row < n; ++row) {
-    if (of_row[at(row)] != k_none) continue;
+    if (of_row[at(row)] != k_none || is_alone(row)) continue;
     for (const Index j : neighbours(row))
       if (j < n && of_row[at(j)] == k_none) of_row[at(j)] = n_aggregates;
     ++n_aggregates;
@@ -99,12 +103,13 @@ std::vector<float> tentative(const std::vector<Index>& of_row, Index n_aggregate
                              std::vector<double>& coarse_modes) {
   const auto n = static_cast<std::size_t>(modes), bs = static_cast<std::size_t>(size);
   std::vector<std::int64_t> start(at(n_aggregates) + 1, 0);
-  for (const Index aggregate : of_row) ++start[at(aggregate) + 1];
+  for (const Index aggregate : of_row)
+    if (aggregate != k_none) ++start[at(aggregate) + 1];
   for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-  std::vector<Index> rows(of_row.size());
+  std::vector<Index> rows(at(start.back()));
   std::vector<std::int64_t> next(start.begin(), start.end() - 1);
   for (std::size_t row = 0; row < of_row.size(); ++row)
-    rows[at(next[at(of_row[row])]++)] = static_cast<Index>(row);
+    if (of_row[row] != k_none) rows[at(next[at(of_row[row])]++)] = static_cast<Index>(row);
 
   std::vector<float> p(of_row.size() * bs * n);
   coarse_modes.assign(at(n_aggregates) * n * n, 0.0);
@@ -177,9 +182,8 @@ void reserve_smoothed(const MatrixView& a, const std::vector<Index>& of_row, Ind
   std::size_t n_slots = 0;
   for (Index row = 0; row < a.n_rows(); ++row) {
     reached.clear();
-    reached.block(of_row[at(row)]);
     for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s)
-      reached.block(of_row[at(a.column[at(s)])]);
+      if (const Index column = of_row[at(a.column[at(s)])]; column != k_none) reached.block(column);
     n_slots += reached.columns().size();
   }
   p.start.reserve(at(a.n_rows()) + 1);
@@ -197,9 +201,9 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
   for (Index row = 0; row < a.n_rows(); ++row) {
     sum.clear();
     const float* const own = tentative.data() + at(row) * k_entries;
-    sum.block(of_row[at(row)]);
     for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
       const Index j = a.column[at(s)];
+      if (of_row[at(j)] == k_none) continue;
       add_product<size, modes>(a.block(s), tentative.data() + at(j) * k_entries, sum.block(of_row[at(j)]));
     }
     std::vector<Index> columns = sum.columns();
@@ -295,12 +299,13 @@ void hold_empty_modes(BlockRows<double>& a) {
     if (std::abs(*d) <= k_no_stiffness * mean) *d = mean;
 }
 
-/// Local numbers of coarse rows: this process's own, then ghosts as they turn up.
+/// Local numbers of coarse rows: this process's own, then ghosts as they turn up; k_none stays that.
 class CoarseNumbers {
  public:
   explicit CoarseNumbers(Numbering& numbering) : numbering_(numbering) {}
   Index local(double global) {
     const auto g = static_cast<GlobalIndex>(global);
+    if (g == k_none) return k_none;
     if (g >= numbering_.first && g < numbering_.first + numbering_.n_owned)
       return static_cast<Index>(g - numbering_.first);
     const auto [place, is_new] = places_.emplace(g, numbering_.n_local());
@@ -308,6 +313,7 @@ class CoarseNumbers {
     return place->second;
   }
   double global(Index local) const {
+    if (local == k_none) return k_none;
     return static_cast<double>(local < numbering_.n_owned
                                    ? numbering_.first + local
                                    : numbering_.ghosts[at(local - numbering_.n_owned)]);
@@ -390,7 +396,7 @@ void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, Bloc
   coarse = std::move(sum);
 }
 
-/// What a local row of the fine level, ghosts too, starts from: its aggregate and its block of P₀.
+/// What a local row of the fine level, ghosts too, starts from: its aggregate, if any, and its block of P₀.
 struct Tentative {
   std::vector<Index> of_row;
   std::vector<float> values;

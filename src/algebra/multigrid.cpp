@@ -200,14 +200,15 @@ struct Multigrid::Coarsest {
 
 Multigrid::Coarsest::Coarsest(const BlockRows<double>& a, const Numbering& numbering) {
   const auto n = static_cast<PetscInt>(a.n_rows() * a.rows);
-  PetscInt widest = 1;
+  std::vector<PetscInt> owned(at(a.n_rows()), 0), ghosts(at(a.n_rows()), 0);  // [block row], blocks
   for (Index row = 0; row < a.n_rows(); ++row)
-    widest = std::max(widest, static_cast<PetscInt>(a.start[at(row) + 1] - a.start[at(row)]) * a.rows);
-  check(MatCreateAIJ(PETSC_COMM_WORLD, n, n, PETSC_DETERMINE, PETSC_DETERMINE, widest, nullptr, widest,
-                     nullptr, matrix.out()),
-        "MatCreateAIJ");
-  check(MatSetBlockSize(matrix, a.rows), "MatSetBlockSize");
-  check(MatSetUp(matrix), "MatSetUp");
+    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s)
+      ++(a.column[at(s)] < numbering.n_owned ? owned : ghosts)[at(row)];
+  check(MatCreate(PETSC_COMM_WORLD, matrix.out()), "MatCreate");
+  check(MatSetSizes(matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
+  check(MatSetType(matrix, MATAIJ), "MatSetType");
+  check(MatXAIJSetPreallocation(matrix, a.rows, owned.data(), ghosts.data(), nullptr, nullptr),
+        "MatXAIJSetPreallocation");
   for (Index row = 0; row < a.n_rows(); ++row)
     for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
       const Index column = a.column[at(s)];
@@ -305,7 +306,8 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
     add_level(view, std::move(next.numbering), {}, modes, std::move(next.near_null));
     return;
   }
-  coarsest_ = std::make_unique<Coarsest>(next.matrix, next.numbering);
+  coarsest_rows_ = after;
+  if (after > 0) coarsest_ = std::make_unique<Coarsest>(next.matrix, next.numbering);
   const std::size_t n = at(next.numbering.n_local()) * at(next.modes);
   Level last;
   last.size = next.modes;
@@ -319,7 +321,10 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
 
 void Multigrid::cycle(std::size_t index) {
   Level& level = levels_[index];
-  if (index + 1 == levels_.size()) return coarsest_->solve(level.b, level.x);
+  if (index + 1 == levels_.size()) {
+    if (coarsest_) coarsest_->solve(level.b, level.x);
+    return;
+  }
   Level& next = levels_[index + 1];
   level.smooth(true);
   level.residual();

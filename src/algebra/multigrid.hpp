@@ -36,6 +36,8 @@ class Multigrid {
   /// z ≈ A⁻¹ r on owned degrees of freedom. Collective.
   void apply(std::span<const double> r, std::span<double> z);
   int levels() const;
+  /// Block rows of the coarsest level, which every process factorises; over all of them.
+  GlobalIndex coarsest_rows() const { return coarsest_rows_; }
   std::size_t bytes() const;
 
  private:
@@ -50,6 +52,7 @@ class Multigrid {
   Modes modes_;
   std::vector<Level> levels_;
   std::unique_ptr<Coarsest> coarsest_;
+  GlobalIndex coarsest_rows_ = 0;
 };
 
 }  // namespace solidus::algebra

@@ -20,10 +20,13 @@ struct Springs {
   Grid grid;
   BlockMatrix matrix;
 
-  explicit Springs(int n) : grid(n, n), matrix(grid.mesh, 2, graph(grid)) {
+  /// @param n_columns  of nodes that have unknowns
+  explicit Springs(int n) : Springs(n, n) {}
+  Springs(int n, int n_columns) : grid(n, n), matrix(grid.mesh, 2, graph(grid, n, n_columns)) {
     std::vector<char> fixed(grid.mesh.x.size() * 2, 0);
     for (Index node = 0; node < grid.mesh.n_nodes(); ++node)
-      if (grid.global(node) % n == 0) fixed[2 * at(node)] = fixed[2 * at(node) + 1] = 1;
+      if (grid.global(node) % n == 0 || grid.global(node) % n >= n_columns)
+        fixed[2 * at(node)] = fixed[2 * at(node) + 1] = 1;
     matrix.set_fixed(fixed);
     for (std::size_t q = 0; q < grid.quads.size(); q += 4)
       for (std::size_t a = 0; a < 4; ++a)
@@ -31,8 +34,12 @@ struct Springs {
           if (a != b) add_spring(grid.quads[q + a], grid.quads[q + b]);
   }
   static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-  static NodeGraph graph(const Grid& grid) {
+  static NodeGraph graph(const Grid& grid, int n, int n_columns) {
     NodeGraph g(grid.mesh);
+    std::vector<char> left_out(grid.mesh.x.size(), 0);
+    for (Index node = 0; node < grid.mesh.n_nodes(); ++node)
+      left_out[at(node)] = grid.global(node) % n >= n_columns;
+    g.leave_out(std::move(left_out));
     g.add_cliques(grid.quads, 4);
     return g;
   }
@@ -91,6 +98,26 @@ TEST(Multigrid, TheNumberOfIterationsHardlyGrowsWithTheProcesses) {
   const LinearReport report = solver.solve(springs.matrix, springs.pattern(0.7), x);
   ASSERT_TRUE(report.converged) << report.reason;
   EXPECT_LE(report.iterations, 12);  // measured: 10 on one, two, three and four
+}
+
+// Bodies that only conduct: each of their nodes was an aggregate of its own on every level, so that nearly
+// all of them came to the coarsest one, which every process factorises.
+TEST(Multigrid, NodesWithoutUnknownsHaveNoPlaceOnCoarseLevels) {
+  for (const int n_columns : {0, 1, 12}) {
+    Springs springs(60, n_columns);
+    Multigrid multigrid(springs.grid.mesh, 2, rigid_body_modes);
+    multigrid.set_up(springs.matrix);
+    EXPECT_LE(multigrid.coarsest_rows(), n_columns == 0 ? 0 : 60);
+    LinearSolver solver(springs.grid.mesh,
+                        {.prefix = "test_", .kind = SolverKind::multigrid, .relative_tolerance = 1e-8});
+    solver.use_rigid_body_modes(2);
+    std::vector<double> x(springs.n_owned());
+    const std::vector<double> b = springs.pattern(0.7);
+    const LinearReport report = solver.solve(springs.matrix, b, x);
+    ASSERT_TRUE(report.converged) << n_columns << ": " << report.reason;
+    EXPECT_LE(report.iterations, 15);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_TRUE(!springs.matrix.fixed()[i] || x[i] == 0) << i;
+  }
 }
 
 TEST(Multigrid, TheCycleIsSymmetricAndPositive) {
