@@ -32,17 +32,22 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   const Index n = a.n_rows();
   of_row.assign(at(n), k_none);
   Index n_aggregates = 0;
-  const auto neighbours = [&](Index row) {
-    return a.column.subspan(at(a.start[at(row)]), at(a.start[at(row) + 1] - a.start[at(row)]));
+  /// Calls f for the rows of this process that a row couples with, itself included.
+  const auto each_neighbour = [&](Index row, const auto& f) {
+    a.each(row, [&](Index j, std::int64_t, bool) {
+      if (j < n) f(j);
+    });
   };
-  const auto is_alone = [&](Index row) { return neighbours(row).size() < 2; };
+  std::vector<char> alone(at(n), 1);
+  for (Index row = 0; row < n; ++row)
+    a.each(row, [&](Index j, std::int64_t, bool) {
+      if (j != row) alone[at(row)] = 0;
+    });
   for (Index row = 0; row < n; ++row) {
-    const auto around = neighbours(row);
-    if (is_alone(row)) continue;
-    if (std::any_of(around.begin(), around.end(), [&](Index j) { return j < n && of_row[at(j)] != k_none; }))
-      continue;
-    for (const Index j : around)
-      if (j < n) of_row[at(j)] = n_aggregates;
+    bool free = alone[at(row)] == 0;
+    if (free) each_neighbour(row, [&](Index j) { free = free && of_row[at(j)] == k_none; });
+    if (!free) continue;
+    each_neighbour(row, [&](Index j) { of_row[at(j)] = n_aggregates; });
     ++n_aggregates;
   }
   // To the smallest aggregate in reach, as it was before: a row that joins does not draw its neighbours
@@ -52,21 +57,22 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   for (const Index aggregate : first)
     if (aggregate != k_none) ++members[at(aggregate)];
   for (Index row = 0; row < n; ++row) {
-    if (first[at(row)] != k_none || is_alone(row)) continue;
+    if (first[at(row)] != k_none || alone[at(row)] != 0) continue;
     Index best = k_none;
-    for (const Index j : neighbours(row)) {
-      const Index candidate = j < n ? first[at(j)] : k_none;
+    each_neighbour(row, [&](Index j) {
+      const Index candidate = first[at(j)];
       if (candidate != k_none && (best == k_none || members[at(candidate)] < members[at(best)]))
         best = candidate;
-    }
+    });
     if (best == k_none) continue;
     of_row[at(row)] = best;
     ++members[at(best)];
   }
   for (Index row = 0; row < n; ++row) {
-    if (of_row[at(row)] != k_none || is_alone(row)) continue;
-    for (const Index j : neighbours(row))
-      if (j < n && of_row[at(j)] == k_none) of_row[at(j)] = n_aggregates;
+    if (of_row[at(row)] != k_none || alone[at(row)] != 0) continue;
+    each_neighbour(row, [&](Index j) {
+      if (of_row[at(j)] == k_none) of_row[at(j)] = n_aggregates;
+    });
     ++n_aggregates;
   }
   return n_aggregates;
@@ -157,13 +163,14 @@ class RowSum {
   std::vector<double> values_;
 };
 
-/// c += a b of row-major blocks.
-template <int size, int modes, class Number>
-void add_product(const double* a, const Number* b, double* c) {
+/// c += a b of row-major blocks, or aᵀ b.
+template <int size, int modes>
+void add_product(const double* a, bool transposed, const float* b, double* c) {
+  const int row = transposed ? 1 : size, column = transposed ? size : 1;
   for (int r = 0; r < size; ++r)
     for (int k = 0; k < size; ++k)
       for (int m = 0; m < modes; ++m)
-        c[r * modes + m] += a[r * size + k] * static_cast<double>(b[k * modes + m]);
+        c[r * modes + m] += a[r * row + k * column] * static_cast<double>(b[k * modes + m]);
 }
 
 /// c += aᵀ b of row-major blocks.
@@ -182,8 +189,9 @@ void reserve_smoothed(const MatrixView& a, const std::vector<Index>& of_row, Ind
   std::size_t n_slots = 0;
   for (Index row = 0; row < a.n_rows(); ++row) {
     reached.clear();
-    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s)
-      if (const Index column = of_row[at(a.column[at(s)])]; column != k_none) reached.block(column);
+    a.each(row, [&](Index j, std::int64_t, bool) {
+      if (of_row[at(j)] != k_none) reached.block(of_row[at(j)]);
+    });
     n_slots += reached.columns().size();
   }
   p.start.reserve(at(a.n_rows()) + 1);
@@ -201,11 +209,11 @@ void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coars
   for (Index row = 0; row < a.n_rows(); ++row) {
     sum.clear();
     const float* const own = tentative.data() + at(row) * k_entries;
-    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
-      const Index j = a.column[at(s)];
-      if (of_row[at(j)] == k_none) continue;
-      add_product<size, modes>(a.block(s), tentative.data() + at(j) * k_entries, sum.block(of_row[at(j)]));
-    }
+    a.each(row, [&](Index j, std::int64_t s, bool mirrored) {
+      if (of_row[at(j)] == k_none) return;
+      add_product<size, modes>(a.block(s), mirrored, tentative.data() + at(j) * k_entries,
+                               sum.block(of_row[at(j)]));
+    });
     std::vector<Index> columns = sum.columns();
     std::sort(columns.begin(), columns.end());
     for (const Index column : columns) {
@@ -237,10 +245,9 @@ void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_lo
   };
   for (Index row = 0; row < a.n_rows(); ++row) {
     reached.clear();
-    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
-      const std::size_t j = at(a.column[at(s)]);
-      for (std::int64_t t = p.start[j]; t < p.start[j + 1]; ++t) reached.block(p.column[at(t)]);
-    }
+    a.each(row, [&](Index j, std::int64_t, bool) {
+      for (std::int64_t t = p.start[at(j)]; t < p.start[at(j) + 1]; ++t) reached.block(p.column[at(t)]);
+    });
     for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t) {
       const std::size_t to = at(p.column[at(t)]);
       rows[to].insert(rows[to].end(), reached.columns().begin(), reached.columns().end());
@@ -263,11 +270,10 @@ void galerkin(const MatrixView& a, const BlockRows<float>& p, Index n_local, Blo
   RowSum product(n_local, size * modes);
   for (Index row = 0; row < a.n_rows(); ++row) {
     product.clear();
-    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
-      const std::size_t j = at(a.column[at(s)]);
-      for (std::int64_t t = p.start[j]; t < p.start[j + 1]; ++t)
-        add_product<size, modes>(a.block(s), p.block(t), product.block(p.column[at(t)]));
-    }
+    a.each(row, [&](Index j, std::int64_t s, bool mirrored) {
+      for (std::int64_t t = p.start[at(j)]; t < p.start[at(j) + 1]; ++t)
+        add_product<size, modes>(a.block(s), mirrored, p.block(t), product.block(p.column[at(t)]));
+    });
     for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t) {
       const std::size_t to = at(p.column[at(t)]);
       const auto begin = coarse.column.begin() + coarse.start[to],

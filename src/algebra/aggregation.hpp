@@ -18,16 +18,6 @@
 
 namespace solidus::algebra {
 
-/// A square matrix by block rows: the rows of this process; columns are its own, then ghosts.
-struct MatrixView {
-  int size = 1;  ///< of a block
-  std::span<const std::int64_t> start;
-  std::span<const Index> column;
-  const double* blocks = nullptr;  ///< [slot][row][column]
-  Index n_rows() const { return static_cast<Index>(start.size()) - 1; }
-  const double* block(std::int64_t slot) const { return blocks + slot * size * size; }
-};
-
 /// One over the diagonal, [owned row × size]; one where it vanishes.
 std::vector<float> inverse_diagonal(const MatrixView& a);
 

@@ -3,17 +3,24 @@
 #include <algorithm>
 #include <cassert>
 
+#include "algebra/matrix_view.hpp"
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
+#include "algebra/symmetric_product.hpp"
 #include "base/large_pages.hpp"
 #include "base/simd.hpp"
 
 namespace solidus::algebra {
 
 namespace {
+
+/// Numbers behind the last block, which products of half a matrix read.
+constexpr std::size_t k_overhang = 8;
+
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
+
 }  // namespace
 
 NodeGraph::NodeGraph(const mesh::Mesh& mesh) : mesh_(mesh), rows_(at(mesh.n_owned_nodes)) {}
@@ -36,13 +43,14 @@ void NodeGraph::add_cliques(std::span<const Index> nodes, int n) {
   }
 }
 
-void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns) {
+void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns, bool upper) {
   std::size_t n_columns = 0;
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     auto& list = rows_[at(row)];
     list.push_back(row);  // the diagonal always exists
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
+    if (upper) list.erase(list.begin(), std::lower_bound(list.begin(), list.end(), row));
     n_columns += list.size();
   }
   row_start.assign(1, 0);
@@ -58,11 +66,13 @@ void NodeGraph::compress(std::vector<std::int64_t>& row_start, std::vector<Index
 
 struct BlockMatrix::Petsc {
   MatHandle matrix;
+  std::unique_ptr<LowerPart> lower;  ///< of half a matrix: PETSc's copy is whole
 };
 
-BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph)
+BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph, Storage storage)
     : mesh_(mesh),
       block_size_(block_size),
+      storage_(storage),
       fixed_(at(mesh.n_nodes()) * static_cast<std::size_t>(block_size), 0),
       petsc_(std::make_unique<Petsc>()) {
   set_graph(std::move(graph));
@@ -71,14 +81,21 @@ BlockMatrix::BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph
 void BlockMatrix::set_graph(NodeGraph graph) {
   ++pattern_;
   left_out_ = graph.left_out();
-  graph.compress(row_start_, columns_);
+  const bool upper = storage_ == Storage::upper;
+  graph.compress(row_start_, columns_, upper);
   const auto bs = static_cast<std::size_t>(block_size_);
-  assign_in_large_pages(values_, (columns_.size() + 1) * bs * bs, 0.0);
+  assign_in_large_pages(values_, (columns_.size() + 1) * bs * bs + (upper ? k_overhang : 0), 0.0);
   diagonal_.resize(at(mesh_.n_owned_nodes));
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) diagonal_[at(row)] = slot(row, row);
   order_ghost_columns();
   set_fixed(std::move(fixed_));
   petsc_->matrix.reset();
+  petsc_->lower.reset();
+}
+
+/// With the mirror images once PETSc has a copy.
+MatrixView BlockMatrix::view() const {
+  return {block_size_, row_start_, columns_, block(0), petsc_->lower.get()};
 }
 
 /// PETSc keeps the columns of a row in global order, owned ones and ghosts apart; ours are in local order.
@@ -98,15 +115,16 @@ void BlockMatrix::order_ghost_columns() {
 
 void BlockMatrix::create_petsc_matrix() {
   // Any order of columns will do for the pattern as long as it is sorted: ghosts below, owned, ghosts above.
+  if (storage_ == Storage::upper) petsc_->lower = std::make_unique<LowerPart>(row_start_, columns_);
   std::vector<PetscInt> i(1, 0), j, columns;
   i.reserve(at(mesh_.n_owned_nodes) * static_cast<std::size_t>(block_size_) + 1);
   j.reserve(values_.size());
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     columns.clear();
-    for (Slot s = row_start_[at(row)]; s < row_start_[at(row) + 1]; ++s)
+    view().each(row, [&](Index column, Slot, bool) {
       for (int b = 0; b < block_size_; ++b)
-        columns.push_back(static_cast<PetscInt>(
-            mesh_.global_node[at(columns_[static_cast<std::size_t>(s)])] * block_size_ + b));
+        columns.push_back(static_cast<PetscInt>(mesh_.global_node[at(column)] * block_size_ + b));
+    });
     std::sort(columns.begin(), columns.end());
     for (int a = 0; a < block_size_; ++a) {
       j.insert(j.end(), columns.begin(), columns.end());
@@ -133,6 +151,7 @@ BlockMatrix::~BlockMatrix() = default;
 
 BlockMatrix::Slot BlockMatrix::slot(Index row, Index column) const {
   if (row >= mesh_.n_owned_nodes) return k_no_slot;
+  if (storage_ == Storage::upper && column < row) return k_no_slot;
   const auto begin = columns_.begin() + row_start_[at(row)], end = columns_.begin() + row_start_[at(row) + 1];
   const auto found = std::lower_bound(begin, end, column);
   if (!left_out_.empty() && (left_out_[at(row)] || left_out_[at(column)]) && row != column) return k_no_slot;
@@ -231,6 +250,7 @@ double BlockMatrix::mean_diagonal() const {
 /// PETSc adds up entries of the same place, also those for rows of other processes: the list of our entries
 /// with the numbers of their unknowns is all it needs.
 void BlockMatrix::tie(std::vector<std::vector<Index>> groups) {
+  assert(storage_ == Storage::whole || !any_process(!groups.empty()));
   ties_ = Ties(mesh_, block_size_, std::move(groups));
   petsc_->matrix.reset();
 }
@@ -272,16 +292,21 @@ void BlockMatrix::copy_to_petsc() {
 
   double *to = owned, *to_ghosts = ghosts;
   const int bs = block_size_;
-  for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
-    const std::int64_t ghosts_begin = ghost_start_[at(row)], ghosts_end = ghost_start_[at(row) + 1];
-    // Owned columns stand before ghosts in local order.
-    const Slot begin = row_start_[at(row)], end = row_start_[at(row) + 1] - (ghosts_end - ghosts_begin);
+  const MatrixView blocks = view();
+  for (Index row = 0; row < mesh_.n_owned_nodes; ++row)
     for (int p = 0; p < bs; ++p) {
-      for (Slot s = begin; s < end; ++s) to = std::copy_n(block(s) + p * bs, bs, to);
-      for (std::int64_t g = ghosts_begin; g < ghosts_end; ++g)
+      // Owned columns stand before ghosts in local order.
+      blocks.each(row, [&](Index column, Slot s, bool mirrored) {
+        if (column >= mesh_.n_owned_nodes) return;
+        const double* const from = block(s);
+        if (!mirrored)
+          to = std::copy_n(from + p * bs, bs, to);
+        else
+          for (int q = 0; q < bs; ++q) *to++ = from[q * bs + p];
+      });
+      for (std::int64_t g = ghost_start_[at(row)]; g < ghost_start_[at(row) + 1]; ++g)
         to_ghosts = std::copy_n(block(ghost_slots_[static_cast<std::size_t>(g)]) + p * bs, bs, to_ghosts);
     }
-  }
 
   check(MatSeqAIJRestoreArrayWrite(diagonal, &owned), "MatSeqAIJRestoreArrayWrite");
   if (off_diagonal) check(MatSeqAIJRestoreArrayWrite(off_diagonal, &ghosts), "MatSeqAIJRestoreArrayWrite");
@@ -313,6 +338,9 @@ void multiply_rows(std::span<const std::int64_t> row_start, std::span<const Inde
 }  // namespace
 
 void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const {
+  if (storage_ == Storage::upper)
+    return multiply_symmetric(block_size_, row_start_, columns_.data(), block(0), x.data(), y.data(),
+                              scratch_, mesh_.n_nodes());
   const auto with = [&](auto rows) { rows(row_start_, columns_, block(0), x.data(), y.data(), block_size_); };
   switch (block_size_) {
     case 1:
@@ -347,7 +375,8 @@ std::size_t BlockMatrix::bytes() const {
   if (petsc_->matrix) check(MatGetInfo(petsc_->matrix, MAT_LOCAL, &info), "MatGetInfo");
   return row_start_.capacity() * sizeof row_start_[0] + columns_.capacity() * sizeof columns_[0] +
          diagonal_.capacity() * sizeof diagonal_[0] + values_.capacity() * sizeof values_[0] +
-         fixed_.capacity() + (masked_.capacity() + fixed_diagonal_.capacity()) * sizeof masked_[0] +
+         scratch_.capacity() * sizeof scratch_[0] + fixed_.capacity() +
+         (masked_.capacity() + fixed_diagonal_.capacity()) * sizeof masked_[0] +
          saved_.capacity() * sizeof saved_[0] + static_cast<std::size_t>(info.memory);
 }
 

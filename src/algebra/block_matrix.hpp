@@ -1,6 +1,7 @@
 /// Block-CSR accumulation of element entries and their hand-over to PETSc (design.md section 4).
 ///
-/// Rows are the owned nodes, columns the local nodes, blocks block_size × block_size, row-major. Element
+/// Rows are the owned nodes, columns the local nodes, blocks block_size × block_size, row-major. A symmetric
+/// matrix may be kept by half: its blocks on and above the diagonal, and all of ghost columns. Element
 /// kernels add through slots that were looked up once; `matrix()` writes the blocks into PETSc's own arrays,
 /// whose order is known. (MatSetValuesCOO would serve too, at 16 more bytes an entry and a sort of all
 /// entries at the start.)
@@ -29,8 +30,9 @@ class NodeGraph {
   /// is lost. Before the first clique.
   void leave_out(std::vector<char> nodes) { left_out_ = std::move(nodes); }
   const std::vector<char>& left_out() const { return left_out_; }
-  /// Sorted unique columns of every owned row; call once, after all cliques.
-  void compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns);
+  /// Sorted unique columns of every owned row, without those left of the diagonal where asked; call once,
+  /// after all cliques.
+  void compress(std::vector<std::int64_t>& row_start, std::vector<Index>& columns, bool upper = false);
 
  private:
   const mesh::Mesh& mesh_;
@@ -41,11 +43,16 @@ class NodeGraph {
 class BlockMatrix {
  public:
   using Slot = std::int64_t;
-  /// The row belongs to another process, a node has no unknowns, or the lane is padding. Its block is a scrap
-  /// block that may be added to and is never read, so kernels scatter without a branch.
+  /// The row belongs to another process, a node has no unknowns, the mirror image is kept, or the lane is
+  /// padding. Its block is a scrap block that may be added to and is never read, so kernels scatter without a
+  /// branch.
   static constexpr Slot k_no_slot = -1;
+  enum class Storage {
+    whole,
+    upper  ///< symmetric; without ties
+  };
 
-  BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph);
+  BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph, Storage storage = Storage::whole);
   ~BlockMatrix();
   BlockMatrix(const BlockMatrix&) = delete;
   BlockMatrix& operator=(const BlockMatrix&) = delete;
@@ -57,8 +64,9 @@ class BlockMatrix {
   int pattern() const { return pattern_; }
 
   int block_size() const { return block_size_; }
-  /// The slot of a pair of local nodes, k_no_slot where the row is not owned or a node is left out. Any other
-  /// pair must be in the graph (assert).
+  Storage storage() const { return storage_; }
+  /// The slot of a pair of local nodes, k_no_slot where the row is not owned, a node is left out or the
+  /// mirror image is kept. Any other pair must be in the graph (assert).
   Slot slot(Index row, Index column) const;
   /// Slots of all pairs of the nodes of each element: input [element][n], output [element][a][b].
   std::vector<Slot> clique_slots(std::span<const Index> nodes, int n) const;
@@ -103,10 +111,12 @@ class BlockMatrix {
   void create_tied_matrix();
   void create_matrix_of_size();
   void copy_to_petsc();
+  struct MatrixView view() const;
   double mean_diagonal() const;
 
   const mesh::Mesh& mesh_;
   int block_size_;
+  Storage storage_;
   int pattern_ = 0;
   std::vector<std::int64_t> row_start_;
   std::vector<Index> columns_;
@@ -114,7 +124,8 @@ class BlockMatrix {
   std::vector<char> left_out_;             ///< as of the graph
   std::vector<std::int64_t> ghost_start_;  ///< [owned node], into ghost_slots_
   std::vector<Slot> ghost_slots_;          ///< slots of ghost columns in global order
-  std::vector<double> values_;             ///< the scrap block, then a block per slot
+  std::vector<double> values_;             ///< the scrap block, then a block per slot; upper: and a few more
+  mutable std::vector<double> scratch_;    ///< of products
   std::vector<char> fixed_;
   bool any_fixed_ = false;                   ///< on any process
   std::vector<std::size_t> masked_;          ///< entries of values_ in fixed rows or columns

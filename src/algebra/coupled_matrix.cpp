@@ -94,20 +94,41 @@ bool CoupledMatrix::set_zero() {
 
 namespace {
 
-/// y = A x for rows of blocks [m][n].
+/// y = A x for rows of blocks [rows][columns]; zero: of a size that is known when it runs.
+template <int rows, int columns>
+void multiply_rectangles_of(const BlockMatrix& graph, const double* blocks, int any_rows, int any_columns,
+                            const double* x, double* y) {
+  const int m = rows > 0 ? rows : any_rows, n = columns > 0 ? columns : any_columns;
+  const std::span<const std::int64_t> start = graph.row_start();
+  const Index* const column = graph.columns().data();
+  for (std::size_t row = 0; row + 1 < start.size(); ++row) {
+    double* const to = y + row * at(m);
+    double sum[rows > 0 ? rows : 1] = {};
+    if constexpr (rows == 0) std::fill_n(to, m, 0.0);
+    const double* a = blocks + (start[row] + 1) * m * n;
+    for (std::int64_t s = start[row]; s < start[row + 1]; ++s, a += m * n) {
+      const double* const from = x + std::int64_t{column[s]} * n;
+      for (int i = 0; i < m; ++i)
+        for (int j = 0; j < n; ++j) (rows > 0 ? sum : to)[i] += a[i * n + j] * from[j];
+    }
+    if constexpr (rows > 0) std::copy_n(sum, rows, to);
+  }
+}
+
 void multiply_rectangles(const BlockMatrix& graph, const double* blocks, int m, int n,
                          std::span<const double> x, std::span<double> y) {
-  const std::span<const std::int64_t> start = graph.row_start();
-  const std::span<const Index> columns = graph.columns();
-  for (std::size_t row = 0; row + 1 < start.size(); ++row) {
-    double* const to = y.data() + row * at(m);
-    std::fill_n(to, m, 0.0);
-    for (std::int64_t s = start[row]; s < start[row + 1]; ++s) {
-      const double* const a = blocks + (s + 1) * m * n;
-      const double* const from = x.data() + std::int64_t{columns[at(s)]} * n;
-      for (int i = 0; i < m; ++i)
-        for (int j = 0; j < n; ++j) to[i] += a[i * n + j] * from[j];
-    }
+  const auto with = [&](auto product) { product(graph, blocks, m, n, x.data(), y.data()); };
+  switch (10 * m + n) {
+    case 12:
+      return with(multiply_rectangles_of<1, 2>);
+    case 13:
+      return with(multiply_rectangles_of<1, 3>);
+    case 21:
+      return with(multiply_rectangles_of<2, 1>);
+    case 31:
+      return with(multiply_rectangles_of<3, 1>);
+    default:
+      return with(multiply_rectangles_of<0, 0>);
   }
 }
 

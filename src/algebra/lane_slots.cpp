@@ -8,6 +8,11 @@
 
 namespace solidus::algebra {
 
+namespace {
+/// A pair without a slot, where its row has others.
+constexpr std::uint16_t k_no_place = std::numeric_limits<std::uint16_t>::max();
+}  // namespace
+
 LaneSlots::LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, int n, Index n_elements)
     : matrix_(&matrix), nodes_(nodes), n_(static_cast<std::size_t>(n)), n_elements_(n_elements) {
   const std::size_t n_batches = nodes.size() / (n_ * k_lanes);
@@ -23,13 +28,14 @@ LaneSlots::LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, in
           const Index row = of_batch[a * k_lanes + lane];
           const Slot slot = matrix.slot(row, of_batch[b * k_lanes + lane]);
           if (slot == BlockMatrix::k_no_slot) {
-            assert(row >= static_cast<Index>(row_start.size()) - 1 &&
+            assert((row >= static_cast<Index>(row_start.size()) - 1 ||
+                    matrix.storage() == BlockMatrix::Storage::upper) &&
                    "an element of a node that is left out");
+            *to = k_no_place;
             continue;
           }
           const Slot place = slot - row_start[static_cast<std::size_t>(row)];
-          if (place > std::numeric_limits<std::uint16_t>::max())
-            throw std::length_error("a node is coupled with more than 65 536 others");
+          if (place >= k_no_place) throw std::length_error("a node is coupled with 65 536 others or more");
           *to = static_cast<std::uint16_t>(place);
         }
   }
@@ -50,7 +56,8 @@ void LaneSlots::hold(Index batch) const {
     }
     for (std::size_t b = 0; b < n_; ++b)
       for (std::size_t lane = 0; lane < k_lanes; ++lane, ++from, ++to)
-        *to = first[lane] == BlockMatrix::k_no_slot ? first[lane] : first[lane] + *from;
+        *to = first[lane] == BlockMatrix::k_no_slot || *from == k_no_place ? BlockMatrix::k_no_slot
+                                                                           : first[lane] + *from;
   }
   held_batch_ = batch;
 }

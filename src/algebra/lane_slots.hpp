@@ -21,11 +21,11 @@ class LaneSlots {
   /// @param nodes  [batch][node][lane], as in BlockGeometry; is referred to
   /// @param n      nodes of an element
   /// Lanes beyond `n_elements` are padding. All pairs of nodes must be in the matrix's graph (assert). Throws
-  /// std::length_error for a row of more than 65 536 blocks.
+  /// std::length_error for a row of 65 536 blocks or more.
   LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, int n, Index n_elements);
 
-  /// [a][b][lane], k_no_slot where the row is not owned and in padding; holds until another batch is asked
-  /// for. Not for several threads.
+  /// [a][b][lane], k_no_slot where the row is not owned, where the mirror image is kept and in padding; holds
+  /// until another batch is asked for. Not for several threads.
   const Slot* of(Index batch) const {
     if (batch != held_batch_) hold(batch);
     return held_.data();

@@ -54,6 +54,12 @@ bool option_given(const std::string& name) {
   return given == PETSC_TRUE;
 }
 
+/// Whether the preconditioner is ours: not where the user asks PETSc for one, and not for tied unknowns.
+bool is_ours(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size, int modes) {
+  return automatic_kind(options, mesh, block_size, true) == SolverKind::multigrid &&
+         Multigrid::supports(block_size, modes) && !option_given(options.prefix + "pc_type");
+}
+
 /// The values of a vector on this process, while the object lives.
 class ReadArray {
  public:
@@ -110,6 +116,12 @@ NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int components) {
 
 }  // namespace
 
+BlockMatrix::Storage storage_for(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size,
+                                 int modes) {
+  return options.symmetric && is_ours(options, mesh, block_size, modes) ? BlockMatrix::Storage::upper
+                                                                        : BlockMatrix::Storage::whole;
+}
+
 struct LinearSolver::Implementation {
   const mesh::Mesh& mesh;
   LinearSolverOptions options;
@@ -150,13 +162,9 @@ struct LinearSolver::Implementation {
   bool try_again();
 };
 
-/// Whether the preconditioner is ours: not where the user asks PETSc for one, and not for tied unknowns.
 bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) const {
-  if (automatic_kind(options, mesh, a.block_size(), true) != SolverKind::multigrid || !a.ties().empty())
-    return false;
   const int n_modes = rigid_components > 0 ? rigid_body_mode_count(rigid_components) : a.block_size();
-  return !petsc_multigrid && Multigrid::supports(a.block_size(), n_modes) &&
-         !option_given(options.prefix + "pc_type");
+  return a.ties().empty() && !petsc_multigrid && is_ours(options, mesh, a.block_size(), n_modes);
 }
 
 bool LinearSolver::Implementation::factorisation_serves(const BlockMatrix& a) const {
@@ -276,8 +284,8 @@ void LinearSolver::Implementation::create(Mat a) {
 }
 
 void LinearSolver::Implementation::create_multigrid(PC pc) {
-  multigrid = std::make_unique<Multigrid>(mesh, blocks->block_size(),
-                                          rigid_components > 0 ? rigid_body_modes : constants);
+  multigrid = std::make_unique<Multigrid>(
+      mesh, blocks->block_size(), rigid_components > 0 ? rigid_body_modes : constants, options.symmetric);
   check(PCSetType(pc, PCSHELL), "PCSetType");
   check(PCShellSetContext(pc, multigrid.get()), "PCShellSetContext");
   const auto cycle = [](PC of, Vec in, Vec out) -> PetscErrorCode {

@@ -30,6 +30,12 @@ struct LinearSolverOptions {
   int max_iterations = 2000;
 };
 
+/// What a matrix without ties is kept as for such a solver: half of a symmetric one will do for the multigrid
+/// of blocks (multigrid.hpp).
+/// @param modes  of that
+BlockMatrix::Storage storage_for(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size,
+                                 int modes);
+
 struct LinearReport {
   int iterations = 0;
   bool converged = true;

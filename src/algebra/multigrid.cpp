@@ -248,8 +248,8 @@ void Multigrid::Coarsest::solve(const std::vector<float>& right, std::vector<flo
   check(VecRestoreArrayRead(x, &from), "VecRestoreArrayRead");
 }
 
-Multigrid::Multigrid(const mesh::Mesh& mesh, int components, Modes modes)
-    : mesh_(mesh), components_(components), modes_(modes) {}
+Multigrid::Multigrid(const mesh::Mesh& mesh, int components, Modes modes, bool symmetric)
+    : mesh_(mesh), components_(components), modes_(modes), symmetric_(symmetric) {}
 Multigrid::~Multigrid() = default;
 
 bool Multigrid::supports(int block_size, int modes) {
@@ -264,9 +264,11 @@ void Multigrid::set_up(BlockMatrix& a) {
   a.constrained([&] {
     Numbering numbering{mesh_.n_owned_nodes, mesh_.first_owned, {}};
     numbering.ghosts.assign(mesh_.global_node.begin() + mesh_.n_owned_nodes, mesh_.global_node.end());
-    add_level({a.block_size(), a.row_start(), a.columns(), a.block(0)}, std::move(numbering),
-              std::span(a.fixed()).first(at(mesh_.n_owned_nodes) * at(a.block_size())), modes.modes,
-              std::move(modes.values));
+    std::optional<LowerPart> lower;
+    if (a.storage() == BlockMatrix::Storage::upper) lower.emplace(a.row_start(), a.columns());
+    add_level({a.block_size(), a.row_start(), a.columns(), a.block(0), lower ? &*lower : nullptr},
+              std::move(numbering), std::span(a.fixed()).first(at(mesh_.n_owned_nodes) * at(a.block_size())),
+              modes.modes, std::move(modes.values));
   });
 }
 
@@ -279,7 +281,7 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
                     n_owned = at(numbering.n_owned) * at(a.size);
   GhostExchange ghosts(numbering.n_owned, numbering.first, numbering.ghosts);
   RowExchange rows(numbering.n_owned, numbering.first, numbering.ghosts);
-  levels_.push_back({PackedRows(a.size, a.start, a.column, a.blocks,
+  levels_.push_back({PackedRows(a, numbering.n_local(), symmetric_,
                                 levels_.empty() ? PackedRows::Pattern::referred_to  // it stays
                                                 : PackedRows::Pattern::copied),
                      {},

@@ -27,7 +27,8 @@ class Multigrid {
  public:
   /// One of the two above. It is asked in every set-up: the modes take as much memory as a dozen vectors.
   using Modes = NearNullSpace (*)(const mesh::Mesh& mesh, int components);
-  Multigrid(const mesh::Mesh& mesh, int components, Modes modes);
+  /// @param symmetric  whether the matrices are, which halves the memory that a cycle reads
+  Multigrid(const mesh::Mesh& mesh, int components, Modes modes, bool symmetric);
   ~Multigrid();
   /// Whether there are kernels for blocks of this size.
   static bool supports(int block_size, int modes);
@@ -50,6 +51,7 @@ class Multigrid {
   const mesh::Mesh& mesh_;
   int components_;
   Modes modes_;
+  bool symmetric_;
   std::vector<Level> levels_;
   std::unique_ptr<Coarsest> coarsest_;
   GlobalIndex coarsest_rows_ = 0;

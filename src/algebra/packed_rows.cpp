@@ -1,8 +1,10 @@
 #include "algebra/packed_rows.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
+#include "algebra/symmetric_product.hpp"
 #include "base/large_pages.hpp"
 
 namespace solidus::algebra {
@@ -73,21 +75,52 @@ void multiply_transposed(std::span<const std::int64_t> start, const Index* colum
 
 }  // namespace
 
-PackedRows::PackedRows(int size, std::span<const std::int64_t> start, std::span<const Index> column,
-                       const double* blocks, Pattern pattern)
-    : rows_(size), columns_(size), start_(start), column_(column) {
-  if (pattern == Pattern::copied) {
-    own_start_.assign(start.begin(), start.end());
-    own_column_.assign(column.begin(), column.begin() + start.back());
+PackedRows::PackedRows(const MatrixView& a, Index n_local, bool symmetric, Pattern pattern)
+    : rows_(a.size),
+      columns_(a.size),
+      symmetric_(symmetric),
+      n_local_(n_local),
+      start_(a.start),
+      column_(a.column) {
+  assert(symmetric || a.lower == nullptr);
+  if (symmetric && a.lower == nullptr) {
+    copy_upper_pattern(a);
+  } else if (pattern == Pattern::copied) {
+    own_start_.assign(a.start.begin(), a.start.end());
+    own_column_.assign(a.column.begin(), a.column.begin() + a.start.back());
+  }
+  if (!own_start_.empty()) {
     start_ = own_start_;
     column_ = own_column_;
   }
-  const auto n_slots = static_cast<std::size_t>(start_.back());
-  assign_in_large_pages(value_, n_slots * static_cast<std::size_t>(size * size) + k_overhang, 0.0F);
+  const auto entries = static_cast<std::size_t>(a.size * a.size);
+  assign_in_large_pages(value_, static_cast<std::size_t>(start_.back()) * entries + k_overhang, 0.0F);
   float* to = value_.data();
-  for (std::size_t s = 0; s < n_slots; ++s, blocks += size * size)
-    for (int c = 0; c < size; ++c)
-      for (int r = 0; r < size; ++r) *to++ = static_cast<float>(blocks[r * size + c]);
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    const std::int64_t n = start_[static_cast<std::size_t>(row) + 1] - start_[static_cast<std::size_t>(row)];
+    for (std::int64_t s = a.end(row) - n; s < a.end(row); ++s) {
+      const double* const block = a.block(s);
+      for (int i = 0; i < a.size; ++i)
+        for (int k = 0; k < a.size; ++k)
+          *to++ = static_cast<float>(symmetric ? block[i * a.size + k] : block[k * a.size + i]);
+    }
+  }
+}
+
+/// What stands left of the diagonal is left out.
+void PackedRows::copy_upper_pattern(const MatrixView& a) {
+  own_start_.assign(1, 0);
+  own_start_.reserve(a.start.size());
+  std::vector<std::int64_t> diagonal(a.start.size() - 1);
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    const auto first = a.column.begin() + a.begin(row), last = a.column.begin() + a.end(row);
+    diagonal[static_cast<std::size_t>(row)] = std::lower_bound(first, last, row) - a.column.begin();
+    own_start_.push_back(own_start_.back() + a.end(row) - diagonal[static_cast<std::size_t>(row)]);
+  }
+  own_column_.reserve(static_cast<std::size_t>(own_start_.back()));
+  for (Index row = 0; row < a.n_rows(); ++row)
+    own_column_.insert(own_column_.end(), a.column.begin() + diagonal[static_cast<std::size_t>(row)],
+                       a.column.begin() + a.end(row));
 }
 
 PackedRows::PackedRows(BlockRows<float> from, Index n_rows)
@@ -113,18 +146,22 @@ PackedRows::PackedRows(BlockRows<float> from, Index n_rows)
 }
 
 void PackedRows::multiply(const float* x, float* y) const {
+  if (symmetric_)
+    return multiply_symmetric(rows_, start_, column_.data(), value_.data(), x, y, scratch_, n_local_);
   with_block_sizes(rows_, columns_, [&]<int rows, int columns>() {
     multiply_rows<rows, columns, false>(start_, column_.data(), value_.data(), x, y);
   });
 }
 
 void PackedRows::multiply_add(const float* x, float* y) const {
+  assert(!symmetric_);
   with_block_sizes(rows_, columns_, [&]<int rows, int columns>() {
     multiply_rows<rows, columns, true>(start_, column_.data(), value_.data(), x, y);
   });
 }
 
 void PackedRows::multiply_transposed_add(const float* x, float* y) const {
+  assert(!symmetric_);
   with_block_sizes(rows_, columns_, [&]<int rows, int columns>() {
     multiply_transposed<rows, columns>(start_, column_.data(), value_.data(), x, y);
   });
@@ -132,7 +169,7 @@ void PackedRows::multiply_transposed_add(const float* x, float* y) const {
 
 std::size_t PackedRows::bytes() const {
   return own_start_.capacity() * sizeof own_start_[0] + own_column_.capacity() * sizeof own_column_[0] +
-         value_.capacity() * sizeof value_[0];
+         (value_.capacity() + scratch_.capacity()) * sizeof value_[0];
 }
 
 }  // namespace solidus::algebra

@@ -1,7 +1,8 @@
 /// Block rows in single precision, for preconditioners: what a multigrid cycle reads again and again.
 ///
 /// A product is bound by memory: 4 bytes an entry and 4 bytes a block, where PETSc's AIJ reads 12 bytes an
-/// entry. Blocks stand column by column, so that a column times a number is one short vector.
+/// entry, and half of that where the matrix is symmetric (symmetric_product.hpp). Blocks of others stand
+/// column by column, so that a column times a number is one short vector.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "algebra/matrix_view.hpp"
 #include "base/types.hpp"
 
 namespace solidus::algebra {
@@ -54,9 +56,10 @@ class PackedRows {
   static constexpr std::size_t k_overhang = 8;
   PackedRows() = default;
   enum class Pattern { referred_to, copied };
-  /// Copies square blocks, [slot][row][column].
-  PackedRows(int size, std::span<const std::int64_t> start, std::span<const Index> column,
-             const double* blocks, Pattern pattern);
+  /// Copies the blocks of a square matrix; of a symmetric one those on and above the diagonal.
+  /// @param n_local  block columns, ghosts included
+  /// @param pattern  is copied in any case where it is not that of `a`
+  PackedRows(const MatrixView& a, Index n_local, bool symmetric, Pattern pattern);
   /// Takes the first rows over.
   PackedRows(BlockRows<float> from, Index n_rows);
   PackedRows(PackedRows&&) noexcept = default;
@@ -71,12 +74,17 @@ class PackedRows {
   std::size_t bytes() const;
 
  private:
+  void copy_upper_pattern(const MatrixView& a);
+
   int rows_ = 1, columns_ = 1;
+  bool symmetric_ = false;
+  Index n_local_ = 0;
   std::vector<std::int64_t> own_start_;  ///< empty where the pattern is another's
   std::vector<Index> own_column_;
   std::span<const std::int64_t> start_;  ///< [block row] into `column_`; one more at the end
   std::span<const Index> column_;        ///< [slot]
-  std::vector<float> value_;             ///< [slot][column][row], and a register's width more
+  std::vector<float> value_;  ///< [slot][column][row], symmetric [slot][row][column]; a register's width more
+  mutable std::vector<float> scratch_;
 };
 
 }  // namespace solidus::algebra

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <stdexcept>
 
+#include "algebra/multigrid.hpp"
 #include "base/errors.hpp"
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
@@ -17,6 +18,13 @@ namespace {
 
 /// Of the linear solver: Newmark's first step takes a_0 for exact.
 constexpr double k_initial_acceleration = 1e-13;
+
+algebra::LinearSolverOptions linear_options(const MechanicsOptions& options) {
+  return {.prefix = "mechanics_",
+          .kind = options.solver,
+          .symmetric = options.symmetric,
+          .relative_tolerance = options.linear_tolerance};
+}
 
 }  // namespace
 
@@ -126,7 +134,14 @@ algebra::NodeGraph MechanicalPhase::graph() const {
 }
 
 void MechanicalPhase::create_matrix() {
-  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, graph());
+  using Storage = algebra::BlockMatrix::Storage;
+  // What couples displacements with temperatures or pressures has their pattern.
+  const bool alone = options_.mapping != Mapping::simultaneous && !pressure_ &&
+                     !algebra::any_process(!loads_->ties().empty());
+  const Storage storage = alone ? algebra::storage_for(linear_options(options_), mesh_, components_,
+                                                       algebra::rigid_body_mode_count(components_))
+                                : Storage::whole;
+  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, graph(), storage);
   matrix_->set_fixed(loads_->fixed());
   matrix_->tie(loads_->ties());
   bind();
@@ -175,11 +190,7 @@ void MechanicalPhase::create_solver() {
     solver_ = std::move(solver);
     return;
   }
-  auto solver = std::make_unique<algebra::LinearSolver>(
-      mesh_, algebra::LinearSolverOptions{.prefix = "mechanics_",
-                                          .kind = options_.solver,
-                                          .symmetric = options_.symmetric,
-                                          .relative_tolerance = options_.linear_tolerance});
+  auto solver = std::make_unique<algebra::LinearSolver>(mesh_, linear_options(options_));
   solver->use_rigid_body_modes(components_);
   solver_ = std::move(solver);
 }

@@ -90,7 +90,7 @@ void MixedSolver::make_solver(bool direct) {
     preconditioner_.reset();  // the factors need its memory
     return;
   }
-  preconditioner_.emplace(mesh_, displacement_.block_size());
+  preconditioner_.emplace(mesh_, displacement_.block_size(), options_.symmetric);
   if (!schur_) schur_ = pressure_.make_matrix();
   saddle_.emplace(mesh_, matrix_, pressure_, ghosts_);
   solver_->use([this](std::span<const double> r, std::span<double> z) {

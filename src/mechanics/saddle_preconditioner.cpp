@@ -35,8 +35,8 @@ bool SaddlePreconditioner::serves(const algebra::BlockMatrix& displacement) {
          algebra::Multigrid::supports(components, algebra::rigid_body_mode_count(components));
 }
 
-SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, int components)
-    : multigrid_(mesh, components, algebra::rigid_body_modes), petsc_(std::make_unique<Petsc>()) {}
+SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, int components, bool symmetric)
+    : multigrid_(mesh, components, algebra::rigid_body_modes, symmetric), petsc_(std::make_unique<Petsc>()) {}
 
 SaddlePreconditioner::~SaddlePreconditioner() = default;
 

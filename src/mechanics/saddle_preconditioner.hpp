@@ -22,7 +22,8 @@ class SaddlePreconditioner {
  public:
   /// Whether multigrid can be had for this matrix.
   static bool serves(const algebra::BlockMatrix& displacement);
-  SaddlePreconditioner(const mesh::Mesh& mesh, int components);
+  /// @param symmetric  whether A is
+  SaddlePreconditioner(const mesh::Mesh& mesh, int components, bool symmetric);
   ~SaddlePreconditioner();
 
   /// A new hierarchy for A as it stands. Collective.

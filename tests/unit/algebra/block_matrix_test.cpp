@@ -35,11 +35,21 @@ Eigen::MatrixXd dense(int nx, int ny) {
   return m;
 }
 
-BlockMatrix assembled(const Grid& grid) {
+using Storage = BlockMatrix::Storage;
+
+BlockMatrix assembled(const Grid& grid, Storage storage = Storage::whole) {
   NodeGraph graph(grid.mesh);
   graph.add_cliques(grid.quads, 4);
-  return BlockMatrix(grid.mesh, 2, std::move(graph));
+  return BlockMatrix(grid.mesh, 2, std::move(graph), storage);
 }
+
+/// Whether all of a matrix is kept or the half of it.
+class BlockMatrices : public testing::TestWithParam<Storage> {
+ protected:
+  BlockMatrix assembled(const Grid& grid) const { return algebra::assembled(grid, GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Storage, BlockMatrices, testing::Values(Storage::whole, Storage::upper),
+                         [](const auto& of) { return of.param == Storage::whole ? "whole" : "upper"; });
 
 void fill(const Grid& grid, BlockMatrix& matrix) {
   matrix.set_zero();
@@ -96,7 +106,7 @@ TEST(NodeGraph, NodesWithoutElementsKeepTheirDiagonal) {
   EXPECT_EQ(columns.size(), static_cast<std::size_t>(grid.mesh.n_owned_nodes));
 }
 
-TEST(BlockMatrix, EqualsTheDenseSumOfElementMatrices) {
+TEST_P(BlockMatrices, EqualsTheDenseSumOfElementMatrices) {
   const Grid grid(4, 5);
   BlockMatrix matrix = assembled(grid);
   for (int pass = 0; pass < 2; ++pass) {  // the second pass reuses the pattern
@@ -105,7 +115,7 @@ TEST(BlockMatrix, EqualsTheDenseSumOfElementMatrices) {
   }
 }
 
-TEST(BlockMatrix, LaneSlotsScatterTheSameMatrix) {
+TEST_P(BlockMatrices, LaneSlotsScatterTheSameMatrix) {
   const Grid grid(4, 5);
   BlockMatrix matrix = assembled(grid);
   const auto n = static_cast<Index>(grid.quads.size() / 4);
@@ -130,7 +140,7 @@ TEST(BlockMatrix, LaneSlotsScatterTheSameMatrix) {
   expect_equal(matrix.matrix(), dense(4, 5));
 }
 
-TEST(BlockMatrix, FixedRowsAndColumnsBecomeTheIdentityTimesTheMeanDiagonal) {
+TEST_P(BlockMatrices, FixedRowsAndColumnsBecomeTheIdentityTimesTheMeanDiagonal) {
   const Grid grid(4, 5);
   BlockMatrix matrix = assembled(grid);
   fill(grid, matrix);
@@ -158,7 +168,7 @@ TEST(BlockMatrix, FixedRowsAndColumnsBecomeTheIdentityTimesTheMeanDiagonal) {
   expect_equal(matrix.matrix(), dense(4, 5));
 }
 
-TEST(BlockMatrix, MultiplyEqualsTheDenseProduct) {
+TEST_P(BlockMatrices, MultiplyEqualsTheDenseProduct) {
   const Grid grid(4, 5);
   BlockMatrix matrix = assembled(grid);
   fill(grid, matrix);
@@ -173,6 +183,16 @@ TEST(BlockMatrix, MultiplyEqualsTheDenseProduct) {
   for (Index node = 0; node < grid.mesh.n_owned_nodes; ++node)
     for (int a = 0; a < 2; ++a)
       EXPECT_NEAR(product[static_cast<std::size_t>(2 * node + a)], y(2 * grid.global(node) + a), 1e-12);
+}
+
+TEST(BlockMatrix, HalfOfASymmetricMatrixTakesLittleMoreThanHalfTheBlocks) {
+  const Grid grid(20, 20);
+  const BlockMatrix whole = assembled(grid), upper = assembled(grid, Storage::upper);
+  const auto n = static_cast<std::size_t>(grid.mesh.n_owned_nodes);
+  std::size_t ghosts = 0;
+  for (const Index column : whole.columns()) ghosts += column >= grid.mesh.n_owned_nodes;
+  EXPECT_EQ(2 * (upper.columns().size() - ghosts), whole.columns().size() - ghosts + n);
+  EXPECT_LT(upper.bytes(), whole.bytes());
 }
 
 TEST(BlockMatrix, CountsItsMemory) {
