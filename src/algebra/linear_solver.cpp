@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algebra/factorisation.hpp"
+#include "algebra/incomplete_cholesky.hpp"
 #include "algebra/multigrid.hpp"
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
@@ -60,6 +61,13 @@ bool is_ours(const LinearSolverOptions& options, const mesh::Mesh& mesh, int blo
          Multigrid::supports(block_size, modes) && !option_given(options.prefix + "pc_type");
 }
 
+/// The same of incomplete factors.
+bool is_our_factor(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size) {
+  return automatic_kind(options, mesh, block_size, true) == SolverKind::incomplete && options.symmetric &&
+         block_size == 1 && !option_given(options.prefix + "pc_type") &&
+         !option_given(options.prefix + "sub_pc_type");
+}
+
 /// The values of a vector on this process, while the object lives.
 class ReadArray {
  public:
@@ -95,6 +103,22 @@ class WriteArray {
   PetscInt n_ = 0;
 };
 
+/// z = ours.apply(r)
+template <class Ours>
+void set_preconditioner(PC pc, Ours& ours) {
+  check(PCSetType(pc, PCSHELL), "PCSetType");
+  check(PCShellSetContext(pc, &ours), "PCShellSetContext");
+  const auto apply = [](PC of, Vec in, Vec out) -> PetscErrorCode {
+    Ours* preconditioner = nullptr;
+    check(PCShellGetContext(of, static_cast<void*>(&preconditioner)), "PCShellGetContext");
+    const ReadArray from(in);
+    const WriteArray to(out);
+    preconditioner->apply(from.values(), to.values());
+    return 0;
+  };
+  check(PCShellSetApply(pc, apply), "PCShellSetApply");
+}
+
 /// Rigid-body modes for PETSc's own multigrid.
 NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int components) {
   VecHandle coordinates;
@@ -118,8 +142,9 @@ NullSpaceHandle petsc_rigid_body_modes(const mesh::Mesh& mesh, int components) {
 
 BlockMatrix::Storage storage_for(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size,
                                  int modes) {
-  return options.symmetric && is_ours(options, mesh, block_size, modes) ? BlockMatrix::Storage::upper
-                                                                        : BlockMatrix::Storage::whole;
+  const bool half = options.symmetric &&
+                    (is_ours(options, mesh, block_size, modes) || is_our_factor(options, mesh, block_size));
+  return half ? BlockMatrix::Storage::upper : BlockMatrix::Storage::whole;
 }
 
 struct LinearSolver::Implementation {
@@ -135,8 +160,9 @@ struct LinearSolver::Implementation {
   bool stale = true;             ///< set up again at the next solve
   Factorisation factorisation{k_first_workspace};
   Mat matrix = nullptr;  ///< whose operators the solver holds; owned by the BlockMatrix, or `shell`
-  // Multigrid of our own, which needs no copy of the matrix in PETSc.
+  // Multigrid and incomplete factors of our own, which need no copy of the matrix in PETSc.
   std::unique_ptr<Multigrid> multigrid;
+  std::unique_ptr<IncompleteCholesky> incomplete;
   BlockMatrix* blocks = nullptr;
   MatHandle shell;  ///< multiplies by the blocks
   std::optional<GhostExchange> ghosts;
@@ -148,11 +174,13 @@ struct LinearSolver::Implementation {
 
   Implementation(const mesh::Mesh& m, LinearSolverOptions o) : mesh(m), options(std::move(o)) {}
   bool multigrid_of_blocks(const BlockMatrix& a) const;
+  bool factor_of_blocks(const BlockMatrix& a) const;
   bool factorisation_serves(const BlockMatrix& a) const;
   void create_shell(BlockMatrix& a);
   void multiply(Vec in, Vec out);
   void create(Mat a);
   void create_multigrid(PC pc);
+  void create_factor(PC pc);
   void attach_modes(Mat a) const;
   bool is_direct() const;
   void set_tolerance(double forcing);
@@ -165,6 +193,11 @@ struct LinearSolver::Implementation {
 bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) const {
   const int n_modes = rigid_components > 0 ? rigid_body_mode_count(rigid_components) : a.block_size();
   return a.ties().empty() && !petsc_multigrid && is_ours(options, mesh, a.block_size(), n_modes);
+}
+
+bool LinearSolver::Implementation::factor_of_blocks(const BlockMatrix& a) const {
+  return a.ties().empty() && a.storage() == BlockMatrix::Storage::upper &&
+         is_our_factor(options, mesh, a.block_size());
 }
 
 bool LinearSolver::Implementation::factorisation_serves(const BlockMatrix& a) const {
@@ -248,6 +281,10 @@ void LinearSolver::Implementation::create(Mat a) {
       break;
     case SolverKind::incomplete:
       check(KSPSetType(ksp, krylov), "KSPSetType");
+      if (a == shell) {
+        create_factor(pc);
+        break;
+      }
       check(PCSetType(pc, PCBJACOBI), "PCSetType");
       set_sub_default("sub_pc_type", options.symmetric ? PCICC : PCILU);
       break;
@@ -273,7 +310,7 @@ void LinearSolver::Implementation::create(Mat a) {
     }
   }
   if (!options.symmetric && kind != SolverKind::direct) check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
-  if (a == shell)
+  if (multigrid)
     check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
                            std::min(k_patience, options.max_iterations)),
           "KSPSetTolerances");
@@ -286,17 +323,12 @@ void LinearSolver::Implementation::create(Mat a) {
 void LinearSolver::Implementation::create_multigrid(PC pc) {
   multigrid = std::make_unique<Multigrid>(
       mesh, blocks->block_size(), rigid_components > 0 ? rigid_body_modes : constants, options.symmetric);
-  check(PCSetType(pc, PCSHELL), "PCSetType");
-  check(PCShellSetContext(pc, multigrid.get()), "PCShellSetContext");
-  const auto cycle = [](PC of, Vec in, Vec out) -> PetscErrorCode {
-    Multigrid* preconditioner = nullptr;
-    check(PCShellGetContext(of, static_cast<void*>(&preconditioner)), "PCShellGetContext");
-    const ReadArray from(in);
-    const WriteArray to(out);
-    preconditioner->apply(from.values(), to.values());
-    return 0;
-  };
-  check(PCShellSetApply(pc, cycle), "PCShellSetApply");
+  set_preconditioner(pc, *multigrid);
+}
+
+void LinearSolver::Implementation::create_factor(PC pc) {
+  incomplete = std::make_unique<IncompleteCholesky>();
+  set_preconditioner(pc, *incomplete);
 }
 
 bool LinearSolver::Implementation::is_direct() const {
@@ -320,6 +352,8 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
           "KSPSetReusePreconditioner");
     check(KSPSetUp(ksp), "KSPSetUp");
     if (multigrid && stale) multigrid->set_up(*blocks);
+    if (incomplete && stale) incomplete->set_up(*blocks);
+    if (incomplete) stale = false;
   }
   PetscTime(&t1);
   {
@@ -391,6 +425,11 @@ void LinearSolver::use_rigid_body_modes(int components) {
 LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
                                  double forcing) {
   Implementation& my = *implementation_;
+  if (my.factor_of_blocks(a)) {
+    my.create_shell(a);
+    my.stale = true;
+    return solve(my.shell, b, x, forcing);
+  }
   if (!my.multigrid_of_blocks(a)) return solve(a.matrix(), b, x, forcing);
   if (my.rescue) return my.rescue->solve(a, b, x, forcing);
   my.create_shell(a);
@@ -469,6 +508,7 @@ void LinearSolver::reset() {
   Implementation& my = *implementation_;
   my.ksp.reset();
   my.multigrid.reset();
+  my.incomplete.reset();
   my.shell.reset();
   my.rescue.reset();
   my.matrix = nullptr;

@@ -17,7 +17,7 @@ enum class SolverKind {
   multigrid,   ///< CG + GAMG (GMRES when unsymmetric)
   jacobi,      ///< CG + Jacobi
   incomplete,  ///< CG + incomplete Cholesky, on each process for itself (GMRES + incomplete LU when
-               ///< unsymmetric)
+               ///< unsymmetric); that of incomplete_cholesky.hpp where half of the matrix is kept
   field_split  ///< FGMRES, blocks of a MATNEST in turn: GAMG on the first, incomplete LU on the second
 };
 

@@ -16,6 +16,12 @@ HeatSolver::HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool sy
           .prefix = "heat_", .kind = kind, .symmetric = symmetric, .relative_tolerance = relative_tolerance} {
 }
 
+algebra::BlockMatrix::Storage HeatSolver::storage_for(const mesh::Mesh& mesh, algebra::SolverKind kind,
+                                                      bool symmetric) {
+  return algebra::storage_for(
+      {.prefix = "heat_", .kind = kind, .symmetric = symmetric, .transient_heat = true}, mesh, 1, 1);
+}
+
 algebra::LinearSolver& HeatSolver::strong() {
   if (!strong_) strong_ = std::make_unique<algebra::LinearSolver>(mesh_, options_);
   return *strong_;

@@ -13,6 +13,9 @@ namespace solidus::heat {
 class HeatSolver {
  public:
   HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool symmetric, double relative_tolerance);
+  /// What the matrix is best kept as for such a solver.
+  static algebra::BlockMatrix::Storage storage_for(const mesh::Mesh& mesh, algebra::SolverKind kind,
+                                                   bool symmetric);
   /// Call at the start of a step, so that the same step gives the same bits.
   /// @param transient false: the strong solver at once
   void begin(bool transient);

@@ -25,13 +25,14 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
 
 HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        const std::vector<material::Material>& materials, const Conditions& conditions,
-                       bool closed, std::vector<algebra::Contribution*> contributions)
+                       bool closed, std::vector<algebra::Contribution*> contributions,
+                       algebra::BlockMatrix::Storage storage)
     : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), presence_(mesh) {
   add_conduction(materials);
   if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
 
-  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, graph());
+  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, graph(), storage);
   matrix_->set_fixed(fixed_);
   bind();
   local_.resize(mesh.x.size());

@@ -22,11 +22,12 @@ namespace solidus::heat {
 
 class HeatSystem {
  public:
-  /// @param couple_elements what the storage term needs besides conduction is the same graph
+  /// @param storage  of the matrix: half of it where no tangent that is added is unsymmetric
   /// Throws InputError for a condition that names no group of the mesh, std::invalid_argument for absent
   /// bodies: they leave later.
   HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-             const Conditions& conditions, bool closed, std::vector<algebra::Contribution*> contributions);
+             const Conditions& conditions, bool closed, std::vector<algebra::Contribution*> contributions,
+             algebra::BlockMatrix::Storage storage);
   ~HeatSystem();
 
   /// From here on other conditions hold. Where bodies leave, the matrix gets another pattern; then true.

@@ -98,9 +98,12 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     printed_ = std::make_unique<PrintedHeat>(*storage_, options_.sensible);
     contributions_.push_back(printed_.get());
   }
-  system_ = std::make_unique<HeatSystem>(mesh, kind, materials_, conditions, closed, contributions_);
-  solver_ = std::make_unique<HeatSolver>(
-      mesh, options_.solver, options_.symmetric && !options_.exact_conductivity, options_.linear_tolerance);
+  const bool symmetric = options_.symmetric && !options_.exact_conductivity;
+  system_ =
+      std::make_unique<HeatSystem>(mesh, kind, materials_, conditions, closed, contributions_,
+                                   options_.alone ? HeatSolver::storage_for(mesh, options_.solver, symmetric)
+                                                  : algebra::BlockMatrix::Storage::whole);
+  solver_ = std::make_unique<HeatSolver>(mesh, options_.solver, symmetric, options_.linear_tolerance);
   if (closed) {
     enthalpy_newton_ = std::make_unique<EnthalpyNewton>(
         mesh, *system_, *storage_, *solver_, ghosts_,

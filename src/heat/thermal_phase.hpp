@@ -60,6 +60,8 @@ struct HeatOptions {
   /// The slope of the conductivity enters the tangent: quadratic convergence, unsymmetric matrix.
   bool exact_conductivity = false;
   bool symmetric = true;  ///< false when a contribution's tangent is not
+  /// No scheme makes its tangent part of a larger, unsymmetric one: half of a symmetric matrix will do.
+  bool alone = false;
   /// Anything but enthalpy loses heat and needs backward Euler; what is lost is in the balance as its defect.
   SensibleForm sensible = SensibleForm::enthalpy;
 };

@@ -45,6 +45,7 @@ heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage)
 
 heat::HeatOptions heat_options(const CaseSpec& spec) {
   heat::HeatOptions options = spec.heat;
+  options.alone = !spec.simultaneous();
   if (!spec.coupled()) return options;
   if (spec.coupling.as_printed)
     options.sensible = spec.coupling.structural_heating == CouplingSpec::StructuralHeating::temperature
