@@ -27,7 +27,7 @@ class HeatSystem {
   /// bodies: they leave later.
   HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
              const Conditions& conditions, bool closed, std::vector<algebra::Contribution*> contributions,
-             algebra::BlockMatrix::Storage storage);
+             algebra::BlockMatrix::Storage storage = algebra::BlockMatrix::Storage::whole);
   ~HeatSystem();
 
   /// From here on other conditions hold. Where bodies leave, the matrix gets another pattern; then true.
