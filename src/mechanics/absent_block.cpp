@@ -1,5 +1,8 @@
 #include "mechanics/absent_block.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace solidus::mechanics {
 
 namespace {
@@ -14,20 +17,17 @@ mesh::Block without_elements(const mesh::Block& block) {
 }  // namespace
 
 AbsentBlock::AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
-                         const material::Material& material)
+                         const material::Material& material, std::unique_ptr<BlockKernel> kept)
     : block_(block),
       nowhere_(mesh, without_elements(block), kind, mesh::stiffness_rule(block.shape)),
-      points_(nowhere_, material) {}
+      points_(nowhere_, material),
+      kept_(std::move(kept)) {}
 
-ElementFields AbsentBlock::fields() const {
-  const auto n = static_cast<std::size_t>(block_.size());
-  ElementFields f;
-  for (auto* tensor : {&f.stress, &f.strain, &f.viscous_strain, &f.plastic_strain, &f.back_stress})
-    tensor->assign(n, {});
-  for (auto* scalar : {&f.equivalent_plastic_strain, &f.flow_stress, &f.dissipation, &f.von_mises,
-                       &f.pressure, &f.intermediate_temperature})
-    scalar->assign(n, 0.0);
-  return f;
+void AbsentBlock::get_field(ElementField which, std::span<double> out) const {
+  if (kept_)
+    kept_->get_field(which, out);
+  else
+    std::fill(out.begin(), out.end(), 0.0);
 }
 
 }  // namespace solidus::mechanics

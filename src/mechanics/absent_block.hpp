@@ -2,6 +2,8 @@
 /// stiffness, stress, history, weight or structural heat; its fields are zero.
 #pragma once
 
+#include <memory>
+
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/coupled_kernel.hpp"
 #include "mechanics/structural_points.hpp"
@@ -11,8 +13,9 @@ namespace solidus::mechanics {
 class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
   /// Keeps a reference to the block.
+  /// @param kept  of the body when it was there, whose fields are shown until keep_fields(); may be null
   AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
-              const material::Material& material);
+              const material::Material& material, std::unique_ptr<BlockKernel> kept = nullptr);
 
   bool symmetric() const override { return true; }
   void bind(const algebra::BlockMatrix&) override {}
@@ -23,7 +26,8 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   BlockWork finish(std::span<const double>, std::span<const double>, BlockHistory&) override { return {}; }
   void rest(const StepStart&) override {}
   std::string failure(std::span<const double>) const override { return {}; }
-  ElementFields fields() const override;
+  void get_field(ElementField which, std::span<double> out) const override;
+  void keep_fields() override { kept_.reset(); }
   void add_nodal_volume(double, std::span<double>) const override {}
 
   void spread_heat_as_stored(const PackVector<Lane>&) override {}
@@ -42,6 +46,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   const mesh::Block& block_;
   mesh::BlockGeometry nowhere_;  ///< of no element
   StructuralPoints points_;      ///< there: none
+  std::unique_ptr<BlockKernel> kept_;
 };
 
 }  // namespace solidus::mechanics

@@ -67,8 +67,10 @@ class BlockKernel {
   virtual void rest(const StepStart& start) = 0;
   /// The first element whose law finds no state at u, with its inputs; empty if there is none.
   virtual std::string failure(std::span<const double> u) const = 0;
-  /// Averages over the elements, of the last finish().
-  virtual ElementFields fields() const = 0;
+  /// out[element][component]: averages over the elements, of the last finish() or of the one that is kept.
+  virtual void get_field(ElementField which, std::span<double> out) const = 0;
+  /// get_field() stays with the last finish() until the next call.
+  virtual void keep_fields() = 0;
   /// out_i += weight × ∫ N_i dV, [local node].
   virtual void add_nodal_volume(double weight, std::span<double> out) const = 0;
 

@@ -2,20 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace solidus::mechanics {
 
 namespace {
 
+void put(const Sym<double>& tensor, double* to) {
+  std::copy(tensor.c.begin(), tensor.c.end(), to);
+}
+
+/// What every law knows.
 template <class Values>
-void append_common(ElementFields& fields, const Values& values) {
-  fields.stress.push_back(values.stress.c);
-  fields.strain.push_back(values.strain.c);
-  fields.viscous_strain.push_back(values.viscous_strain.c);
-  fields.dissipation.push_back(values.dissipation);
-  fields.von_mises.push_back(von_mises(values.stress));
-  fields.pressure.push_back(-trace(values.stress) / 3);
+void put_common(ElementField which, const Values& values, double* to) {
+  switch (which) {
+    case ElementField::stress:
+      return put(values.stress, to);
+    case ElementField::strain:
+      return put(values.strain, to);
+    case ElementField::viscous_strain:
+      return put(values.viscous_strain, to);
+    case ElementField::dissipation:
+      *to = values.dissipation;
+      return;
+    case ElementField::von_mises:
+      *to = von_mises(values.stress);
+      return;
+    case ElementField::pressure:
+      *to = -trace(values.stress) / 3;
+      return;
+    default:
+      std::fill_n(to, component_count(which), 0.0);
+  }
 }
 
 ViscoplasticValues<Lane> values_of(const material::Viscoplastic::State<Lane>& state) {
@@ -102,25 +121,32 @@ ViscoplasticValues<Lane> values_of(const material::Isentropic& law,
   return v;
 }
 
-void append(ElementFields& fields, const ViscoelasticValues<double>& values) {
-  append_common(fields, values);
-  fields.plastic_strain.push_back({});
-  fields.back_stress.push_back({});
-  fields.equivalent_plastic_strain.push_back(0);
-  fields.flow_stress.push_back(0);
+void put(ElementField which, const ViscoelasticValues<double>& values, double* to) {
+  put_common(which, values, to);
 }
 
-void append(ElementFields& fields, const ViscoplasticValues<double>& values) {
-  append_common(fields, values);
-  fields.plastic_strain.push_back(values.plastic_strain.c);
-  fields.back_stress.push_back(values.back_stress.c);
-  fields.equivalent_plastic_strain.push_back(values.equivalent_plastic_strain);
-  fields.flow_stress.push_back(values.flow_stress);
+void put(ElementField which, const ViscoplasticValues<double>& values, double* to) {
+  switch (which) {
+    case ElementField::plastic_strain:
+      return put(values.plastic_strain, to);
+    case ElementField::back_stress:
+      return put(values.back_stress, to);
+    case ElementField::equivalent_plastic_strain:
+      *to = values.equivalent_plastic_strain;
+      return;
+    case ElementField::flow_stress:
+      *to = values.flow_stress;
+      return;
+    default:
+      put_common(which, values, to);
+  }
 }
 
-void append(ElementFields& fields, const IsentropicValues<double>& values) {
-  append(fields, values.mechanical);
-  fields.intermediate_temperature.push_back(values.temperature);
+void put(ElementField which, const IsentropicValues<double>& values, double* to) {
+  if (which == ElementField::intermediate_temperature)
+    *to = values.temperature;
+  else
+    put(which, values.mechanical, to);
 }
 
 std::string text(const Sym<double>& a) {

@@ -11,7 +11,7 @@
 #include "material/isentropic.hpp"
 #include "material/viscoelastic.hpp"
 #include "material/viscoplastic.hpp"
-#include "mechanics/mechanical_phase.hpp"
+#include "mechanics/element_field.hpp"
 
 namespace solidus::mechanics {
 
@@ -103,7 +103,7 @@ PlasticPower plastic_power(const material::Isentropic&, const Response& r) {
   return {r.plastic_power, r.plastic_dissipation};
 }
 
-/// What results show of a point or, averaged, of an element (units as in ElementFields).
+/// What results show of a point or, averaged, of an element (units as in ElementField).
 template <class T>
 struct ViscoelasticValues {
   using OfOne = ViscoelasticValues<double>;
@@ -157,10 +157,10 @@ IsentropicValues<Lane> values_of(const material::Isentropic& law,
   return v;
 }
 
-/// Appends those of one element; what a law does not know is zero.
-void append(ElementFields& fields, const ViscoelasticValues<double>& values);
-void append(ElementFields& fields, const ViscoplasticValues<double>& values);
-void append(ElementFields& fields, const IsentropicValues<double>& values);
+/// One field of an element, to component_count() places; what a law does not know is zero.
+void put(ElementField which, const ViscoelasticValues<double>& values, double* to);
+void put(ElementField which, const ViscoplasticValues<double>& values, double* to);
+void put(ElementField which, const IsentropicValues<double>& values, double* to);
 
 /// sum += weight × values, of a struct that holds nothing but lanes.
 template <class Values>

@@ -111,8 +111,10 @@ void MechanicalPhase::remove_bodies(const algebra::Presence& presence) {
     if (presence.body(block.body) && !presence_.body(block.body))
       throw std::invalid_argument("a body that has gone cannot come back");
     if (presence.body(block.body) || !presence_.body(block.body)) continue;
-    blocks_[b] =
-        std::make_unique<AbsentBlock>(mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)]);
+    // What is kept for results is shown until the next step is committed.
+    std::unique_ptr<BlockKernel> kept = keeps_fields_ ? std::move(blocks_[b]) : nullptr;
+    blocks_[b] = std::make_unique<AbsentBlock>(
+        mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)], std::move(kept));
   }
   presence_ = presence;
   balance_ = BodyBalance(mesh_, presence_, components_);
@@ -265,10 +267,22 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
   for (const BlockHistory& history : state.history) state.stress.push_back(no_stress(history));
 }
 
-std::vector<ElementFields> MechanicalPhase::element_fields() const {
-  std::vector<ElementFields> fields;
-  for (const auto& block : blocks_) fields.push_back(block->fields());
-  return fields;
+std::vector<double> MechanicalPhase::element_field(ElementField which) const {
+  const auto n = static_cast<std::size_t>(component_count(which));
+  std::size_t n_elements = 0, first = 0;
+  for (const mesh::Block& block : mesh_.blocks) n_elements += static_cast<std::size_t>(block.size());
+  std::vector<double> values(n_elements * n);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const std::size_t size = static_cast<std::size_t>(mesh_.blocks[b].size()) * n;
+    blocks_[b]->get_field(which, std::span(values).subspan(first, size));
+    first += size;
+  }
+  return values;
+}
+
+void MechanicalPhase::keep_fields() {
+  keeps_fields_ = true;
+  for (const auto& block : blocks_) block->keep_fields();
 }
 
 double MechanicalPhase::seconds_solver() const {

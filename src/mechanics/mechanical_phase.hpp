@@ -23,6 +23,7 @@
 #include "material/time_integration.hpp"
 #include "mechanics/balance.hpp"
 #include "mechanics/conditions.hpp"
+#include "mechanics/element_field.hpp"
 #include "mechanics/inertial_forces.hpp"
 #include "mechanics/mechanical_state.hpp"
 #include "mechanics/simplices.hpp"
@@ -86,22 +87,6 @@ struct MechanicalWork {
 struct PhaseReport {
   algebra::NewtonReport newton;
   MechanicalWork work;
-};
-
-/// Averages over the elements of one mesh block, for results: [element][…], symmetric tensors with six
-/// components in the order xx, yy, zz, xy, yz, xz (axisymmetric: rr, axial, hoop, r-axial).
-struct ElementFields {
-  std::vector<std::array<double, 6>> stress;  ///< [Pa]
-  std::vector<std::array<double, 6>> strain;
-  std::vector<std::array<double, 6>> viscous_strain;  ///< ε^v of the melt
-  std::vector<std::array<double, 6>> plastic_strain;  ///< ε^vp
-  std::vector<std::array<double, 6>> back_stress;     ///< q, centre of the yield surface [Pa]
-  std::vector<double> equivalent_plastic_strain;      ///< ξ
-  std::vector<double> flow_stress;  ///< σ_0 + K_ξ, the von Mises stress (less back stress) of slow flow [Pa]
-  std::vector<double> dissipation;               ///< D_mech [W/m³]
-  std::vector<double> von_mises;                 ///< of the average stress [Pa]
-  std::vector<double> pressure;                  ///< −tr σ/3 [Pa], positive in compression
-  std::vector<double> intermediate_temperature;  ///< Θ̄ [K]; empty in the isothermal mapping
 };
 
 /// The stress whose product with Δε is the work of a pass. Both passes of a step in two halves work with the
@@ -197,8 +182,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// A residual that is rounding [N].
   double round_off() const { return round_off_; }
 
-  /// Of the last solve; blocks in the order of the mesh.
-  std::vector<ElementFields> element_fields() const;
+  /// Of the last solve, or of the one that is kept: [block of the mesh][element][component].
+  std::vector<double> element_field(ElementField which) const;
+  /// The last solution is committed: element_field() stays with it until the next call, whatever is tried and
+  /// rejected in between.
+  void keep_fields();
   /// True when a material can flow plastically: then there are plastic fields to show.
   bool plastic() const { return plastic_; }
   /// Support forces of the last solve, [owned node][component] [N], zero where nothing is prescribed.
@@ -266,6 +254,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::vector<double> initial_temperature_;
   std::vector<BlockHistory> start_;      ///< z* of the two-step method, one per block
   bool keeps_stress_ = false;            ///< without inertia
+  bool keeps_fields_ = false;            ///< somebody has asked for it
   std::vector<BlockHistory> no_stress_;  ///< to keep it against
   double round_off_ = 0;                 ///< residual that is rounding [N]
   std::vector<double> x_;                ///< of the last residual

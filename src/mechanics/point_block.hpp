@@ -90,14 +90,21 @@ class PointBlock : public BlockKernel {
     return history;
   }
 
-  ElementFields fields() const override {
-    ElementFields out;
+  void get_field(ElementField which, std::span<double> out) const override {
+    const int n_components = component_count(which);
+    const CommonPacks<Values>& averages = kept_averages_ ? *kept_averages_ : averages_;
+    double* to = out.data();
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-      const Values values = averages_[static_cast<std::size_t>(batch)];
-      for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane)
-        append(out, element_of<typename Values::OfOne>(values, lane));
+      const Values values = averages[static_cast<std::size_t>(batch)];
+      for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane) {
+        put(which, element_of<typename Values::OfOne>(values, lane), to);
+        to += n_components;
+      }
     }
-    return out;
+  }
+  void keep_fields() override {
+    kept_averages_.reset();
+    keeps_averages_ = true;
   }
 
   void add_nodal_volume(double weight, std::span<double> out) const override {
@@ -127,7 +134,7 @@ class PointBlock : public BlockKernel {
 
   std::size_t bytes() const override {
     return geometry_.bytes() + points_.bytes() + properties_.bytes() + slots_.bytes() + averages_.bytes() +
-           kept_stress_.capacity() * sizeof(Sym<Lane>);
+           (kept_averages_ ? kept_averages_->bytes() : 0) + kept_stress_.capacity() * sizeof(Sym<Lane>);
   }
 
  protected:
@@ -251,6 +258,7 @@ class PointBlock : public BlockKernel {
   }
 
   void keep(Index batch, const Average& average) {
+    if (std::exchange(keeps_averages_, false)) kept_averages_ = averages_;
     const Lane inverse = select(average.volume > Lane(0.0), Lane(1.0) / average.volume,
                                 Lane(0.0));  // padding has no volume
     Values mean{};
@@ -367,7 +375,10 @@ class PointBlock : public BlockKernel {
   std::size_t n_state_, n_kept_;        ///< of them; with n_extra: lanes of a point's history
   CommonPacks<Properties> properties_;  ///< at Θ_n: [batch][point]
   algebra::LaneSlots slots_;
-  CommonPacks<Values> averages_;         ///< [batch]
+  CommonPacks<Values> averages_;  ///< [batch], of the last finish()
+  /// Those that are kept, from the next finish() until the one after it is committed.
+  std::optional<CommonPacks<Values>> kept_averages_;
+  bool keeps_averages_ = false;          ///< the next finish() sets them aside
   std::span<const double> temperature_;  ///< Θ_n of the step, [local node]
   const BlockHistory* old_history_ = nullptr;
   const BlockHistory* start_history_ = nullptr;

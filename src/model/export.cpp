@@ -120,11 +120,14 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
                                .ties = tied_entries(a.mechanics->ties(), still.mechanics.displacement.size()),
                                .force = a.mechanics->applied_forces()};
   if (options.deformed) deck.displacement = still.mechanics.displacement;
-  const std::vector<mechanics::ElementFields> fields = a.mechanics->element_fields();
+  const std::vector<double> plastic_strain =
+      a.mechanics->element_field(mechanics::ElementField::equivalent_plastic_strain);
+  auto of_block = plastic_strain.begin();
   for (std::size_t b = 0; b < a.mesh.blocks.size(); ++b) {
     const mesh::Block& block = a.mesh.blocks[b];
     deck.stress.emplace_back();
-    deck.plastic_strain.push_back(fields[b].equivalent_plastic_strain);
+    deck.plastic_strain.emplace_back(of_block, of_block + block.size());
+    of_block += block.size();
     if (!presence.body(block.body)) continue;
     const bool mean =
         spec.mechanics.b_bar && (block.shape == mesh::Shape::quad4 || block.shape == mesh::Shape::hex8);

@@ -10,6 +10,12 @@
 
 namespace solidus::results {
 
+std::span<const double> Field::read(std::vector<double>& storage) const {
+  if (!compute) return values;
+  storage = compute();
+  return storage;
+}
+
 void FieldSet::add(Field field) {
   if (find(field.name) != nullptr) throw std::invalid_argument("two fields named '" + field.name + "'");
   fields_.push_back(std::move(field));
@@ -44,11 +50,11 @@ std::size_t value_count(const mesh::Mesh& mesh, Place place, int components) {
   return n * static_cast<std::size_t>(components);
 }
 
-void check_size(const mesh::Mesh& mesh, const Field& field) {
+void check_size(const mesh::Mesh& mesh, const Field& field, std::size_t n_values) {
   const std::size_t needed = value_count(mesh, field.place, field.components);
-  if (field.values.size() != needed)
+  if (n_values != needed)
     throw std::invalid_argument(
-        fmt::format("field '{}' has {} values, the mesh needs {}", field.name, field.values.size(), needed));
+        fmt::format("field '{}' has {} values, the mesh needs {}", field.name, n_values, needed));
 }
 
 }  // namespace solidus::results

@@ -1,6 +1,8 @@
-/// The fields of one moment, as views of data that belongs to somebody else: what vtu writes and probes read.
+/// The fields of one moment: what vtu writes and probes read. They are views of data that belongs to somebody
+/// else, or computed whenever somebody reads them, so that nobody has to hold them.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,7 +24,11 @@ struct Field {
   std::string unit;  ///< of the values, SI: "K"; "1" for a fraction
   int components = 1;
   Place place = Place::node;
-  std::span<const double> values;
+  std::span<const double> values;                     ///< empty where they are computed
+  std::function<std::vector<double>()> compute = {};  ///< local to this process; empty: there are values
+
+  /// The values, computed ones in `storage`. Who reads several times keeps what it got.
+  std::span<const double> read(std::vector<double>& storage) const;
 };
 
 class FieldSet {
@@ -49,7 +55,7 @@ class FieldSet {
 /// Number of values a field of this place and number of components has on this process.
 std::size_t value_count(const mesh::Mesh& mesh, Place place, int components);
 
-/// Throws std::invalid_argument when the number of values does not fit the mesh (our bug).
-void check_size(const mesh::Mesh& mesh, const Field& field);
+/// Throws std::invalid_argument when the number of values that a field has does not fit the mesh (our bug).
+void check_size(const mesh::Mesh& mesh, const Field& field, std::size_t n_values);
 
 }  // namespace solidus::results

@@ -1,6 +1,8 @@
 /// Files that are written whole or not at all, and files that grow line by line; both report every failure.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -32,6 +34,31 @@ class OutputFile {
   };
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Closer> file_;
+};
+
+/// Bytes set aside on disk until what stands before them is known. The file has no name, so nothing is left
+/// of it whatever happens. Every member throws OutputError with the path.
+class SpoolFile {
+ public:
+  /// @param path  where it is made; tells the disk
+  explicit SpoolFile(std::filesystem::path path);
+
+  void write(std::span<const std::byte> bytes);
+  /// Over what was written at `at`.
+  void overwrite(std::uint64_t at, std::span<const std::byte> bytes);
+  std::uint64_t size() const { return size_; }
+  /// Everything, from the start.
+  void copy_to(OutputFile& out);
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  void seek(std::uint64_t at);
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Closer> file_;
+  std::uint64_t size_ = 0;
 };
 
 /// Writes to `path`.part and gives it its name when whole: whoever opens `path` sees the old file or the new

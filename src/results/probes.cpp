@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <span>
 #include <stdexcept>
 
 #include "algebra/parallel.hpp"
@@ -59,9 +61,10 @@ double element_size(const Mesh& mesh, const mesh::Block& block, Index e) {
   return size;
 }
 
-double component_of(const Field& field, std::size_t entity, int component) {
+/// @param values  of the field
+double component_of(const Field& field, std::span<const double> values, std::size_t entity, int component) {
   const auto nc = static_cast<std::size_t>(field.components);
-  const double* v = field.values.data() + entity * nc;
+  const double* v = values.data() + entity * nc;
   if (component != k_magnitude) return v[component];
   double square = 0;
   for (std::size_t c = 0; c < nc; ++c) square += v[c] * v[c];
@@ -255,33 +258,45 @@ Probes::Sample Probes::global_sample(const GlobalProbe& probe, const std::vector
   return sample;
 }
 
+void Probes::take(const Sample& sample, const Field& field, std::span<const double> values,
+                  const algebra::Presence* presence, Totals to) {
+  const double sign = sample.reduce == Reduce::minimum ? -1.0 : 1.0;
+  for (const auto& [entity, weight] : sample.weights) {
+    const double value = component_of(field, values, entity, sample.component);
+    if (sample.reduce == Reduce::sum) {
+      to.sum += weight * value;
+      continue;
+    }
+    // Written so that a NaN stays and is found in the end, which std::max would lose.
+    const auto raise = [&](double& peak) { peak = sign * value <= peak ? peak : sign * value; };
+    raise(to.peak_of_all);
+    const bool there =
+        presence == nullptr || field.place == Place::cell || presence->node(static_cast<Index>(entity));
+    if (there) raise(to.peak);
+  }
+}
+
 std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Reading>& globals) const {
   // In SI; minima and maxima in one reduction (the maximum of the negated value is the minimum). The second
   // half of the peaks counts bodies that have left too: for groups that are theirs alone.
   const std::size_t n_samples = samples_.size();
   std::vector<double> sums(n_samples, 0.0), peaks(2 * n_samples, 0.0);
   const algebra::Presence* presence = fields.presence();
-  for (std::size_t s = 0; s < samples_.size(); ++s) {
+  std::map<const Field*, std::vector<std::size_t>> samples_of;  // a field is read once, one at a time
+  for (std::size_t s = 0; s < n_samples; ++s) {
     const Sample& sample = samples_[s];
     if (sample.reduce == Reduce::linear || sample.reduce == Reduce::global) continue;
     const Field* field = fields.find(sample.field);
     if (field == nullptr) throw std::invalid_argument("probes: no field '" + sample.field + "'");
-    const double sign = sample.reduce == Reduce::minimum ? -1.0 : 1.0;
     if (sample.reduce != Reduce::sum)
       peaks[s] = peaks[n_samples + s] = -std::numeric_limits<double>::infinity();
-    for (const auto& [entity, weight] : sample.weights) {
-      const double value = component_of(*field, entity, sample.component);
-      if (sample.reduce == Reduce::sum) {
-        sums[s] += weight * value;
-        continue;
-      }
-      // Written so that a NaN stays and is found below, which std::max would lose.
-      const auto raise = [&](double& peak) { peak = sign * value <= peak ? peak : sign * value; };
-      raise(peaks[n_samples + s]);
-      const bool there =
-          presence == nullptr || field->place == Place::cell || presence->node(static_cast<Index>(entity));
-      if (there) raise(peaks[s]);
-    }
+    if (!sample.weights.empty()) samples_of[field].push_back(s);
+  }
+  for (const auto& [field, samples] : samples_of) {
+    std::vector<double> storage;
+    const std::span<const double> values = field->read(storage);
+    for (const std::size_t s : samples)
+      take(samples_[s], *field, values, presence, {sums[s], peaks[s], peaks[n_samples + s]});
   }
   const int n = static_cast<int>(n_samples);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), n, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);

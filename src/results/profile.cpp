@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "algebra/parallel.hpp"
 #include "results/output_error.hpp"
@@ -38,9 +39,10 @@ std::vector<double> on_first_of_all(const std::vector<double>& mine) {
   return all;
 }
 
-double component_at(const Field& field, Index node, int component) {
+/// @param values  of the field
+double component_at(const Field& field, std::span<const double> values, Index node, int component) {
   const auto n = static_cast<std::size_t>(field.components);
-  const double* v = field.values.data() + static_cast<std::size_t>(node) * n;
+  const double* v = values.data() + static_cast<std::size_t>(node) * n;
   if (component != k_magnitude) return v[component];
   return std::sqrt(std::inner_product(v, v + n, v, 0.0));
 }
@@ -84,13 +86,18 @@ std::vector<Column> ProfileTable::columns() const {
 
 std::vector<double> ProfileTable::gather(const FieldSet& fields) const {
   std::vector<double> mine;
+  std::vector<const Field*> of_column;
+  std::vector<std::vector<double>> storage(shown_.size());
+  std::vector<std::span<const double>> values;
+  for (std::size_t c = 0; c < shown_.size(); ++c) {
+    of_column.push_back(fields.find(profile_.columns[c].field));
+    values.push_back(of_column[c]->read(storage[c]));
+  }
   for (const Index node : nodes_) {
     for (int i = 0; i < dimension_; ++i)
       mine.push_back(length_(mesh_.x[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)]));
-    for (std::size_t c = 0; c < shown_.size(); ++c) {
-      const Sampled& column = profile_.columns[c];
-      mine.push_back(shown_[c](component_at(*fields.find(column.field), node, column.component)));
-    }
+    for (std::size_t c = 0; c < shown_.size(); ++c)
+      mine.push_back(shown_[c](component_at(*of_column[c], values[c], node, profile_.columns[c].component)));
   }
   return on_first_of_all(mine);
 }

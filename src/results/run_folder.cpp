@@ -61,7 +61,7 @@ bool strip_number(std::string_view& name, std::size_t least) {
 
 /// fields_00012.vtu, surface_NAME_00012_p3.vtu, their .pvtu lists, and what an interrupted run left of them.
 bool is_field_file(std::string_view name) {
-  strip(name, ".part");
+  if (!strip(name, ".part")) strip(name, ".spool");
   if (!strip(name, ".pvtu") && !strip(name, ".vtu")) return false;
   std::string_view without_process = name;
   if (strip_number(without_process, 1) && strip(without_process, "_p")) name = without_process;

@@ -20,6 +20,23 @@ constexpr FieldName k_remembered[] = {{"slip", "m"},
                                       {"friction_dissipation", "J/m2"},
                                       {"wear_depth", "m"}};
 
+using mechanics::ElementField;
+struct ElementFieldName {
+  const char *name, *unit;
+  ElementField which;
+  bool plastic;  ///< of bodies that flow plastically
+};
+constexpr ElementFieldName k_elements[] = {
+    {"stress", "Pa", ElementField::stress, false},
+    {"von_mises", "Pa", ElementField::von_mises, false},
+    {"pressure", "Pa", ElementField::pressure, false},
+    {"viscous_strain", "1", ElementField::viscous_strain, false},
+    {"dissipation", "W/m3", ElementField::dissipation, false},
+    {"plastic_strain", "1", ElementField::plastic_strain, true},
+    {"equivalent_plastic_strain", "1", ElementField::equivalent_plastic_strain, true},
+    {"back_stress", "Pa", ElementField::back_stress, true},
+    {"flow_stress", "Pa", ElementField::flow_stress, true}};
+
 bool rubs(const contact::ContactPair* pair) {
   return pair->spec().friction.has_value();
 }
@@ -36,16 +53,6 @@ bool with_friction(const coupling::Phases& phases) {
   return phases.mechanics != nullptr && std::any_of(phases.contacts.begin(), phases.contacts.end(), rubs);
 }
 
-// Copies [element][component] of one block behind what is there already.
-template <std::size_t n>
-void append(std::vector<double>& to, std::size_t& at, const std::vector<std::array<double, n>>& from) {
-  for (const auto& values : from)
-    for (const double v : values) to[at++] = v;
-}
-void append(std::vector<double>& to, std::size_t& at, const std::vector<double>& from) {
-  for (const double v : from) to[at++] = v;
-}
-
 }  // namespace
 
 StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
@@ -60,21 +67,12 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
       add("velocity", "m/s", phases.mechanics->components(), Place::node);
       add("acceleration", "m/s2", phases.mechanics->components(), Place::node);
     }
-    add("stress", "Pa", 6, Place::cell);
-    add("von_mises", "Pa", 1, Place::cell);
-    add("pressure", "Pa", 1, Place::cell);
-    add("viscous_strain", "1", 6, Place::cell);
-    add("dissipation", "W/m3", 1, Place::cell);
-    if (phases.mechanics->plastic()) {
-      add("plastic_strain", "1", 6, Place::cell);
-      add("equivalent_plastic_strain", "1", 1, Place::cell);
-      add("back_stress", "Pa", 6, Place::cell);
-      add("flow_stress", "Pa", 1, Place::cell);
-    }
+    add_elements();
   }
   const std::size_t n_of_phases = values_.size();
   add_criteria();
-  for (const auto& v : values_) bodies_.add({v->name, v->unit, v->components, v->place, v->values});
+  for (const auto& v : values_)
+    bodies_.add({v->name, v->unit, v->components, v->place, v->values, v->compute});
   if (phases.contacts.empty()) return;
 
   FieldSet contact;
@@ -104,11 +102,23 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
 }
 
 std::vector<double>& StateFields::add(std::string name, std::string unit, int components, Place place) {
-  auto v = std::make_unique<Values>(Values{std::move(name), std::move(unit), components, place, {}, false});
+  auto v =
+      std::make_unique<Values>(Values{std::move(name), std::move(unit), components, place, {}, false, {}});
   v->values.assign(value_count(mesh_, place, components), 0.0);
   by_name_[v->name] = &v->values;
   values_.push_back(std::move(v));
   return values_.back()->values;
+}
+
+void StateFields::add_elements() {
+  for (const ElementFieldName& field : k_elements) {
+    if (field.plastic && !phases_.mechanics->plastic()) continue;
+    const auto compute = [phase = phases_.mechanics, which = field.which] {
+      return phase->element_field(which);
+    };
+    values_.push_back(std::make_unique<Values>(
+        Values{field.name, field.unit, component_count(field.which), Place::cell, {}, false, compute}));
+  }
 }
 
 void StateFields::add_criteria() {
@@ -146,29 +156,9 @@ void StateFields::update(const coupling::State& state) {
       std::copy(state.mechanics.acceleration.begin(), state.mechanics.acceleration.end(),
                 by_name_["acceleration"]->begin());
     }
-    update_elements();
+    phases_.mechanics->keep_fields();
   }
   if (!phases_.contacts.empty()) update_contacts(state.heat.temperature);
-}
-
-void StateFields::update_elements() {
-  const std::vector<mechanics::ElementFields> blocks = phases_.mechanics->element_fields();
-  std::map<std::string, std::size_t> filled;
-  const auto append_to = [&](const char* name, const auto& values) {
-    append(*by_name_.at(name), filled[name], values);
-  };
-  for (const mechanics::ElementFields& block : blocks) {
-    append_to("stress", block.stress);
-    append_to("von_mises", block.von_mises);
-    append_to("pressure", block.pressure);
-    append_to("viscous_strain", block.viscous_strain);
-    append_to("dissipation", block.dissipation);
-    if (!phases_.mechanics->plastic()) continue;
-    append_to("plastic_strain", block.plastic_strain);
-    append_to("equivalent_plastic_strain", block.equivalent_plastic_strain);
-    append_to("back_stress", block.back_stress);
-    append_to("flow_stress", block.flow_stress);
-  }
 }
 
 // A node of several pairs shows its closest partner; nodes away from the surfaces show zero.

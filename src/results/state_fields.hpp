@@ -24,13 +24,15 @@ class StateFields {
  public:
   StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases);
 
-  /// Takes the values of a state that the phases have just reached (stresses and gaps are those of their last
-  /// solve). Collective.
+  /// Takes the values of a state that the phases have just reached and committed (stresses and gaps are those
+  /// of their last solve). Fields of elements are computed when they are read, and stay those of this moment
+  /// until the next call. Collective.
   void update(const coupling::State& state);
   /// The same for what criteria show, which costs more and is asked for less often. Collective.
   void update_criteria(const coupling::State& state);
 
-  /// Fields of the bodies, and of each contact surface by its name. Views that hold until this object goes.
+  /// Fields of the bodies, and of each contact surface by its name. They can be read until this object or the
+  /// phases go.
   const FieldSet& bodies() const { return bodies_; }
   const std::map<std::string, FieldSet>& surfaces() const { return surfaces_; }
 
@@ -41,10 +43,11 @@ class StateFields {
     Place place;
     std::vector<double> values;
     bool of_contact;
+    std::function<std::vector<double>()> compute;  ///< instead of values
   };
   std::vector<double>& add(std::string name, std::string unit, int components, Place place);
+  void add_elements();
   void add_criteria();
-  void update_elements();
   void update_contacts(std::span<const double> temperature);
   /// @param closest  of each node of the fields: it shows this pair
   void update_heat(const contact::ContactNodalFields& fields, std::span<const char> closest);

@@ -13,11 +13,6 @@ namespace {
 
 // Fields are written often and read seldom; higher levels cost several times more for some percent.
 constexpr int k_compression = 1;
-constexpr std::size_t k_block_bytes = std::size_t{1} << 17;
-
-void append_number(std::string& out, std::uint64_t value) {
-  out.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 
 }  // namespace
 
@@ -61,31 +56,39 @@ std::string array_information(const ArrayHead& head) {
 
 // [number of blocks][bytes of a block][bytes of the last block if it is shorter, else 0][compressed bytes of
 // each block ...][blocks ...]
-std::string AppendedData::add_bytes(const ArrayHead& head, std::string_view type,
-                                    std::span<const std::byte> values) {
-  const std::size_t offset = bytes_.size();
-  const std::size_t n_blocks = (values.size() + k_block_bytes - 1) / k_block_bytes;
-  append_number(bytes_, n_blocks);
-  append_number(bytes_, k_block_bytes);
-  append_number(bytes_, values.size() % k_block_bytes);
-  const std::size_t sizes = bytes_.size();
-  bytes_.resize(sizes + n_blocks * sizeof(std::uint64_t));
+void AppendedData::begin(std::size_t n_bytes) {
+  const std::size_t n_blocks = (n_bytes + k_block_bytes - 1) / k_block_bytes;
+  const std::array<std::uint64_t, 3> head = {n_blocks, k_block_bytes, n_bytes % k_block_bytes};
+  to_.write(std::as_bytes(std::span(head)));
+  sizes_at_ = to_.size();
+  sizes_.assign(n_blocks, 0);
+  to_.write(std::as_bytes(std::span(sizes_)));
+  sizes_.clear();
+  filled_ = 0;
+  left_ = n_bytes;
+}
 
-  for (std::size_t b = 0; b < n_blocks; ++b) {
-    const auto block =
-        values.subspan(b * k_block_bytes, std::min(k_block_bytes, values.size() - b * k_block_bytes));
-    uLongf size = compressBound(static_cast<uLong>(block.size()));
-    const std::size_t start = bytes_.size();
-    bytes_.resize(start + size);
-    if (compress2(reinterpret_cast<Bytef*>(bytes_.data() + start), &size,
-                  reinterpret_cast<const Bytef*>(block.data()), static_cast<uLong>(block.size()),
-                  k_compression) != Z_OK)
-      throw std::runtime_error("zlib could not compress field '" + head.name + "'");
-    bytes_.resize(start + size);
-    const std::uint64_t compressed = size;
-    std::copy_n(reinterpret_cast<const char*>(&compressed), sizeof compressed,
-                bytes_.begin() + static_cast<std::ptrdiff_t>(sizes + b * sizeof compressed));
-  }
+void AppendedData::write_block() {
+  compressed_.resize(compressBound(static_cast<uLong>(k_block_bytes)));
+  uLongf size = static_cast<uLongf>(compressed_.size());
+  if (compress2(reinterpret_cast<Bytef*>(compressed_.data()), &size,
+                reinterpret_cast<const Bytef*>(block_.data()), static_cast<uLong>(filled_),
+                k_compression) != Z_OK)
+    throw std::runtime_error("zlib could not compress a field");
+  to_.write(std::span<const std::byte>(compressed_).first(size));
+  sizes_.push_back(size);
+  left_ -= std::min(left_, filled_);
+  filled_ = 0;
+}
+
+void AppendedData::end() {
+  if (left_ != filled_)
+    throw std::logic_error("an array has another number of values than it was said to have");
+  if (filled_ > 0) write_block();
+  to_.overwrite(sizes_at_, std::as_bytes(std::span(sizes_)));
+}
+
+std::string AppendedData::element(const ArrayHead& head, std::string_view type, std::uint64_t offset) {
   return fmt::format("        <DataArray {} format=\"appended\" offset=\"{}\">{}</DataArray>\n",
                      array_attributes(head, type), offset, array_information(head));
 }

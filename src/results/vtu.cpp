@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <petscsys.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -63,39 +64,38 @@ namespace {
 struct Part {
   const Mesh& mesh;
   std::span<const Block> blocks;
-  bool volume;               // the blocks are Mesh::blocks: cell fields belong to them
-  std::vector<Index> nodes;  // local numbers, in the order of the file
-  std::vector<std::int64_t> connectivity, offsets;
-  std::vector<std::uint8_t> types;
+  bool volume;                // the blocks are Mesh::blocks: cell fields belong to them
+  std::vector<Index> nodes;   // local numbers, in the order of the file
+  std::vector<Index> number;  // the inverse; -1 elsewhere
+  std::size_t n_cells = 0, n_corners = 0;
 };
 
 Part make_part(const Mesh& mesh, std::span<const Block> blocks, bool volume) {
-  Part part{mesh, blocks, volume, {}, {}, {}, {}};
-  std::vector<Index> number(mesh.x.size(), -1);
-  for (const Block& block : blocks)
+  Part part{mesh, blocks, volume, {}, std::vector<Index>(mesh.x.size(), -1)};
+  for (const Block& block : blocks) {
+    const auto n = static_cast<std::size_t>(block.n_counted);
+    part.n_cells += n;
+    part.n_corners += n * static_cast<std::size_t>(mesh::node_count(block.shape));
     for (Index e = 0; e < block.n_counted; ++e)
       for (int a = 0; a < mesh::node_count(block.shape); ++a)
-        number[static_cast<std::size_t>(block.element(e)[a])] = 0;
-  for (std::size_t node = 0; node < number.size(); ++node)
-    if (number[node] == 0) {
-      number[node] = static_cast<Index>(part.nodes.size());
+        part.number[static_cast<std::size_t>(block.element(e)[a])] = 0;
+  }
+  part.nodes.reserve(part.number.size() -
+                     static_cast<std::size_t>(std::count(part.number.begin(), part.number.end(), Index{-1})));
+  for (std::size_t node = 0; node < part.number.size(); ++node)
+    if (part.number[node] == 0) {
+      part.number[node] = static_cast<Index>(part.nodes.size());
       part.nodes.push_back(static_cast<Index>(node));
     }
-  for (const Block& block : blocks) {
-    const auto order = vtk_node_order(block.shape);
-    const auto type = static_cast<std::uint8_t>(vtk_cell_type(block.shape));
-    for (Index e = 0; e < block.n_counted; ++e) {
-      for (const int a : order)
-        part.connectivity.push_back(number[static_cast<std::size_t>(block.element(e)[a])]);
-      part.offsets.push_back(static_cast<std::int64_t>(part.connectivity.size()));
-      part.types.push_back(type);
-    }
-  }
   return part;
 }
 
 int file_components(const Field& field) {
   return field.components == 2 ? 3 : field.components;
+}
+
+ArrayHead head_of(const Field& field) {
+  return {field.name, file_components(field), field.unit};
 }
 
 std::string near(const Mesh& mesh, Index node) {
@@ -105,37 +105,38 @@ std::string near(const Mesh& mesh, Index node) {
 
 // The file's values of a field: those of the part's nodes or cells, two components padded to three. Throws
 // NotFiniteError with the place.
-std::vector<double> file_values(const Part& part, const Field& field) {
+std::string add_field(AppendedData& data, const Part& part, const Field& field) {
+  std::vector<double> storage;
+  const std::span<const double> values = field.read(storage);
+  const Mesh& mesh = part.mesh;
+  check_size(mesh, field, values.size());
   const auto nc = static_cast<std::size_t>(field.components);
   const auto pad = static_cast<std::size_t>(file_components(field)) - nc;
-  std::vector<double> out;
-  const auto take = [&](std::size_t entity, const auto& where) {
-    for (const double value : field.values.subspan(entity * nc, nc)) {
-      if (!std::isfinite(value)) throw NotFiniteError("field '" + field.name + "'", where());
-      out.push_back(value);
+  const bool at_nodes = field.place == Place::node;
+  const std::size_t n = (at_nodes ? part.nodes.size() : part.n_cells) * (nc + pad);
+  return data.add<double>(head_of(field), n, [&](const auto& put) {
+    const auto take = [&](std::size_t entity, const auto& where) {
+      for (const double value : values.subspan(entity * nc, nc)) {
+        if (!std::isfinite(value)) throw NotFiniteError("field '" + field.name + "'", where());
+        put(value);
+      }
+      for (std::size_t i = 0; i < pad; ++i) put(0.0);
+    };
+    if (at_nodes)
+      for (const Index node : part.nodes)
+        take(static_cast<std::size_t>(node), [&] {
+          return fmt::format("node {} {}", mesh.input_node[static_cast<std::size_t>(node)], near(mesh, node));
+        });
+    std::size_t first = 0;
+    for (const Block& block : at_nodes ? std::span<const Block>() : part.blocks) {
+      for (Index e = 0; e < block.n_counted; ++e)
+        take(first + static_cast<std::size_t>(e), [&] {
+          return fmt::format("element {} near {}", block.input_element[static_cast<std::size_t>(e)],
+                             near(mesh, block.element(e)[0]));
+        });
+      first += static_cast<std::size_t>(block.size());
     }
-    out.insert(out.end(), pad, 0.0);
-  };
-  const Mesh& mesh = part.mesh;
-  if (field.place == Place::node) {
-    out.reserve(part.nodes.size() * (nc + pad));
-    for (const Index node : part.nodes)
-      take(static_cast<std::size_t>(node), [&] {
-        return fmt::format("node {} {}", mesh.input_node[static_cast<std::size_t>(node)], near(mesh, node));
-      });
-    return out;
-  }
-  out.reserve(part.types.size() * (nc + pad));
-  std::size_t first = 0;
-  for (const Block& block : part.blocks) {
-    for (Index e = 0; e < block.n_counted; ++e)
-      take(first + static_cast<std::size_t>(e), [&] {
-        return fmt::format("element {} near {}", block.input_element[static_cast<std::size_t>(e)],
-                           near(mesh, block.element(e)[0]));
-      });
-    first += static_cast<std::size_t>(block.size());
-  }
-  return out;
+  });
 }
 
 // VTK's vtkGhostType: readers keep the cell, filters and views pass over it.
@@ -143,12 +144,36 @@ constexpr std::uint8_t k_hidden_cell = 32;
 constexpr const char* k_ghost_type = "vtkGhostType";
 
 template <class T, class F>
-std::vector<T> of_cells(const Part& part, const F& value) {
-  std::vector<T> out;
-  out.reserve(part.types.size());
-  for (const Block& block : part.blocks)
-    for (Index e = 0; e < block.n_counted; ++e) out.push_back(static_cast<T>(value(block, e)));
-  return out;
+std::string add_of_cells(AppendedData& data, const Part& part, const std::string& name, const F& value) {
+  return data.add<T>({name}, part.n_cells, [&](const auto& put) {
+    for (const Block& block : part.blocks)
+      for (Index e = 0; e < block.n_counted; ++e) put(static_cast<T>(value(block, e)));
+  });
+}
+
+std::string add_points(AppendedData& data, const Part& part) {
+  return data.add<double>({"Points", 3, "m"}, 3 * part.nodes.size(), [&](const auto& put) {
+    for (const Index node : part.nodes)
+      for (const double x : part.mesh.x[static_cast<std::size_t>(node)]) put(x);
+  });
+}
+
+// The data in the order in which they have always been in the file.
+std::string add_cells(AppendedData& data, const Part& part) {
+  const std::string types = add_of_cells<std::uint8_t>(
+      data, part, "types", [](const Block& block, Index) { return vtk_cell_type(block.shape); });
+  std::int64_t end = 0;
+  const std::string offsets = add_of_cells<std::int64_t>(
+      data, part, "offsets", [&](const Block& block, Index) { return end += mesh::node_count(block.shape); });
+  const std::string connectivity =
+      data.add<std::int64_t>({"connectivity"}, part.n_corners, [&](const auto& put) {
+        for (const Block& block : part.blocks) {
+          const auto order = vtk_node_order(block.shape);
+          for (Index e = 0; e < block.n_counted; ++e)
+            for (const int a : order) put(part.number[static_cast<std::size_t>(block.element(e)[a])]);
+        }
+      });
+  return connectivity + offsets + types;
 }
 
 // ' Scalars="temperature" Vectors="displacement"': what ParaView shows first.
@@ -171,14 +196,9 @@ std::string vtk_head(std::string_view type) {
       type, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
 }
 
-ArrayHead head_of(const Field& field) {
-  return {field.name, file_components(field), field.unit};
-}
-
 void write_part(const std::filesystem::path& path, const Part& part, const FieldSet& fields, double time) {
-  for (const Field& field : fields.all()) check_size(part.mesh, field);
-  const Mesh& mesh = part.mesh;
-  AppendedData data;
+  SpoolFile spool(path.string() + ".spool");
+  AppendedData data(spool);
   std::string xml = vtk_head("UnstructuredGrid");
   xml += "  <UnstructuredGrid>\n    <FieldData>\n";
   xml += fmt::format(
@@ -186,48 +206,39 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
       "</DataArray>\n    </FieldData>\n",
       time);
   xml += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", part.nodes.size(),
-                     part.types.size());
+                     part.n_cells);
 
   xml += fmt::format("      <PointData{}>\n", active(fields, Place::node));
   for (const Field& field : fields.all())
-    if (field.place == Place::node) xml += data.add(head_of(field), file_values(part, field));
-  std::vector<std::int64_t> numbers;
-  for (const Index node : part.nodes) numbers.push_back(mesh.input_node[static_cast<std::size_t>(node)]);
-  xml += data.add({"node"}, numbers);
+    if (field.place == Place::node) xml += add_field(data, part, field);
+  xml += data.add<std::int64_t>({"node"}, part.nodes.size(), [&part](const auto& put) {
+    for (const Index node : part.nodes) put(part.mesh.input_node[static_cast<std::size_t>(node)]);
+  });
   xml += "      </PointData>\n";
 
   xml += fmt::format("      <CellData{}>\n", part.volume ? active(fields, Place::cell) : "");
   if (part.volume)
     for (const Field& field : fields.all())
-      if (field.place == Place::cell) xml += data.add(head_of(field), file_values(part, field));
+      if (field.place == Place::cell) xml += add_field(data, part, field);
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  xml += data.add({"element"}, of_cells<std::int64_t>(part, [](const Block& block, Index e) {
-                    return block.input_element[static_cast<std::size_t>(e)];
-                  }));
-  xml +=
-      data.add({"body"}, of_cells<std::int32_t>(part, [](const Block& block, Index) { return block.body; }));
-  xml += data.add({"process"}, of_cells<std::int32_t>(part, [rank](const Block&, Index) { return rank; }));
+  xml += add_of_cells<std::int64_t>(data, part, "element", [](const Block& block, Index e) {
+    return block.input_element[static_cast<std::size_t>(e)];
+  });
+  xml += add_of_cells<std::int32_t>(data, part, "body", [](const Block& block, Index) { return block.body; });
+  xml += add_of_cells<std::int32_t>(data, part, "process", [rank](const Block&, Index) { return rank; });
   if (const algebra::Presence* presence = fields.presence())
-    xml += data.add({k_ghost_type}, of_cells<std::uint8_t>(part, [presence](const Block& block, Index) {
-                      return block.body < 0 || presence->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
-                    }));
+    xml += add_of_cells<std::uint8_t>(data, part, k_ghost_type, [presence](const Block& block, Index) {
+      return block.body < 0 || presence->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
+    });
   xml += "      </CellData>\n";
-
-  std::vector<double> points;
-  points.reserve(3 * part.nodes.size());
-  for (const Index node : part.nodes) {
-    const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
-    points.insert(points.end(), x.begin(), x.end());
-  }
-  xml += "      <Points>\n" + data.add({"Points", 3, "m"}, points) + "      </Points>\n";
-  xml += "      <Cells>\n" + data.add({"connectivity"}, part.connectivity) +
-         data.add({"offsets"}, part.offsets) + data.add({"types"}, part.types) + "      </Cells>\n";
+  xml += "      <Points>\n" + add_points(data, part) + "      </Points>\n";
+  xml += "      <Cells>\n" + add_cells(data, part) + "      </Cells>\n";
   xml += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _";
 
   AtomicFile file(path);
   file.write(xml);
-  file.write(data.bytes());
+  spool.copy_to(file.file());
   file.write("\n  </AppendedData>\n</VTKFile>\n");
   file.commit();
 }

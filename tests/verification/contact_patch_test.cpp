@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../unit/mechanics/element_fields.hpp"
 #include "contact_steps.hpp"
 
 namespace solidus {
@@ -66,7 +67,7 @@ Deviation press(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactSpec 
     d.left = std::max(d.left, std::abs(point.penetration));
   }
   const std::size_t axis = mesh.dimension == 2 ? 1 : 2;
-  for (const auto& block : run.phase.element_fields())
+  for (const auto& block : test::element_fields(run.phase))
     for (const auto& sigma : block.stress) d.stress = std::max(d.stress, std::abs(sigma[axis] / p + 1));
   for (double* value : {&d.pressure, &d.stress, &d.penetration, &d.left})
     *value = algebra::global_max(*value);

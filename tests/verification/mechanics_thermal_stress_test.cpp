@@ -66,7 +66,7 @@ Spread spread(const Body& body, const std::vector<std::vector<std::array<double,
 struct Fields {
   std::vector<std::vector<std::array<double, 6>>> stress, strain;
   explicit Fields(const mechanics::MechanicalPhase& phase) {
-    for (auto& block : phase.element_fields()) {
+    for (auto& block : test::element_fields(phase)) {
       stress.push_back(block.stress);
       strain.push_back(block.strain);
     }

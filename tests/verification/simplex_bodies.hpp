@@ -115,7 +115,7 @@ inline double roughness(const mesh::Block& block, const Cells& cells, const std:
 /// Of the pressure of a solved body.
 inline double roughness(const test::Body& body, const mechanics::MechanicalPhase& phase) {
   const mesh::Block& block = body.mesh.blocks[0];
-  return roughness(block, Cells(body.mesh, block, body.kind), phase.element_fields()[0].pressure);
+  return roughness(block, Cells(body.mesh, block, body.kind), test::element_fields(phase)[0].pressure);
 }
 
 }  // namespace solidus::verification

@@ -64,7 +64,7 @@ Errors rest(const Element& element, AnalysisKind kind, double viscosity, mechani
     errors.iterations += solved.report.newton.iterations;
   }
   const verification::Cells cells(body.mesh, body.mesh.blocks[0], kind);
-  const std::vector<double> pressure = solved.phase->element_fields()[0].pressure;
+  const std::vector<double> pressure = test::element_fields(*solved.phase)[0].pressure;
   for (std::size_t e = 0; e < pressure.size(); ++e)
     errors.pressure = std::max(errors.pressure,
                                std::abs(pressure[e] / k_weight - (k_height - cells.centre[e][1])) / k_height);

@@ -1,6 +1,8 @@
 /// Bodies that take no part in mechanics: those that only conduct heat, and those that leave.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "../mesh/split_block.hpp"
 #include "body.hpp"
 
@@ -37,7 +39,7 @@ double at_plane(const test::Body& body, const test::Solved& solved) {
 
 double largest_stress(const test::Solved& solved) {
   double s = 0;
-  for (const mechanics::ElementFields& fields : solved.phase->element_fields())
+  for (const test::ElementFields& fields : test::element_fields(*solved.phase))
     for (const auto& stress : fields.stress) s = std::max(s, std::abs(stress[0]));
   return algebra::global_max(s);
 }
@@ -71,6 +73,38 @@ TEST_P(Springback, OfAPartThatAMouldHeldIsThatOfBarsInARow) {
     if (body.mesh.x[i][0] <= k_plane + 1e-9) continue;
     for (std::size_t k = 0; k < n; ++k) EXPECT_EQ(solved.state.displacement[i * n + k], before[i * n + k]);
   }
+}
+
+// A step that is tried and rejected, and a body that leaves, show with the step that is committed after them.
+TEST_P(Springback, KeptFieldsStayUntilTheNextOnesAreKept) {
+  test::Body body = bars(GetParam());
+  body.hold("x_min", 0, Table({1, 2, 3}, {1e-5, 2e-5, 3e-5}));
+  body.hold("x_max", 0);
+  test::Solved solved(body);
+  const auto fields = [&] {
+    return std::array{solved.phase->element_field(mechanics::ElementField::stress),
+                      solved.phase->element_field(mechanics::ElementField::von_mises)};
+  };
+  const auto committed = fields();
+  solved.phase->keep_fields();
+  EXPECT_EQ(fields(), committed);
+  for (const double time : {2.0, 3.0}) {
+    solved.step(body, time, 1.0);
+    EXPECT_EQ(fields(), committed) << time;
+  }
+  solved.phase->keep_fields();
+  EXPECT_NEAR(largest_stress(solved), 3e-5 / (k_plane / k_young + (k_length - k_plane) / k_soft), 1e2);
+  const auto next = fields();
+  EXPECT_TRUE(algebra::any_process(next != committed));
+
+  mechanics::Conditions later = body.conditions;
+  later.absent_bodies = {"right"};
+  solved.phase->set_conditions(later, solved.state.displacement);
+  EXPECT_EQ(fields(), next);
+  solved.step(body, 4.0, 1.0);
+  EXPECT_EQ(fields(), next);
+  solved.phase->keep_fields();
+  EXPECT_LT(largest_stress(solved), 1e2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Springback,

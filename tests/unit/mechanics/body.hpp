@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "element_fields.hpp"
 #include "lattice.hpp"
 #include "mechanics/mechanical_phase.hpp"
 

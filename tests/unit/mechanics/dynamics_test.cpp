@@ -135,7 +135,7 @@ constexpr double k_end = 5e-4;  // [s], some periods of the lowest mode along th
 
 /// Strain energy of linear triangles, whose stress is constant, of the last solve.
 double strain_energy(const Body& body, const mechanics::MechanicalPhase& phase) {
-  const mechanics::ElementFields fields = phase.element_fields().front();
+  const test::ElementFields fields = test::element_fields(phase).front();
   const mesh::Block& block = body.mesh.blocks.front();
   const mesh::BlockGeometry g(body.mesh, block, body.kind, mesh::stiffness_rule(block.shape));
   double energy = 0;

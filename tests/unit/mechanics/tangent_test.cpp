@@ -104,7 +104,8 @@ struct Setting {
     mechanics::BlockHistory trial = history;
     kernel.prepare({temperature, temperature, temperature, u, &history, &history, &history, 0.5, 0.5});
     kernel.finish(u, u, trial);
-    const std::vector<double> xi = kernel.fields().equivalent_plastic_strain;
+    std::vector<double> xi(static_cast<std::size_t>(mesh.blocks[0].size()));
+    kernel.get_field(mechanics::ElementField::equivalent_plastic_strain, xi);
     return static_cast<double>(std::count_if(xi.begin(), xi.end(), [](double x) { return x > 0; })) /
            static_cast<double>(xi.size());
   }

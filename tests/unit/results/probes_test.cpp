@@ -117,6 +117,29 @@ TEST_F(Block, ExtremesAreThoseOfTheNodesOfTheGroup) {
   EXPECT_GE(value(cells), 80);  // 8 × 5 cells cut in two
 }
 
+// Not held in between: the next row computes it anew, and sees what has changed.
+TEST_F(Block, ComputedFieldIsComputedOnceARow) {
+  const auto in_cells = [](const char* name, Statistic statistic) {
+    return GroupProbe{{{name, "1"}, "number", 0, {}}, "block", statistic};
+  };
+  const std::vector<Probe> asked = {in_cells("low", Statistic::minimum), point("K", {2, 0.5, 0}),
+                                    in_cells("high", Statistic::maximum)};
+  int computed = 0;
+  FieldSet lazy;
+  lazy.add({"temperature", "K", 1, Place::node, temperature});
+  lazy.add({"number", "1", 1, Place::cell, {}, [&] {
+              ++computed;
+              return first_node;
+            }});
+  const Probes probes(mesh, AnalysisKind::plane_strain, asked, lazy);
+  EXPECT_EQ(computed, 0);
+  EXPECT_EQ(probes.values(lazy), probes.values(fields));
+  EXPECT_EQ(computed, 1);
+  for (double& n : first_node) n += 1000;
+  EXPECT_EQ(probes.values(lazy), probes.values(fields));
+  EXPECT_EQ(computed, 2);
+}
+
 TEST_F(Block, CombinationsAreTakenBeforeUnitsAreShown) {
   PointProbe inner = point("degC", {1, 0.5, 0}), outer = point("K", {3, 0.5, 0});
   inner.column.name = "inner";

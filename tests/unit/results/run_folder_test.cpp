@@ -45,7 +45,8 @@ TEST(RunFolder, ReplacesAnEarlierRunAndKeepsForeignFiles) {
                                          "fields/fields_00003.vtu",
                                          "fields/fields_00003_p1.vtu",
                                          "fields/surface_wall_00003.pvtu",
-                                         "fields/fields_00004.vtu.part"};
+                                         "fields/fields_00004.vtu.part",
+                                         "fields/fields_00004.vtu.spool"};
   const std::vector<std::string> foreign = {"notes.txt", "plots.png", "fields/mine.vtu",
                                             "fields/mine_00001.vtu"};
   test::on_first([&] {

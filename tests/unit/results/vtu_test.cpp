@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "results/output_error.hpp"
+#include "results/vtk_data.hpp"
 #include "sample.hpp"
 #include "vtu_reader.hpp"
 
@@ -72,6 +73,45 @@ TEST_F(Vtu, HoldsOnlyCountedElementsAndTheirNodes) {
   EXPECT_EQ(file.array<double>("temperature"), (std::vector<double>{1, 2, 4, 5}));
   EXPECT_EQ(file.array<double>("pressure"), (std::vector<double>{2}));
   EXPECT_EQ(file.array<std::int64_t>("connectivity"), (std::vector<std::int64_t>{0, 1, 3, 2}));
+}
+
+TEST_F(Vtu, OfComputedFieldsIsTheSameFileWithoutHoldingThem) {
+  const auto pressure = count_up(3, 0.3), stress = count_up(18, 1.7e6), speed = count_up(12, 0.1);
+  FieldSet stored, computed;
+  int calls = 0;
+  const auto add = [&](const char* name, int components, Place place, const std::vector<double>& values) {
+    stored.add({name, "1", components, place, values});
+    computed.add({name, "1", components, place, {}, [&calls, values] {
+                    ++calls;
+                    return values;
+                  }});
+  };
+  add("speed", 2, Place::node, speed);
+  add("pressure", 1, Place::cell, pressure);
+  add("stress", 6, Place::cell, stress);
+  write_vtu(folder.path / "stored.vtu", mesh, stored, 3);
+  write_vtu(folder.path / "computed.vtu", mesh, computed.select({}), 3);
+  EXPECT_EQ(test::read_text(folder.path / "computed.vtu"), test::read_text(folder.path / "stored.vtu"));
+  EXPECT_EQ(calls, 3) << "each once";
+  for (const Field& field : computed.all()) {
+    std::vector<double> storage;
+    EXPECT_TRUE(field.values.empty());
+    const std::span<const double> values = field.read(storage);
+    EXPECT_EQ(values.data(), storage.data()) << "the reader's, and nobody else's";
+  }
+  for (const Field& field : stored.all()) {
+    std::vector<double> storage;
+    EXPECT_EQ(field.read(storage).data(), field.values.data());
+    EXPECT_TRUE(storage.empty());
+  }
+}
+
+TEST_F(Vtu, LeavesNothingButItselfInTheFolder) {
+  write_vtu(folder.path / "a.vtu", mesh, {}, 0);
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path))
+    names.push_back(file.path().filename());
+  EXPECT_EQ(names, (std::vector<std::string>{"a.vtu"}));
 }
 
 TEST_F(Vtu, HidesTheCellsOfBodiesThatHaveLeft) {
@@ -224,6 +264,61 @@ TEST_F(Vtu, LeavesNothingBehindOnAFullDisk) {
               (folder.path / "a.vtu.part").string() + ": cannot write: No space left on device");
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+}
+
+TEST_F(Vtu, IsNotBegunWhenTheDiskIsFullBeforeIt) {
+  std::filesystem::create_symlink("/dev/full", folder.path / "a.vtu.spool");
+  try {
+    write_vtu(folder.path / "a.vtu", mesh, {}, 0);
+    FAIL() << "must throw";
+  } catch (const OutputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              (folder.path / "a.vtu.spool").string() + ": cannot write: No space left on device");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+}
+
+TEST_F(Vtu, KeepsTheOldFileWhenAComputedFieldIsNotFinite) {
+  write_vtu(folder.path / "a.vtu", mesh, {}, 0);
+  const std::string before = test::read_text(folder.path / "a.vtu");
+  FieldSet fields;
+  fields.add({"number", "1", 1, Place::node, {}, [] { return count_up(6); }});
+  fields.add({"pressure", "Pa", 1, Place::cell, {}, [] {
+                return std::vector<double>{0, 1, std::numeric_limits<double>::quiet_NaN()};
+              }});
+  EXPECT_THROW(write_vtu(folder.path / "a.vtu", mesh, fields, 0), NotFiniteError);
+  EXPECT_EQ(test::read_text(folder.path / "a.vtu"), before);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "a.vtu.part"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "a.vtu.spool"));
+}
+
+TEST(AppendedData, RefusesAnotherNumberOfValuesThanItWasTold) {
+  test::TemporaryFolder folder;
+  SpoolFile spool(folder.path / "data");
+  AppendedData data(spool);
+  for (const int n : {1, 3})
+    EXPECT_THROW(data.add<double>({"v"}, 2,
+                                  [n](const auto& put) {
+                                    for (int i = 0; i < n; ++i) put(1.0);
+                                  }),
+                 std::logic_error);
+}
+
+TEST(SpoolFile, HasNoNameAndGivesBackWhatWasWritten) {
+  test::TemporaryFolder folder;
+  SpoolFile spool(folder.path / "data");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+  const auto write = [](const std::string& text) { return std::as_bytes(std::span(text)); };
+  const std::string many(300000, 'x'), place = "____", there = "here", last = "end";
+  spool.write(write(place));
+  spool.write(write(many));
+  spool.overwrite(0, write(there));
+  spool.write(write(last));
+  EXPECT_EQ(spool.size(), 300007U);
+  OutputFile out(folder.path / "out");
+  spool.copy_to(out);
+  out.close();
+  EXPECT_EQ(test::read_text(folder.path / "out"), there + many + last);
 }
 
 TEST_F(Vtu, ListsTheArraysAndPartsOfAllProcesses) {
