@@ -253,7 +253,7 @@ void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_lo
       rows[to].insert(rows[to].end(), reached.columns().begin(), reached.columns().end());
       if (rows[to].size() < compressed[to]) continue;
       compress(rows[to]);
-      compressed[to] = std::max<std::size_t>(64, 4 * rows[to].size());
+      compressed[to] = std::max<std::size_t>(64, 2 * rows[to].size());
     }
   }
   for (auto& list : rows) {

@@ -274,16 +274,18 @@ void Multigrid::set_up(BlockMatrix& a) {
 
 void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<const char> fixed, int modes,
                           std::vector<double> near_null) {
-  const auto n_rows = [](const Numbering& n) {
-    return static_cast<GlobalIndex>(global_sum(static_cast<double>(n.n_owned)));
-  };
   const std::size_t n_local = at(numbering.n_local()) * at(a.size),
                     n_owned = at(numbering.n_owned) * at(a.size);
   GhostExchange ghosts(numbering.n_owned, numbering.first, numbering.ghosts);
   RowExchange rows(numbering.n_owned, numbering.first, numbering.ghosts);
-  levels_.push_back({PackedRows(a, numbering.n_local(), symmetric_,
-                                levels_.empty() ? PackedRows::Pattern::referred_to  // it stays
-                                                : PackedRows::Pattern::copied),
+  const std::size_t index = levels_.size();
+  const Index columns = numbering.n_local();
+  const auto packed = [&] {
+    return PackedRows(a, columns, symmetric_,
+                      index == 0 ? PackedRows::Pattern::referred_to  // it stays
+                                 : PackedRows::Pattern::copied);
+  };
+  levels_.push_back({packed(),
                      {},
                      a.size,
                      std::move(numbering),
@@ -295,8 +297,20 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
                      std::vector<float>(n_local),
                      std::vector<float>(n_local),
                      std::vector<float>(n_owned)});
+  levels_.back().estimate_largest();
+  // While the coarser ones are made memory is shortest: it is read again in a fraction of their time.
+  levels_.back().matrix = {};
+  add_coarser(a, fixed, modes, std::move(near_null));
+  levels_[index].matrix = packed();
+}
+
+/// The levels below the last one.
+void Multigrid::add_coarser(const MatrixView& a, std::span<const char> fixed, int modes,
+                            std::vector<double> near_null) {
+  const auto n_rows = [](const Numbering& n) {
+    return static_cast<GlobalIndex>(global_sum(static_cast<double>(n.n_owned)));
+  };
   Level& level = levels_.back();
-  level.estimate_largest();
   const GlobalIndex before = n_rows(level.numbering);
   Coarsening next = coarsen(a, level.numbering, *level.rows, std::move(near_null), modes, fixed,
                             level.inverse_diagonal, level.largest);

@@ -46,6 +46,8 @@ class Multigrid {
   struct Coarsest;
   void add_level(const struct MatrixView& a, struct Numbering numbering, std::span<const char> fixed,
                  int modes, std::vector<double> near_null);
+  void add_coarser(const struct MatrixView& a, std::span<const char> fixed, int modes,
+                   std::vector<double> near_null);
   void cycle(std::size_t level);
 
   const mesh::Mesh& mesh_;

@@ -12,6 +12,7 @@
 
 #include "app/verbs.hpp"
 #include "base/errors.hpp"
+#include "base/free_memory.hpp"
 #include "base/keys.hpp"
 #include "base/log.hpp"
 #include "base/profile.hpp"
@@ -170,6 +171,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   profile::begin();
+  give_large_arrays_back();
   // What stands behind "--" is PETSc's; its first argument is the program's name.
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });

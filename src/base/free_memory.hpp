@@ -7,4 +7,8 @@ namespace solidus {
 /// for. Without effect where the C library cannot do it.
 void return_free_memory();
 
+/// From here on large arrays go back to the system when they are freed. SuperLU_DIST, which comes with PETSc,
+/// tells the C library as soon as it is loaded to keep whatever it ever had.
+void give_large_arrays_back();
+
 }  // namespace solidus
