@@ -24,10 +24,17 @@ std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
+bool is_diagonal(const double* block, int size) {
+  for (int r = 0; r < size; ++r)
+    for (int c = 0; c < size; ++c)
+      if (r != c && block[r * size + c] != 0) return false;
+  return true;
+}
+
 /// Greedy: first whole neighbourhoods that are still free, then the rows between them join a neighbour's
-/// aggregate, then what is left. Rows that couple with no other, such as those of nodes without unknowns, are
-/// in none: smoothing alone solves them, and no coarsening would ever make them fewer. Returns how many there
-/// are.
+/// aggregate, then what is left. Rows of nodes without unknowns, which couple with no other and within
+/// themselves neither, are in none: smoothing alone solves them, and no coarsening would ever make them
+/// fewer. Returns how many there are.
 Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   const Index n = a.n_rows();
   of_row.assign(at(n), k_none);
@@ -40,8 +47,8 @@ Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   };
   std::vector<char> alone(at(n), 1);
   for (Index row = 0; row < n; ++row)
-    a.each(row, [&](Index j, std::int64_t, bool) {
-      if (j != row) alone[at(row)] = 0;
+    a.each(row, [&](Index j, std::int64_t s, bool) {
+      if (j != row || !is_diagonal(a.block(s), a.size)) alone[at(row)] = 0;
     });
   for (Index row = 0; row < n; ++row) {
     bool free = alone[at(row)] == 0;

@@ -118,7 +118,7 @@ void BlockMatrix::create_petsc_matrix() {
   if (storage_ == Storage::upper) petsc_->lower = std::make_unique<LowerPart>(row_start_, columns_);
   std::vector<PetscInt> i(1, 0), j, columns;
   i.reserve(at(mesh_.n_owned_nodes) * static_cast<std::size_t>(block_size_) + 1);
-  j.reserve(values_.size());
+  j.reserve(values_.size() * (storage_ == Storage::upper ? 2 : 1));
   for (Index row = 0; row < mesh_.n_owned_nodes; ++row) {
     columns.clear();
     view().each(row, [&](Index column, Slot, bool) {

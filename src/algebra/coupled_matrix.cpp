@@ -3,6 +3,7 @@
 #include <petsc/private/petscimpl.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "algebra/petsc_handles.hpp"
 
@@ -20,6 +21,8 @@ struct CoupledMatrix::Petsc {
 
 CoupledMatrix::CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, BlockMatrix& temperature)
     : mesh_(mesh), displacement_(displacement), temperature_(temperature), petsc_(std::make_unique<Petsc>()) {
+  assert(displacement.storage() == BlockMatrix::Storage::whole &&
+         temperature.storage() == BlockMatrix::Storage::whole);
   set_zero();
 }
 

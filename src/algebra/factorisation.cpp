@@ -6,6 +6,7 @@
 
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
+#include "algebra/petsc_options.hpp"
 
 namespace solidus::algebra {
 
@@ -34,13 +35,6 @@ PC innermost(PC pc) {
 }
 
 }  // namespace
-
-void set_default_option(const std::string& name, const std::string& value) {
-  const std::string key = "-" + name;
-  PetscBool given = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, key.c_str(), &given), "PetscOptionsHasName");
-  if (!given) check(PetscOptionsSetValue(nullptr, key.c_str(), value.c_str()), "PetscOptionsSetValue");
-}
 
 void Factorisation::set_type(PC pc, const std::string& prefix, bool symmetric, GlobalIndex n_unknowns) {
   int n_processes = 1;

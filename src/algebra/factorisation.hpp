@@ -9,9 +9,6 @@
 
 namespace solidus::algebra {
 
-/// Sets -NAME=VALUE for PETSc where the user has not.
-void set_default_option(const std::string& name, const std::string& value);
-
 /// MUMPS in a PC. A small matrix is factorised by every process for itself: faster than by all of them
 /// together, which for so few unknowns wait for each other, and with the same bits in every run.
 class Factorisation {

@@ -15,10 +15,8 @@ namespace solidus::algebra {
 
 class IncompleteCholesky {
  public:
-  /// @param a  one component, BlockMatrix::Storage::upper; fixed rows included; must outlive its factors and
-  /// keep
-  ///           its pattern
   /// A pivot that is not positive gives way to the diagonal it came from. Collective.
+  /// @param a  of one component, by half, with its fixed rows; must outlive the factors and keep its pattern
   void set_up(BlockMatrix& a);
   /// z = (Uᵀ D U)⁻¹ r on owned rows.
   void apply(std::span<const double> r, std::span<double> z);

@@ -26,10 +26,11 @@ LaneSlots::LaneSlots(const BlockMatrix& matrix, std::span<const Index> nodes, in
       for (std::size_t b = 0; b < n_; ++b)
         for (std::size_t lane = 0; lane < k_lanes; ++lane, ++to) {
           const Index row = of_batch[a * k_lanes + lane];
-          const Slot slot = matrix.slot(row, of_batch[b * k_lanes + lane]);
+          [[maybe_unused]] const Index column = of_batch[b * k_lanes + lane];
+          const Slot slot = matrix.slot(row, column);
           if (slot == BlockMatrix::k_no_slot) {
             assert((row >= static_cast<Index>(row_start.size()) - 1 ||
-                    matrix.storage() == BlockMatrix::Storage::upper) &&
+                    (matrix.storage() == BlockMatrix::Storage::upper && column < row)) &&
                    "an element of a node that is left out");
             *to = k_no_place;
             continue;

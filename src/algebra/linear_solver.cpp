@@ -12,6 +12,7 @@
 #include "algebra/multigrid.hpp"
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
+#include "algebra/petsc_options.hpp"
 #include "base/profile.hpp"
 
 namespace solidus::algebra {
@@ -49,23 +50,17 @@ SolverKind automatic_kind(const LinearSolverOptions& options, const mesh::Mesh& 
   return mesh.n_global_nodes * components < limit ? SolverKind::direct : SolverKind::multigrid;
 }
 
-bool option_given(const std::string& name) {
-  PetscBool given = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), &given), "PetscOptionsHasName");
-  return given == PETSC_TRUE;
-}
-
 /// Whether the preconditioner is ours: not where the user asks PETSc for one, and not for tied unknowns.
 bool is_ours(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size, int modes) {
   return automatic_kind(options, mesh, block_size, true) == SolverKind::multigrid &&
-         Multigrid::supports(block_size, modes) && !option_given(options.prefix + "pc_type");
+         Multigrid::supports(block_size, modes) && !user_gave_option(options.prefix + "pc_type");
 }
 
 /// The same of incomplete factors.
 bool is_our_factor(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size) {
   return automatic_kind(options, mesh, block_size, true) == SolverKind::incomplete && options.symmetric &&
-         block_size == 1 && !option_given(options.prefix + "pc_type") &&
-         !option_given(options.prefix + "sub_pc_type");
+         block_size == 1 && !user_gave_option(options.prefix + "pc_") &&
+         !user_gave_option(options.prefix + "sub_");
 }
 
 /// The values of a vector on this process, while the object lives.

@@ -1,6 +1,7 @@
 #include "heat/heat_system.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
@@ -242,6 +243,7 @@ double HeatSystem::entropy_power(std::span<const double> temperature) const {
 }
 
 void HeatSystem::assemble(std::span<const double> temperature, bool exact) {
+  assert((!exact || matrix_->storage() == algebra::BlockMatrix::Storage::whole) && "it is not symmetric");
   matrix_->set_zero();
   for (algebra::Contribution* contribution : contributions_)
     if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);

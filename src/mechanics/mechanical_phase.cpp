@@ -103,7 +103,8 @@ void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
     for (std::size_t i = 0; i < n; ++i) weight_[node * n + i] = mass[node] * gravity[i];
 }
 
-/// What the elements of bodies that have gone need is given back.
+/// What the elements of bodies that have gone need is given back: at once, or once a step without them is
+/// committed, where results show fields of the last one until then.
 void MechanicalPhase::remove_bodies(const algebra::Presence& presence) {
   if (inertia_) throw std::invalid_argument("bodies can leave in quasi-statics only");
   for (std::size_t b = 0; b < blocks_.size(); ++b) {

@@ -98,7 +98,10 @@ TEST(IncompleteCholesky, SolvesAsPetscsFactorsDoInAsManyIterations) {
   for (const double content : {10.0, 0.1}) {
     Heat half(50, content), whole(50, content, BlockMatrix::Storage::whole);
     std::vector<double> x(half.right().size()), reference(x.size());
+    const std::size_t bytes = half.matrix.bytes();
     const LinearReport ours = solved(half, x), petscs = solved(whole, reference);
+    EXPECT_LT(half.matrix.bytes() - bytes, bytes / 2);  // no copy for PETSc
+    EXPECT_GT(whole.matrix.bytes(), 2 * bytes);
     ASSERT_TRUE(ours.converged) << ours.reason;
     EXPECT_LE(ours.iterations, petscs.iterations + 2);
     const double scale = std::sqrt(product(reference, reference) / 2500);

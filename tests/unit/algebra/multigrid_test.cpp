@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "algebra/aggregation.hpp"
 #include "algebra/linear_solver.hpp"
@@ -20,14 +21,19 @@ struct Springs {
   Grid grid;
   BlockMatrix matrix;
 
-  /// @param n_columns  of nodes that have unknowns
-  explicit Springs(int n) : Springs(n, n) {}
-  Springs(int n, int n_columns, BlockMatrix::Storage storage = BlockMatrix::Storage::whole)
-      : grid(n, n), matrix(grid.mesh, 2, graph(grid, n, n_columns), storage) {
+  using Nodes = std::function<bool(int i, int j)>;
+  explicit Springs(int n) : Springs(n, [](int, int) { return true; }) {}
+  /// @param there  have unknowns
+  /// @param held   beside those of the first column
+  Springs(
+      int n, const Nodes& there, BlockMatrix::Storage storage = BlockMatrix::Storage::whole,
+      const Nodes& held = [](int, int) { return false; })
+      : grid(n, n), matrix(grid.mesh, 2, graph(grid, n, there), storage) {
     std::vector<char> fixed(grid.mesh.x.size() * 2, 0);
-    for (Index node = 0; node < grid.mesh.n_nodes(); ++node)
-      if (grid.global(node) % n == 0 || grid.global(node) % n >= n_columns)
-        fixed[2 * at(node)] = fixed[2 * at(node) + 1] = 1;
+    for (Index node = 0; node < grid.mesh.n_nodes(); ++node) {
+      const auto i = static_cast<int>(grid.global(node) % n), j = static_cast<int>(grid.global(node) / n);
+      if (i == 0 || !there(i, j) || held(i, j)) fixed[2 * at(node)] = fixed[2 * at(node) + 1] = 1;
+    }
     matrix.set_fixed(fixed);
     for (std::size_t q = 0; q < grid.quads.size(); q += 4)
       for (std::size_t a = 0; a < 4; ++a)
@@ -35,11 +41,12 @@ struct Springs {
           if (a != b) add_spring(grid.quads[q + a], grid.quads[q + b]);
   }
   static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-  static NodeGraph graph(const Grid& grid, int n, int n_columns) {
+  static NodeGraph graph(const Grid& grid, int n, const Nodes& there) {
     NodeGraph g(grid.mesh);
     std::vector<char> left_out(grid.mesh.x.size(), 0);
     for (Index node = 0; node < grid.mesh.n_nodes(); ++node)
-      left_out[at(node)] = grid.global(node) % n >= n_columns;
+      left_out[at(node)] =
+          !there(static_cast<int>(grid.global(node) % n), static_cast<int>(grid.global(node) / n));
     g.leave_out(std::move(left_out));
     g.add_cliques(grid.quads, 4);
     return g;
@@ -105,7 +112,7 @@ TEST(Multigrid, TheNumberOfIterationsHardlyGrowsWithTheProcesses) {
 // all of them came to the coarsest one, which every process factorises.
 TEST(Multigrid, NodesWithoutUnknownsHaveNoPlaceOnCoarseLevels) {
   for (const int n_columns : {0, 1, 12}) {
-    Springs springs(60, n_columns);
+    Springs springs(60, [=](int i, int) { return i < n_columns; });
     Multigrid multigrid(springs.grid.mesh, 2, rigid_body_modes, true);
     multigrid.set_up(springs.matrix);
     EXPECT_LE(multigrid.coarsest_rows(), n_columns == 0 ? 0 : 60);
@@ -119,6 +126,26 @@ TEST(Multigrid, NodesWithoutUnknownsHaveNoPlaceOnCoarseLevels) {
     EXPECT_LE(report.iterations, 15);
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_TRUE(!springs.matrix.fixed()[i] || x[i] == 0) << i;
   }
+}
+
+// Small bodies of their own, held at one end, which have become one aggregate each where the large one still
+// has hundreds: they are solved on the coarsest level, as their rigid motions have stiffness among
+// themselves.
+TEST(Multigrid, SmallBodiesBesideALargeOneCostNothing) {
+  const auto of_bar = [](int i) { return i >= 84; };
+  Springs springs(
+      90, [&](int i, int j) { return i < 80 || (of_bar(i) && j % 5 < 2); }, BlockMatrix::Storage::whole,
+      [](int i, int) { return i == 89; });
+  Multigrid multigrid(springs.grid.mesh, 2, rigid_body_modes, true);
+  multigrid.set_up(springs.matrix);
+  EXPECT_GE(multigrid.coarsest_rows(), 18);
+  LinearSolver solver(springs.grid.mesh,
+                      {.prefix = "test_", .kind = SolverKind::multigrid, .relative_tolerance = 1e-8});
+  solver.use_rigid_body_modes(2);
+  std::vector<double> x(springs.n_owned());
+  const LinearReport report = solver.solve(springs.matrix, springs.pattern(0.7), x);
+  ASSERT_TRUE(report.converged) << report.reason;
+  EXPECT_LE(report.iterations, 25);
 }
 
 TEST(Multigrid, TheCycleIsSymmetricAndPositive) {
@@ -138,7 +165,8 @@ TEST(Multigrid, TheCycleIsSymmetricAndPositive) {
 
 // Half of the blocks says as much as all of them: the same hierarchy, whose products round otherwise.
 TEST(Multigrid, HalfOfASymmetricMatrixMakesTheSameCycle) {
-  Springs whole(30), half(30, 30, BlockMatrix::Storage::upper);
+  Springs whole(30), half(
+                         30, [](int, int) { return true; }, BlockMatrix::Storage::upper);
   const std::vector<double> r = whole.pattern(0.7);
   std::vector<double> unsymmetric(r.size()), symmetric(r.size()), of_half(r.size());
   const auto cycle = [&](Springs& springs, bool is_symmetric, std::vector<double>& z) {

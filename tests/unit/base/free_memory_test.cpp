@@ -32,7 +32,11 @@ long resident() {
 
 long left_by(std::size_t bytes) {
   const long before = resident();
-  { const std::vector<char> array(bytes, 1); }
+  {
+    const std::vector<char> array(bytes, 1);
+    const volatile char* read = array.data();  // or the array would be left out
+    EXPECT_EQ(read[bytes / 2], 1);
+  }
   return resident() - before;
 }
 

@@ -1,0 +1,15 @@
+/// PETSc's options: the user's, and defaults of ours beside them.
+#pragma once
+
+#include <string>
+
+namespace solidus::algebra {
+
+/// Gives an option that the user has not given. Solvers within solvers do not exist before their set-up, but
+/// their options do.
+void set_default_option(const std::string& name, const std::string& value);
+
+/// Whether the user, not set_default_option(), gave an option whose name begins so; without the dash.
+bool user_gave_option(const std::string& beginning);
+
+}  // namespace solidus::algebra
