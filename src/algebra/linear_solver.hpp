@@ -30,9 +30,9 @@ struct LinearSolverOptions {
   int max_iterations = 2000;
 };
 
-/// What a matrix without ties is kept as for such a solver: half of a symmetric one will do for the multigrid
-/// of blocks (multigrid.hpp).
-/// @param modes  of that
+/// What a matrix without ties is kept as for such a solver: half of a symmetric one will do for the
+/// preconditioners that need no copy of it (multigrid.hpp, incomplete_cholesky.hpp).
+/// @param modes  of multigrid
 BlockMatrix::Storage storage_for(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size,
                                  int modes);
 

@@ -100,8 +100,7 @@ TEST(IncompleteCholesky, SolvesAsPetscsFactorsDoInAsManyIterations) {
     std::vector<double> x(half.right().size()), reference(x.size());
     const std::size_t bytes = half.matrix.bytes();
     const LinearReport ours = solved(half, x), petscs = solved(whole, reference);
-    EXPECT_LT(half.matrix.bytes() - bytes, bytes / 2);  // no copy for PETSc
-    EXPECT_GT(whole.matrix.bytes(), 2 * bytes);
+    EXPECT_LT(half.matrix.bytes() - bytes, bytes / 4);  // no copy for PETSc, which needs more than half of it
     ASSERT_TRUE(ours.converged) << ours.reason;
     EXPECT_LE(ours.iterations, petscs.iterations + 2);
     const double scale = std::sqrt(product(reference, reference) / 2500);
