@@ -19,8 +19,7 @@ constexpr int k_sweeps = 2;         ///< of Chebyshev's iteration, before and af
 constexpr double k_interval = 0.1;  ///< its lower end over the largest eigenvalue
 constexpr double k_margin = 1.1;    ///< the largest eigenvalue over its estimate
 constexpr int k_lanczos_steps = 10;
-constexpr GlobalIndex k_coarsest = 60;  ///< block rows that are factorised
-constexpr double k_slow = 0.7;          ///< rows left by a coarsening that is not worth a level
+constexpr double k_slow = 0.7;  ///< rows left by a coarsening that is not worth a level
 constexpr int k_most_levels = 20;
 
 std::size_t at(std::int64_t i) {
@@ -248,8 +247,9 @@ void Multigrid::Coarsest::solve(const std::vector<float>& right, std::vector<flo
   check(VecRestoreArrayRead(x, &from), "VecRestoreArrayRead");
 }
 
-Multigrid::Multigrid(const mesh::Mesh& mesh, int components, Modes modes, bool symmetric)
-    : mesh_(mesh), components_(components), modes_(modes), symmetric_(symmetric) {}
+Multigrid::Multigrid(const mesh::Mesh& mesh, int components, Modes modes, bool symmetric,
+                     GlobalIndex coarsest)
+    : mesh_(mesh), components_(components), modes_(modes), symmetric_(symmetric), coarsest_limit_(coarsest) {}
 Multigrid::~Multigrid() = default;
 
 bool Multigrid::supports(int block_size, int modes) {
@@ -317,7 +317,7 @@ void Multigrid::add_coarser(const MatrixView& a, std::span<const char> fixed, in
   level.interpolation = PackedRows(std::move(next.interpolation), level.numbering.n_owned);
   const GlobalIndex after = n_rows(next.numbering);
   const bool stalls = static_cast<double>(after) > k_slow * static_cast<double>(before);
-  if (after > k_coarsest && !stalls && levels_.size() < k_most_levels) {
+  if (after > coarsest_limit_ && !stalls && levels_.size() < k_most_levels) {
     const MatrixView view{next.modes, next.matrix.start, next.matrix.column, next.matrix.value.data()};
     add_level(view, std::move(next.numbering), {}, modes, std::move(next.near_null));
     return;

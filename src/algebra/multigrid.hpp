@@ -27,8 +27,11 @@ class Multigrid {
  public:
   /// One of the two above. It is asked in every set-up: the modes take as much memory as a dozen vectors.
   using Modes = NearNullSpace (*)(const mesh::Mesh& mesh, int components);
+  /// Block rows that a level may have to be factorised, by every process.
+  static constexpr GlobalIndex k_coarsest = 60;
   /// @param symmetric  whether the matrices are, which halves the memory that a cycle reads
-  Multigrid(const mesh::Mesh& mesh, int components, Modes modes, bool symmetric);
+  Multigrid(const mesh::Mesh& mesh, int components, Modes modes, bool symmetric,
+            GlobalIndex coarsest = k_coarsest);
   ~Multigrid();
   /// Whether there are kernels for blocks of this size.
   static bool supports(int block_size, int modes);
@@ -54,6 +57,7 @@ class Multigrid {
   int components_;
   Modes modes_;
   bool symmetric_;
+  GlobalIndex coarsest_limit_;
   std::vector<Level> levels_;
   std::unique_ptr<Coarsest> coarsest_;
   GlobalIndex coarsest_rows_ = 0;
