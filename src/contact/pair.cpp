@@ -19,6 +19,9 @@ namespace solidus::contact {
 
 namespace {
 
+/// A mean of coherencies below it is that of melt: shape functions add up to one but for rounding.
+constexpr double k_coherent = 1 - 1e-9;
+
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
@@ -237,6 +240,7 @@ void ContactPair::set_out_from(const ContactState& state) {
 
 void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   set_out_from(old);
+  find_wet_points(pass.coherency);
   step_.dt = pass.dt;
   step_.time = pass.time;
   step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());
@@ -250,6 +254,28 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
                       .temperature = {pass.temperature.begin(), pass.temperature.end()},
                       .tool_temperature = tool_temperature_at(pass.time)};
   if (law_.friction && !pass.temperature.empty()) find_interface_temperatures(pass.temperature);
+}
+
+/// Liquid metal that touches its wall wets it; it stays wet while the metal there is below coherency,
+/// whatever gap opens. A gap that was there before, or that a coherent skin has left, holds air until it
+/// closes.
+void ContactPair::find_wet_points(std::span<const double> coherency) {
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    PointState& from = step_.from[at(p)];
+    const bool touched = from.status != PointStatus::open || from.suction > 0;
+    from.suction = 0;
+    if (active_ && touched && !coherency.empty() && spec_.atmosphere > 0 && partners_.partnered[at(p)] != 0) {
+      const auto nodes = partners_.nodes_of(p);
+      const auto share = partners_.share_of(p);
+      const auto n_slave = static_cast<std::size_t>(partners_.n_slave[at(p)]);
+      double side[2] = {0, 0};
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        side[b < n_slave ? 0 : 1] += (b < n_slave ? share[b] : -share[b]) * coherency[at(nodes[b])];
+      const bool meshed = nodes.size() > n_slave;
+      if (side[0] < k_coherent || (meshed && side[1] < k_coherent)) from.suction = spec_.atmosphere;
+    }
+    from.multiplier = std::max(from.multiplier, least_multiplier(from));
+  }
 }
 
 /// Where the interface has no temperature yet, the mean of the two sides. A point without a partner at t_n
@@ -307,9 +333,9 @@ void ContactPair::wear_master(const PointMotion& motion, const PointState& now, 
 
 HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
                                   const PointForces& forces) const {
-  HeatPoint point{.penetration = now.penetration,
+  HeatPoint point{.penetration = seen_by_heat(now.penetration, now.suction),
                   .pressure = now.pressure,
-                  .pressure_slope = forces.normal.tangent,
+                  .pressure_slope = now.pressure >= 0 ? forces.normal.tangent : 0.0,
                   .has_temperature = law_.friction && step_.dt > 0 && from.temperature > 0,
                   .step = {},
                   .joint = forces.joint};
@@ -388,6 +414,7 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
     if (active_) continue;
     now_.points[p].status = PointStatus::open;
     now_.points[p].pressure = now_.points[p].balance_pressure = now_.points[p].multiplier = 0;
+    now_.points[p].suction = 0;
     now_.points[p].traction = {};
     now_.points[p].anchored = false;
   }
@@ -421,9 +448,9 @@ void ContactPair::augment() {
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
       mean += particle.share[b] * penetration[at(particle.nodes[b])];
     if (now_.points[at(p)].status == PointStatus::open)
-      from.multiplier = 0;
+      from.multiplier = least_multiplier(from);
     else
-      from.multiplier = std::max(0.0, from.multiplier + law_.normal.penalty * mean);
+      from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.normal.penalty * mean);
     from.traction = now_.points[at(p)].traction;
   }
 }

@@ -46,7 +46,11 @@ struct ContactSums {
   double energy = 0;       ///< in the springs, normal and tangential [J]
   double work = 0;         ///< of friction so far, ∫ ∫ ‖T‖ dγ dA [J]
   double dissipation = 0;  ///< of friction so far [J]; the work less this is what hardening stores
-  double heat = 0;         ///< from slave to master by conduction and radiation [W]
+  double wet_area = 0;     ///< of points that liquid metal wets [m²]
+  /// What of it has left its wall (ContactSpec::leaving_gap): points, area [m²] and the largest gap [m].
+  GlobalIndex left_points = 0;
+  double left_area = 0, left_gap = 0;
+  double heat = 0;                               ///< from slave to master by conduction and radiation [W]
   double heat_to_slave = 0, heat_to_master = 0;  ///< in all, that of friction included [W]
 };
 
@@ -75,9 +79,12 @@ struct ContactPass {
   double time = 0, dt = 0;                 ///< t_{n+1} and the step [s]
   std::span<const double> displacement{};  ///< u_n, [local node][component] [m]
   std::span<const double> temperature{};   ///< Θ_n, [local node] [K]; empty: unknown
-  bool isentropic = false;                 ///< the pass holds the entropy of the interface, not Θ_c
-  bool simultaneous = false;               ///< Θ_c is found together with the slip (5.40), see surround()
-  double share = 1;                        ///< s of normal.hpp
+  /// f_S/f_c at t_n, the solid fraction over that at which metal is coherent, [local node]; one where nothing
+  /// melts. Empty: nothing does.
+  std::span<const double> coherency{};
+  bool isentropic = false;    ///< the pass holds the entropy of the interface, not Θ_c
+  bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see surround()
+  double share = 1;           ///< s of normal.hpp
 };
 
 class ContactPair {
@@ -187,6 +194,7 @@ class ContactPair {
   void make_laws(const ContactSurface& slave, double penalty);
   std::optional<double> tool_temperature_at(double time) const;
   void set_out_from(const ContactState& state);
+  void find_wet_points(std::span<const double> coherency);
   void wear_master(const PointMotion& motion, const PointState& now, const PointForces& forces);
   HeatPoint heat_point(const PointState& from, const PointState& now, const PointForces& forces) const;
   void show_whole_step();

@@ -1,6 +1,7 @@
 /// What a contact pair tells of a step: work, forces, energies.
 #include <petscsys.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -72,7 +73,8 @@ double ContactPair::rigid_work(double share) {
 
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
   placement_->place(time_, displacement_, ContactKinematics::Points::own);
-  std::array<double, 18> s{};
+  std::array<double, 21> s{};
+  double left_gap = 0;
   const auto n = static_cast<std::size_t>(components_);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics_->particle(p);
@@ -84,10 +86,19 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
     s[1] += w * (active_ ? law_.stored(state) : 0.0);
     s[2] += w * state.work;
     s[3] += w * state.dissipation;
-    if (state.status == PointStatus::open) continue;
-    s[4] += 1;
+    if (state.suction > 0) {
+      s[18] += w;
+      if (-state.penetration > spec_.leaving_gap) {
+        s[19] += 1;
+        s[20] += w;
+        left_gap = std::max(left_gap, -state.penetration);
+      }
+    }
+    const bool open = state.status == PointStatus::open;
+    if (open && state.pressure == 0) continue;
+    s[4] += open ? 0 : 1;
     s[5] += state.status == PointStatus::sticks ? 1 : 0;
-    s[6] += w;
+    s[6] += open ? 0.0 : w;
     s[7] += w * state.pressure;
     s[8] += w * norm(state.traction);
     Point x = particle.position;
@@ -123,6 +134,10 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
   sums.heat = s[15];
   sums.heat_to_slave = s[16];
   sums.heat_to_master = s[17];
+  sums.wet_area = s[18];
+  sums.left_points = std::llround(s[19]);
+  sums.left_area = s[20];
+  if (sums.left_points > 0) sums.left_gap = algebra::global_max(left_gap);
   return sums;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/pair.hpp"
+#include "coupling/coherency.hpp"
 #include "coupling/observer.hpp"
 #include "coupling/state.hpp"
 #include "criteria/criteria.hpp"
@@ -20,12 +21,16 @@ struct Phases {
   mechanics::StructuralHeat* structural = nullptr;  ///< null: deformation does no heat
   std::vector<contact::ContactPair*> contacts;
   const criteria::Criteria* criteria = nullptr;  ///< what State::criteria holds; null: nothing is followed
+  const Coherency* coherency = nullptr;          ///< null: nothing that deforms melts
   std::vector<double> temperature;               ///< [K], [local node]: of a mechanical phase alone
   std::optional<double> ambient_temperature;     ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
 
   /// Heat and deformation exchange energy and Θ_a is known: then 𝓛 is a column.
   bool audits_stability() const { return heat && structural && ambient_temperature; }
 };
+
+/// Coherency::at of a state; empty where nothing that deforms melts. Collective.
+std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat);
 
 /// What every scheme reports of the state it reached: temperatures, solid fraction, contact.
 void summarise(const Phases& phases, const State& state, StepEffort& effort);

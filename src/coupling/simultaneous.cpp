@@ -92,8 +92,8 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
 
 StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt) {
   newton_->thermal().begin(old.heat, time, dt);
-  return stage(old.mechanics, old.contacts, {.time = time, .dt = dt, .temperature = old.heat.temperature},
-               trial);
+  return stage(old.mechanics, old.contacts, coherency_of(phases_, old.heat),
+               {.time = time, .dt = dt, .temperature = old.heat.temperature}, trial);
 }
 
 StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double time, double dt,
@@ -102,15 +102,17 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   const double middle = time - dt + share;
   State first;
   newton_->thermal().begin(old.heat, middle, share);
-  const StepEffort of_first = stage(
-      old.mechanics, old.contacts, {.time = middle, .dt = share, .temperature = old.heat.temperature}, first);
+  const std::vector<double> coherency = coherency_of(phases_, old.heat);
+  const StepEffort of_first =
+      stage(old.mechanics, old.contacts, coherency,
+            {.time = middle, .dt = share, .temperature = old.heat.temperature}, first);
 
   contact.add(1, carried);
   for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->carry(carried, first.heat.temperature);
   const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
   newton_->thermal().begin_stage(old.heat, first.heat, carried, time, share);
   StepEffort effort = stage(
-      start, second_start(phases_, old.contacts, first.contacts, carried),
+      start, second_start(phases_, old.contacts, first.contacts, carried), coherency,
       {.time = time, .dt = share, .temperature = old.heat.temperature, .iterate = &first.mechanics}, trial);
   drop_carried();
   add_first_stage(effort.energy, of_first.energy, carried);
@@ -125,11 +127,12 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
 
 StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
                                      const std::vector<contact::ContactState>& contacts,
-                                     mechanics::MechanicalPass pass, State& trial) {
+                                     std::span<const double> coherency, mechanics::MechanicalPass pass,
+                                     State& trial) {
   const profile::Part part("both fields");
   const double start = MPI_Wtime();
   pass.iterate_temperature = newton_->thermal().temperature();
-  begin_contacts(phases_, contacts, old, pass);
+  begin_contacts(phases_, contacts, old, pass, coherency);
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
   int iterations = 0, linear_iterations = 0;

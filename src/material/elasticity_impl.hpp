@@ -2,6 +2,7 @@
 /// elasticity.hpp only.
 #pragma once
 
+#include <limits>
 #include <type_traits>
 
 #include "base/jet.hpp"
@@ -62,7 +63,8 @@ PointProperties<T> properties_at(const Material& material, const T& temperature,
                           (fraction - detail::value(change.fraction, initial_temperature));  // 2.75, 2.76a
     if (change.solidification) {
       p.solid_fraction = fraction;
-      p.viscosity = detail::value(material.liquid_viscosity, temperature);
+      p.viscosity = material.chooses_viscosity() ? T(std::numeric_limits<double>::quiet_NaN())
+                                                 : detail::value(material.liquid_viscosity, temperature);
     }
   }
   return p;

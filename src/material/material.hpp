@@ -31,8 +31,9 @@ struct Material {
   Table poisson_ratio;                  ///< ν(Θ)
   Table expansion;                      ///< α(Θ), mean linear coefficient from Θ_ref [1/K]
   double expansion_reference = 293.15;  ///< Θ_ref of 2.51 [K]
-  Table liquid_viscosity;  ///< η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used
-                           ///< where f_S < 1
+  /// η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used where f_S < 1. Not given
+  /// (zero): whoever updates the law chooses it (material/melt.hpp).
+  Table liquid_viscosity;
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::optional<Flow> flow;  ///< absent: the solid is elastic
   Casting casting;           ///< for criteria; no law uses it
@@ -47,6 +48,9 @@ struct Material {
   /// The solidification, if the material has one; without it the material is always solid (f_S = 1).
   const PhaseChange* solidification() const;
   double solid_fraction(double temperature) const;  ///< f_S of 2.65
+  /// True when the melt is a Maxwell element whose viscosity is not given: η then comes from
+  /// material/melt.hpp.
+  bool chooses_viscosity() const;
 };
 
 }  // namespace solidus::material

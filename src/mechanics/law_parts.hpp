@@ -48,6 +48,17 @@ inline void hold_phase(const material::Isentropic& law, const Lane& temperature,
   material::hold_phase(law.material(), temperature, phase_temperature, p.strain_offset, p.solid_fraction);
 }
 
+/// Sets η of a melt whose material has none [Pa s].
+inline void set_melt_viscosity(const Lane& viscosity, material::PointProperties<Lane>& p) {
+  p.viscosity = viscosity;
+}
+inline void set_melt_viscosity(const Lane& viscosity, material::Viscoplastic::Properties<Lane>& p) {
+  p.elastic.viscosity = viscosity;
+}
+inline void set_melt_viscosity(const Lane& viscosity, material::Isentropic::Properties<Lane>& p) {
+  p.viscosity = viscosity;
+}
+
 /// The lanes of a state that the material can change, rising: no viscous strain without a melt, no back
 /// strain without kinematic hardening. Others are zero. One at least.
 std::vector<std::size_t> kept_lanes(const material::Viscoelastic& law);

@@ -72,7 +72,8 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
                                  : nullptr,
          .new_stress = remembers || keeps ? &stress_[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
-         .work = pass.work});
+         .work = pass.work,
+         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
   if (pressure_) pressure_->begin();
   stress_at_work_ = pass.work;
   residual_is_known_ = false;
@@ -219,7 +220,8 @@ void MechanicalPhase::rest(const MechanicalState& state, std::span<const double>
                       .old_history = &state.history[b],
                       .start_history = &state.history[b],
                       .dt = 1,
-                      .effective_dt = 1});
+                      .effective_dt = 1,
+                      .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,

@@ -202,6 +202,7 @@ class PointBlock : public BlockKernel {
     Properties properties =
         law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
     if (iterates) hold_phase(law_, theta, old_theta, properties);
+    if (start.melt_modulus > 0) set_melt_viscosity(Lane(start.melt_modulus * start.effective_dt), properties);
     if constexpr (HoldsEntropy<Properties>)
       properties.entropy = law_.entropy(properties, held_strain, state_of(*start.held_history, batch, q));
     properties_.set(index(batch, q), properties);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 7";
+constexpr const char* k_format = "Solidus checkpoint 8";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -151,6 +151,10 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     rates.displacement.resize(c.state.mechanics.displacement.size());
     take_nodes(in, "temperature_rate", nodes, rates.temperature);
     take_nodes(in, "displacement_rate", nodes, rates.displacement);
+    if (in.text("rates_of_melt") == k_known) {
+      rates.coherency.resize(mesh.x.size());
+      take_nodes(in, "coherency", nodes, rates.coherency);
+    }
   }
   if (in.text("first_guess") == k_known) {
     c.state.displacement_rate.resize(c.state.mechanics.displacement.size());
@@ -225,6 +229,9 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   if (rates.known()) {
     nodal("temperature_rate", rates.temperature);
     nodal("displacement_rate", rates.displacement);
+    const bool melts = algebra::any_process(!rates.coherency.empty());
+    out.text("rates_of_melt", melts ? k_known : "unknown");
+    if (melts) nodal("coherency", rates.coherency);
   }
   for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b) {
     const mesh::Block& block = mesh.blocks[b];
