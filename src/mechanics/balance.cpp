@@ -76,12 +76,13 @@ void BodyBalance::add_residual(std::span<const double> r, std::span<const char> 
 }
 
 double BodyBalance::reference() {
-  MPI_Allreduce(MPI_IN_PLACE, sums_.data(), static_cast<int>(sums_.size()), MPI_DOUBLE, MPI_SUM,
+  std::vector<double> sums(sums_.size());
+  MPI_Allreduce(sums_.data(), sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 PETSC_COMM_WORLD);
   double squares = 0, worst = 0, largest = 0;
   for (std::size_t g = 0; g < n_groups_; ++g) {
-    const double reference = std::max(sums_[3 * g], k_internal_share * k_internal_share * sums_[3 * g + 1]);
-    const double residual = sums_[3 * g + 2];
+    const double reference = std::max(sums[3 * g], k_internal_share * k_internal_share * sums[3 * g + 1]);
+    const double residual = sums[3 * g + 2];
     squares += residual;
     largest = std::max(largest, reference);
     if (residual > 0)
