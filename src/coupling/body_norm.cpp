@@ -61,7 +61,11 @@ double BodyNorm::operator()(std::span<const double> values) const {
       square[static_cast<std::size_t>(share.body)] += share.weight * v * v;
     }
   double largest = 0;
-  for (const double s : square) largest = std::max(largest, algebra::global_sum(s));
+  for (const double s : square) {
+    const double sum = algebra::global_sum(s);
+    if (std::isnan(sum)) return sum;
+    largest = std::max(largest, sum);
+  }
   return std::sqrt(largest);
 }
 
