@@ -228,6 +228,7 @@ ContactState ContactPair::initial_state() const {
 }
 
 void ContactPair::set_out_from(const ContactState& state) {
+  start_traction_.clear();
   if (!state.points.empty()) {
     step_.from = state.points;
     worn_from_ = state.master;
@@ -240,11 +241,11 @@ void ContactPair::set_out_from(const ContactState& state) {
 
 void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   set_out_from(old);
-  find_wet_points(pass.coherency);
   step_.dt = pass.dt;
   step_.time = pass.time;
   step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());
-  step_.begun = time_;
+  step_.begun = pass.time - pass.dt;
+  find_wet_points(pass.coherency);
   law_.isentropic = pass.isentropic;
   law_.share = pass.share;
   step_.together = {};
@@ -260,38 +261,46 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
 /// whatever gap opens. A gap that was there before, or that a coherent skin has left, holds air until it
 /// closes.
 void ContactPair::find_wet_points(std::span<const double> coherency) {
-  for (Index p = 0; p < partners_.n_points(); ++p) {
+  const bool wets = active_ && !coherency.empty() && spec_.atmosphere > 0;
+  if (wets) placement_->place(step_.begun, step_.displacement);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
     const bool touched = from.status != PointStatus::open || from.suction > 0;
     from.suction = 0;
-    if (active_ && touched && !coherency.empty() && spec_.atmosphere > 0 && partners_.partnered[at(p)] != 0) {
-      const auto nodes = partners_.nodes_of(p);
-      const auto share = partners_.share_of(p);
-      const auto n_slave = static_cast<std::size_t>(partners_.n_slave[at(p)]);
+    if (wets && touched) {
+      const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
+      const auto n_slave = static_cast<std::size_t>(motion.n_slave);
       double side[2] = {0, 0};
-      for (std::size_t b = 0; b < nodes.size(); ++b)
-        side[b < n_slave ? 0 : 1] += (b < n_slave ? share[b] : -share[b]) * coherency[at(nodes[b])];
-      const bool meshed = nodes.size() > n_slave;
-      if (side[0] < k_coherent || (meshed && side[1] < k_coherent)) from.suction = spec_.atmosphere;
+      for (std::size_t b = 0; motion.partnered && b < motion.nodes.size(); ++b)
+        side[b < n_slave ? 0 : 1] +=
+            (b < n_slave ? motion.share[b] : -motion.share[b]) * coherency[at(motion.nodes[b])];
+      const bool meshed = motion.nodes.size() > n_slave;
+      if (motion.partnered && (side[0] < k_coherent || (meshed && side[1] < k_coherent)))
+        from.suction = spec_.atmosphere;
     }
     from.multiplier = std::max(from.multiplier, least_multiplier(from));
   }
 }
 
-/// Where the interface has no temperature yet, the mean of the two sides. A point without a partner at t_n
-/// counts no slip in the step in which it finds one, so friction does not ask for its temperature.
+/// Where the interface has no temperature yet, the mean of the two sides at t_n, wherever other iterates of
+/// the step have gone. A point without a partner at t_n counts no slip in the step in which it finds one, so
+/// friction does not ask for its temperature.
 void ContactPair::find_interface_temperatures(std::span<const double> temperature) {
-  for (Index p = 0; p < partners_.n_points(); ++p) {
+  const auto known = [](const PointState& from) { return from.temperature > 0; };
+  if (std::ranges::all_of(step_.from, known)) return;
+  placement_->place(step_.begun, step_.displacement);
+  const std::optional<double> tool = tool_temperature_at(step_.begun);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
-    if (from.temperature > 0 || partners_.partnered[at(p)] == 0) continue;
-    const auto nodes = partners_.nodes_of(p);
-    const auto share = partners_.share_of(p);
+    if (known(from)) continue;
+    const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
+    if (!motion.partnered) continue;
+    const auto n_slave = static_cast<std::size_t>(motion.n_slave);
     double side[2] = {0, 0};
-    for (std::size_t b = 0; b < nodes.size(); ++b)
-      side[b < static_cast<std::size_t>(partners_.n_slave[at(p)]) ? 0 : 1] +=
-          share[b] * temperature[at(nodes[b])];
-    const bool meshed = nodes.size() > static_cast<std::size_t>(partners_.n_slave[at(p)]);
-    from.temperature = 0.5 * (side[0] + (meshed ? -side[1] : tool_temperature().value_or(side[0])));
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b)
+      side[b < n_slave ? 0 : 1] += motion.share[b] * temperature[at(motion.nodes[b])];
+    const bool meshed = motion.nodes.size() > n_slave;
+    from.temperature = 0.5 * (side[0] + (meshed ? -side[1] : tool.value_or(side[0])));
   }
 }
 
@@ -441,6 +450,8 @@ std::vector<double> ContactPair::nodal_penetration() const {
 void ContactPair::augment() {
   if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return;
   const std::vector<double> penetration = nodal_penetration();
+  if (start_traction_.empty())
+    for (const PointState& from : step_.from) start_traction_.push_back(from.traction);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
     const ContactKinematics::Particle particle = kinematics_->particle(p);
@@ -513,8 +524,9 @@ std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature)
 }
 
 std::size_t ContactPair::bytes() const {
-  return partners_.bytes() + (now_.points.capacity() + step_.from.capacity()) * sizeof(PointState) +
-         mechanics_->bytes() + (heat_ ? heat_->bytes() : 0);
+  return partners_.bytes() + start_traction_.capacity() * sizeof(Point) +
+         (now_.points.capacity() + step_.from.capacity()) * sizeof(PointState) + mechanics_->bytes() +
+         (heat_ ? heat_->bytes() : 0);
 }
 
 }  // namespace solidus::contact

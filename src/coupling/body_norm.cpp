@@ -63,7 +63,11 @@ double BodyNorm::operator()(std::span<const double> values, std::span<const char
     }
   }
   double largest = 0;
-  for (const double s : square) largest = std::max(largest, algebra::global_sum(s));
+  for (const double s : square) {
+    const double sum = algebra::global_sum(s);
+    if (std::isnan(sum)) return sum;
+    largest = std::max(largest, sum);
+  }
   return std::sqrt(largest);
 }
 

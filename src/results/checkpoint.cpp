@@ -10,6 +10,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
+#include "mechanics/padding.hpp"
 #include "results/checkpoint_contacts.hpp"
 #include "results/checkpoint_criteria.hpp"
 #include "results/checkpoint_tables.hpp"
@@ -108,6 +109,11 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
     ++taken;
   });
   in.require(taken == block.input_element.size(), values);
+  if (taken == 0) return;
+  const std::size_t last = (taken - 1) / k_lanes;
+  for (std::size_t k = 0; k < per_element; ++k)
+    mechanics::repeat_last_element(history.values[last * per_element + k], static_cast<Index>(last),
+                                   static_cast<Index>(taken));
 }
 
 void compare(const fs::path& path, TableReader& in, const Fingerprint& fingerprint) {
