@@ -78,6 +78,7 @@ void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& fro
                      p.committed.mechanics.displacement};
     p.committed.mechanics.dt_before = 0;
     p.committed.displacement_rate.clear();
+    p.committed.pressure_rate.clear();
   } else {
     p.stage_start = from->stage;
   }
