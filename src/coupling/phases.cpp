@@ -25,6 +25,10 @@ void range_of_owned(const std::vector<double>& temperature, Index n_owned, const
 
 }  // namespace
 
+std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState& state) {
+  return phases.heat != nullptr ? phases.heat->plateau_share(state) : std::vector<double>{};
+}
+
 void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   if (phases.heat != nullptr) {
     range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &phases.heat->presence(),

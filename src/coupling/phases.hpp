@@ -27,6 +27,9 @@ struct Phases {
   bool audits_stability() const { return heat && structural && ambient_temperature; }
 };
 
+/// ThermalPhase::plateau_share; empty in mechanics alone. Collective.
+std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState& state);
+
 /// What every scheme reports of the state it reached: temperatures, solid fraction, contact.
 void summarise(const Phases& phases, const State& state, StepEffort& effort);
 

@@ -48,8 +48,10 @@ void SequentialSplit::mechanical_phase(const State& old, State& trial, double ti
   const std::vector<double>&u = old.mechanics.displacement, &rate = old.displacement_rate;
   std::vector<double> guess(guesses ? rate.size() : 0);
   for (std::size_t i = 0; i < guess.size(); ++i) guess[i] = u[i] + dt * rate[i];
-  mechanical_pass(phases_, old, trial, {.time = time, .dt = dt, .temperature = temperature, .guess = guess},
-                  effort);
+  const std::vector<double> share = plateau_share(phases_, old.heat);
+  mechanical_pass(
+      phases_, old, trial,
+      {.time = time, .dt = dt, .temperature = temperature, .plateau_share = share, .guess = guess}, effort);
   trial.displacement_rate.resize(guesses ? u.size() : 0);
   for (std::size_t i = 0; i < trial.displacement_rate.size(); ++i)
     trial.displacement_rate[i] = (trial.mechanics.displacement[i] - u[i]) / dt;

@@ -47,6 +47,9 @@ struct Material {
   /// The solidification, if the material has one; without it the material is always solid (f_S = 1).
   const PhaseChange* solidification() const;
   double solid_fraction(double temperature) const;  ///< f_S of 2.65
+  /// Whether a change, or a part of it, gives off its heat at one temperature: then the temperature does not
+  /// tell how much has changed.
+  bool changes_isothermally() const { return !enthalpy().jumps().empty(); }
 };
 
 }  // namespace solidus::material

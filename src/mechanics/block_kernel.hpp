@@ -9,6 +9,7 @@
 #include "algebra/block_matrix.hpp"
 #include "material/material.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "mechanics/phase_fields.hpp"
 #include "mechanics/structural_heat.hpp"
 
 namespace solidus::mechanics {
@@ -20,6 +21,7 @@ struct StepStart {
   std::span<const double> temperature;          ///< Θ_n [K], [local node]
   std::span<const double> pass_temperature;     ///< at which the law works: Θ_n or that of an iterate [K]
   std::span<const double> initial_temperature;  ///< Θ_0 [K], [local node]
+  PhaseFields phases;                           ///< of the block's body at t_n
   std::span<const double> held_displacement;    ///< whose entropy is held: at t_n or of an iterate [m]
   const BlockHistory* held_history;             ///< the same
   const BlockHistory* old_history;              ///< at t_n

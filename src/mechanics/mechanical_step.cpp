@@ -59,6 +59,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
         {.temperature = pass.temperature,
          .pass_temperature = pass.iterate_temperature.empty() ? pass.temperature : pass.iterate_temperature,
          .initial_temperature = initial_temperature_,
+         .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share),
          .held_displacement = held.displacement,
          .held_history = &held.history[b],
          .old_history = &old.history[b],
@@ -199,11 +200,13 @@ std::vector<double> MechanicalPhase::start(const MechanicalState& old, const Mec
   return x;
 }
 
-void MechanicalPhase::rest(const MechanicalState& state, std::span<const double> temperature) {
+void MechanicalPhase::rest(const MechanicalState& state, std::span<const double> temperature,
+                           std::span<const double> plateau_share) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     blocks_[b]->rest({.temperature = temperature,
                       .pass_temperature = temperature,
                       .initial_temperature = initial_temperature_,
+                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
                       .held_displacement = state.displacement,
                       .held_history = &state.history[b],
                       .old_history = &state.history[b],

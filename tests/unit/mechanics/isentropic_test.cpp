@@ -80,7 +80,11 @@ struct Kernel {
         directions[0].push_back(1e-3 * std::cos(2.1 * s));
         directions[1].push_back(1e-3 * std::cos(3.7 * s + 1));
       }
-    kernel->prepare({temperature, temperature, temperature, old_u, &history, &history, &history, 0.5, 0.5});
+    const std::vector<material::Material> materials{material};
+    mechanics::NodalPhases nodal(mesh, materials, temperature);
+    const mechanics::PhaseFields phases = nodal.evaluate(0, temperature, {});
+    kernel->prepare(
+        {temperature, temperature, temperature, phases, old_u, &history, &history, &history, 0.5, 0.5});
   }
   /// K d by the tangent, [owned node][component].
   std::vector<double> product(const std::vector<double>& direction) {

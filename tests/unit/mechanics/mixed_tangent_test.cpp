@@ -88,8 +88,10 @@ struct Mixed {
         mesh, *matrix, *pressure, ghosts,
         mechanics::MixedSolverOptions{.direct = direct, .relative_tolerance = 1e-11});
     history = blocks[0]->initial_history();
-    blocks[0]->prepare({temperature, temperature, temperature, std::vector<double>(u.size(), 0.0), &history,
-                        &history, &history, 0.5, 0.5});
+    mechanics::NodalPhases nodal(mesh, materials, temperature);
+    const mechanics::PhaseFields phases = nodal.evaluate(0, temperature, {});
+    blocks[0]->prepare({temperature, temperature, temperature, phases, std::vector<double>(u.size(), 0.0),
+                        &history, &history, &history, 0.5, 0.5});
     pressure->begin({});
   }
   double number(Index node, int i) const {
