@@ -101,6 +101,7 @@ struct Prepared {
     kernel->prepare({.temperature = temperature,
                      .pass_temperature = temperature,
                      .initial_temperature = temperature,
+                     .old_displacement = u,
                      .held_displacement = u,
                      .held_history = &history,
                      .old_history = &history,

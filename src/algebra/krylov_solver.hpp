@@ -1,5 +1,5 @@
 /// Krylov's methods on an operator that is preconditioned by another, assembled matrix
-/// (corrected_matrix.hpp): conjugate gradients where both are positive definite, else flexible GMRES.
+/// (function_matrix.hpp): conjugate gradients where both are positive definite, else flexible GMRES.
 #pragma once
 
 #include <petscksp.h>

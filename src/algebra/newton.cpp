@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "algebra/forcing.hpp"
 
@@ -17,33 +18,42 @@ constexpr int k_line_search_trials = 12;  ///< residuals after the full step
 /// enough.
 constexpr double k_chord_residual = 10;
 
-double dot(std::span<const double> a, std::span<const double> b, std::size_t n) {
+double dot(std::span<const double> a, std::span<const double> b) {
   double s = 0;
-  for (std::size_t i = 0; i < n; ++i) s += a[i] * b[i];
+  for (std::size_t i = 0; i < a.size(); ++i) s += a[i] * b[i];
   return global_sum(s);
 }
 
 /// One solve: the vectors and what the iteration and its line search share.
 class Iteration {
  public:
-  Iteration(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts, int components,
-            std::size_t n_owned, std::span<double> x, const NewtonOptions& options)
+  Iteration(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts,
+            std::span<const int> components, std::span<double> x, const NewtonOptions& options)
       : system_(system),
         solver_(solver),
         ghosts_(ghosts),
         components_(components),
-        n_(n_owned),
         x_(x),
         options_(options),
-        r_(n_owned),
-        step_(x.size()),
-        start_(x.size()) {}
+        start_(x.size()),
+        local_step_(x.size()) {
+    std::size_t n = 0;
+    for (const int of_field : components) n += owned(of_field);
+    n_first_ = owned(components.front());
+    r_.resize(n);
+    step_.resize(n);
+  }
 
   NewtonReport run();
 
  private:
+  std::size_t owned(int components) const {
+    return static_cast<std::size_t>(ghosts_.n_owned_nodes()) * static_cast<std::size_t>(components);
+  }
   void evaluate();
   void constrain();
+  /// The step on local nodes, ghosts included, from that on owned ones.
+  void spread_step();
   /// The norm that ends the iteration.
   double goal() const { return std::max(options_.tolerance * reference_, options_.absolute_tolerance); }
   bool converged() const { return norm_ <= goal(); }
@@ -58,11 +68,12 @@ class Iteration {
   NonlinearSystem& system_;
   TangentSolver& solver_;
   const GhostExchange& ghosts_;
-  int components_;
-  std::size_t n_;
+  std::span<const int> components_;
+  std::size_t n_first_ = 0;  ///< owned entries of the first field
   std::span<double> x_;
   const NewtonOptions& options_;
-  std::vector<double> r_, step_, start_;
+  std::vector<double> r_, step_;            ///< on owned nodes
+  std::vector<double> start_, local_step_;  ///< on local nodes
   const std::vector<char>* fixed_ = nullptr;
   const Ties* ties_ = nullptr;
   double norm_ = 0, reference_ = 0;
@@ -75,16 +86,30 @@ void Iteration::evaluate() {
 
 /// Leaves what the unknowns can change: nothing where prescribed, the sum of what is tied together.
 void Iteration::constrain() {
-  for (std::size_t i = 0; i < n_ && i < fixed_->size(); ++i)
+  for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
     if ((*fixed_)[i]) r_[i] = 0;
-  ties_->sum(r_);
-  norm_ = std::sqrt(dot(r_, r_, n_));
+  ties_->sum(std::span(r_).first(n_first_));
+  norm_ = std::sqrt(dot(r_, r_));
+}
+
+void Iteration::spread_step() {
+  std::size_t from = 0, to = 0;
+  const std::size_t n_nodes =
+      x_.size() / static_cast<std::size_t>(std::accumulate(components_.begin(), components_.end(), 0));
+  for (const int components : components_) {
+    const std::size_t n_owned = owned(components), n = n_nodes * static_cast<std::size_t>(components);
+    std::copy_n(step_.begin() + static_cast<std::ptrdiff_t>(from), n_owned,
+                local_step_.begin() + static_cast<std::ptrdiff_t>(to));
+    ghosts_.update(std::span(local_step_).subspan(to, n), components);
+    from += n_owned;
+    to += n;
+  }
 }
 
 double Iteration::slope_at(double alpha) {
-  for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + alpha * step_[i];
+  for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + alpha * local_step_[i];
   evaluate();
-  return dot(step_, r_, n_);
+  return dot(step_, r_);
 }
 
 /// Finds alpha with |s(alpha)| <= line_search_slope |s(0)|, s(alpha) = d · r(x + alpha d): the full step if
@@ -154,10 +179,9 @@ NewtonReport Iteration::run() {
     }
     if (!tangent && !chord) tangent = &system_.tangent();
     for (double& value : r_) value = -value;
-    const auto step = std::span(step_).first(n_);
     const double eta = forcing.next(norm_, goal() / norm_);
     const LinearReport linear =
-        chord ? solver_.solve_again(r_, step, eta) : solver_.solve(*tangent, r_, step, eta);
+        chord ? solver_.solve_again(r_, step_, eta) : solver_.solve(*tangent, r_, step_, eta);
     for (double& value : r_) value = -value;
     tangent = nullptr;
     ++report.iterations;
@@ -166,20 +190,20 @@ NewtonReport Iteration::run() {
       report.reason = "linear solver: " + linear.reason;
       return report;
     }
-    for (std::size_t i = 0; i < n_ && i < fixed_->size(); ++i)
+    for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
       if ((*fixed_)[i]) step_[i] = 0;
-    ties_->share(step);
-    ghosts_.update(step_, components_);
+    ties_->share(std::span(step_).first(n_first_));
+    spread_step();
 
     const double norm_before = norm_;
     double alpha = 1;
     std::copy(x_.begin(), x_.end(), start_.begin());
     if (options_.line_search) {
-      alpha = search(dot(step_, r_, n_));
-      system_.accept(x_, step_, alpha);
+      alpha = search(dot(step_, r_));
+      system_.accept(x_, local_step_, alpha);
     } else {
-      for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_[i];
-      system_.accept(x_, step_, 1.0);
+      for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += local_step_[i];
+      system_.accept(x_, local_step_, 1.0);
       evaluate();
     }
     chord = options_.chords && !chord && alpha == 1.0 && chord_converges(norm_before);
@@ -189,10 +213,8 @@ NewtonReport Iteration::run() {
 }  // namespace
 
 NewtonReport newton(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts,
-                    int components, std::span<double> x, const NewtonOptions& options) {
-  const std::size_t n_owned =
-      static_cast<std::size_t>(ghosts.n_owned_nodes()) * static_cast<std::size_t>(components);
-  return Iteration(system, solver, ghosts, components, n_owned, x, options).run();
+                    std::span<const int> components, std::span<double> x, const NewtonOptions& options) {
+  return Iteration(system, solver, ghosts, components, x, options).run();
 }
 
 }  // namespace solidus::algebra

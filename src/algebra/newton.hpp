@@ -1,4 +1,4 @@
-/// Newton's method with line search on a nodal field.
+/// Newton's method with line search on one or more nodal fields.
 #pragma once
 
 #include <span>
@@ -30,7 +30,11 @@ struct NewtonReport {
   std::string reason;             ///< why it stopped when it did not converge
 };
 
-/// A system r(x) = 0 in a nodal field [local node][component]. All calls are collective.
+/// A system r(x) = 0 in nodal fields [local node][component], which stand one behind the other in x; so do
+/// their residuals [owned node][component] in r. What the tangent's matrix says of prescribed and tied
+/// degrees of freedom is about the first field; of others, entries that are no unknowns have residuals and
+/// steps of zero. With several fields r is to be the monotone form of the problem (the product of r and
+/// Newton's direction is negative). All calls are collective.
 class NonlinearSystem {
  public:
   virtual ~NonlinearSystem() = default;
@@ -52,8 +56,9 @@ class NonlinearSystem {
 /// Where the step before has contracted so much that the same tangent will do for the rest, it serves once
 /// more: a chord step, without assembly and set-up of the solver.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens
-/// the step. x: [local node][component], ghosts updated on return.
+/// the step. x: [local node][component] of each field, ghosts updated on return.
+/// @param components  of each field
 NewtonReport newton(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts,
-                    int components, std::span<double> x, const NewtonOptions& options);
+                    std::span<const int> components, std::span<double> x, const NewtonOptions& options);
 
 }  // namespace solidus::algebra

@@ -22,6 +22,8 @@ namespace solidus::heat {
 
 namespace {
 
+constexpr int k_one_component[] = {1};
+
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
@@ -357,7 +359,7 @@ algebra::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperat
   newton.absolute_tolerance = temperature_system_->round_off();
   newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;
   const algebra::NewtonReport report =
-      algebra::newton(*temperature_system_, solver_->strong(), ghosts_, 1, temperature, newton);
+      algebra::newton(*temperature_system_, solver_->strong(), ghosts_, k_one_component, temperature, newton);
   temperature_system_->residual(temperature, r);
   require_positive(temperature);
   if (!may_end(report, newton_steps)) require(report, r, temperature);

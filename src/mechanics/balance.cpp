@@ -46,7 +46,7 @@ BodyBalance::BodyBalance(const mesh::Mesh& mesh, const algebra::Presence& presen
       body_group_(groups_of_bodies(mesh, presence)),
       node_group_(static_cast<std::size_t>(mesh.n_owned_nodes), 0),
       n_groups_(mesh.bodies.size()),
-      sums_(3 * mesh.bodies.size(), 0.0) {
+      sums_(mesh.bodies.size()) {
   for (const mesh::Block& block : mesh.blocks) {
     if (!presence.body(block.body)) continue;
     for (const Index node : block.nodes)
@@ -56,36 +56,52 @@ BodyBalance::BodyBalance(const mesh::Mesh& mesh, const algebra::Presence& presen
 }
 
 void BodyBalance::begin() {
-  std::fill(sums_.begin(), sums_.end(), 0.0);
+  std::fill(sums_.begin(), sums_.end(), Sums{});
 }
 
 void BodyBalance::add_internal(int body, double squares) {
-  sums_[3 * body_group_[static_cast<std::size_t>(body)] + 1] += squares;
+  sums_[body_group_[static_cast<std::size_t>(body)]].internal += squares;
 }
 
 void BodyBalance::add_exchanged(std::span<const double> force) {
-  for (std::size_t i = 0; i < force.size(); ++i) sums_[3 * group_of_entry(i)] += force[i] * force[i];
+  for (std::size_t i = 0; i < force.size(); ++i)
+    sums_[group_of_entry(i, components_)].exchanged += force[i] * force[i];
 }
 
 void BodyBalance::add_residual(std::span<const double> r, std::span<const char> fixed,
                                std::span<const char> supported) {
   for (std::size_t i = 0; i < r.size(); ++i) {
     if (fixed[i] != 0 && supported[i] == 0) continue;
-    sums_[3 * group_of_entry(i) + (fixed[i] != 0 ? 0 : 2)] += r[i] * r[i];
+    Sums& sums = sums_[group_of_entry(i, components_)];
+    (fixed[i] != 0 ? sums.exchanged : sums.residual) += r[i] * r[i];
   }
 }
 
+void BodyBalance::add_volume_residual(std::span<const double> r, int fields) {
+  for (std::size_t i = 0; i < r.size(); ++i) sums_[group_of_entry(i, fields)].volume_residual += r[i] * r[i];
+}
+
+void BodyBalance::add_volume_change(std::span<const double> change, int fields) {
+  for (std::size_t i = 0; i < change.size(); ++i)
+    sums_[group_of_entry(i, fields)].volume_change += change[i] * change[i];
+}
+
 double BodyBalance::reference() {
-  MPI_Allreduce(MPI_IN_PLACE, sums_.data(), static_cast<int>(sums_.size()), MPI_DOUBLE, MPI_SUM,
+  std::vector<Sums> sums(sums_.size());
+  static_assert(sizeof(Sums) == 5 * sizeof(double));
+  MPI_Allreduce(sums_.data(), sums.data(), static_cast<int>(5 * sums.size()), MPI_DOUBLE, MPI_SUM,
                 PETSC_COMM_WORLD);
   double squares = 0, worst = 0, largest = 0;
-  for (std::size_t g = 0; g < n_groups_; ++g) {
-    const double reference = std::max(sums_[3 * g], k_internal_share * k_internal_share * sums_[3 * g + 1]);
-    const double residual = sums_[3 * g + 2];
+  const auto look = [&](double residual, double reference) {
     squares += residual;
-    largest = std::max(largest, reference);
     if (residual > 0)
       worst = std::max(worst, reference > 0 ? residual / reference : std::numeric_limits<double>::infinity());
+  };
+  for (const Sums& group : sums) {
+    const double reference = std::max(group.exchanged, k_internal_share * k_internal_share * group.internal);
+    largest = std::max(largest, reference);
+    look(group.residual, reference);
+    look(group.volume_residual, group.volume_change);
   }
   return worst > 0 ? std::sqrt(squares / worst) : std::sqrt(largest);
 }

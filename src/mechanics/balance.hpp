@@ -26,20 +26,29 @@ class BodyBalance {
   void add_exchanged(std::span<const double> force);
   /// The residual; where prescribed it is a support force, on the axis of an axisymmetric mesh it is neither.
   void add_residual(std::span<const double> r, std::span<const char> fixed, std::span<const char> supported);
-  /// The number R with ‖r‖/R = max over the bodies of ‖r_body‖/reference_body; over all processes.
+  /// The residual of the volume of mixed elements in the unit of a force, and the magnitudes of the terms
+  /// that it is the sum of, as far as this step has changed them: its reference. [owned node][field]
+  void add_volume_residual(std::span<const double> r, int fields);
+  void add_volume_change(std::span<const double> change, int fields);
+  /// The number R with ‖r‖/R = max over the bodies of ‖r_body‖/reference_body, forces and volumes each
+  /// measured against their own reference; over all processes.
   /// Collective.
   double reference();
 
  private:
-  std::size_t group_of_entry(std::size_t entry) const {
-    return node_group_[entry / static_cast<std::size_t>(components_)];
+  std::size_t group_of_entry(std::size_t entry, int of_node) const {
+    return node_group_[entry / static_cast<std::size_t>(of_node)];
   }
 
   int components_;
   std::vector<std::size_t> body_group_;  ///< of each body
   std::vector<std::size_t> node_group_;  ///< of each owned node
   std::size_t n_groups_ = 0;
-  std::vector<double> sums_;  ///< squares: exchanged, internal, residual of each group
+  /// Squares of each group: forces exchanged, internal and left over; volumes left over and changed.
+  struct Sums {
+    double exchanged = 0, internal = 0, residual = 0, volume_residual = 0, volume_change = 0;
+  };
+  std::vector<Sums> sums_;
 };
 
 }  // namespace solidus::mechanics

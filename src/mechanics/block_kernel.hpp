@@ -21,7 +21,7 @@ struct StepStart {
   std::span<const double> temperature;          ///< Θ_n [K], [local node]
   std::span<const double> pass_temperature;     ///< at which the law works: Θ_n or that of an iterate [K]
   std::span<const double> initial_temperature;  ///< Θ_0 [K], [local node]
-  PhaseFields phases;                           ///< of the block's body at t_n
+  std::span<const double> old_displacement;     ///< at t_n [m], [local node][component]
   std::span<const double> held_displacement;    ///< whose entropy is held: at t_n or of an iterate [m]
   const BlockHistory* held_history;             ///< the same
   const BlockHistory* old_history;              ///< at t_n
@@ -34,6 +34,7 @@ struct StepStart {
   BlockHistory* new_stress = nullptr;
   double stress_share = 1;  ///< of t_{n+1} in the mean
   StressAtWork work = StressAtWork::end;
+  PhaseFields phases{};  ///< of the block's body at t_n
 };
 
 /// Sums over the counted elements of a block.

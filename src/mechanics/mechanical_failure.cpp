@@ -18,8 +18,9 @@ void MechanicalPhase::reject(const std::string& reason, std::span<const double> 
 }
 
 std::string MechanicalPhase::worst_place(std::span<const double> x) {
-  std::vector<double> r(external_.size());
+  std::vector<double> r(n_residuals());
   residual(x, r);
+  r.resize(n_forces());
   matrix_->ties().sum(r);
   struct {
     double value;
@@ -51,7 +52,7 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
 std::string MechanicalPhase::law_failure(std::span<const double> x) const {
   std::string text;
   for (std::size_t b = 0; b < blocks_.size() && text.empty(); ++b) {
-    text = blocks_[b]->failure(x);
+    text = blocks_[b]->failure(x.first(n_displacements()));
     if (!text.empty())
       text = fmt::format("body '{}', {}", mesh_.bodies[static_cast<std::size_t>(mesh_.blocks[b].body)].name,
                          text);

@@ -9,7 +9,8 @@
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
-#include "mechanics/mixed_solver.hpp"
+#include "mechanics/nodal_pressure.hpp"
+#include "mechanics/saddle_solver.hpp"
 #include "mechanics/stress_history.hpp"
 
 namespace solidus::mechanics {
@@ -45,6 +46,8 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       initial_temperature_(initial_temperature.begin(), initial_temperature.end()),
       nodal_phases_(mesh, materials, initial_temperature) {
   assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
+  if (options_.stabilisation == Stabilisation::automatic)
+    options_.stabilisation = options_.dynamics ? Stabilisation::orthogonal : Stabilisation::algebraic;
   create_blocks(materials);
   if (options_.dynamics) {
     std::vector<double> density;
@@ -139,12 +142,15 @@ algebra::NodeGraph MechanicalPhase::graph() const {
 
 void MechanicalPhase::create_matrix() {
   using Storage = algebra::BlockMatrix::Storage;
-  // What couples displacements with temperatures or pressures has their pattern.
-  const bool alone = options_.mapping != Mapping::simultaneous && !pressure_ &&
-                     !algebra::any_process(!loads_->ties().empty());
-  const Storage storage = alone ? algebra::storage_for(linear_options(options_), mesh_, components_,
-                                                       algebra::rigid_body_mode_count(components_))
-                                : Storage::whole;
+  Storage storage = Storage::whole;
+  // What couples displacements with temperatures has their pattern.
+  if (options_.mapping != Mapping::simultaneous && !algebra::any_process(!loads_->ties().empty())) {
+    if (!pressure_)
+      storage = algebra::storage_for(linear_options(options_), mesh_, components_,
+                                     algebra::rigid_body_mode_count(components_));
+    else if (options_.symmetric)
+      storage = Storage::upper;
+  }
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, graph(), storage);
   matrix_->set_fixed(loads_->fixed());
   matrix_->tie(loads_->ties());
@@ -159,11 +165,11 @@ void MechanicalPhase::bind() {
 
 /// Without mixed elements there is none.
 void MechanicalPhase::create_pressure() {
-  if (pressure_) seconds_before_ += pressure_->seconds();
   const bool any = std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) {
     return dynamic_cast<const MixedKernel*>(block.get()) != nullptr;
   });
   pressure_.reset();
+  fields_.assign(1, components_);
   if (!any) return;  // every process has every block
   if (options_.solver == algebra::SolverKind::jacobi || options_.solver == algebra::SolverKind::incomplete)
     throw InputError({}, "this solver of mechanics cannot find the pressure of mixed triangles or tetrahedra",
@@ -176,21 +182,29 @@ void MechanicalPhase::create_pressure() {
       for (double& f : body_force.back()) f *= material.density;
     }
   }
-  pressure_ =
-      std::make_unique<PressureEquation>(mesh_, components_, materials_, blocks_, std::move(body_force),
-                                         factorises(options_.solver, mesh_, components_));
+  pressure_ = std::make_unique<NodalPressure>(mesh_, materials_, blocks_, std::move(body_force));
+  fields_.push_back(pressure_->fields());
+}
+
+std::size_t MechanicalPhase::n_unknowns() const {
+  return n_displacements() + (pressure_ ? pressure_->absent().size() : 0);
+}
+
+std::size_t MechanicalPhase::n_residuals() const {
+  return n_forces() +
+         (pressure_ ? static_cast<std::size_t>(mesh_.n_owned_nodes * pressure_->fields()) : std::size_t{0});
 }
 
 void MechanicalPhase::create_solver() {
   if (solver_) seconds_before_ += solver_->seconds_setup() + solver_->seconds_solve();
-  mixed_solver_ = nullptr;
+  saddle_solver_ = nullptr;
   if (pressure_) {
-    auto solver = std::make_unique<MixedSolver>(
-        mesh_, *matrix_, *pressure_, ghosts_,
-        MixedSolverOptions{.direct = factorises(options_.solver, mesh_, components_),
-                           .symmetric = options_.symmetric,
-                           .relative_tolerance = options_.linear_tolerance});
-    mixed_solver_ = solver.get();
+    auto solver =
+        std::make_unique<SaddleSolver>(mesh_, *matrix_, *pressure_, ghosts_,
+                                       SaddleSolverOptions{.kind = options_.solver,
+                                                           .symmetric = options_.symmetric,
+                                                           .relative_tolerance = options_.linear_tolerance});
+    saddle_solver_ = solver.get();
     solver_ = std::move(solver);
     return;
   }
@@ -223,7 +237,7 @@ MechanicalState MechanicalPhase::initial_state() {
   MechanicalState state;
   state.displacement.assign(forces_.size(), 0.0);
   for (const auto& block : blocks_) state.history.push_back(block->initial_history());
-  if (pressure_) state.pressure = pressure_->pressure();
+  if (pressure_) state.pressure.assign(pressure_->absent().size(), 0.0);
   if (options_.integration == TimeIntegration::two_step) state.before = state.history;
   if (inertia_) set_in_motion(state);
   return state;
@@ -288,8 +302,7 @@ void MechanicalPhase::keep_fields() {
 }
 
 double MechanicalPhase::seconds_solver() const {
-  return seconds_before_ + solver_->seconds_setup() + solver_->seconds_solve() +
-         (pressure_ ? pressure_->seconds() : 0.0);
+  return seconds_before_ + solver_->seconds_setup() + solver_->seconds_solve();
 }
 
 std::size_t MechanicalPhase::bytes() const {
@@ -298,7 +311,7 @@ std::size_t MechanicalPhase::bytes() const {
   for (const auto& block : blocks_) total += block->bytes();
   total += nodal_phases_.bytes();
   if (inertia_) total += inertia_->bytes();
-  if (pressure_) total += pressure_->bytes() + mixed_solver_->bytes();
+  if (pressure_) total += pressure_->bytes() + saddle_solver_->bytes();
   return total;
 }
 

@@ -3,6 +3,9 @@
 ///
 ///   r(u) = ∫ B̄ᵀ σ dV − f(t) + contributions + inertia = 0
 ///
+/// Where elements are mixed the nodal pressure is an unknown beside the displacement, and its equation a
+/// residual beside that of the forces (nodal_pressure.hpp).
+///
 /// Newton's criterion measures the residual against the forces that the bodies exchange with the world
 /// (loads, supports, contact, inertia), or a millionth of the internal forces where there are none. In
 /// time backward Euler, or the two-step method (material/time_integration.hpp). The strain is small, so
@@ -34,8 +37,8 @@ namespace solidus::mechanics {
 
 class BlockKernel;
 class Loads;
-class MixedSolver;
-class PressureEquation;
+class NodalPressure;
+class SaddleSolver;
 struct BlockWork;
 
 enum class TimeIntegration { backward_euler, two_step };
@@ -53,7 +56,7 @@ struct MechanicsOptions {
   /// operator.
   bool b_bar = true;
   Simplices simplices = Simplices::automatic;  ///< with Mapping::simultaneous always displacement
-  Stabilisation stabilisation = Stabilisation::orthogonal;
+  Stabilisation stabilisation = Stabilisation::automatic;
   TimeIntegration integration = TimeIntegration::backward_euler;
   Mapping mapping = Mapping::isothermal;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
@@ -168,7 +171,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   // The pieces of solve(), for an iteration that has further unknowns (coupling/simultaneous.hpp).
   /// Loads, state at t_n and properties at the temperature of the pass; `old` must live until conclude().
   void begin(const MechanicalState& old, const MechanicalPass& pass);
-  /// Newton's start, with the prescribed displacements at the end of the pass.
+  /// Newton's start, with the prescribed displacements at the end of the pass: displacements [local
+  /// node][component] and, where elements are mixed, pressures in their unit [local node][field].
   std::vector<double> start(const MechanicalState& old, const MechanicalPass& pass) const;
   /// The properties at another temperature of the iterate, after begin().
   void prepare(const MechanicalState& old, const MechanicalPass& pass);
@@ -227,6 +231,14 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   void bind();
   void create_solver();
   void create_pressure();
+  /// Entries of the displacement in the unknowns of Newton's iteration, ghosts included.
+  std::size_t n_displacements() const { return mesh_.x.size() * static_cast<std::size_t>(components_); }
+  /// The same of residuals, which are on owned nodes.
+  std::size_t n_forces() const {
+    return static_cast<std::size_t>(mesh_.n_owned_nodes) * static_cast<std::size_t>(components_);
+  }
+  std::size_t n_unknowns() const;
+  std::size_t n_residuals() const;
   void set_in_motion(MechanicalState& state);
   void add_residual_to_balance(std::span<const double> r);
   /// ‖r(x)‖ of what the unknowns can change.
@@ -251,9 +263,10 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::unique_ptr<Loads> loads_;
   std::vector<double> weight_;  ///< of the bodies, [local node][component] [N]
   std::unique_ptr<algebra::BlockMatrix> matrix_;
-  std::unique_ptr<PressureEquation> pressure_;  ///< null without mixed elements
+  std::unique_ptr<NodalPressure> pressure_;  ///< null without mixed elements
+  std::vector<int> fields_;                  ///< of Newton's iteration: components of each
   std::unique_ptr<algebra::TangentSolver> solver_;
-  MixedSolver* mixed_solver_ = nullptr;      ///< the same where elements are mixed
+  SaddleSolver* saddle_solver_ = nullptr;    ///< the same where elements are mixed
   std::unique_ptr<InertialForces> inertia_;  ///< null in quasi-statics
   algebra::GhostExchange ghosts_;
   BodyBalance balance_;
@@ -264,8 +277,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   bool keeps_fields_ = false;            ///< somebody has asked for it
   std::vector<BlockHistory> no_stress_;  ///< to keep it against
   double round_off_ = 0;                 ///< residual that is rounding [N]
-  std::vector<double> x_;                ///< of the last residual
-  std::vector<double> residual_;         ///< there, [owned node][component]
+  std::vector<double> x_;                ///< unknowns of the last residual
+  std::vector<double> residual_;         ///< there
   bool residual_is_known_ = false;       ///< for what prepare() was last called with
   std::vector<double> forces_;           ///< internal forces, [local node][component]; ghost rows are scrap
   std::vector<double> external_;         ///< loads at t_{n+1}, [owned node][component]

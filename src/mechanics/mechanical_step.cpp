@@ -11,7 +11,8 @@
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
-#include "mechanics/mixed_solver.hpp"
+#include "mechanics/nodal_pressure.hpp"
+#include "mechanics/saddle_solver.hpp"
 #include "mechanics/stress_history.hpp"
 
 namespace solidus::mechanics {
@@ -59,7 +60,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
         {.temperature = pass.temperature,
          .pass_temperature = pass.iterate_temperature.empty() ? pass.temperature : pass.iterate_temperature,
          .initial_temperature = initial_temperature_,
-         .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share),
+         .old_displacement = old.displacement,
          .held_displacement = held.displacement,
          .held_history = &held.history[b],
          .old_history = &old.history[b],
@@ -71,8 +72,9 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
                                  : nullptr,
          .new_stress = remembers || keeps ? &stress_[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
-         .work = pass.work});
-  if (pressure_) pressure_->begin(held.pressure);
+         .work = pass.work,
+         .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share)});
+  if (pressure_) pressure_->begin();
   stress_at_work_ = pass.work;
   residual_is_known_ = false;
   round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
@@ -90,25 +92,26 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   x_.assign(x.begin(), x.end());
   std::fill(forces_.begin(), forces_.end(), 0.0);
   balance_.begin();
-  const bool found = !pressure_ || pressure_->solve(x);
+  const std::span<const double> u = x.first(n_displacements());
+  if (pressure_) pressure_->set(x.subspan(u.size()));
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    balance_.add_internal(mesh_.blocks[b].body, blocks_[b]->add_forces(x, forces_));
-  // Newton's iteration takes what is not a number for a step too far.
-  if (!found) std::fill(forces_.begin(), forces_.end(), std::numeric_limits<double>::quiet_NaN());
-  std::fill(r.begin(), r.end(), 0.0);
+    balance_.add_internal(mesh_.blocks[b].body, blocks_[b]->add_forces(u, forces_));
+  const std::span<double> net = r.first(n_forces());
+  std::fill(net.begin(), net.end(), 0.0);
   {
     const profile::Part of_contact("contact");
-    for (algebra::Contribution* contribution : contributions_) contribution->add_residual(x, r);
+    for (algebra::Contribution* contribution : contributions_) contribution->add_residual(u, net);
   }
-  balance_.add_exchanged(r);
+  balance_.add_exchanged(net);
   balance_.add_exchanged(external_);
-  for (std::size_t i = 0; i < r.size(); ++i) r[i] += forces_[i] - external_[i];
+  for (std::size_t i = 0; i < net.size(); ++i) net[i] += forces_[i] - external_[i];
   if (inertia_) {
-    inertia_->force(x, inertial_);
+    inertia_->force(u, inertial_);
     balance_.add_exchanged(inertial_);
-    for (std::size_t i = 0; i < r.size(); ++i) r[i] += inertial_[i];
+    for (std::size_t i = 0; i < net.size(); ++i) net[i] += inertial_[i];
   }
-  add_residual_to_balance(r);
+  add_residual_to_balance(net);
+  if (pressure_) pressure_->residual(r.subspan(net.size()), balance_);
   residual_.assign(r.begin(), r.end());
   residual_is_known_ = true;
   return balance_.reference();
@@ -141,11 +144,12 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
     bind();
   }
   matrix_->set_zero();
-  for (const auto& block : blocks_) block->add_tangent(x_, *matrix_);
+  const std::span<const double> u = std::span<const double>(x_).first(n_displacements());
+  for (const auto& block : blocks_) block->add_tangent(u, *matrix_);
   if (inertia_) inertia_->add_tangent(*matrix_);
   const profile::Part of_contact("contact");
-  for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(x_, *matrix_);
-  if (mixed_solver_ != nullptr) mixed_solver_->assemble();
+  for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(u, *matrix_);
+  if (saddle_solver_ != nullptr) saddle_solver_->assemble();
   return *matrix_;
 }
 
@@ -158,7 +162,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   std::vector<double> x = start(old, pass);
   look_ahead(pass, x);
   PhaseReport report;
-  report.newton = algebra::newton(*this, *solver_, ghosts_, components_, x, newton_options);
+  report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
   if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
   report.work = conclude(old, pass, std::move(x), trial);
@@ -166,11 +170,11 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
 }
 
 double MechanicalPhase::unbalanced(std::span<const double> x) {
-  std::vector<double> r(external_.size());
+  std::vector<double> r(n_residuals());
   residual(x, r);
-  for (std::size_t i = 0; i < r.size(); ++i)
+  for (std::size_t i = 0; i < n_forces(); ++i)
     if (loads_->fixed()[i] != 0) r[i] = 0;
-  matrix_->ties().sum(r);
+  matrix_->ties().sum(std::span(r).first(n_forces()));
   double squares = 0;
   for (const double value : r) squares += value * value;
   return std::sqrt(algebra::global_sum(squares));
@@ -178,8 +182,9 @@ double MechanicalPhase::unbalanced(std::span<const double> x) {
 
 void MechanicalPhase::look_ahead(const MechanicalPass& pass, std::vector<double>& x) {
   if (!algebra::any_process(!pass.guess.empty())) return;
-  std::vector<double> guess(pass.guess.begin(), pass.guess.end());
-  loads_->prescribe(pass.time, guess);
+  std::vector<double> guess = x;
+  std::copy(pass.guess.begin(), pass.guess.end(), guess.begin());
+  loads_->prescribe(pass.time, std::span(guess).first(n_displacements()));
   const double here = unbalanced(x);
   if (here <= round_off_) return;
   const double there = unbalanced(guess);
@@ -194,9 +199,13 @@ void MechanicalPhase::begin(const MechanicalState& old, const MechanicalPass& pa
 }
 
 std::vector<double> MechanicalPhase::start(const MechanicalState& old, const MechanicalPass& pass) const {
-  std::vector<double> x = pass.iterate != nullptr ? pass.iterate->displacement : old.displacement;
-  if (!pass.start.empty()) x.assign(pass.start.begin(), pass.start.end());
-  loads_->prescribe(pass.time, x);
+  const MechanicalState& from = pass.iterate != nullptr ? *pass.iterate : old;
+  std::vector<double> x(n_unknowns());
+  const std::span<const double> u =
+      pass.start.empty() ? std::span<const double>(from.displacement) : pass.start;
+  std::copy(u.begin(), u.end(), x.begin());
+  loads_->prescribe(pass.time, std::span(x).first(u.size()));
+  if (pressure_) pressure_->to_unknowns(from.pressure, std::span(x).subspan(u.size()));
   return x;
 }
 
@@ -206,18 +215,20 @@ void MechanicalPhase::rest(const MechanicalState& state, std::span<const double>
     blocks_[b]->rest({.temperature = temperature,
                       .pass_temperature = temperature,
                       .initial_temperature = initial_temperature_,
-                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
+                      .old_displacement = state.displacement,
                       .held_displacement = state.displacement,
                       .held_history = &state.history[b],
                       .old_history = &state.history[b],
                       .start_history = &state.history[b],
                       .dt = 1,
-                      .effective_dt = 1});
+                      .effective_dt = 1,
+                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share)});
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
                                   std::vector<BlockHistory>& history) {
   const profile::Part part("history");
+  const std::span<const double> u = x.first(n_displacements());
   BlockWork total;
   history.resize(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -227,7 +238,7 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
       history[b].values.resize(old.history[b].values.size());
     else  // of the layout that a checkpoint knows
       history[b].values.assign(old.history[b].values.size(), Lane(0.0));
-    const BlockWork work = blocks_[b]->finish(old.displacement, x, history[b]);
+    const BlockWork work = blocks_[b]->finish(old.displacement, u, history[b]);
     total.internal_work += work.internal_work;
     total.stabilisation_work += work.stabilisation_work;
     total.dissipation += work.dissipation;
@@ -246,6 +257,7 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
   if (&trial != &old) next.history = std::move(trial.history);
   const BlockWork total = finish(old, x, next.history);
   const MechanicalWork work = measure(old, x, total, next);
+  x.resize(n_displacements());
   next.displacement = std::move(x);
   next.stress = std::move(stress_);
   if (pressure_) next.pressure = pressure_->pressure();
@@ -262,8 +274,10 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
                                         const BlockWork& sums, MechanicalState& next) {
   // The residual at the solution: internal + contributions + inertia − loads, the support force where fixed.
   // Newton's iteration ends with it.
-  std::vector<double> r(external_.size());
+  std::vector<double> r(n_residuals());
   residual(x, r);
+  r.resize(n_forces());
+  x = x.first(n_displacements());
   double local[9] = {0,
                      0,
                      0,
@@ -309,7 +323,7 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
 }
 
 std::vector<double> MechanicalPhase::applied_forces() const {
-  std::vector<double> force(residual_.size());
+  std::vector<double> force(n_forces());
   for (std::size_t i = 0; i < force.size(); ++i) force[i] = forces_[i] - residual_[i];
   return force;
 }

@@ -36,6 +36,8 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
       : Base(mesh, block, material), Nodes(mesh, block, Base::geometry_, stabilisation) {
     const auto n = static_cast<std::size_t>(n_batches());
     volume_.resize(n, Lane(0.0));
+    old_volume_.resize(n, Lane(0.0));
+    old_divergence_.resize(n, Lane(0.0));
     if constexpr (adiabatic) tangent_.resize(n);
   }
 
@@ -46,6 +48,8 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
       const std::size_t i = at(batch);
       const Operator b = at_point(batch);
       volume_[i] = kept_volume(*start.held_history, batch);
+      old_volume_[i] = kept_volume(*start.old_history, batch);
+      old_divergence_[i] = trace(b.strain(gather(start.old_displacement, batch)));
       const Sym<Lane> held = strain(b.strain(gather(start.held_displacement, batch)), volume_[i]);
       const Lane bulk = this->set_properties(start, batch, 0, held);
       Lane stiffness = bulk;
@@ -68,13 +72,26 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
     Lane total(0.0);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
-      const Point point = answer(batch, b.strain(gather(u, batch)));
+      const Vectors displacement = gather(u, batch);
+      const Sym<Lane> gradient = b.strain(displacement);
+      const Nodal p = this->gather_pressure(this->field_.pressure, batch), mass = masses(batch);
+      const Point point = answer(batch, gradient, mean(p, batch));
       Vectors f{};
       b.add_force(weight(batch) * dev(point.response.stress), f);
-      this->add_pressure_force(b, batch, this->gather_pressure(this->pressure_, batch), f);
+      this->add_pressure_force(b, batch, p, f);
+      Nodal defect = this->volume_change(b, batch, displacement), change;
+      const Lane changed =
+          abs(trace(gradient) - old_divergence_[at(batch)]) + abs(point.volume - old_volume_[at(batch)]);
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        defect[a] -= mass[a] * point.volume;
+        change[a] = mass[a] * changed;
+      }
+      this->subtract_stabilisation(b, batch, p, defect);
       if (point.response.status != material::Status::converged) this->spoil(f);
       total += this->counted(batch) * this->squares(f);
       scatter<n_nodes, Operator::dim>(f, nodes_of(batch), forces);
+      this->scatter_pressure(defect, batch, this->field_.volume_residual);
+      this->scatter_pressure(change, batch, this->field_.volume_change);
     }
     return sum(total);
   }
@@ -83,12 +100,13 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
       const Lane w = weight(batch);
-      const auto response = answer(batch, b.strain(gather(u, batch))).response;
+      const auto response = answer(batch, b.strain(gather(u, batch)),
+                                   mean(this->gather_pressure(this->field_.pressure, batch), batch))
+                                .response;
       Matrix symmetric;
       std::optional<Matrix> skew;
       if (!this->law_.symmetric()) skew.emplace();
-      add_isotropic(b, Lane(augmentation_) * w * this->twice_shear_[at(batch)], w * response.twice_shear,
-                    symmetric);
+      add_isotropic(b, Lane(0.0), w * response.twice_shear, symmetric);
       if constexpr (RankOneTangent<Response>)
         if (any(response.flow_increment > Lane(0.0)))  // right is of unit length
           this->add_rank_one(b, response.left, response.right, w, dot(response.left, response.right),
@@ -110,7 +128,8 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
       const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
       const Sym<Lane> old_gradient = b.strain(old_displacement), gradient = b.strain(displacement);
       const Lane old_volume = kept_volume(*this->old_history_, batch);
-      const Point point = answer(batch, gradient);
+      const Point point =
+          answer(batch, gradient, mean(this->gather_pressure(this->field_.pressure, batch), batch));
       typename Base::Average average;
       const Sym<Lane> at_work = this->record(batch, 0, strain(old_gradient, old_volume), point.strain,
                                              point.response, trial, average, tally);
@@ -159,32 +178,23 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
   }
 
   std::size_t bytes() const override {
-    return Base::bytes() + this->bytes_of_nodes() + volume_.capacity() * sizeof(Lane) +
+    return Base::bytes() + this->bytes_of_nodes() +
+           (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity()) * sizeof(Lane) +
            tangent_.capacity() * sizeof(VolumeTangent) + kept_variation_.capacity() * sizeof(Nodal);
   }
 
-  void set_augmentation(double part) override { augmentation_ = part; }
-
-  void add_volume_defect(std::span<const double> u, std::span<double> defect,
-                         std::span<double> size) override {
+  void add_augmentation(double part, algebra::BlockMatrix& displacement) const override {
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
-      const Vectors displacement = gather(u, batch);
-      const Nodal p = this->gather_pressure(this->pressure_, batch), mass = masses(batch);
-      find_volume(batch, b.strain(displacement), mean(p, batch));
-      const Lane volume = volume_[at(batch)];
-      Nodal here = this->volume_change(b, batch, displacement), magnitude;
-      for (std::size_t a = 0; a < n_nodes; ++a) {
-        magnitude[a] = abs(here[a]) + mass[a] * abs(volume);
-        here[a] -= mass[a] * volume;
-      }
-      this->subtract_stabilisation(b, batch, p, here, magnitude);
-      this->scatter_pressure(here, batch, defect);
-      this->scatter_pressure(magnitude, batch, size);
+      Matrix symmetric;
+      Vectors divergence{};
+      b.add_force(Sym<Lane>::identity(), divergence);
+      add_product(divergence, Lane(part) * weight(batch) * this->twice_shear_[at(batch)], symmetric);
+      scatter<1>(symmetric, this->slots_of(batch), displacement);
     }
   }
 
-  void add_saddle(double unit, algebra::CoupledMatrix& matrix) const override {
+  void add_saddle(double unit, algebra::SaddleMatrix& matrix) const override {
     const auto fields = static_cast<std::size_t>(this->field_.n_fields),
                field = static_cast<std::size_t>(this->field_.field);
     for (Index batch = 0; batch < n_batches(); ++batch) {
@@ -198,32 +208,26 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
         b.add_force(Lane(unit) * t.right, right);
         compliance = Lane(1.0) / t.stiffness;
       }
+      const auto terms = this->compliance_terms(Lane(-unit * unit), compliance, batch);
       const Slot* const slots = this->slots_of(batch);
       for (std::size_t a = 0; a < n_nodes; ++a)
-        for (std::size_t c = 0; c < n_nodes; ++c)
+        for (std::size_t c = 0; c < n_nodes; ++c) {
+          // Row u_a, column p_c; and row p_a, column u_c.
+          std::array<Lane, dim> force, volume;
           for (std::size_t i = 0; i < dim; ++i) {
-            // Row u_a, column p_c; and row p_a, column u_c.
-            const Lane force = Lane(unit) * this->divergence(b, batch, a, i, c, mass) + mass[c] * left[a][i];
-            const Lane volume =
-                Lane(unit) * this->divergence(b, batch, c, i, a, mass) + mass[a] * right[c][i];
-            for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-              const Slot slot = slots[(a * n_nodes + c) * k_lanes + lane];
-              matrix.force_by_temperature(slot)[i * fields + field] += force[static_cast<int>(lane)];
-              matrix.heat_by_displacement(slot)[field * dim + i] += volume[static_cast<int>(lane)];
-            }
+            force[i] = Lane(unit) * this->divergence(b, batch, a, i, c, mass) + mass[c] * left[a][i];
+            volume[i] = Lane(unit) * this->divergence(b, batch, c, i, a, mass) + mass[a] * right[c][i];
           }
-      this->add_to_pressures(Lane(-unit * unit), compliance, batch, matrix.temperature());
-    }
-  }
-
-  void add_divergence(double factor, std::span<const double> x, std::span<double> y) const override {
-    for (Index batch = 0; batch < n_batches(); ++batch) {
-      const Operator b = at_point(batch);
-      const Lane pull = Lane(factor * augmentation_) * weight(batch) * this->twice_shear_[at(batch)] *
-                        trace(b.strain(gather(x, batch)));
-      Vectors f{};
-      b.add_force(pull * Sym<Lane>::identity(), f);
-      scatter<n_nodes, Operator::dim>(f, nodes_of(batch), y);
+          for (int lane = 0; lane < k_lanes; ++lane) {
+            double* const border =
+                matrix.border(slots[(a * n_nodes + c) * k_lanes + static_cast<std::size_t>(lane)]);
+            for (std::size_t i = 0; i < dim; ++i) {
+              border[i * fields + field] += force[i][lane];
+              border[(fields + field) * dim + i] += volume[i][lane];
+            }
+            border[2 * dim * fields + field * fields + field] += terms[a * n_nodes + c][lane];
+          }
+        }
     }
   }
 
@@ -248,9 +252,8 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
     history.values[at(batch) * n_kept_ + n_state_] = volume;
   }
 
-  /// The law at ∇u and the pressure in use.
-  Point answer(Index batch, const Sym<Lane>& gradient) {
-    const Lane pressure = mean(this->gather_pressure(this->pressure_, batch), batch);
+  /// The law at ∇u and the mean pressure of the element.
+  Point answer(Index batch, const Sym<Lane>& gradient, const Lane& pressure) {
     const bool found = find_volume(batch, gradient, pressure);
     const Lane volume = volume_[at(batch)];
     Point point{strain(gradient, volume), volume, {}};
@@ -286,7 +289,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
   Nodal variation_at_work(Index batch, BlockHistory& trial) {
     Nodal variation{};
     if constexpr (Nodes::hoop) {
-      const Nodal p = this->gather_pressure(this->pressure_, batch);
+      const Nodal p = this->gather_pressure(this->field_.pressure, batch);
       const Lane middle = mean(p, batch);
       for (std::size_t a = 0; a < n_nodes; ++a) {
         const std::size_t place = at(batch) * n_kept_ + n_state_ + 1 + a;
@@ -304,8 +307,9 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
     return variation;
   }
 
-  double augmentation_ = 0;
   PackVector<Lane> volume_;            ///< e_v of the last update, [batch]
+  PackVector<Lane> old_volume_;        ///< e_v at t_n, [batch]
+  PackVector<Lane> old_divergence_;    ///< div u at t_n, [batch]
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
   PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where nobody asked for it
 };

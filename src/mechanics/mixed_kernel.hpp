@@ -1,4 +1,4 @@
-/// What the pressure of mixed elements asks of a mesh block beside BlockKernel (pressure_equation.hpp).
+/// What the pressure of mixed elements asks of a mesh block beside BlockKernel (nodal_pressure.hpp).
 ///
 /// Linear triangles and tetrahedra with nodal displacements u and a continuous nodal mean stress p. At the
 /// one point of an element the law works at the strain dev ε(u) + ⅓ e_v 1, whose volumetric part e_v is the
@@ -26,32 +26,36 @@
 #include <memory>
 #include <span>
 
-#include "algebra/coupled_matrix.hpp"
+#include "algebra/saddle_matrix.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/simplices.hpp"
 
 namespace solidus::mechanics {
 
 /// Nodal fields of pressures, [local node][field]: bodies of different materials that share nodes have fields
-/// of their own, so that the pressure may jump between them.
+/// of their own, so that the pressure may jump between them. The arrays must stay where they are.
 struct PressureField {
+  std::span<const double> pressure;   ///< that the kernels work with [Pa]
+  std::span<double> volume_residual;  ///< r_p, added to by BlockKernel::add_forces() [m³]
+  /// Σ ∫ N |Δ div u| + N |Δ e_v| dV since the start of the step, likewise [m³]
+  std::span<double> volume_change;
   int n_fields = 1;
   int field = 0;  ///< that of the block
 };
 
+/// BlockKernel::add_forces() of a mixed block also adds its part of r_p, and not a number to both residuals
+/// where the law finds no state.
 class MixedKernel {
  public:
   virtual ~MixedKernel() = default;
 
-  /// Collects the pressure from this array, [local node][field] [Pa], which must stay where it is.
-  virtual void use_pressure(std::span<const double> pressure, PressureField field) = 0;
-  /// Looks up the slots of a matrix of pressures.
+  virtual void use_pressure(const PressureField& field) = 0;
+  /// The number of this block's field.
+  virtual int field() const = 0;
+  /// Looks up the slots of a scalar matrix of this field's pressures.
   virtual void bind_pressure(const algebra::BlockMatrix& matrix) = 0;
   /// Of the algebraic sub-scales [N/m³]; zero with orthogonal ones.
   virtual void set_body_force(const std::array<double, 3>& force) = 0;
-  /// A stiffness of this share of 2Ĝ against the divergence of u is part of add_tangent(); an iterative
-  /// solver has the operator without it by add_divergence(). Zero: none.
-  virtual void set_augmentation(double share) = 0;
 
   /// ∫ 1 dV and ∫ 2Ĝ dV over the counted elements.
   virtual std::array<double, 2> mean_stiffness() const = 0;
@@ -62,21 +66,14 @@ class MixedKernel {
   /// out_a += Σ τ V ∇N_a·(1/n Σ_b Π_b).
   virtual void add_projected(std::span<const double> projection, std::span<double> out) const = 0;
 
-  /// defect += ∫ N (div u − e_v) dV − τ V ∇N·(∇p + ρ g_0) at u and the pressure in use; size += the sum of
-  /// the magnitudes of the volume changes, [local node][field] [m³]. Not numbers where the law finds no
-  /// state.
-  virtual void add_volume_defect(std::span<const double> u, std::span<double> defect,
-                                 std::span<double> size) = 0;
-  /// matrix += ∫ N 1/κ N dV + τ V ∇N·∇N with the volumetric stiffness κ at the start of the step, times
-  /// `scale`.
-  virtual void add_compliance(double scale, algebra::BlockMatrix& matrix) const = 0;
-  /// matrix += ∫ N 1/(2Ĝ) N dV, lumped, times `scale`.
-  virtual void add_mass(double scale, algebra::BlockMatrix& matrix) const = 0;
-  /// After add_tangent(): the pressures' share of the tangent, p in units of `unit` [Pa], without the
-  /// projection: ∂r_u/∂p, ∂r_p/∂u and −(compliance as of add_compliance, with κ of now).
-  virtual void add_saddle(double unit, algebra::CoupledMatrix& matrix) const = 0;
-  /// y += factor × the augmentation's forces of x, both [local node][component].
-  virtual void add_divergence(double factor, std::span<const double> x, std::span<double> y) const = 0;
+  /// matrix += scale (∫ N (1/κ + 1/2Ĝ) N dV + τ V ∇N·∇N), the part with 1/2Ĝ lumped, κ and 2Ĝ at the start
+  /// of the step: the Schur complement of a preconditioner. After bind_pressure().
+  virtual void add_schur(double scale, algebra::BlockMatrix& matrix) const = 0;
+  /// displacement += part ∫ bᵀ 2Ĝ b dV, b = Bᵀ 1: a stiffness against the divergence.
+  virtual void add_augmentation(double part, algebra::BlockMatrix& displacement) const = 0;
+  /// After add_tangent(): the pressures' part of the tangent, p in units of `unit` [Pa/m], without the
+  /// projection: ∂r_u/∂p, ∂r_p/∂u and ∂r_p/∂p = −∫ N 1/κ N dV − τ V ∇N·∇N with κ of now.
+  virtual void add_saddle(double unit, algebra::SaddleMatrix& matrix) const = 0;
 };
 
 /// One maker per analysis kind, each in its own translation unit.

@@ -34,10 +34,8 @@ class PressureNodes : public MixedKernel {
     if constexpr (hoop) masses_ = mesh::basis_integrals(mesh, block, kind);
   }
 
-  void use_pressure(std::span<const double> pressure, PressureField field) override {
-    pressure_ = pressure;
-    field_ = field;
-  }
+  void use_pressure(const PressureField& field) override { field_ = field; }
+  int field() const override { return field_.field; }
   void bind_pressure(const algebra::BlockMatrix& matrix) override {
     pressure_slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
@@ -92,16 +90,17 @@ class PressureNodes : public MixedKernel {
     }
   }
 
-  void add_compliance(double scale, algebra::BlockMatrix& matrix) const override {
-    for (Index batch = 0; batch < geometry_.n_batches; ++batch)
-      add_to_pressures(Lane(scale), compliance_[at(batch)], batch, matrix);
-  }
-
-  void add_mass(double scale, algebra::BlockMatrix& matrix) const override {
+  void add_schur(double scale, algebra::BlockMatrix& matrix) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal mass = masses(batch);
+      auto terms = compliance_terms(Lane(scale), compliance_[at(batch)], batch);
       const Lane softness = Lane(scale) / twice_shear_[at(batch)];
-      for (std::size_t a = 0; a < n_nodes; ++a) add_entry(softness * mass[a], batch, a, a, matrix);
+      for (std::size_t a = 0; a < n_nodes; ++a) terms[a * n_nodes + a] += softness * mass[a];
+      const Slot* const slots = pressure_slots_.of(batch);
+      double* const base = matrix.block(0);
+      for (std::size_t pair = 0; pair < n_nodes * n_nodes; ++pair)
+        for (std::size_t lane = 0; lane < k_lanes; ++lane)
+          base[slots[pair * k_lanes + lane]] += terms[pair][static_cast<int>(lane)];
     }
   }
 
@@ -226,40 +225,29 @@ class PressureNodes : public MixedKernel {
         out[place(batch, a, lane)] += values[a][static_cast<int>(lane)];
   }
 
-  void add_entry(const Lane& value, Index batch, std::size_t a, std::size_t c,
-                 algebra::BlockMatrix& matrix) const {
-    const auto fields = static_cast<std::size_t>(field_.n_fields),
-               field = static_cast<std::size_t>(field_.field);
-    const Slot* const slots = pressure_slots_.of(batch) + (a * n_nodes + c) * k_lanes;
-    for (std::size_t lane = 0; lane < k_lanes; ++lane)
-      matrix.block(slots[lane])[field * fields + field] += value[static_cast<int>(lane)];
-  }
-  /// scale (∫ N compliance N dV + τ V ∇N·∇N).
-  void add_to_pressures(const Lane& scale, const Lane& compliance, Index batch,
-                        algebra::BlockMatrix& matrix) const {
+  /// scale (∫ N compliance N dV + τ V ∇N·∇N), [node][node].
+  std::array<Lane, n_nodes * n_nodes> compliance_terms(const Lane& scale, const Lane& compliance,
+                                                       Index batch) const {
     const Operator b = at_point(batch);
     const Lane w = weight(batch), stabilised = scale * w * tau_[at(batch)];
     const Nodal mass = masses(batch);
     const Lane density = select(w > Lane(0.0), scale * compliance / w, Lane(0.0));  // padding has no volume
+    std::array<Lane, n_nodes * n_nodes> terms;
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t c = 0; c < n_nodes; ++c) {
         Lane product(0.0);
         for (std::size_t i = 0; i < dim; ++i) product += b.gradient[a][i] * b.gradient[c][i];
-        add_entry(density * mass[a] * mass[c] + stabilised * product, batch, a, c, matrix);
+        terms[a * n_nodes + c] = density * mass[a] * mass[c] + stabilised * product;
       }
+    return terms;
   }
 
-  /// rows −= τ V ∇N·(∇p + ρ g_0); size += the magnitudes of its parts, which rounding is a share of.
-  void subtract_stabilisation(const Operator& b, Index batch, const Nodal& p, Nodal& rows,
-                              Nodal& size) const {
+  /// rows −= τ V ∇N·(∇p + ρ g_0).
+  void subtract_stabilisation(const Operator& b, Index batch, const Nodal& p, Nodal& rows) const {
     const Lane stabilised = tau_[at(batch)] * weight(batch);
     const auto g = pressure_gradient(p, batch);
     for (std::size_t a = 0; a < n_nodes; ++a)
-      for (std::size_t i = 0; i < dim; ++i) {
-        const Lane slope = stabilised * b.gradient[a][i];
-        rows[a] -= slope * (g[i] + body_force(i));
-        size[a] += abs(slope) * (abs(g[i]) + abs(body_force(i)));
-      }
+      for (std::size_t i = 0; i < dim; ++i) rows[a] -= stabilised * b.gradient[a][i] * (g[i] + body_force(i));
   }
   std::size_t bytes_of_nodes() const {
     return (compliance_.capacity() + twice_shear_.capacity() + tau_.capacity() + masses_.capacity()) *
@@ -269,7 +257,6 @@ class PressureNodes : public MixedKernel {
 
   bool orthogonal_;
   std::array<double, 3> body_force_{};  ///< ρ g_0 [N/m³]
-  std::span<const double> pressure_;
   PressureField field_;
   PackVector<Lane> compliance_;   ///< 1/κ_v at the start of the step [1/Pa]
   PackVector<Lane> twice_shear_;  ///< 2Ĝ of the stabilisation [Pa]

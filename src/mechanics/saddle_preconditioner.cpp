@@ -1,40 +1,17 @@
 #include "mechanics/saddle_preconditioner.hpp"
 
-#include <petscksp.h>
-
-#include <vector>
-
-#include "algebra/petsc_vectors.hpp"
-
 namespace solidus::mechanics {
 
-using algebra::check;
-
 namespace {
+
 /// Block rows of the coarsest level. In a mush, where one element melts and the next one is solid, cycles
 /// over coarser levels are no match for a factorisation: 870 linear iterations of a step of the fine
 /// crankshaft become 280.
-constexpr GlobalIndex k_coarsest = 500;
+constexpr GlobalIndex k_coarsest = 150;
+/// Stiffness against the divergence in parts of 2Ĝ.
+constexpr double k_augmentation = 1.0 / 3.0 + 0.5;
+
 }  // namespace
-
-struct SaddlePreconditioner::Petsc {
-  algebra::KspHandle of_schur;
-  algebra::VecHandle r_p, z_p;
-  std::vector<double> right;
-
-  void create(Mat schur);
-};
-
-void SaddlePreconditioner::Petsc::create(Mat schur) {
-  check(KSPCreate(PETSC_COMM_WORLD, of_schur.out()), "KSPCreate");
-  check(KSPSetOptionsPrefix(of_schur, "mechanics_mixed_p_"), "KSPSetOptionsPrefix");
-  check(KSPSetType(of_schur, KSPPREONLY), "KSPSetType");
-  PC pc = nullptr;
-  check(KSPGetPC(of_schur, &pc), "KSPGetPC");
-  check(PCSetType(pc, PCBJACOBI), "PCSetType");  // within a block incomplete LU
-  check(KSPSetFromOptions(of_schur), "KSPSetFromOptions");
-  check(MatCreateVecs(schur, z_p.out(), r_p.out()), "MatCreateVecs");
-}
 
 bool SaddlePreconditioner::serves(const algebra::BlockMatrix& displacement) {
   const int components = displacement.block_size();
@@ -42,34 +19,68 @@ bool SaddlePreconditioner::serves(const algebra::BlockMatrix& displacement) {
          algebra::Multigrid::supports(components, algebra::rigid_body_mode_count(components));
 }
 
-SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, int components, bool symmetric)
-    : multigrid_(mesh, components, algebra::rigid_body_modes, symmetric, k_coarsest),
-      petsc_(std::make_unique<Petsc>()) {}
+SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, algebra::SaddleMatrix& matrix,
+                                           NodalPressure& pressure, const algebra::GhostExchange& ghosts,
+                                           bool symmetric)
+    : mesh_(mesh),
+      matrix_(matrix),
+      pressure_(pressure),
+      ghosts_(ghosts),
+      multigrid_(mesh, matrix.components(), algebra::rigid_body_modes, symmetric, k_coarsest),
+      factors_(static_cast<std::size_t>(pressure.fields())) {
+  const auto fields = static_cast<std::size_t>(pressure.fields());
+  for (std::size_t field = 0; field < fields; ++field) {
+    schur_.push_back(std::make_unique<algebra::BlockMatrix>(mesh, 1, pressure.graph(),
+                                                            algebra::BlockMatrix::Storage::upper));
+    std::vector<char> absent(mesh.x.size());
+    for (std::size_t node = 0; node < absent.size(); ++node)
+      absent[node] = pressure.absent()[node * fields + field];
+    schur_.back()->set_fixed(std::move(absent));
+  }
+  for (MixedKernel* kernel : pressure.kernels())
+    kernel->bind_pressure(*schur_[static_cast<std::size_t>(kernel->field())]);
+}
 
-SaddlePreconditioner::~SaddlePreconditioner() = default;
+void SaddlePreconditioner::set_up_schur() {
+  const double scale = pressure_.unit() * pressure_.unit();
+  for (const auto& matrix : schur_) matrix->set_zero();
+  for (const MixedKernel* kernel : pressure_.kernels())
+    kernel->add_schur(scale, *schur_[static_cast<std::size_t>(kernel->field())]);
+  for (std::size_t field = 0; field < schur_.size(); ++field) factors_[field].set_up(*schur_[field]);
+}
 
-void SaddlePreconditioner::set_up(algebra::BlockMatrix& a) {
+void SaddlePreconditioner::set_up_displacement() {
+  algebra::BlockMatrix& a = matrix_.displacement();
+  for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_augmentation(k_augmentation, a);
   multigrid_.set_up(a);
+  for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_augmentation(-k_augmentation, a);
 }
 
-void SaddlePreconditioner::set_schur(Mat schur) {
-  if (!petsc_->of_schur) petsc_->create(schur);
-  check(KSPSetOperators(petsc_->of_schur, schur, schur), "KSPSetOperators");
-  check(KSPSetUp(petsc_->of_schur), "KSPSetUp");
+void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z) {
+  const std::size_t fields = schur_.size();
+  const auto n_p = static_cast<std::size_t>(mesh_.n_owned_nodes) * fields;
+  const std::size_t n_u = r.size() - n_p;
+  right_.resize(n_p / fields);
+  result_.resize(n_p / fields);
+  for (std::size_t field = 0; field < fields; ++field) {
+    for (std::size_t node = 0; node < right_.size(); ++node) right_[node] = -r[n_u + node * fields + field];
+    factors_[field].apply(right_, result_);
+    for (std::size_t node = 0; node < right_.size(); ++node) z[n_u + node * fields + field] = result_[node];
+  }
+  local_.resize(mesh_.x.size() * fields);
+  std::copy(z.begin() + static_cast<std::ptrdiff_t>(n_u), z.end(), local_.begin());
+  ghosts_.update(local_, pressure_.fields());
+  part_.resize(n_u);
+  matrix_.multiply_gradient(local_, part_);
+  for (std::size_t i = 0; i < n_u; ++i) part_[i] = r[i] - part_[i];
+  multigrid_.apply(part_, z.first(n_u));
 }
 
-void SaddlePreconditioner::apply(SaddleOperator& of, std::span<const double> r, std::span<double> z) {
-  Petsc& my = *petsc_;
-  PetscInt n_p = 0;
-  check(VecGetLocalSize(my.z_p, &n_p), "VecGetLocalSize");
-  const std::size_t n_u = r.size() - static_cast<std::size_t>(n_p);
-  algebra::put(r.subspan(n_u), my.r_p);
-  check(KSPSolve(my.of_schur, my.r_p, my.z_p), "KSPSolve");
-  algebra::get(my.z_p, z.subspan(n_u));
-  my.right.resize(n_u);
-  of.multiply_pressure(z.subspan(n_u), my.right);
-  for (std::size_t i = 0; i < n_u; ++i) my.right[i] = r[i] - my.right[i];
-  multigrid_.apply(my.right, z.first(n_u));
+std::size_t SaddlePreconditioner::bytes() const {
+  std::size_t total = multigrid_.bytes();
+  for (std::size_t field = 0; field < schur_.size(); ++field)
+    total += schur_[field]->bytes() + factors_[field].bytes();
+  return total;
 }
 
 }  // namespace solidus::mechanics

@@ -13,6 +13,7 @@ enum class Simplices {
 };
 
 enum class Stabilisation {
+  automatic,   ///< algebraic in quasi-statics, orthogonal with inertia
   orthogonal,  ///< orthogonal sub-grid scales (OSGS)
   algebraic    ///< algebraic sub-grid scales (ASGS), quasi-statics only
 };

@@ -211,7 +211,7 @@ struct MechanicsSpec {
   double linear_tolerance = 0;
   bool b_bar = true;
   mechanics::Simplices simplices = mechanics::Simplices::automatic;
-  mechanics::Stabilisation stabilisation = mechanics::Stabilisation::orthogonal;
+  mechanics::Stabilisation stabilisation = mechanics::Stabilisation::automatic;
   mechanics::TimeIntegration integration = mechanics::TimeIntegration::backward_euler;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
 };

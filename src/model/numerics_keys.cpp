@@ -87,9 +87,10 @@ Section<MechanicsSpec> mechanics_keys() {
       .doc("Formulation of linear triangles and tetrahedra; other shapes have b_bar.");
   using mechanics::Stabilisation;
   s.choice("stabilisation", &MechanicsSpec::stabilisation,
-           {{"orthogonal", Stabilisation::orthogonal, "orthogonal sub-grid scales"},
+           {{"automatic", Stabilisation::automatic, "algebraic in quasi-statics, orthogonal with inertia"},
+            {"orthogonal", Stabilisation::orthogonal, "orthogonal sub-grid scales"},
             {"algebraic", Stabilisation::algebraic, "algebraic sub-grid scales, without inertia"}})
-      .initially("orthogonal")
+      .initially("automatic")
       .doc("Of the pressure of mixed triangles and tetrahedra (Codina 2000).");
   using mechanics::TimeIntegration;
   s.choice(

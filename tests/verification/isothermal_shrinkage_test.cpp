@@ -39,7 +39,7 @@ material::Material alloy() {
   m.density = 2500;
   m.conductivity = 100.0;
   m.specific_heat = 1000.0;
-  m.liquid_viscosity = 1e9;
+  m.liquid_viscosity = 1e8;
   m.phase_changes.push_back({.name = "freezing",
                              .fraction = material::PhaseFraction::linear(k_freezing, k_freezing),
                              .latent_heat = 4e5,
@@ -122,18 +122,18 @@ TEST_P(IsothermalShrinkage, IsInProportionToTheHeatDrawnWithBothRules) {
 /// Deformation and heat exchange energy: what is drawn is latent heat and heat of the contraction, and the
 /// size is that of the latent heat. Where the mechanical phase holds entropy, contraction warms; without
 /// thermal expansion that leaves the size alone. The second half of a double pass works with the phases that
-/// its thermal phase has found, which the last one changes by the heat of the second half: its size is a
-/// little off that of the end.
+/// its thermal phase has found: its size is that of the end of the step but for the heat of that half.
 TEST_P(IsothermalShrinkage, FollowsTheLatentHeatInEverySchemeAndClosesTheFirstLaw) {
   struct Scheme {
     const char* name;
     Mapping mapping;
     bool double_pass, iterates;
+    double tolerance = 1e-10;
   };
   for (const Scheme& scheme : {Scheme{"isothermal", Mapping::isothermal, false, false},
                                Scheme{"isentropic", Mapping::isentropic, false, false},
                                Scheme{"simultaneous", Mapping::simultaneous, false, false},
-                               Scheme{"double pass", Mapping::isentropic, true, false},
+                               Scheme{"double pass", Mapping::isentropic, true, false, 2e-3},
                                Scheme{"iterative", Mapping::isothermal, false, true},
                                Scheme{"iterative, isentropic", Mapping::isentropic, false, true}})
     for (const auto rule : {heat::Integration::closed, heat::Integration::open}) {
@@ -147,9 +147,7 @@ TEST_P(IsothermalShrinkage, FollowsTheLatentHeatInEverySchemeAndClosesTheFirstLa
       const Result r = cool(c, true);
       printf("%s %s %s size %.1e defect %.1e frozen %.6f\n", GetParam().name, scheme.name,
              rule == heat::Integration::closed ? "closed" : "open", r.size, r.defect, r.frozen);
-      if (!scheme.double_pass) {
-        EXPECT_LE(r.size, 1e-10) << scheme.name;
-      }
+      EXPECT_LE(r.size, scheme.tolerance) << scheme.name;
       EXPECT_LE(r.defect, 1e-8) << scheme.name;
       EXPECT_GT(r.frozen, 0.5) << scheme.name;
     }

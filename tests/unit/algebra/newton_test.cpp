@@ -88,7 +88,8 @@ SpringGrid cubic(const Grid& grid) {
 NewtonReport run(const Grid& grid, SpringGrid& system, std::vector<double>& x, NewtonOptions options,
                  SolverKind kind = SolverKind::direct) {
   LinearSolver solver(grid.mesh, {.prefix = "test_", .kind = kind, .relative_tolerance = 1e-12});
-  return newton(system, solver, GhostExchange(grid.mesh), 1, x, options);
+  constexpr int components[] = {1};
+  return newton(system, solver, GhostExchange(grid.mesh), components, x, options);
 }
 
 TEST(Newton, ConvergesQuadratically) {

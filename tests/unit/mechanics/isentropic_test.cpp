@@ -82,9 +82,17 @@ struct Kernel {
       }
     const std::vector<material::Material> materials{material};
     mechanics::NodalPhases nodal(mesh, materials, temperature);
-    const mechanics::PhaseFields phases = nodal.evaluate(0, temperature, {});
-    kernel->prepare(
-        {temperature, temperature, temperature, phases, old_u, &history, &history, &history, 0.5, 0.5});
+    kernel->prepare({.temperature = temperature,
+                     .pass_temperature = temperature,
+                     .initial_temperature = temperature,
+                     .old_displacement = old_u,
+                     .held_displacement = old_u,
+                     .held_history = &history,
+                     .old_history = &history,
+                     .start_history = &history,
+                     .dt = 0.5,
+                     .effective_dt = 0.5,
+                     .phases = nodal.evaluate(0, temperature, {})});
   }
   /// K d by the tangent, [owned node][component].
   std::vector<double> product(const std::vector<double>& direction) {

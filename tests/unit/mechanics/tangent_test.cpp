@@ -91,7 +91,7 @@ struct Setting {
     algebra::BlockMatrix matrix(mesh, nc, std::move(graph));
     kernel.bind(matrix);
     const mechanics::BlockHistory history = kernel.initial_history();
-    kernel.prepare({temperature, temperature, temperature, {}, u, &history, &history, &history, 0.5, 0.5});
+    kernel.prepare({temperature, temperature, temperature, u, u, &history, &history, &history, 0.5, 0.5});
     matrix.set_zero();
     kernel.add_tangent(u, matrix);
     std::vector<double> y(static_cast<std::size_t>(mesh.n_owned_nodes * nc));
@@ -102,7 +102,7 @@ struct Setting {
   double plastic_share(BlockKernel& kernel) {
     const mechanics::BlockHistory history = kernel.initial_history();
     mechanics::BlockHistory trial = history;
-    kernel.prepare({temperature, temperature, temperature, {}, u, &history, &history, &history, 0.5, 0.5});
+    kernel.prepare({temperature, temperature, temperature, u, u, &history, &history, &history, 0.5, 0.5});
     kernel.finish(u, u, trial);
     std::vector<double> xi(static_cast<std::size_t>(mesh.blocks[0].size()));
     kernel.get_field(mechanics::ElementField::equivalent_plastic_strain, xi);
@@ -112,7 +112,7 @@ struct Setting {
   /// The same by central differences of the forces.
   std::vector<double> difference(BlockKernel& kernel, double step) {
     const mechanics::BlockHistory history = kernel.initial_history();
-    kernel.prepare({temperature, temperature, temperature, {}, u, &history, &history, &history, 0.5, 0.5});
+    kernel.prepare({temperature, temperature, temperature, u, u, &history, &history, &history, 0.5, 0.5});
     const auto forces = [&](double s) {
       std::vector<double> x = u, f(u.size(), 0.0);
       for (std::size_t i = 0; i < x.size(); ++i) x[i] += s * direction[i];

@@ -1,0 +1,132 @@
+#include "algebra/saddle_unknowns.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+
+namespace solidus::algebra {
+
+namespace {
+
+/// What an entry of the whole is, before it has a number.
+constexpr double k_unknown = 1, k_none = -1;
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+std::vector<PetscInt> rounded(std::span<const double> numbers) {
+  std::vector<PetscInt> result(numbers.size());
+  std::transform(numbers.begin(), numbers.end(), result.begin(),
+                 [](double number) { return static_cast<PetscInt>(number); });
+  return result;
+}
+
+/// Calls f(i, j, value) for all entries of the matrix of unknowns, numbers over all processes, −1 where a
+/// degree of freedom is no unknown; always in the same order.
+template <class F>
+void each_entry(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns,
+                const F& f) {
+  const BlockMatrix& a = matrix.displacement();
+  const int dim = matrix.components(), fields = matrix.fields();
+  const bool half = a.storage() == BlockMatrix::Storage::upper;
+  for (Index row = 0; row < mesh.n_owned_nodes; ++row)
+    for (std::int64_t s = a.row_start()[at(row)]; s < a.row_start()[at(row) + 1]; ++s) {
+      const Index column = a.columns()[at(s)];
+      const bool mirrored = half && column != row && column < mesh.n_owned_nodes;
+      const auto entry = [&](PetscInt i, PetscInt j, double value) {
+        f(i, j, value);
+        if (mirrored) f(j, i, value);
+      };
+      const double *const block = a.block(s), *const border = matrix.border(s);
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          entry(unknowns.of_displacement(row, i), unknowns.of_displacement(column, j), block[i * dim + j]);
+      for (int i = 0; i < dim; ++i)
+        for (int field = 0; field < fields; ++field)
+          entry(unknowns.of_displacement(row, i), unknowns.of_pressure(column, field),
+                border[i * fields + field]);
+      for (int field = 0; field < fields; ++field)
+        for (int i = 0; i < dim; ++i)
+          entry(unknowns.of_pressure(row, field), unknowns.of_displacement(column, i),
+                border[dim * fields + field * dim + i]);
+      for (int field = 0; field < fields; ++field)
+        for (int other = 0; other < fields; ++other)
+          entry(unknowns.of_pressure(row, field), unknowns.of_pressure(column, other),
+                border[2 * dim * fields + field * fields + other]);
+    }
+}
+
+}  // namespace
+
+SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matrix,
+                               std::span<const char> no_pressure, const GhostExchange& ghosts)
+    : components_(matrix.components()), fields_(matrix.fields()), ties_(matrix.displacement().ties()) {
+  n_displacements_ = at(mesh.n_owned_nodes) * at(components_);
+  const std::size_t n_pressures = at(mesh.n_owned_nodes) * at(fields_);
+  std::vector<double> u(mesh.x.size() * at(components_), k_none), p(mesh.x.size() * at(fields_), k_none);
+  const std::vector<char>& fixed = matrix.displacement().fixed();
+  for (std::size_t i = 0; i < n_displacements_; ++i)
+    if (!fixed[i]) u[i] = k_unknown;
+  for (const Index follower : ties_.followers()) u[at(follower)] = k_none;
+  for (std::size_t i = 0; i < n_pressures; ++i)
+    if (!no_pressure[i]) p[i] = k_unknown;
+
+  for (std::size_t i = 0; i < n_displacements_; ++i)
+    if (u[i] == k_unknown) entries_.push_back(i);
+  for (std::size_t i = 0; i < n_pressures; ++i)
+    if (p[i] == k_unknown) entries_.push_back(n_displacements_ + i);
+  std::int64_t mine = static_cast<std::int64_t>(entries_.size()), first = 0;
+  MPI_Exscan(&mine, &first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
+  MPI_Allreduce(&mine, &n_global_, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
+  auto number = static_cast<double>(first);
+  for (const std::size_t entry : entries_)
+    (entry < n_displacements_ ? u[entry] : p[entry - n_displacements_]) = number++;
+  ties_.share(std::span(u).first(n_displacements_));
+  ghosts.update(u, components_);
+  ghosts.update(p, fields_);
+  displacements_ = rounded(u);
+  pressures_ = rounded(p);
+}
+
+void SaddleUnknowns::expand(std::span<const double> unknowns, std::span<double> whole) const {
+  std::fill(whole.begin(), whole.end(), 0.0);
+  for (std::size_t k = 0; k < entries_.size(); ++k) whole[entries_[k]] = unknowns[k];
+  ties_.share(whole.first(n_displacements_));
+}
+
+void SaddleUnknowns::restrict_to(std::span<const double> whole, std::span<double> unknowns) const {
+  if (ties_.empty()) {
+    for (std::size_t k = 0; k < entries_.size(); ++k) unknowns[k] = whole[entries_[k]];
+    return;
+  }
+  std::vector<double> summed(whole.begin(), whole.end());
+  ties_.sum(std::span(summed).first(n_displacements_));
+  for (std::size_t k = 0; k < entries_.size(); ++k) unknowns[k] = summed[entries_[k]];
+}
+
+void SaddleCopy::create(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns) {
+  std::vector<PetscInt> rows, columns;
+  each_entry(mesh, matrix, unknowns, [&](PetscInt i, PetscInt j, double) {
+    rows.push_back(i);
+    columns.push_back(j);
+  });
+  values_.resize(rows.size());
+  const auto n = static_cast<PetscInt>(unknowns.size());
+  check(MatCreate(PETSC_COMM_WORLD, matrix_.out()), "MatCreate");
+  check(MatSetSizes(matrix_, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
+  check(MatSetType(matrix_, MATAIJ), "MatSetType");
+  // Entries with a negative number are left out, those of the same place are added up.
+  check(MatSetPreallocationCOO(matrix_, static_cast<PetscCount>(rows.size()), rows.data(), columns.data()),
+        "MatSetPreallocationCOO");
+}
+
+Mat SaddleCopy::copy(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns) {
+  if (!matrix_) create(mesh, matrix, unknowns);
+  auto to = values_.begin();
+  each_entry(mesh, matrix, unknowns, [&](PetscInt, PetscInt, double value) { *to++ = value; });
+  check(MatSetValuesCOO(matrix_, values_.data(), INSERT_VALUES), "MatSetValuesCOO");
+  return matrix_;
+}
+
+}  // namespace solidus::algebra

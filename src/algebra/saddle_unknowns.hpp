@@ -1,0 +1,66 @@
+/// The unknowns of a saddle point (saddle_matrix.hpp): its degrees of freedom without those that are
+/// prescribed, that follow another one (ties.hpp) or whose node has no pressure.
+///
+/// A linear solver works on these alone, so nodes of bodies that only conduct heat have no rows.
+#pragma once
+
+#include <petscmat.h>
+
+#include <span>
+#include <vector>
+
+#include "algebra/parallel.hpp"
+#include "algebra/petsc_handles.hpp"
+#include "algebra/saddle_matrix.hpp"
+
+namespace solidus::algebra {
+
+/// Displacements and pressures on owned nodes stand one behind the other in what is called the whole.
+class SaddleUnknowns {
+ public:
+  /// @param no_pressure  [local node][field], ghosts included: nodes without a pressure of this field
+  /// The ties and prescribed displacements are those of A as they are now. Collective.
+  SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matrix, std::span<const char> no_pressure,
+                 const GhostExchange& ghosts);
+
+  /// Unknowns of this process, and of all processes.
+  std::size_t size() const { return entries_.size(); }
+  GlobalIndex n_global() const { return n_global_; }
+  /// From unknowns to the whole: zero where prescribed, the leader's value where tied. Collective with ties.
+  void expand(std::span<const double> unknowns, std::span<double> whole) const;
+  /// From forces on the whole to those on the unknowns: the sum where tied. Collective with ties.
+  void restrict_to(std::span<const double> whole, std::span<double> unknowns) const;
+
+  /// The number over all processes, −1 where there is no unknown; of a local node.
+  PetscInt of_displacement(Index node, int component) const {
+    return displacements_[static_cast<std::size_t>(node * components_ + component)];
+  }
+  PetscInt of_pressure(Index node, int field) const {
+    return pressures_[static_cast<std::size_t>(node * fields_ + field)];
+  }
+
+ private:
+  int components_, fields_;
+  const Ties& ties_;
+  std::size_t n_displacements_;  ///< of the whole
+  GlobalIndex n_global_ = 0;
+  std::vector<std::size_t> entries_;  ///< of the whole, [unknown]
+  std::vector<PetscInt> displacements_, pressures_;
+};
+
+/// The saddle point of the unknowns in PETSc's format, for factorisations.
+class SaddleCopy {
+ public:
+  /// Copies the values of now. Collective.
+  Mat copy(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns);
+  /// The next copy has another pattern.
+  void reset() { matrix_.reset(); }
+
+ private:
+  void create(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns);
+
+  MatHandle matrix_;
+  std::vector<double> values_;
+};
+
+}  // namespace solidus::algebra

@@ -1,0 +1,168 @@
+#include "mechanics/nodal_pressure.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace solidus::mechanics {
+
+namespace {
+
+std::vector<char> mixed_blocks(std::span<const std::unique_ptr<BlockKernel>> blocks) {
+  std::vector<char> mixed;
+  for (const auto& block : blocks) mixed.push_back(dynamic_cast<MixedKernel*>(block.get()) != nullptr);
+  return mixed;
+}
+
+std::vector<const mesh::Block*> blocks_with_pressure(const mesh::Mesh& mesh,
+                                                     std::span<const std::unique_ptr<BlockKernel>> blocks) {
+  const std::vector<char> mixed = mixed_blocks(blocks);
+  std::vector<const mesh::Block*> result;
+  for (std::size_t b = 0; b < mixed.size(); ++b)
+    if (mixed[b]) result.push_back(&mesh.blocks[b]);
+  return result;
+}
+
+}  // namespace
+
+PressureFields pressure_fields(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+                               std::span<const char> mixed_block) {
+  const std::size_t n = mesh.bodies.size();
+  std::vector<char> at_node(mesh.x.size() * n, 0);
+  std::vector<int> touching(n * n, 0);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    if (!mixed_block[b]) continue;
+    for (const Index node : mesh.blocks[b].nodes)
+      at_node[static_cast<std::size_t>(node) * n + static_cast<std::size_t>(mesh.blocks[b].body)] = 1;
+  }
+  for (std::size_t node = 0; node < mesh.x.size(); ++node)
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; at_node[node * n + a] && b < n; ++b)
+        if (at_node[node * n + b] && materials[a].name != materials[b].name) touching[a * n + b] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, touching.data(), static_cast<int>(touching.size()), MPI_INT, MPI_MAX,
+                PETSC_COMM_WORLD);
+  PressureFields fields{1, std::vector<int>(n, 0)};
+  for (std::size_t a = 0; a < n; ++a) {
+    const auto taken = [&](int field) {
+      for (std::size_t b = 0; b < a; ++b)
+        if (touching[a * n + b] && fields.of_body[b] == field) return true;
+      return false;
+    };
+    while (taken(fields.of_body[a])) ++fields.of_body[a];
+    fields.n_fields = std::max(fields.n_fields, fields.of_body[a] + 1);
+  }
+  return fields;
+}
+
+NodalPressure::NodalPressure(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+                             std::span<const std::unique_ptr<BlockKernel>> blocks,
+                             std::vector<std::array<double, 3>> body_force)
+    : mesh_(mesh),
+      orthogonal_(body_force.empty()),
+      ghosts_(mesh),
+      fields_of_body_(pressure_fields(mesh, materials, mixed_blocks(blocks))),
+      blocks_(blocks_with_pressure(mesh, blocks)) {
+  const auto n = mesh.x.size() * static_cast<std::size_t>(fields());
+  pressure_.assign(n, 0.0);
+  volume_residual_.assign(n, 0.0);
+  volume_change_.assign(n, 0.0);
+  weight_.assign(n, 0.0);
+  std::vector<double> absent(n, 1.0);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    auto* kernel = dynamic_cast<MixedKernel*>(blocks[b].get());
+    if (kernel == nullptr) continue;
+    const auto body = static_cast<std::size_t>(mesh.blocks[b].body);
+    const int field = fields_of_body_.of_body[body];
+    kernel->use_pressure({pressure_, volume_residual_, volume_change_, fields(), field});
+    if (!body_force.empty()) kernel->set_body_force(body_force[body]);
+    kernels_.push_back(kernel);
+    for (const Index node : mesh.blocks[b].nodes)
+      absent[static_cast<std::size_t>(node * fields() + field)] = 0;
+  }
+  // A ghost may have its only such element on its owner.
+  ghosts_.update(absent, fields());
+  absent_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) absent_[i] = absent[i] != 0;
+  const auto owned = static_cast<std::ptrdiff_t>(mesh.n_owned_nodes * fields());
+  n_nodes_ = std::max(1.0, algebra::global_sum(static_cast<double>(
+                               std::count(absent_.begin(), absent_.begin() + owned, char{0}))));
+}
+
+algebra::NodeGraph NodalPressure::graph() const {
+  algebra::NodeGraph graph(mesh_);
+  for (const mesh::Block* block : blocks_) graph.add_cliques(block->nodes, mesh::node_count(block->shape));
+  return graph;
+}
+
+void NodalPressure::begin() {
+  find_unit();
+  if (!orthogonal_) return;
+  std::fill(weight_.begin(), weight_.end(), 0.0);
+  for (const MixedKernel* kernel : kernels_) kernel->add_projection_weight(weight_);
+  for (double& weight : weight_) weight = weight > 0 ? 1 / weight : 0.0;
+}
+
+void NodalPressure::to_unknowns(std::span<const double> pressure, std::span<double> unknowns) const {
+  std::fill(unknowns.begin(), unknowns.end(), 0.0);
+  for (std::size_t i = 0; i < pressure.size(); ++i) unknowns[i] = pressure[i] / unit_;
+}
+
+void NodalPressure::set(std::span<const double> unknowns) {
+  for (std::size_t i = 0; i < pressure_.size(); ++i) pressure_[i] = unit_ * unknowns[i];
+  std::fill(volume_residual_.begin(), volume_residual_.end(), 0.0);
+  std::fill(volume_change_.begin(), volume_change_.end(), 0.0);
+}
+
+void NodalPressure::residual(std::span<double> r, BodyBalance& balance) {
+  if (orthogonal_) add_projection(pressure_, 1.0, volume_residual_);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] = absent_[i] ? 0.0 : -unit_ * volume_residual_[i];
+  balance.add_volume_residual(r, fields());
+  for (double& change : volume_change_) change *= unit_;
+  balance.add_volume_change(std::span<const double>(volume_change_).first(r.size()), fields());
+}
+
+void NodalPressure::find_unit() {
+  std::array<double, 2> sums{0, 0};
+  for (const MixedKernel* kernel : kernels_) {
+    const auto part = kernel->mean_stiffness();
+    for (std::size_t i = 0; i < 2; ++i) sums[i] += part[i];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  const double length = std::pow(sums[0] / n_nodes_, 1.0 / mesh_.dimension);
+  unit_ = sums[1] / (sums[0] * length);
+}
+
+/// out += factor × Gᵀ D⁻¹ G p on local nodes; ghost rows are scrap.
+void NodalPressure::add_projection(std::span<const double> p, double factor, std::span<double> out) {
+  const auto dim = static_cast<std::size_t>(mesh_.dimension);
+  gradient_.assign(p.size() * dim, 0.0);
+  for (const MixedKernel* kernel : kernels_) kernel->add_gradient(p, gradient_);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    for (std::size_t d = 0; d < dim; ++d) gradient_[i * dim + d] *= factor * weight_[i];
+  ghosts_.update(gradient_, fields() * mesh_.dimension);
+  for (const MixedKernel* kernel : kernels_) kernel->add_projected(gradient_, out);
+}
+
+void NodalPressure::add_projection_to(std::span<const double> x, double factor, std::span<double> y) {
+  if (!orthogonal_) return;
+  local_.resize(pressure_.size());
+  std::copy(x.begin(), x.end(), local_.begin());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (absent_[i]) local_[i] = 0;
+  ghosts_.update(local_, fields());
+  projected_.assign(pressure_.size(), 0.0);
+  add_projection(local_, factor * unit_ * unit_, projected_);
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (!absent_[i]) y[i] += projected_[i];
+}
+
+std::size_t NodalPressure::bytes() const {
+  std::size_t total = 0;
+  for (const std::vector<double>* v :
+       {&pressure_, &volume_residual_, &volume_change_, &weight_, &gradient_, &projected_, &local_})
+    total += v->capacity() * sizeof(double);
+  return total;
+}
+
+}  // namespace solidus::mechanics

@@ -1,0 +1,189 @@
+#include "mechanics/saddle_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/profile.hpp"
+#include "base/stopwatch.hpp"
+
+namespace solidus::mechanics {
+
+namespace {
+
+/// Unknowns up to which a factorisation is the default: in three dimensions its factors fill up.
+constexpr GlobalIndex k_direct_limit_3d = 12000, k_direct_limit_2d = 60000;
+/// Up to so many it takes over where multigrid fails.
+constexpr GlobalIndex k_rescue_limit = 200000;
+/// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
+constexpr double k_direct_tolerance = 1e-8;
+/// A hierarchy is made anew where a solve takes half as many iterations again for a digit as the first one
+/// with it, and a few more.
+constexpr double k_slower = 0.5, k_few = 4;
+
+}  // namespace
+
+SaddleSolver::SaddleSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacement,
+                           NodalPressure& pressure, const algebra::GhostExchange& ghosts,
+                           SaddleSolverOptions options)
+    : mesh_(mesh),
+      displacement_(displacement),
+      pressure_(pressure),
+      ghosts_(ghosts),
+      options_(options),
+      matrix_(mesh, displacement, pressure.fields()) {
+  find_unknowns();
+  make_solver(factorises());
+}
+
+SaddleSolver::~SaddleSolver() = default;
+
+void SaddleSolver::find_unknowns() {
+  unknowns_.emplace(mesh_, matrix_, pressure_.absent(), ghosts_);
+  right_.resize(unknowns_->size());
+  solution_.resize(unknowns_->size());
+  copy_.reset();
+}
+
+bool SaddleSolver::factorises() const {
+  if (!SaddlePreconditioner::serves(displacement_)) return true;
+  if (options_.kind != algebra::SolverKind::automatic) return options_.kind == algebra::SolverKind::direct;
+  return unknowns_->n_global() < (mesh_.dimension == 2 ? k_direct_limit_2d : k_direct_limit_3d);
+}
+
+void SaddleSolver::make_solver(bool direct) {
+  direct_ = direct;
+  stale_ = true;
+  copy_.reset();
+  solver_.emplace(algebra::KrylovOptions{
+      .prefix = "mechanics_mixed_",
+      .preconditioner = direct ? algebra::Preconditioner::factorisation : algebra::Preconditioner::given,
+      .definite = false,
+      .symmetric = options_.symmetric});
+  operator_ = std::make_unique<algebra::FunctionMatrix>(
+      static_cast<std::int64_t>(unknowns_->size()),
+      [this](std::span<const double> x, std::span<double> y) { multiply(x, y); });
+  if (direct) {
+    preconditioner_.reset();  // the factors need its memory
+    return;
+  }
+  preconditioner_.emplace(mesh_, matrix_, pressure_, ghosts_, options_.symmetric);
+  solver_->use([this](std::span<const double> r, std::span<double> z) { precondition(r, z); });
+}
+
+void SaddleSolver::assemble() {
+  if (matrix_.set_zero()) {
+    find_unknowns();
+    make_solver(direct_);
+  }
+  for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_saddle(pressure_.unit(), matrix_);
+}
+
+void SaddleSolver::multiply(std::span<const double> x, std::span<double> y) {
+  const auto n_u = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.components()),
+             n_p = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.fields());
+  whole_.resize(n_u + n_p);
+  product_.resize(n_u + n_p);
+  local_u_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.components()));
+  local_p_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.fields()));
+  unknowns_->expand(x, whole_);
+  std::copy_n(whole_.begin(), n_u, local_u_.begin());
+  std::copy_n(whole_.begin() + static_cast<std::ptrdiff_t>(n_u), n_p, local_p_.begin());
+  ghosts_.update(local_u_, matrix_.components());
+  ghosts_.update(local_p_, matrix_.fields());
+  const std::span<double> of_u = std::span(product_).first(n_u), of_p = std::span(product_).subspan(n_u);
+  matrix_.multiply(local_u_, local_p_, of_u, of_p);
+  pressure_.add_projection_to(std::span<const double>(whole_).subspan(n_u), 1.0, of_p);
+  unknowns_->restrict_to(product_, y);
+}
+
+void SaddleSolver::precondition(std::span<const double> r, std::span<double> z) {
+  whole_.resize(static_cast<std::size_t>(mesh_.n_owned_nodes * (matrix_.components() + matrix_.fields())));
+  product_.resize(whole_.size());
+  unknowns_->expand(r, whole_);
+  preconditioner_->apply(whole_, product_);
+  unknowns_->restrict_to(product_, z);
+}
+
+algebra::LinearReport SaddleSolver::solve(algebra::BlockMatrix&, std::span<const double> b,
+                                          std::span<double> x, double forcing) {
+  set_up();
+  return solve_again(b, x, forcing);
+}
+
+void SaddleSolver::set_up() {
+  const profile::Part part("solver set-up");
+  const Stopwatch watch(seconds_setup_);
+  if (direct_) {
+    Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_);
+    solver_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
+    return;
+  }
+  preconditioner_->set_up_schur();
+  if (stale_) preconditioner_->set_up_displacement();
+  solver_->set(operator_->matrix(), operator_->matrix());
+}
+
+algebra::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::span<double> x,
+                                                double forcing) {
+  const auto n_u = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.components());
+  // From the monotone form to the symmetric one.
+  std::vector<double> whole(b.begin(), b.end());
+  for (std::size_t i = n_u; i < whole.size(); ++i) whole[i] = -whole[i];
+  unknowns_->restrict_to(whole, right_);
+  algebra::LinearReport report;
+  for (bool again = true; again;) {
+    again = false;
+    const double relative = direct_ ? std::min(k_direct_tolerance, options_.relative_tolerance)
+                                    : std::max(forcing, options_.relative_tolerance);
+    const int spent = report.iterations;
+    {
+      const Stopwatch watch(seconds_solve_);
+      report = solver_->solve(right_, solution_, relative);
+    }
+    if (!direct_) {
+      const bool was_new = stale_;
+      judge_hierarchy(report, relative);
+      if (!report.converged && !was_new) {
+        set_up();
+        again = true;
+      } else if (!report.converged && unknowns_->n_global() < k_rescue_limit) {
+        make_solver(true);
+        set_up();
+        again = true;
+      }
+    }
+    report.iterations += spent;
+  }
+  unknowns_->expand(solution_, whole);
+  std::copy(whole.begin(), whole.end(), x.begin());
+  return report;
+}
+
+/// Decides whether the hierarchy serves again. Tolerances differ from solve to solve: what counts are
+/// iterations for each digit.
+void SaddleSolver::judge_hierarchy(const algebra::LinearReport& report, double reduction) {
+  const double digits = std::max(0.1, -std::log10(reduction));
+  if (stale_) first_rate_ = report.iterations / digits;
+  const double expected = first_rate_ * digits;
+  stale_ = !report.converged || report.iterations > expected + std::max(k_slower * expected, k_few);
+}
+
+void SaddleSolver::forget() {
+  // What a factorisation keeps is the analysis of a pattern, which does not depend on the past.
+  if (direct_ == factorises() && direct_ && options_.symmetric) return;
+  make_solver(factorises());
+}
+
+void SaddleSolver::reset() {
+  find_unknowns();
+  make_solver(factorises());
+}
+
+std::size_t SaddleSolver::bytes() const {
+  return matrix_.bytes() + (preconditioner_ ? preconditioner_->bytes() : 0) +
+         (right_.capacity() + solution_.capacity() + whole_.capacity() + product_.capacity() +
+          local_u_.capacity() + local_p_.capacity()) *
+             sizeof(double);
+}
+
+}  // namespace solidus::mechanics

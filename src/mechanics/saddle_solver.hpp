@@ -1,0 +1,89 @@
+/// The linear systems of Newton's method where elements have a pressure (nodal_pressure.hpp):
+///
+///   ⎡ A   B     ⎤ ⎧δu⎫   ⎧−r_u⎫
+///   ⎣ Bᵀ −(C+S) ⎦ ⎩δp⎭ = ⎩−r_p⎭
+///
+/// one linear solve an iteration, on the degrees of freedom that are unknown: nodes of bodies that only
+/// conduct heat have no rows. Few unknowns are factorised, LDLᵀ by MUMPS; many take flexible GMRES with the
+/// block triangular preconditioner of saddle_preconditioner.hpp. Where that does not converge and a
+/// factorisation is possible, it takes over until forget().
+///
+/// Orthogonal sub-scales couple neighbours of neighbours. That part of S is applied and never assembled:
+/// GMRES has it in its operator and goes without it in what preconditions it, the factors included.
+/// PETSc options: mechanics_mixed_.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "algebra/function_matrix.hpp"
+#include "algebra/krylov_solver.hpp"
+#include "algebra/saddle_matrix.hpp"
+#include "algebra/saddle_unknowns.hpp"
+#include "mechanics/nodal_pressure.hpp"
+#include "mechanics/saddle_preconditioner.hpp"
+
+namespace solidus::mechanics {
+
+struct SaddleSolverOptions {
+  algebra::SolverKind kind = algebra::SolverKind::automatic;  ///< automatic, direct or multigrid
+  bool symmetric = true;
+  double relative_tolerance = 1e-8;
+};
+
+class SaddleSolver final : public algebra::TangentSolver {
+ public:
+  /// @param displacement  prescribed degrees of freedom and ties set
+  /// What is passed by reference must outlive this object. Collective.
+  SaddleSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacement, NodalPressure& pressure,
+               const algebra::GhostExchange& ghosts, SaddleSolverOptions options);
+  ~SaddleSolver() override;
+
+  /// Adds the pressures' part of the tangent, after the blocks have added theirs to the matrix of
+  /// displacements. Collective.
+  void assemble();
+  const algebra::SaddleMatrix& matrix() const { return matrix_; }
+
+  /// The right-hand side and the solution are those of the monotone form, [owned node][component] of
+  /// displacements and then [owned node][field] of pressures: b = (−r_u, +unit r_p).
+  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                              double forcing) override;
+  algebra::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override;
+  void forget() override;
+  void reset() override;
+  double seconds_setup() const override { return seconds_setup_; }
+  double seconds_solve() const override { return seconds_solve_; }
+  std::size_t bytes() const;
+
+ private:
+  void find_unknowns();
+  void make_solver(bool direct);
+  void set_up();
+  bool factorises() const;
+  /// y = K x of the unknowns.
+  void multiply(std::span<const double> x, std::span<double> y);
+  void precondition(std::span<const double> r, std::span<double> z);
+  void judge_hierarchy(const algebra::LinearReport& report, double reduction);
+
+  const mesh::Mesh& mesh_;
+  algebra::BlockMatrix& displacement_;
+  NodalPressure& pressure_;
+  const algebra::GhostExchange& ghosts_;
+  SaddleSolverOptions options_;
+  algebra::SaddleMatrix matrix_;
+  std::optional<algebra::SaddleUnknowns> unknowns_;
+  algebra::SaddleCopy copy_;
+  bool direct_ = true;
+  std::unique_ptr<algebra::FunctionMatrix> operator_;
+  std::optional<algebra::KrylovSolver> solver_;
+  std::optional<SaddlePreconditioner> preconditioner_;
+  bool stale_ = true;      ///< the hierarchy is made anew with the next matrix
+  double first_rate_ = 0;  ///< iterations for each digit with a new hierarchy
+  double seconds_setup_ = 0, seconds_solve_ = 0;
+  std::vector<double> right_, solution_;                     ///< [unknown]
+  std::vector<double> whole_, product_, local_u_, local_p_;  ///< scratch
+};
+
+}  // namespace solidus::mechanics
