@@ -96,12 +96,12 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   const bool closed = options_.integration == Integration::closed;
   storage_ = std::make_unique<NodalEnthalpy>(mesh, kind, materials_);
   const bool nodal = closed || storage_->has_plateaus();
-  if (nodal && !closed) {
-    std::vector<char> kept, others;
-    for (int body = 0; body < static_cast<int>(materials_.size()); ++body) {
-      kept.push_back(at_nodes(body));
-      others.push_back(!at_nodes(body));
-    }
+  std::vector<char> kept, others;
+  for (int body = 0; body < static_cast<int>(materials_.size()); ++body) {
+    kept.push_back(at_nodes(body));
+    others.push_back(!at_nodes(body));
+  }
+  if (nodal && std::count(others.begin(), others.end(), 1) > 0) {
     at_nodes_ = std::make_unique<NodalEnthalpy>(*storage_);
     at_nodes_->keep_bodies(kept);
     NodalEnthalpy of_others = *storage_;
@@ -122,7 +122,8 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   if (nodal)
     enthalpy_newton_ = std::make_unique<EnthalpyNewton>(
         mesh, *system_, *storage_, *solver_, ghosts_,
-        EnthalpyNewtonOptions{options_.tolerance, options_.max_iterations, options_.exact_conductivity});
+        EnthalpyNewtonOptions{options_.tolerance, options_.max_iterations, options_.exact_conductivity,
+                              consistent_ != nullptr});
   for (const mesh::Block& block : mesh.blocks) {
     if (at_nodes(block.body)) continue;
     points_.push_back(make_point_storage(mesh, block, kind, materials_[at(block.body)], options_.sensible,
