@@ -146,8 +146,6 @@ TEST_P(IsothermalShrinkage, FollowsTheLatentHeatInEverySchemeAndClosesTheFirstLa
       if (scheme.iterates) c.iteration.emplace();
       if (c.mapping == Mapping::isentropic) c.materials[0].expansion = 0.0;
       const Result r = cool(c, true);
-      printf("%s %s %s size %.1e defect %.1e frozen %.6f\n", GetParam().name, scheme.name,
-             rule == heat::Integration::closed ? "closed" : "open", r.size, r.defect, r.frozen);
       EXPECT_LE(r.size, scheme.tolerance) << scheme.name;
       EXPECT_LE(r.defect, 1e-8) << scheme.name;
       EXPECT_GT(r.frozen, 0.5) << scheme.name;
