@@ -46,8 +46,9 @@ double largest_difference(std::span<const double> a, std::span<const double> b) 
 /// A step on its way.
 struct BlockIterative::Iterate {
   double time = 0, dt = 0;
-  int number = 0;  ///< of the iteration
-  State now;       ///< what the last passes found
+  int number = 0;                     ///< of the iteration
+  State now;                          ///< what the last passes found
+  std::vector<double> plateau_share;  ///< at t_n, [local node]
   /// Θ⁽ⁱ⁾ that the mechanical pass sees, and Θ⁽ⁱ⁻¹⁾ [K], [local node].
   std::vector<double> temperature, before;
   bool solved = false;  ///< both passes reached the tolerances of their phases
@@ -91,6 +92,7 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
   it.dt = dt;
   it.now = old;
   it.temperature = old.heat.temperature;
+  it.plateau_share = plateau_share(phases_, old.heat);
   for (Relaxation& relaxation : relaxation_) relaxation.begin();
   changes_.clear();
   while (true) {
@@ -118,7 +120,8 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
 }
 
 bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps) const {
-  mechanics::MechanicalPass pass{.time = it.time, .dt = it.dt, .temperature = old.heat.temperature};
+  mechanics::MechanicalPass pass{
+      .time = it.time, .dt = it.dt, .temperature = old.heat.temperature, .plateau_share = it.plateau_share};
   pass.newton_steps = newton_steps;
   if (it.number > 1) {
     pass.iterate_temperature = it.temperature;

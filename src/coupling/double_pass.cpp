@@ -41,7 +41,8 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   StepEffort effort;
   const double middle = time - 0.5 * dt;
   ContactWork contact(phases_);
-  phases_.mechanics->rest(old.mechanics, old.heat.temperature);
+  const std::vector<double> share = plateau_share(phases_, old.heat);
+  phases_.mechanics->rest(old.mechanics, old.heat.temperature, share);
   for (contact::ContactPair* pair : phases_.contacts) pair->rest();
   State predicted;
   thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
@@ -49,6 +50,7 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
                   {.time = middle,
                    .dt = 0.5 * dt,
                    .temperature = old.heat.temperature,
+                   .plateau_share = share,
                    .iterate_temperature = predicted.heat.temperature,
                    .work = mechanics::StressAtWork::end_kept},
                   effort);
@@ -65,10 +67,12 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
 StepEffort DoublePass::second_half(const State& half, State& trial, double time, double dt) {
   StepEffort effort;
   ContactWork contact(phases_);
+  const std::vector<double> share = plateau_share(phases_, half.heat);
   mechanical_pass(phases_, half, trial,
                   {.time = time,
                    .dt = 0.5 * dt,
                    .temperature = half.heat.temperature,
+                   .plateau_share = share,
                    .work = mechanics::StressAtWork::kept},
                   effort);
   contact.add(0);  // of the pressure in the middle, as that of the stress

@@ -25,6 +25,10 @@ void range_of_owned(const std::vector<double>& temperature, Index n_owned, const
 
 }  // namespace
 
+std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState& state) {
+  return phases.heat != nullptr ? phases.heat->plateau_share(state) : std::vector<double>{};
+}
+
 std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat) {
   return phases.coherency == nullptr ? std::vector<double>{}
                                      : phases.coherency->at(phases.heat, heat, phases.temperature);

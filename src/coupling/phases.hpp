@@ -29,6 +29,9 @@ struct Phases {
   bool audits_stability() const { return heat && structural && ambient_temperature; }
 };
 
+/// ThermalPhase::plateau_share; empty in mechanics alone. Collective.
+std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState& state);
+
 /// Coherency::at of a state; empty where nothing that deforms melts. Collective.
 std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat);
 

@@ -62,10 +62,12 @@ void SequentialSplit::mechanical_phase(const State& old, State& trial, double ti
       phases_.heat != nullptr ? old.heat.temperature : phases_.temperature;
   const std::vector<double> guess = extrapolated(old.mechanics.displacement, old.displacement_rate, dt),
                             pressure = extrapolated(old.mechanics.pressure, old.pressure_rate, dt);
+  const std::vector<double> share = plateau_share(phases_, old.heat);
   mechanical_pass(phases_, old, trial,
                   {.time = time,
                    .dt = dt,
                    .temperature = temperature,
+                   .plateau_share = share,
                    .guess = guess,
                    .guessed_pressure = pressure},
                   effort);

@@ -92,28 +92,32 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
 
 StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt) {
   newton_->thermal().begin(old.heat, time, dt);
+  const std::vector<double> share = plateau_share(phases_, old.heat);
   return stage(old.mechanics, old.contacts, coherency_of(phases_, old.heat),
-               {.time = time, .dt = dt, .temperature = old.heat.temperature}, trial);
+               {.time = time, .dt = dt, .temperature = old.heat.temperature, .plateau_share = share}, trial);
 }
 
 StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double time, double dt,
                                           ContactWork& contact) {
-  const double share = material::k_sdirk_share * dt, carried = material::k_sdirk_carried;
-  const double middle = time - dt + share;
+  const double stage_dt = material::k_sdirk_share * dt, carried = material::k_sdirk_carried;
+  const double middle = time - dt + stage_dt;
+  const std::vector<double> share = plateau_share(phases_, old.heat);
+  const mechanics::MechanicalPass to_middle{
+      .time = middle, .dt = stage_dt, .temperature = old.heat.temperature, .plateau_share = share};
   State first;
-  newton_->thermal().begin(old.heat, middle, share);
+  newton_->thermal().begin(old.heat, middle, stage_dt);
   const std::vector<double> coherency = coherency_of(phases_, old.heat);
-  const StepEffort of_first =
-      stage(old.mechanics, old.contacts, coherency,
-            {.time = middle, .dt = share, .temperature = old.heat.temperature}, first);
+  const StepEffort of_first = stage(old.mechanics, old.contacts, coherency, to_middle, first);
 
   contact.add(1, carried);
   for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->carry(carried, first.heat.temperature);
   const mechanics::MechanicalState start = second_start(old.mechanics, first.mechanics, carried);
-  newton_->thermal().begin_stage(old.heat, first.heat, carried, time, share);
-  StepEffort effort = stage(
-      start, second_start(phases_, old.contacts, first.contacts, carried), coherency,
-      {.time = time, .dt = share, .temperature = old.heat.temperature, .iterate = &first.mechanics}, trial);
+  newton_->thermal().begin_stage(old.heat, first.heat, carried, time, stage_dt);
+  mechanics::MechanicalPass to_end = to_middle;
+  to_end.time = time;
+  to_end.iterate = &first.mechanics;
+  StepEffort effort =
+      stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end, trial);
   drop_carried();
   add_first_stage(effort.energy, of_first.energy, carried);
   effort.mechanics.iterations += of_first.mechanics.iterations;

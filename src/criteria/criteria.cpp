@@ -6,13 +6,14 @@
 
 namespace solidus::criteria {
 
-std::vector<double> Criteria::fraction_of(const Moment& moment) const {
-  return phase_ == nullptr ? std::vector<double>{} : phase_->solid_fraction(moment.heat);
+Criteria::NodalPhases Criteria::phases_of(const Moment& moment) const {
+  if (phase_ == nullptr) return {};
+  return {phase_->solid_fraction(moment.heat), phase_->plateau_share(moment.heat)};
 }
 
 State Criteria::initial(const Moment& start) const {
-  const std::vector<double> fraction = fraction_of(start);
-  const Moment whole{start.time, start.heat, start.mechanics, fraction};
+  const NodalPhases phases = phases_of(start);
+  const Moment whole = phases.of(start);
   State state;
   for (const auto& criterion : list_) state.records.push_back(criterion->initial(whole));
   return state;
@@ -21,11 +22,10 @@ State Criteria::initial(const Moment& start) const {
 void Criteria::step(const Moment& old, const Moment& next, State& state) {
   assert(state.records.size() == list_.size());
   const double start = MPI_Wtime();
-  const std::vector<double> before = fraction_time_ == old.time ? std::move(fraction_) : fraction_of(old);
-  fraction_ = fraction_of(next);
-  fraction_time_ = next.time;
-  const Moment from{old.time, old.heat, old.mechanics, before};
-  const Moment to{next.time, next.heat, next.mechanics, fraction_};
+  const NodalPhases before = phases_time_ == old.time ? std::move(phases_) : phases_of(old);
+  phases_ = phases_of(next);
+  phases_time_ = next.time;
+  const Moment from = before.of(old), to = phases_.of(next);
   for (std::size_t i = 0; i < list_.size(); ++i) list_[i]->step(from, to, state.records[i]);
   seconds_ += MPI_Wtime() - start;
 }
@@ -39,8 +39,8 @@ std::vector<FieldInfo> Criteria::fields() const {
 
 void Criteria::fill(const Moment& now, const State& state, std::span<const std::span<double>> values) const {
   assert(state.records.size() == list_.size());
-  const std::vector<double> fraction = fraction_of(now);
-  const Moment whole{now.time, now.heat, now.mechanics, fraction};
+  const NodalPhases phases = phases_of(now);
+  const Moment whole = phases.of(now);
   std::size_t first = 0;
   for (std::size_t i = 0; i < list_.size(); ++i) {
     const std::size_t n = list_[i]->fields().size();

@@ -10,7 +10,7 @@
 
 namespace solidus::criteria {
 
-/// Moments come without solid fractions; the criteria get them with.
+/// Moments come without solid fractions and plateau shares; the criteria get them with.
 class Criteria {
  public:
   /// @param phase  of the states to come; null: there is none. Must outlive the criteria.
@@ -20,7 +20,7 @@ class Criteria {
 
   State initial(const Moment& start) const;
   /// Another run begins: nothing of the last one counts.
-  void forget() { fraction_time_ = std::numeric_limits<double>::quiet_NaN(); }
+  void forget() { phases_time_ = std::numeric_limits<double>::quiet_NaN(); }
   /// As Criterion::step, for all of them. `state` is that of t_n and becomes that of t_{n+1}. Collective.
   void step(const Moment& old, const Moment& next, State& state);
   /// Of all criteria, one behind the other.
@@ -32,13 +32,20 @@ class Criteria {
   double seconds() const { return seconds_; }  ///< spent in steps so far
 
  private:
-  std::vector<double> fraction_of(const Moment& moment) const;
+  /// What the thermal phase knows of phase changes at a moment.
+  struct NodalPhases {
+    std::vector<double> solid_fraction, plateau_share;
+    Moment of(const Moment& moment) const {
+      return {moment.time, moment.heat, moment.mechanics, solid_fraction, plateau_share};
+    }
+  };
+  NodalPhases phases_of(const Moment& moment) const;
 
   const heat::ThermalPhase* phase_;
   std::vector<std::unique_ptr<Criterion>> list_;
   /// Of the last step's end, because the next step asks for it again.
-  std::vector<double> fraction_;
-  double fraction_time_ = std::numeric_limits<double>::quiet_NaN();  ///< never equal to a time
+  NodalPhases phases_;
+  double phases_time_ = std::numeric_limits<double>::quiet_NaN();  ///< never equal to a time
   double seconds_ = 0;
 };
 

@@ -95,13 +95,25 @@ StrainCriteria::StrainCriteria(const mesh::Mesh& mesh, AnalysisKind kind,
   for (const mesh::Block& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
     blocks_.push_back(
-        {ElementStrain(mesh, block, kind), &material.casting, material.solidification(), first});
+        {ElementStrain(mesh, block, kind), &material.casting, material.solidification(), {}, first});
+    std::vector<Index>& nodes = blocks_.back().nodes;
+    if (material.solidification() != nullptr) nodes = block.nodes;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     first += static_cast<std::size_t>(block.size());
   }
 }
 
 std::span<const double> StrainCriteria::temperature(const Moment& moment) const {
   return temperature_.empty() ? moment.heat.temperature : temperature_;
+}
+
+/// f_S of a material at a node; without a heat content, which alone tells it at an isothermal change, melt.
+double StrainCriteria::solid_fraction(const material::PhaseChange& freezing, const Moment& moment,
+                                      std::size_t node) const {
+  const double t = temperature(moment)[node];
+  return moment.plateau_share.empty() ? freezing.fraction.value(t)
+                                      : freezing.fraction.value(t, moment.plateau_share[node]);
 }
 
 Record StrainCriteria::initial(const Moment& /*start*/) const {
@@ -115,15 +127,22 @@ Record StrainCriteria::initial(const Moment& /*start*/) const {
 void StrainCriteria::step(const Moment& old, const Moment& next, Record& record) {
   std::vector<double>&at_coherency = record.columns[k_at_coherency].values,
   &brittle = record.columns[k_brittle].values;
-  const std::span<const double> old_temperature = temperature(old), new_temperature = temperature(next);
+  std::vector<double> before(mesh_.x.size()), after(mesh_.x.size());  // f_S of the block's material
+  // Mean values of quadratic basis functions are negative at some nodes.
+  const auto mean = [](const OfBlock& block, const std::vector<double>& fraction, Index batch) {
+    return max(min(block.strain.mean(fraction, batch), Lane(1.0)), Lane(0.0));
+  };
   const std::vector<double>&old_u = old.mechanics.displacement, &u = next.mechanics.displacement;
   for (const OfBlock& block : blocks_) {
     if (block.freezing == nullptr) continue;
-    const material::PhaseFraction& fraction = block.freezing->fraction;
+    for (const Index n : block.nodes) {
+      const auto node = static_cast<std::size_t>(n);
+      before[node] = solid_fraction(*block.freezing, old, node);
+      after[node] = solid_fraction(*block.freezing, next, node);
+    }
     const auto [low, high] = block.casting->brittle_range;
     for (Index batch = 0; batch < block.strain.n_batches(); ++batch) {
-      const Lane from = fraction.value(block.strain.mean(old_temperature, batch));
-      const Lane to = fraction.value(block.strain.mean(new_temperature, batch));
+      const Lane from = mean(block, before, batch), to = mean(block, after, batch);
       const Sym<Lane> strain = block.strain.strain(u, batch);
       const Sym<Lane> increment = dev(strain - block.strain.strain(old_u, batch));
       const Lane share = share_within(from, to, low, high);
@@ -143,7 +162,7 @@ void StrainCriteria::step(const Moment& old, const Moment& next, Record& record)
   for (std::size_t node = 0; node < mesh_.x.size(); ++node) {
     const material::Material& material = materials_[static_cast<std::size_t>(body_of_node_[node])];
     if (material.solidification() == nullptr ||
-        material.solid_fraction(old_temperature[node]) >= material.casting.coherency_fraction)
+        solid_fraction(*material.solidification(), old, node) >= material.casting.coherency_fraction)
       continue;
     for (std::size_t i = node * components_; i < (node + 1) * components_; ++i) displacement[i] = u[i];
   }
@@ -212,7 +231,7 @@ std::vector<Finding> StrainCriteria::findings(const Record& record) const {
 
 std::size_t StrainCriteria::bytes() const {
   std::size_t total = body_of_node_.capacity() * sizeof(int);
-  for (const OfBlock& block : blocks_) total += block.strain.bytes();
+  for (const OfBlock& block : blocks_) total += block.strain.bytes() + block.nodes.capacity() * sizeof(Index);
   return total;
 }
 

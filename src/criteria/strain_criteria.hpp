@@ -13,8 +13,8 @@
 ///   distortion              the displacement since coherency without the best rigid motion of each body [m]
 ///
 /// Strains are measured by their deviators: thermal strain and the shrinkage of freezing are volumetric, so a
-/// body that shrinks freely has none. Metal that melts again forgets. The solid fraction is f_S(Θ) at the
-/// mean temperature of the element at t_n, at which the law works too (4.81).
+/// body that shrinks freely has none. Metal that melts again forgets. The solid fraction is the mean over the
+/// element of that of its nodes at t_n, with which the law works too (mechanics/phase_fields.hpp, 4.81).
 ///
 /// Strain in the brittle range as a measure of hot tearing: W. S. Pellini, Strain theory of hot tearing,
 /// Foundry 80 (1952) 125–199. The range: Y. M. Won, T.-J. Yeo, D. J. Seol, K. H. Oh, A new criterion for
@@ -51,9 +51,11 @@ class StrainCriteria : public Criterion {
     ElementStrain strain;
     const material::Casting* casting;
     const material::PhaseChange* freezing;  ///< null: always solid
+    std::vector<Index> nodes;               ///< of a block that freezes, each once
     std::size_t first;                      ///< element in columns of cells
   };
   std::span<const double> temperature(const Moment& moment) const;
+  double solid_fraction(const material::PhaseChange& freezing, const Moment& moment, std::size_t node) const;
 
   const mesh::Mesh& mesh_;
   std::size_t components_;

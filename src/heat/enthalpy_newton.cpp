@@ -16,6 +16,8 @@ constexpr double k_plateau_stiffness =
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if the slope behind it is at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope is this share
 constexpr int k_search_trials = 40;
+constexpr std::size_t k_remembered = 4;  ///< residuals that a step that is halved may rise to
+constexpr int k_halvings = 6;
 
 constexpr int k_plain = 6;                ///< iterations before plateaus are tilted
 constexpr double k_tilt = 1.0;            ///< temperature difference over a tilted plateau [K]
@@ -184,6 +186,19 @@ double EnthalpyNewton::search(std::span<const double> temperature) const {
   return alpha;
 }
 
+void EnthalpyNewton::move_and_halve(std::span<const double> residuals, std::span<double> temperature) {
+  const std::size_t n = std::min(residuals.size(), k_remembered);
+  const double largest = *std::max_element(residuals.end() - static_cast<std::ptrdiff_t>(n), residuals.end());
+  start_.assign(heat_.begin(), heat_.begin() + static_cast<std::ptrdiff_t>(r_.size()));
+  double alpha = 1;
+  for (int halvings = 0;; ++halvings, alpha *= 0.5) {
+    move(start_, alpha, temperature);
+    ghosts_.update(temperature, 1);
+    evaluate(temperature);
+    if (norm_ <= largest * moved_ || halvings == k_halvings) return;
+  }
+}
+
 algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, double dt,
                                             std::span<double> temperature, std::span<double> heat,
                                             int newton_steps) {
@@ -219,6 +234,10 @@ algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, do
     hold(std::span(step_t_).first(n));
     ghosts_.update(step_t_, 1);
     enthalpy_step(step_t_, {});
+    if (options_.halving) {
+      move_and_halve(report.residuals, temperature);
+      continue;
+    }
     const double alpha = report.iterations <= k_full_steps ? 1.0 : search(temperature);
     for (std::size_t i = 0; i < n; ++i)
       balance_[i] = (1 - alpha) * balance_[i] + alpha * (temperature[i] + step_t_[i]);

@@ -39,6 +39,9 @@ struct EnthalpyNewtonOptions {
   double tolerance = 1e-9;  ///< Σ|F_i| <= tolerance × heat moved per time
   int max_iterations = 50;
   bool exact_conductivity = false;
+  /// A contribution stores heat by another rule (consistent_heat.hpp), of which E below knows nothing: every
+  /// step is halved while the residual exceeds the largest of the last few.
+  bool halving = false;
 };
 
 class EnthalpyNewton {
@@ -86,6 +89,9 @@ class EnthalpyNewton {
   double temperature_of(std::size_t i, double heat) const;
   void set_tilt(double tilt, std::span<double> temperature);
   double search(std::span<const double> temperature) const;
+  /// Moves by a step that is halved where the residual rises above the largest of the last ones (over the
+  /// heat moved).
+  void move_and_halve(std::span<const double> residuals, std::span<double> temperature);
 
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
@@ -99,6 +105,7 @@ class EnthalpyNewton {
   std::vector<double> r_, b_, step_h_;  ///< [owned node]
   std::vector<double> inverse_;         ///< dΘ/dH, [owned node] [K/J]
   std::vector<double> balance_;         ///< B, [owned node] [K]
+  std::vector<double> start_;           ///< of a step that may be halved, [owned node] [J]
   std::vector<double> step_t_;          ///< δΘ, [local node]
   std::vector<double> per_latent_;      ///< 1/latent heat, zero without, [owned node] [1/J]
   int tilted_ = 0;                      ///< iterations with the tilt of now

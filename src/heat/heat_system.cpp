@@ -29,6 +29,7 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        bool closed, std::vector<algebra::Contribution*> contributions,
                        algebra::BlockMatrix::Storage storage)
     : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), presence_(mesh) {
+  for (const material::Material& m : materials) at_nodes_.push_back(closed || m.changes_isothermally());
   add_conduction(materials);
   if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
@@ -138,8 +139,9 @@ void HeatSystem::add_sources(const std::vector<Source>& sources) {
     std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
     for (const mesh::Block& block : mesh_.blocks) {
       if (block.body != body || !presence_.body(body)) continue;
-      const PackVector<Lane> weights =
-          closed_ ? mesh::nodal_weights(mesh_, block, kind_) : mesh::basis_integrals(mesh_, block, kind_);
+      const PackVector<Lane> weights = at_nodes_[static_cast<std::size_t>(body)] != 0
+                                           ? mesh::nodal_weights(mesh_, block, kind_)
+                                           : mesh::basis_integrals(mesh_, block, kind_);
       const int n = mesh::node_count(block.shape);
       for (Index e = 0; e < block.size(); ++e)
         for (int a = 0; a < n; ++a) {

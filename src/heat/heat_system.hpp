@@ -97,6 +97,7 @@ class HeatSystem {
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
   bool closed_;
+  std::vector<char> at_nodes_;  ///< [body]: whether it stores its heat there
   std::vector<algebra::Contribution*> contributions_;
   algebra::Presence presence_;
   std::vector<std::unique_ptr<ConductionBlock>>

@@ -63,11 +63,17 @@ double NodalEnthalpy::held_by(const algebra::Presence& presence, Index node, dou
 }
 
 void NodalEnthalpy::remove_bodies(const algebra::Presence& presence) {
+  std::vector<char> kept;
+  for (std::size_t b = 0; b < materials_.size(); ++b) kept.push_back(presence.body(static_cast<int>(b)));
+  keep_bodies(kept);
+}
+
+void NodalEnthalpy::keep_bodies(std::span<const char> kept) {
   std::vector<std::size_t> start = {0};
   std::vector<Share> left;
   for (Index node = 0; node < n_nodes(); ++node) {
     for (const Share& s : shares(node))
-      if (presence.body(s.body)) left.push_back(s);
+      if (kept[static_cast<std::size_t>(s.body)] != 0) left.push_back(s);
     start.push_back(left.size());
   }
   start_ = std::move(start);
@@ -137,7 +143,7 @@ double NodalEnthalpy::slope(Index node, double heat) const {
 
 double NodalEnthalpy::plateau_share(Index node, double heat, double temperature) const {
   const double low = lower(node, temperature), high = upper(node, temperature);
-  return high > low ? std::clamp((heat - low) / (high - low), 0.0, 1.0) : 0.0;
+  return high > low ? std::clamp((heat - low) / (high - low), 0.0, 1.0) : 1.0;
 }
 
 double NodalEnthalpy::solid_fraction(Index node, double heat, double temperature) const {
@@ -195,6 +201,7 @@ bool NodalEnthalpy::has_plateaus() const {
 double NodalEnthalpy::latent_capacity(Index node) const {
   double heat = 0;
   for (const Share& s : shares(node)) {
+    if (curve(s).jumps().empty()) continue;
     const material::Material& m = materials_[static_cast<std::size_t>(s.body)];
     for (const material::PhaseChange& change : m.phase_changes)
       heat += s.weight * m.density * change.latent_heat;

@@ -24,6 +24,8 @@ class NodalEnthalpy {
   double held_by(const algebra::Presence& presence, Index node, double heat, double temperature) const;
   /// Nodes lose what they hold of bodies that are not there; nodes of theirs alone store nothing.
   void remove_bodies(const algebra::Presence& presence);
+  /// The same for bodies of which kept[body] is zero.
+  void keep_bodies(std::span<const char> kept);
 
   Index n_nodes() const { return static_cast<Index>(start_.size()) - 1; }  ///< owned ones
   /// Θ_i(H) [K]; H in joules. Not of a node that stores nothing.
@@ -33,7 +35,7 @@ class NodalEnthalpy {
   /// H_i at a temperature; at a jump both ends.
   double lower(Index node, double temperature) const;
   double upper(Index node, double temperature) const;
-  /// How far the isothermal change at this temperature has come: 0 cold end to 1 hot end; 0 without a jump.
+  /// How far the isothermal change at this temperature has come: 0 cold end to 1 hot end; 1 without a jump.
   double plateau_share(Index node, double heat, double temperature) const;
   /// Mean solid fraction of the materials of a node that can melt, 1 if none can (2.65).
   double solid_fraction(Index node, double heat, double temperature) const;
@@ -41,7 +43,7 @@ class NodalEnthalpy {
   bool has_plateaus() const;
   /// ∫ dH/Θ of sensible and latent heat up to a constant, temperatures above zero [J/K].
   double entropy(Index node, double heat, double temperature) const;
-  /// The heat of all phase changes together [J].
+  /// The heat of all phase changes of materials that have an isothermal one [J].
   double latent_capacity(Index node) const;
   /// The part of the heat that is latent [J].
   double latent(Index node, double heat, double temperature) const;

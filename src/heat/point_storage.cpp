@@ -167,20 +167,6 @@ class Storage final : public PointStorage {
 
 }  // namespace
 
-material::Material spread_isothermal(material::Material material, double width) {
-  for (material::PhaseChange& change : material.phase_changes) {
-    auto points = change.fraction.points();
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      if (points[i].first != points[i - 1].first) continue;
-      // Down towards the colder neighbour, half the way at most.
-      const double room = i >= 2 ? 0.5 * (points[i - 1].first - points[i - 2].first) : width;
-      points[i - 1].first -= std::min(width, room);
-    }
-    change.fraction = material::PhaseFraction::table(std::move(points));
-  }
-  return material;
-}
-
 std::unique_ptr<PointStorage> make_point_storage(const mesh::Mesh& mesh, const mesh::Block& block,
                                                  AnalysisKind kind, const material::Material& material,
                                                  SensibleForm form, int degree) {

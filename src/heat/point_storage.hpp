@@ -2,9 +2,10 @@
 ///
 ///   r_a += ∫ N_a (h(Θ) − h(Θ_n))/Δt dV,   K_ab += ∫ N_a N_b (dh/dΘ)/Δt dV
 ///
-/// A point has a temperature and no enthalpy of its own, so isothermal changes are spread over k_spread
-/// below their temperature. The row of a point whose temperature crosses a change is then steep but smooth,
-/// and the line search of Newton's method on the convex functional takes it.
+/// A point has a temperature and no enthalpy of its own: bodies whose material has an isothermal change keep
+/// their heat at the nodes (consistent_heat.hpp). Where a range is narrow the row of a point whose
+/// temperature crosses it is steep but smooth, and the line search of Newton's method on the convex
+/// functional takes it.
 #pragma once
 
 #include <memory>
@@ -17,11 +18,6 @@
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {
-
-inline constexpr double k_spread = 1.0;  ///< [K], width that an isothermal change is given by the open rule
-
-/// The material with its isothermal changes spread.
-material::Material spread_isothermal(material::Material material, double width = k_spread);
 
 class PointStorage {
  public:
@@ -43,7 +39,7 @@ class PointStorage {
   virtual std::size_t bytes() const = 0;
 };
 
-/// @param material kept by reference, isothermal changes already spread
+/// @param material kept by reference, without isothermal changes
 /// @param form     of the sensible heat
 /// @param degree   polynomial degree that the rule integrates; 0: 3 for linear shapes, 4 for quadratic
 /// simplices, 5 for others

@@ -5,6 +5,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
+#include "heat/consistent_heat.hpp"
 #include "heat/enthalpy_newton.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/point_storage.hpp"
@@ -23,8 +24,12 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
   dt_ = dt;
   phase_.system_->exchange(true);
   if (phase_.printed_) phase_.printed_->begin_stage({dt, factor}, old.temperature);
+  if (phase_.consistent_) {
+    phase_.consistent_->begin_stage({dt}, old.temperature);
+    if (factor != 0) phase_.consistent_->begin_stage({dt, factor}, stage.temperature);
+  }
   now_ = phase_.start(stage, time);
-  if (closed()) {
+  if (nodal()) {
     stored_from_ = old.enthalpy;
     for (std::size_t i = 0; i < stored_from_.size(); ++i)
       stored_from_[i] += factor * (stage.enthalpy[i] - old.enthalpy[i]);
@@ -40,7 +45,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
 }
 
 void ThermalIteration::evaluate() {
-  if (closed()) {
+  if (nodal()) {
     phase_.enthalpy_newton_->evaluate(now_.temperature);
     unbalanced_ = phase_.enthalpy_newton_->unbalanced();
     return;
@@ -53,15 +58,15 @@ void ThermalIteration::evaluate() {
 }
 
 std::span<const double> ThermalIteration::residual() const {
-  return closed() ? phase_.enthalpy_newton_->residual() : std::span<const double>(residual_);
+  return nodal() ? phase_.enthalpy_newton_->residual() : std::span<const double>(residual_);
 }
 
 double ThermalIteration::moved() const {
-  return closed() ? phase_.enthalpy_newton_->moved() : phase_.temperature_system_->moved();
+  return nodal() ? phase_.enthalpy_newton_->moved() : phase_.temperature_system_->moved();
 }
 
 bool ThermalIteration::converged() const {
-  if (closed()) return phase_.enthalpy_newton_->converged();
+  if (nodal()) return phase_.enthalpy_newton_->converged();
   return unbalanced_ <= phase_.options_.tolerance * moved() ||
          unbalanced_ <= phase_.temperature_system_->round_off();
 }
@@ -71,7 +76,7 @@ algebra::BlockMatrix& ThermalIteration::matrix() {
 }
 
 algebra::BlockMatrix& ThermalIteration::assemble(int iteration) {
-  if (closed()) {
+  if (nodal()) {
     phase_.enthalpy_newton_->adapt_tilt(iteration, now_.temperature);
     phase_.enthalpy_newton_->assemble(now_.temperature, true);
     return phase_.system_->matrix();
@@ -82,12 +87,12 @@ algebra::BlockMatrix& ThermalIteration::assemble(int iteration) {
 }
 
 std::span<const double> ThermalIteration::right_hand_side() const {
-  return closed() ? phase_.enthalpy_newton_->right_hand_side() : std::span<const double>(rhs_);
+  return nodal() ? phase_.enthalpy_newton_->right_hand_side() : std::span<const double>(rhs_);
 }
 
 void ThermalIteration::set_direction(std::span<double> step_t, std::span<const double> further) {
   start_ = now_;
-  if (closed()) {
+  if (nodal()) {
     phase_.enthalpy_newton_->hold(step_t.first(residual().size()));
     phase_.ghosts_.update(step_t, 1);
     phase_.enthalpy_newton_->enthalpy_step(step_t, further);
@@ -100,7 +105,7 @@ void ThermalIteration::set_direction(std::span<double> step_t, std::span<const d
 }
 
 void ThermalIteration::move(double alpha) {
-  if (closed()) {
+  if (nodal()) {
     phase_.enthalpy_newton_->move(start_.enthalpy, alpha, now_.temperature);
     phase_.ghosts_.update(now_.temperature, 1);
     return;
@@ -111,7 +116,7 @@ void ThermalIteration::move(double alpha) {
 
 HeatBalance ThermalIteration::conclude(ThermalState& trial) {
   phase_.require_positive(now_.temperature);
-  if (closed()) phase_.ghosts_.update(now_.enthalpy, 1);
+  if (nodal()) phase_.ghosts_.update(now_.enthalpy, 1);
   const ThermalState from{old_->temperature, stored_from_};
   const HeatBalance balance = phase_.balance(from, now_, residual(), moved(), dt_);
   trial = now_;

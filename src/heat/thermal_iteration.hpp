@@ -60,12 +60,12 @@ class ThermalIteration {
   [[noreturn]] void reject(const std::string& reason) const;
 
  private:
-  bool closed() const { return phase_.options_.integration == Integration::closed; }
+  bool nodal() const { return phase_.nodal(); }
 
   ThermalPhase& phase_;
   const ThermalState* old_ = nullptr;
   ThermalState now_, start_;         ///< start_: of the direction
-  std::vector<double> stored_from_;  ///< H*, [local node]; closed rule
+  std::vector<double> stored_from_;  ///< H*, [local node]; where the enthalpy of the nodes is the unknown
   std::vector<double> residual_, rhs_, step_;
   double dt_ = 0, unbalanced_ = 0;
 };

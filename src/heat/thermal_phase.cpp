@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "heat/consistent_heat.hpp"
 #include "heat/enthalpy_newton.hpp"
 #include "heat/heat_solver.hpp"
 #include "heat/heat_system.hpp"
@@ -93,29 +94,41 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       ghosts_(mesh) {
   assert(materials.size() == mesh.bodies.size());
   const bool closed = options_.integration == Integration::closed;
-  if (!closed)
-    for (material::Material& m : materials_) m = spread_isothermal(std::move(m));
   storage_ = std::make_unique<NodalEnthalpy>(mesh, kind, materials_);
-  if (closed && options_.sensible != SensibleForm::enthalpy) {
-    printed_ = std::make_unique<PrintedHeat>(*storage_, options_.sensible);
+  const bool nodal = closed || storage_->has_plateaus();
+  std::vector<char> kept, others;
+  for (int body = 0; body < static_cast<int>(materials_.size()); ++body) {
+    kept.push_back(at_nodes(body));
+    others.push_back(!at_nodes(body));
+  }
+  if (nodal && std::count(others.begin(), others.end(), 1) > 0) {
+    at_nodes_ = std::make_unique<NodalEnthalpy>(*storage_);
+    at_nodes_->keep_bodies(kept);
+    NodalEnthalpy of_others = *storage_;
+    of_others.keep_bodies(others);
+    consistent_ = std::make_unique<ConsistentHeat>(mesh, points_, std::move(of_others));
+  }
+  if (nodal && options_.sensible != SensibleForm::enthalpy) {
+    printed_ = std::make_unique<PrintedHeat>(at_nodes_ ? *at_nodes_ : *storage_, options_.sensible);
     contributions_.push_back(printed_.get());
   }
+  if (consistent_) contributions_.push_back(consistent_.get());
   const bool symmetric = options_.symmetric && !options_.exact_conductivity;
   system_ =
       std::make_unique<HeatSystem>(mesh, kind, materials_, conditions, closed, contributions_,
                                    options_.alone ? HeatSolver::storage_for(mesh, options_.solver, symmetric)
                                                   : algebra::BlockMatrix::Storage::whole);
   solver_ = std::make_unique<HeatSolver>(mesh, options_.solver, symmetric, options_.linear_tolerance);
-  if (closed) {
+  if (nodal)
     enthalpy_newton_ = std::make_unique<EnthalpyNewton>(
         mesh, *system_, *storage_, *solver_, ghosts_,
-        EnthalpyNewtonOptions{options_.tolerance, options_.max_iterations, options_.exact_conductivity});
-  } else {
-    for (const mesh::Block& block : mesh.blocks) {
-      points_.push_back(make_point_storage(mesh, block, kind, materials_[at(block.body)], options_.sensible,
-                                           options_.open_degree));
-      points_.back()->bind(system_->matrix());
-    }
+        EnthalpyNewtonOptions{options_.tolerance, options_.max_iterations, options_.exact_conductivity,
+                              consistent_ != nullptr});
+  for (const mesh::Block& block : mesh.blocks) {
+    if (at_nodes(block.body)) continue;
+    points_.push_back(make_point_storage(mesh, block, kind, materials_[at(block.body)], options_.sensible,
+                                         options_.open_degree));
+    points_.back()->bind(system_->matrix());
   }
   temperature_system_ =
       std::make_unique<TemperatureSystem>(mesh, *system_, points_, options_.exact_conductivity);
@@ -123,6 +136,10 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 }
 
 ThermalPhase::~ThermalPhase() = default;
+
+bool ThermalPhase::at_nodes(int body) const {
+  return options_.integration == Integration::closed || materials_[at(body)].changes_isothermally();
+}
 
 std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
   return std::make_unique<ThermalIteration>(*this);
@@ -161,12 +178,14 @@ double ThermalPhase::take_out(const algebra::Presence& presence, ThermalState& s
 void ThermalPhase::remove_bodies(const algebra::Presence& before) {
   const algebra::Presence& now = system_->presence();
   storage_->remove_bodies(now);
+  if (at_nodes_) at_nodes_->remove_bodies(now);
+  if (consistent_) consistent_->remove_bodies(now);
   if (enthalpy_newton_) enthalpy_newton_->storage_changed();
   if (options_.integration == Integration::closed) return;
   std::vector<std::unique_ptr<PointStorage>> left;
   auto points = points_.begin();
   for (const mesh::Block& block : mesh_.blocks) {
-    if (!before.body(block.body)) continue;
+    if (!before.body(block.body) || at_nodes(block.body)) continue;
     if (now.body(block.body)) left.push_back(std::move(*points));
     ++points;
   }
@@ -198,13 +217,13 @@ ThermalState ThermalPhase::initial_state(std::span<const double> body_temperatur
   }
   ghosts_.update(state.temperature, 1);
   ghosts_.update(state.enthalpy, 1);
-  if (options_.integration == Integration::open) state.enthalpy.clear();
+  if (!nodal()) state.enthalpy.clear();
   return state;
 }
 
 ThermalState ThermalPhase::initial_state_at_nodes(std::span<const double> temperature) const {
   ThermalState state{{temperature.begin(), temperature.end()}, {}};
-  if (options_.integration == Integration::open) return state;
+  if (!nodal()) return state;
   state.enthalpy.resize(mesh_.x.size());
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
     state.enthalpy[at(i)] = storage_->upper(i, temperature[at(i)]);
@@ -216,7 +235,7 @@ ThermalState ThermalPhase::start(const ThermalState& old, double time) {
   system_->set_time(time);
   ThermalState next{old.temperature, old.enthalpy};
   system_->prescribe(next.temperature);
-  if (options_.integration == Integration::closed)
+  if (nodal())
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
       if (system_->fixed()[at(i)])
         next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
@@ -254,7 +273,7 @@ PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalStat
   begin_stage(stage, before.temperature);
   next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.time);
   PhaseReport report;
-  if (options_.integration == Integration::open) {
+  if (!nodal()) {
     for (const auto& block : points_) {
       block->start(old.temperature, stage.dt);
       if (stage.carried != 0) block->extrapolate(before.temperature, stage.carried);
@@ -286,10 +305,11 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
   keep_reactions(residual);
   HeatBalance balance = measure(next.temperature, dt);
   double stored = 0;
-  if (options_.integration == Integration::open) {
-    for (const auto& block : points_) stored += block->stored(next.temperature);
-  } else {
+  if (nodal()) {
     for (std::size_t i = 0; i < reactions_.size(); ++i) stored += next.enthalpy[i] - old.enthalpy[i];
+    if (consistent_) stored += consistent_->stored(next.temperature);
+  } else {
+    for (const auto& block : points_) stored += block->stored(next.temperature);
   }
   balance.stored = algebra::global_sum(stored);
   set_latent(balance, old, next);
@@ -300,9 +320,10 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
 /// Splits what is stored.
 void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const {
   double latent = 0;
-  if (options_.integration == Integration::open) {
+  if (!nodal()) {
     for (const auto& block : points_) latent += block->latent(old.temperature, next.temperature);
   } else {
+    if (consistent_) latent += consistent_->latent(old.temperature, next.temperature);
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
       latent += storage_->latent(i, next.enthalpy[at(i)], next.temperature[at(i)]) -
                 storage_->latent(i, old.enthalpy[at(i)], old.temperature[at(i)]);
@@ -320,6 +341,7 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   std::vector<double> temperature = start.temperature;
   system_->prescribe(temperature);
   temperature_system_->use_storage(false);
+  if (consistent_) consistent_->use(false);
   PhaseReport report;
   report.newton = solve_temperature(temperature);
   report.balance = measure(temperature, 1.0);
@@ -360,7 +382,8 @@ HeatBalance ThermalPhase::measure(std::span<const double> temperature, double dt
     balance.conditions.push_back({name, power * dt});
   for (const auto& [name, power] : system_->powers()) balance.conditions.push_back({name, power * dt});
   for (double power : system_->contribution_powers()) balance.contributions.push_back(power * dt);
-  if (printed_) balance.contributions.pop_back();  // no heat, but what a printed form loses
+  if (consistent_) balance.contributions.pop_back();  // no heat, but stored in another place
+  if (printed_) balance.contributions.pop_back();     // no heat, but what a printed form loses
   return balance;
 }
 
@@ -386,6 +409,15 @@ void ThermalPhase::require_positive(std::span<const double> temperature) const {
 double ThermalPhase::heat_at(const ThermalState& state, Index node) const {
   return state.enthalpy.empty() ? storage_->upper(node, state.temperature[at(node)])
                                 : state.enthalpy[at(node)];
+}
+
+std::vector<double> ThermalPhase::plateau_share(const ThermalState& state) const {
+  if (!storage_->has_plateaus()) return {};
+  std::vector<double> share(mesh_.x.size());
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+    share[at(i)] = storage_->plateau_share(i, heat_at(state, i), state.temperature[at(i)]);
+  ghosts_.update(share, 1);
+  return share;
 }
 
 std::vector<double> ThermalPhase::solid_fraction(const ThermalState& state) const {
@@ -426,9 +458,10 @@ EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const Therm
     sum.change += part.change;
     sum.magnitude += part.magnitude;
   };
-  if (options_.integration == Integration::open) {
+  if (!nodal()) {
     for (const auto& block : points_) add(block->entropy_change(from.temperature, to.temperature));
   } else {
+    if (consistent_) add(consistent_->entropy_change(from.temperature, to.temperature));
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
       const double before = storage_->entropy(i, from.enthalpy[at(i)], from.temperature[at(i)]);
       const double after = storage_->entropy(i, to.enthalpy[at(i)], to.temperature[at(i)]);
@@ -451,6 +484,8 @@ double ThermalPhase::mean_temperature(const ThermalState& state, int body) const
 std::size_t ThermalPhase::bytes() const {
   std::size_t total = storage_->bytes() + system_->bytes();
   for (const auto& block : points_) total += block->bytes();
+  if (at_nodes_) total += at_nodes_->bytes();
+  if (consistent_) total += consistent_->bytes();
   return total;
 }
 

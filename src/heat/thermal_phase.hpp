@@ -37,11 +37,14 @@ class EnthalpyNewton;
 class TemperatureSystem;
 class PointStorage;
 class PrintedHeat;
+class ConsistentHeat;
 class ThermalIteration;
 
 enum class Integration {
   closed,  ///< heat content at the nodes, conduction of quads and hexes too: no over- or undershoot
-  open     ///< heat content at Gauss points
+  /// Heat content at Gauss points; at the nodes of bodies whose material has an isothermal change, because a
+  /// temperature at a point does not tell how much of it is solid.
+  open
 };
 
 enum class ThermalStepping { backward_euler, sdirk2 };
@@ -122,6 +125,11 @@ class ThermalPhase {
   /// Heat needed to hold prescribed temperatures in the last solve, [owned node] [W], zero elsewhere.
   std::span<const double> reactions() const { return reactions_; }
 
+  /// How far isothermal changes have come at the nodes that have their temperature, from 0 (cold) to 1 (hot);
+  /// one at other nodes. What temperatures and this say together is how much of every material has changed:
+  /// PhaseFraction::value. [local node], ghosts up to date; empty where no material has such a change.
+  /// Collective.
+  std::vector<double> plateau_share(const ThermalState& state) const;
   /// Solid fraction of the materials around each node that can melt, 1 if none can; [local node].
   std::vector<double> solid_fraction(const ThermalState& state) const;
   /// Mean over the volume of a body, over all processes.
@@ -137,7 +145,8 @@ class ThermalPhase {
   /// Drops what the linear solver carried over from earlier steps.
   void forget();
   const mesh::Mesh& mesh() const { return mesh_; }
-  /// Heat content of the nodes; with the open rule of materials whose isothermal changes are spread.
+  /// Heat content of the nodes; with the open rule too, of bodies that store at Gauss points for what it says
+  /// of fractions and volumes.
   const NodalEnthalpy& storage() const { return *storage_; }
   std::size_t bytes() const;
   double seconds_solver() const;
@@ -160,6 +169,11 @@ class ThermalPhase {
                       double moved, double dt);
   /// The start of a step: prescribed temperatures hold.
   ThermalState start(const ThermalState& old, double time);
+  /// Whether the enthalpy of the nodes is the unknown: with the closed rule, and with the open one where a
+  /// material has an isothermal change.
+  bool nodal() const { return enthalpy_newton_ != nullptr; }
+  /// Whether a body stores its heat at the nodes.
+  bool at_nodes(int body) const;
   double heat_at(const ThermalState& state, Index node) const;
   double take_out(const algebra::Presence& presence, ThermalState& state) const;
   void remove_bodies(const algebra::Presence& before);
@@ -175,9 +189,12 @@ class ThermalPhase {
   std::vector<algebra::Contribution*> contributions_;
   algebra::GhostExchange ghosts_;
   std::unique_ptr<NodalEnthalpy> storage_;
-  std::unique_ptr<PrintedHeat> printed_;  ///< closed rule with a printed form; the last contribution
+  std::unique_ptr<NodalEnthalpy> at_nodes_;  ///< of bodies that store there, where it is not all of them
+  // The last contributions, in this order.
+  std::unique_ptr<PrintedHeat> printed_;        ///< of bodies that store at the nodes, with a printed form
+  std::unique_ptr<ConsistentHeat> consistent_;  ///< of the other bodies, where some store at the nodes
   std::unique_ptr<HeatSystem> system_;
-  std::vector<std::unique_ptr<PointStorage>> points_;  ///< open rule only
+  std::vector<std::unique_ptr<PointStorage>> points_;  ///< of bodies that store there: open rule only
   std::unique_ptr<HeatSolver> solver_;
   std::unique_ptr<EnthalpyNewton> enthalpy_newton_;
   std::unique_ptr<TemperatureSystem> temperature_system_;

@@ -35,16 +35,27 @@ struct PointCurvatures {
   T bulk, shear, thermal_strain;  ///< d²k/dΘ², d²G/dΘ², d²e^θ/dΘ² = 6 α_Θ
 };
 
+/// How far the phase changes of a material have come, as stress and strain see it.
+template <class T>
+struct PhaseState {
+  T solid_fraction;  ///< f_S of 2.65
+  T straining;       ///< e^pc − e^pc(Θ_0) of 2.75, 2.76a
+};
+
+/// Where nothing but the temperatures is known: an isothermal change is molten at its own.
+template <class T>
+PhaseState<T> phase_state_at(const Material& material, const T& temperature, const T& initial_temperature);
+
 /// @param initial_temperature Θ_0 of 2.51 [K]
+/// @param phase               that of t_n within a step, whatever temperature the pass of a scheme works at
+///                            (4.76a, 4.81)
+template <class T>
+PointProperties<T> properties_at(const Material& material, const T& temperature, const T& initial_temperature,
+                                 const PhaseState<T>& phase);
+/// With the phases that the temperatures tell.
 template <class T>
 PointProperties<T> properties_at(const Material& material, const T& temperature,
                                  const T& initial_temperature);
-/// Properties at Θ with the solid fraction and the straining of phase changes of another temperature (4.76a,
-/// 4.81): within a step they are those of Θ_n, whatever temperature the pass of a scheme works at.
-/// @param thermal_strain, solid_fraction  members of properties_at(temperature)
-template <class T>
-void hold_phase(const Material& material, const T& temperature, const T& phase_temperature, T& thermal_strain,
-                T& solid_fraction);
 template <class T>
 PointDerivatives<T> derivatives_at(const Material& material, const T& temperature,
                                    const T& initial_temperature);

@@ -42,8 +42,22 @@ T slope(const PhaseFraction& fraction, const T& x) {
 }  // namespace detail
 
 template <class T>
-PointProperties<T> properties_at(const Material& material, const T& temperature,
-                                 const T& initial_temperature) {
+PhaseState<T> phase_state_at(const Material& material, const T& temperature, const T& initial_temperature) {
+  PhaseState<T> phase{T(1.0), T(0.0)};
+  for (const PhaseChange& change : material.phase_changes) {
+    if (change.volume_change == 0 && !change.solidification) continue;
+    const T fraction = detail::value(change.fraction, temperature);
+    if (change.volume_change != 0)
+      phase.straining += T(change.volume_change) *
+                         (fraction - detail::value(change.fraction, initial_temperature));  // 2.75, 2.76a
+    if (change.solidification) phase.solid_fraction = fraction;
+  }
+  return phase;
+}
+
+template <class T>
+PointProperties<T> properties_at(const Material& material, const T& temperature, const T& initial_temperature,
+                                 const PhaseState<T>& phase) {
   const T young = detail::value(material.young_modulus, temperature);
   const T poisson = detail::value(material.poisson_ratio, temperature);
   const T reference(material.expansion_reference);
@@ -53,32 +67,20 @@ PointProperties<T> properties_at(const Material& material, const T& temperature,
   p.thermal_strain = T(3.0) * (detail::value(material.expansion, temperature) * (temperature - reference) -
                                detail::value(material.expansion, initial_temperature) *
                                    (initial_temperature - reference));  // 2.51
-  p.solid_fraction = T(1.0);
+  p.thermal_strain += phase.straining;
+  p.solid_fraction = phase.solid_fraction;
   p.viscosity = T(1.0);  // any positive number where the material is always solid
-  for (const PhaseChange& change : material.phase_changes) {
-    if (change.volume_change == 0 && !change.solidification) continue;
-    const T fraction = detail::value(change.fraction, temperature);
-    if (change.volume_change != 0)
-      p.thermal_strain += T(change.volume_change) *
-                          (fraction - detail::value(change.fraction, initial_temperature));  // 2.75, 2.76a
-    if (change.solidification) {
-      p.solid_fraction = fraction;
-      p.viscosity = material.chooses_viscosity() ? T(std::numeric_limits<double>::quiet_NaN())
-                                                 : detail::value(material.liquid_viscosity, temperature);
-    }
-  }
+  if (material.solidification() != nullptr)
+    p.viscosity = material.chooses_viscosity() ? T(std::numeric_limits<double>::quiet_NaN())
+                                               : detail::value(material.liquid_viscosity, temperature);
   return p;
 }
 
 template <class T>
-void hold_phase(const Material& material, const T& temperature, const T& phase_temperature, T& thermal_strain,
-                T& solid_fraction) {
-  for (const PhaseChange& change : material.phase_changes) {
-    if (change.volume_change == 0 && !change.solidification) continue;
-    const T held = detail::value(change.fraction, phase_temperature);
-    thermal_strain += T(change.volume_change) * (held - detail::value(change.fraction, temperature));
-    if (change.solidification) solid_fraction = held;
-  }
+PointProperties<T> properties_at(const Material& material, const T& temperature,
+                                 const T& initial_temperature) {
+  return properties_at(material, temperature, initial_temperature,
+                       phase_state_at(material, temperature, initial_temperature));
 }
 
 template <class T>
@@ -119,6 +121,10 @@ PointCurvatures<T> curvatures_at(const Material& material, const T& temperature)
 
 extern template PointProperties<double> properties_at(const Material&, const double&, const double&);
 extern template PointProperties<Lane> properties_at(const Material&, const Lane&, const Lane&);
+extern template PointProperties<double> properties_at(const Material&, const double&, const double&,
+                                                      const PhaseState<double>&);
+extern template PointProperties<Lane> properties_at(const Material&, const Lane&, const Lane&,
+                                                    const PhaseState<Lane>&);
 extern template PointDerivatives<double> derivatives_at(const Material&, const double&, const double&);
 extern template PointDerivatives<Lane> derivatives_at(const Material&, const Lane&, const Lane&);
 extern template PointCurvatures<double> curvatures_at(const Material&, const double&);

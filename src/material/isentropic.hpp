@@ -60,7 +60,14 @@ class Isentropic {
 
   /// @param temperature, initial_temperature Θ_n, Θ_0 [K]
   template <class T>
-  Properties<T> properties_at(const T& temperature, const T& initial_temperature) const;
+  Properties<T> properties_at(const T& temperature, const T& initial_temperature) const {
+    return properties_at(temperature, initial_temperature,
+                         phase_state_at(material(), temperature, initial_temperature));
+  }
+  /// With the phases of a step (elasticity.hpp).
+  template <class T>
+  Properties<T> properties_at(const T& temperature, const T& initial_temperature,
+                              const PhaseState<T>& phase) const;
 
   /// S^E_n of the committed state, its sensible part counted from Θ_n [J/(m³ K)]. Where solid has melted
   /// since the last mechanical phase, a Maxwell spring G/f_S keeps at most an elastic strain of

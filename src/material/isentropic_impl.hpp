@@ -150,11 +150,11 @@ template <class T>
 }  // namespace detail
 
 template <class T>
-Isentropic::Properties<T> Isentropic::properties_at(const T& temperature,
-                                                    const T& initial_temperature) const {
+Isentropic::Properties<T> Isentropic::properties_at(const T& temperature, const T& initial_temperature,
+                                                    const PhaseState<T>& phase) const {
   const Material& m = law_.material();
   const T zero(0.0), one(1.0);
-  const auto now = law_.properties_at(temperature, initial_temperature);
+  const auto now = law_.properties_at(temperature, initial_temperature, phase);
   Properties<T> p;
   p.temperature = temperature;
   p.young = detail::line(m.young_modulus, temperature);

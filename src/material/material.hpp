@@ -48,6 +48,9 @@ struct Material {
   /// The solidification, if the material has one; without it the material is always solid (f_S = 1).
   const PhaseChange* solidification() const;
   double solid_fraction(double temperature) const;  ///< f_S of 2.65
+  /// Whether a change, or a part of it, gives off its heat at one temperature: then the temperature does not
+  /// tell how much has changed.
+  bool changes_isothermally() const { return !enthalpy().jumps().empty(); }
   /// True when the melt is a Maxwell element whose viscosity is not given: η then comes from
   /// material/melt.hpp.
   bool chooses_viscosity() const;

@@ -33,13 +33,18 @@ class PhaseFraction {
   /// Scheil: f = 1 − ((Θ_m − Θ)/(Θ_m − Θ_L))^(1/(k − 1)), the rest isothermally at the eutectic.
   static PhaseFraction scheil(double melting_point, double liquidus, double eutectic, double partition);
 
-  /// f, at a jump the mean of both sides, and df/dΘ <= 0 [1/K] of the piece on the right, zero outside. An
-  /// isothermal jump is not in the slope: what integrates over a step takes differences of value(). Both
-  /// together cost half of one after the other.
+  /// f and df/dΘ <= 0 [1/K] of the piece on the right, zero outside. At the temperature of an isothermal
+  /// change, which alone does not say how much has frozen, f is that of the hot side: what is known by its
+  /// temperature only is molten there. The jump is not in the slope: what integrates over a step takes
+  /// differences of value(). Both together cost half of one after the other.
   Pieces::Line<double> line(double temperature) const { return line_of(temperature); }
   Pieces::Line<Lane> line(const Lane& temperature) const { return line_of(temperature); }
   double value(double temperature) const { return line(temperature).value; }
   Lane value(const Lane& temperature) const { return line(temperature).value; }
+  /// f where a heat content tells how much has frozen: at the temperature of an isothermal change
+  /// f(Θ−) − share [f(Θ−) − f(Θ+)], elsewhere f(Θ).
+  /// @param plateau_share  how far that change has come, from 0 (cold) to 1 (hot)
+  double value(double temperature, double plateau_share) const;
   double derivative(double temperature) const { return line(temperature).slope; }
   Lane derivative(const Lane& temperature) const { return line(temperature).slope; }
   double above(double temperature) const;  ///< the limit from the right; differs from below() at a jump only
@@ -55,14 +60,13 @@ class PhaseFraction {
 
   std::vector<std::pair<double, double>> points_;
   Pieces pieces_;  ///< the limits from the right, with one piece below the solidus
-  std::vector<std::pair<double, double>> jumps_;  ///< temperature, mean of both sides
+  std::vector<std::pair<double, double>> jumps_;  ///< temperature [K], f on the cold side
 };
 
 template <class T>
 Pieces::Line<T> PhaseFraction::line_of(const T& temperature) const {
   Pieces::Line<T> line = pieces_.line(temperature);
   line.value = select(line.value < T(0.0), T(0.0), line.value);  // rounding just below the liquidus
-  for (const auto& [at, mean] : jumps_) line.value = select(temperature == T(at), T(mean), line.value);
   return line;
 }
 

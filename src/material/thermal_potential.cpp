@@ -29,8 +29,7 @@ StoredHeat<double> latent_between(const Material& material, double from, double 
       const auto [hot, f_hot] = points[i + 1];
       const double fallen = heat * (f_cold - f_hot);
       if (cold == hot) {  // isothermal
-        const double share = 0.5 * ((from < cold ? 1 : 0) + (from <= cold ? 1 : 0)) -
-                             0.5 * ((to < cold ? 1 : 0) + (to <= cold ? 1 : 0));
+        const double share = (from < cold ? 1 : 0) - (to < cold ? 1 : 0);
         r.heat += share * fallen;
         r.entropy += share * fallen / cold;
         continue;

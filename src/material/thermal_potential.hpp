@@ -25,7 +25,7 @@ struct StoredHeat {
 };
 
 StoredHeat<double> sensible_between(const Material& material, double from, double to);
-/// At the temperature of an isothermal change half of its heat, as PhaseFraction::value has it.
+/// Molten at the temperature of an isothermal change, as PhaseFraction::value has it.
 StoredHeat<double> latent_between(const Material& material, double from, double to);
 
 namespace detail {

@@ -47,6 +47,12 @@ class Viscoelastic {
   Properties<T> properties_at(const T& temperature, const T& initial_temperature) const {
     return material::properties_at(*material_, temperature, initial_temperature);
   }
+  /// With the phases of a step (elasticity.hpp).
+  template <class T>
+  Properties<T> properties_at(const T& temperature, const T& initial_temperature,
+                              const PhaseState<T>& phase) const {
+    return material::properties_at(*material_, temperature, initial_temperature, phase);
+  }
 
   /// @param old    history at t_n
   /// @param strain total strain at t_{n+1}

@@ -74,7 +74,14 @@ class Viscoplastic {
 
   /// @param initial_temperature Θ_0 of 2.51 [K]
   template <class T>
-  Properties<T> properties_at(const T& temperature, const T& initial_temperature) const;
+  Properties<T> properties_at(const T& temperature, const T& initial_temperature) const {
+    return properties_at(temperature, initial_temperature,
+                         phase_state_at(*material_, temperature, initial_temperature));
+  }
+  /// With the phases of a step (elasticity.hpp).
+  template <class T>
+  Properties<T> properties_at(const T& temperature, const T& initial_temperature,
+                              const PhaseState<T>& phase) const;
 
   /// @param start  history at the start of the effective step
   /// @param strain total strain at t_{n+1}

@@ -7,10 +7,10 @@
 namespace solidus::material {
 
 template <class T>
-Viscoplastic::Properties<T> Viscoplastic::properties_at(const T& temperature,
-                                                        const T& initial_temperature) const {
+Viscoplastic::Properties<T> Viscoplastic::properties_at(const T& temperature, const T& initial_temperature,
+                                                        const PhaseState<T>& phase) const {
   Properties<T> p;
-  p.elastic = material::properties_at(*material_, temperature, initial_temperature);
+  p.elastic = material::properties_at(*material_, temperature, initial_temperature, phase);
   if (flow_ != nullptr) p.flow = flow_properties_at(*flow_, temperature);
   if (material_->liquid_model == LiquidModel::modified_shear && material_->solidification() != nullptr) {
     const T solidus(material_->solidification()->fraction.solidus());  // 2.77: G(Θ_S) in the mushy zone

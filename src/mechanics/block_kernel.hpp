@@ -9,6 +9,7 @@
 #include "algebra/block_matrix.hpp"
 #include "material/material.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "mechanics/phase_fields.hpp"
 #include "mechanics/structural_heat.hpp"
 
 namespace solidus::mechanics {
@@ -33,6 +34,7 @@ struct StepStart {
   BlockHistory* new_stress = nullptr;
   double stress_share = 1;  ///< of t_{n+1} in the mean
   StressAtWork work = StressAtWork::end;
+  PhaseFields phases{};  ///< of the block's body at t_n
   /// 2Ĝ of a melt whose viscosity the program chooses (material/melt.hpp), η = 2Ĝ × effective_dt [Pa]. Zero:
   /// the material has its viscosity.
   double melt_modulus = 0;

@@ -33,21 +33,6 @@ material::PointProperties<T> elastic_part(const material::Isentropic& law,
   return {e.bulk.v, e.shear.v, e.thermal_strain.v, e.solid_fraction.v, e.viscosity.v};
 }
 
-/// material::hold_phase of the properties of each law.
-inline void hold_phase(const material::Viscoelastic& law, const Lane& temperature,
-                       const Lane& phase_temperature, material::PointProperties<Lane>& p) {
-  material::hold_phase(law.material(), temperature, phase_temperature, p.thermal_strain, p.solid_fraction);
-}
-inline void hold_phase(const material::Viscoplastic& law, const Lane& temperature,
-                       const Lane& phase_temperature, material::Viscoplastic::Properties<Lane>& p) {
-  material::hold_phase(law.material(), temperature, phase_temperature, p.elastic.thermal_strain,
-                       p.elastic.solid_fraction);
-}
-inline void hold_phase(const material::Isentropic& law, const Lane& temperature,
-                       const Lane& phase_temperature, material::Isentropic::Properties<Lane>& p) {
-  material::hold_phase(law.material(), temperature, phase_temperature, p.strain_offset, p.solid_fraction);
-}
-
 /// Sets η of a melt whose material has none [Pa s].
 inline void set_melt_viscosity(const Lane& viscosity, material::PointProperties<Lane>& p) {
   p.viscosity = viscosity;

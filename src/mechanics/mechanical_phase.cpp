@@ -44,7 +44,8 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions), presence_)),
       ghosts_(mesh),
       balance_(mesh, presence_, components_),
-      initial_temperature_(initial_temperature.begin(), initial_temperature.end()) {
+      initial_temperature_(initial_temperature.begin(), initial_temperature.end()),
+      nodal_phases_(mesh, materials, initial_temperature) {
   assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
   if (options_.stabilisation == Stabilisation::automatic)
     options_.stabilisation = options_.dynamics ? Stabilisation::orthogonal : Stabilisation::algebraic;
@@ -311,6 +312,7 @@ std::size_t MechanicalPhase::bytes() const {
   std::size_t total =
       matrix_->bytes() + (forces_.capacity() + x_.capacity() + external_.capacity()) * sizeof(double);
   for (const auto& block : blocks_) total += block->bytes();
+  total += nodal_phases_.bytes();
   if (inertia_) total += inertia_->bytes();
   if (pressure_) total += pressure_->bytes() + saddle_solver_->bytes();
   return total;

@@ -30,6 +30,7 @@
 #include "mechanics/element_field.hpp"
 #include "mechanics/inertial_forces.hpp"
 #include "mechanics/mechanical_state.hpp"
+#include "mechanics/phase_fields.hpp"
 #include "mechanics/simplices.hpp"
 #include "mesh/mesh.hpp"
 
@@ -103,8 +104,11 @@ enum class StressAtWork { end, end_kept, kept };
 struct MechanicalPass {
   double time = 0, dt = 0;              ///< t_{n+1} and the step [s]
   std::span<const double> temperature;  ///< Θ_n [K], [local node], ghosts up to date
+  /// heat::ThermalPhase::plateau_share at t_n, [local node], ghosts up to date: how much of an isothermal
+  /// change is done at nodes that have its temperature. Empty: none of it, there is melt.
+  std::span<const double> plateau_share{};
   /// Θ of the iterate: held in its place, or the one at which the entropy is held. Solid fraction and
-  /// straining of phase changes stay those of Θ_n (4.81).
+  /// straining of phase changes stay those of t_n (4.81).
   std::span<const double> iterate_temperature{};
   /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
   const MechanicalState* iterate = nullptr;
@@ -130,6 +134,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   int components() const { return components_; }
   AnalysisKind kind() const { return kind_; }
+  const material::Material& material(int body) const { return materials_[static_cast<std::size_t>(body)]; }
   Mapping mapping() const { return options_.mapping; }
   const MechanicsOptions& options() const { return options_; }
   /// From here on other conditions hold; the state goes on as it is. Not between the passes of a step. A
@@ -162,7 +167,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   }
 
   /// Hands StructuralHeat a body that does not move: a thermal phase of its own can follow.
-  void rest(const MechanicalState& state, std::span<const double> temperature);
+  void rest(const MechanicalState& state, std::span<const double> temperature,
+            std::span<const double> plateau_share = {});
 
   // The pieces of solve(), for an iteration that has further unknowns (coupling/simultaneous.hpp).
   /// Loads, state at t_n and properties at the temperature of the pass; `old` must live until conclude().
@@ -270,6 +276,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   algebra::GhostExchange ghosts_;
   BodyBalance balance_;
   std::vector<double> initial_temperature_;
+  NodalPhases nodal_phases_;
   std::vector<BlockHistory> start_;      ///< z* of the two-step method, one per block
   bool keeps_stress_ = false;            ///< without inertia
   bool keeps_fields_ = false;            ///< somebody has asked for it

@@ -73,6 +73,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .new_stress = remembers || keeps ? &stress_[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .work = pass.work,
+         .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share),
          .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
   if (pressure_) pressure_->begin();
   stress_at_work_ = pass.work;
@@ -211,7 +212,8 @@ std::vector<double> MechanicalPhase::start(const MechanicalState& old, const Mec
   return x;
 }
 
-void MechanicalPhase::rest(const MechanicalState& state, std::span<const double> temperature) {
+void MechanicalPhase::rest(const MechanicalState& state, std::span<const double> temperature,
+                           std::span<const double> plateau_share) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     blocks_[b]->rest({.temperature = temperature,
                       .pass_temperature = temperature,
@@ -223,6 +225,7 @@ void MechanicalPhase::rest(const MechanicalState& state, std::span<const double>
                       .start_history = &state.history[b],
                       .dt = 1,
                       .effective_dt = 1,
+                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
                       .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
 }
 

@@ -199,9 +199,8 @@ class PointBlock : public BlockKernel {
     const bool iterates = start.pass_temperature.data() != start.temperature.data();
     const Lane old_theta = temperature_at(geometry_, batch, q, start.temperature);
     const Lane theta = iterates ? temperature_at(geometry_, batch, q, start.pass_temperature) : old_theta;
-    Properties properties =
-        law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature));
-    if (iterates) hold_phase(law_, theta, old_theta, properties);
+    Properties properties = law_.properties_at(
+        theta, temperature_at(geometry_, batch, q, start.initial_temperature), phase_at(start, batch, q));
     if (start.melt_modulus > 0) set_melt_viscosity(Lane(start.melt_modulus * start.effective_dt), properties);
     if constexpr (HoldsEntropy<Properties>)
       properties.entropy = law_.entropy(properties, held_strain, state_of(*start.held_history, batch, q));
@@ -209,6 +208,16 @@ class PointBlock : public BlockKernel {
     const auto& p = elastic_part(law_, properties);
     points_.set_temperature(batch, q, old_theta, theta, p.thermal_strain);
     return p.bulk;
+  }
+
+  /// The phases of the nodes at a point.
+  material::PhaseState<Lane> phase_at(const StepStart& start, Index batch, int q) const {
+    material::PhaseState<Lane> phase{Lane(1.0), Lane(0.0)};
+    if (!start.phases.solid_fraction.empty())
+      phase.solid_fraction = within_nodes(geometry_, batch, q, start.phases.solid_fraction);
+    if (!start.phases.straining.empty())
+      phase.straining = within_nodes(geometry_, batch, q, start.phases.straining);
+    return phase;
   }
 
   /// Forces that a strain of 1 would cause at a point.

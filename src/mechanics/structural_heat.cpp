@@ -13,8 +13,9 @@ StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form
   const std::vector<mesh::Block>& blocks = phase.mesh().blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     phase.blocks()[b]->spread_heat_as_stored(
-        closed ? mesh::nodal_weights(phase.mesh(), blocks[b], phase.kind())
-               : mesh::basis_integrals(phase.mesh(), blocks[b], phase.kind()));
+        closed || phase.material(blocks[b].body).changes_isothermally()
+            ? mesh::nodal_weights(phase.mesh(), blocks[b], phase.kind())
+            : mesh::basis_integrals(phase.mesh(), blocks[b], phase.kind()));
 }
 
 void StructuralHeat::add_residual(std::span<const double> temperature, std::span<double> r) {

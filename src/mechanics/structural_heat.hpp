@@ -47,7 +47,8 @@ class StructuralHeat : public algebra::Contribution {
   /// @param phase   must outlive this object; its last
   ///                solve() is the configuration; from now
   ///                on it keeps what is needed, not before
-  /// @param closed  the thermal phase stores heat by the closed rule
+  /// @param closed  the thermal phase stores heat by the closed rule; bodies with isothermal changes do
+  /// anyway
   StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed = true);
 
   void add_to_graph(algebra::NodeGraph&) const override {}

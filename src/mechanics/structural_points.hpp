@@ -117,8 +117,12 @@ class StructuralPoints {
   PackVector<Start> carried_;  ///< S*, E* of the second stage, [batch][point]; empty: S and E at t_n
 };
 
-/// The temperature at a point of a batch from nodal values.
+/// The temperature at a point of a batch from nodal values. Where all nodes of an element have one value it
+/// is that value to the last bit.
 Lane temperature_at(const mesh::BlockGeometry& geometry, Index batch, int point,
                     std::span<const double> nodal);
+/// The same of a quantity that must not leave the range of its nodes: basis functions of quadratic shapes
+/// are negative in places.
+Lane within_nodes(const mesh::BlockGeometry& geometry, Index batch, int point, std::span<const double> nodal);
 
 }  // namespace solidus::mechanics

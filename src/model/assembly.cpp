@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -20,18 +21,39 @@ namespace solidus::model {
 
 namespace {
 
+/// Temperatures this close to that of an isothermal change, as a share of it, are that temperature: degrees
+/// Celsius and kelvin round differently.
+constexpr double k_same_temperature = 1e-12;
+
+/// Initial temperatures of the bodies [K]. At the very temperature of an isothermal change there is melt.
+std::vector<double> body_temperatures(const CaseSpec& spec,
+                                      const std::vector<material::Material>& materials) {
+  std::vector<double> temperatures;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    double& t = temperatures.emplace_back(spec.bodies[b].initial_temperature);
+    for (const material::PhaseChange& change : materials[b].phase_changes) {
+      const auto& points = change.fraction.points();
+      for (std::size_t i = 1; i < points.size(); ++i)
+        if (points[i].first == points[i - 1].first &&
+            std::abs(t - points[i].first) <= k_same_temperature * points[i].first)
+          t = points[i].first;
+    }
+  }
+  return temperatures;
+}
+
 /// At which nodes are free of thermal strain, and what they have in mechanics alone: every body at its
 /// temperature. A node of several bodies takes that of one that deforms, of these the hottest: the casting's.
-std::vector<double> nodal_temperature(const CaseSpec& spec, const mesh::Mesh& mesh) {
+std::vector<double> nodal_temperature(const CaseSpec& spec, const std::vector<double>& body_temperature,
+                                      const mesh::Mesh& mesh) {
   std::vector<std::size_t> order(mesh.blocks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto rank = [&](std::size_t block) {
-    const BodySpec& body = spec.bodies[static_cast<std::size_t>(mesh.blocks[block].body)];
-    return std::pair(!only_conducts(body), body.initial_temperature);
+    const auto body = static_cast<std::size_t>(mesh.blocks[block].body);
+    return std::pair(!only_conducts(spec.bodies[body]), body_temperature[body]);
   };
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank(a) < rank(b); });
-  std::vector<double> temperature(static_cast<std::size_t>(mesh.n_nodes()),
-                                  spec.bodies.front().initial_temperature);
+  std::vector<double> temperature(static_cast<std::size_t>(mesh.n_nodes()), body_temperature.front());
   for (const std::size_t block : order)
     for (const Index i : mesh.blocks[block].nodes)
       temperature[static_cast<std::size_t>(i)] = rank(block).second;
@@ -133,10 +155,9 @@ void build(const CaseSpec& spec, Assembly& a) {
     logging::warn("these act on bodies that only conduct heat, and do nothing: {}", listed(idle));
   for (const StageRun& stage : a.stages)
     if (stage.cycle <= 1) without_body(spec, a.mesh, &stage);  // complains early
-  std::vector<double> body_temperature;
-  for (const BodySpec& body : spec.bodies) body_temperature.push_back(body.initial_temperature);
+  const std::vector<double> body_temperature = body_temperatures(spec, a.materials);
   build_contacts(spec, a);
-  a.phases.temperature = nodal_temperature(spec, a.mesh);
+  a.phases.temperature = nodal_temperature(spec, body_temperature, a.mesh);
   if (spec.has_mechanics()) {
     build_mechanics(spec, a.phases.temperature, a);
     if (spec.has_heat() && spec.coupling.structural_heating != CouplingSpec::StructuralHeating::none) {

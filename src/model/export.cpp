@@ -97,9 +97,14 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   coupling::restore_contacts(a.phases, state);
   coupling::State still = state;
   coupling::StepEffort effort;
-  coupling::mechanical_pass(
-      a.phases, state, still,
-      {.time = state.time, .dt = dt, .temperature = temperature, .iterate_temperature = temperature}, effort);
+  const std::vector<double> share = coupling::plateau_share(a.phases, state.heat);
+  coupling::mechanical_pass(a.phases, state, still,
+                            {.time = state.time,
+                             .dt = dt,
+                             .temperature = temperature,
+                             .plateau_share = share,
+                             .iterate_temperature = temperature},
+                            effort);
 
   ExportReport report{state.time, 0, 0};
   for (std::size_t i = 0; i < state.mechanics.displacement.size(); ++i)

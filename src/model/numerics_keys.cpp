@@ -25,7 +25,8 @@ Section<heat::HeatOptions> heat_keys() {
   Section<HeatOptions> s("heat", "Numerics of the thermal phase.");
   s.choice("integration", &HeatOptions::integration,
            {{"closed", Integration::closed, "heat content at the nodes: no over- or undershoot"},
-            {"open", Integration::open, "heat content at Gauss points"}})
+            {"open", Integration::open,
+             "heat content at Gauss points, at the nodes of bodies whose material has an isothermal change"}})
       .initially("closed")
       .doc("Where heat content is integrated (monograph 6.3).");
   s.key("open_degree", &HeatOptions::open_degree)

@@ -114,6 +114,16 @@ TEST_F(Restart, GoesOnWithTheSameBitsWithInertiaInBackwardEuler) {
   expect_the_same("--set dynamics.method='\"backward_euler\"' --set dynamics.mass='\"lumped\"'", 1);
 }
 
+// From the eutectic temperature on: how much of a node is solid is in its heat content alone.
+TEST_F(Restart, GoesOnWithTheSameBitsInTheMiddleOfAnIsothermalChange) {
+  for (const char* rule : {"closed", "open"})
+    expect_the_same(std::string("--set body.part.material='\"aluminium_alsi7mg\"'"
+                                " --set body.part.initial_temperature='\"577 degC\"'"
+                                " --set heat.integration='\"") +
+                        rule + "\"'",
+                    1);
+}
+
 // MUMPS on several processes adds in the order in which messages come: two runs never have the same bits.
 TEST_F(Restart, GoesOnWithTheSameBitsOnTwoProcesses) {
   expect_the_same(k_multigrid, 2);

@@ -32,14 +32,23 @@ TEST(PhaseFraction, LinearRunsFromOneAtTheSolidusToZeroAtTheLiquidus) {
   EXPECT_EQ(f.derivative(940), 0);
 }
 
-TEST(PhaseFraction, IsothermalChangeJumpsAndIsHalfAtItsTemperature) {
+TEST(PhaseFraction, IsothermalChangeIsMoltenAtItsTemperatureWhereNothingElseIsKnown) {
   const auto f = PhaseFraction::linear(933, 933);
   EXPECT_EQ(f.below(933), 1);
-  EXPECT_EQ(f.value(933), 0.5);
+  EXPECT_EQ(f.value(933), 0);
   EXPECT_EQ(f.above(933), 0);
   EXPECT_EQ(f.value(std::nextafter(933.0, 0.0)), 1);
   EXPECT_EQ(f.value(std::nextafter(933.0, 1e9)), 0);
   EXPECT_EQ(f.derivative(933), 0);
+}
+
+TEST(PhaseFraction, ThePlateauShareTellsHowMuchOfAnIsothermalChangeIsDone) {
+  const auto f = PhaseFraction::table({{850, 1}, {850, 0.5}, {870, 0.4}, {870, 0.2}, {900, 0}});
+  for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+    EXPECT_DOUBLE_EQ(f.value(850, share), 1 - 0.5 * share);
+    EXPECT_DOUBLE_EQ(f.value(870, share), 0.4 - 0.2 * share);
+    for (const double t : {800.0, 860.0, 885.0, 950.0}) EXPECT_EQ(f.value(t, share), f.value(t)) << t;
+  }
 }
 
 TEST(PhaseFraction, TableTakesBothDirectionsAndAnIsothermalPart) {
@@ -48,7 +57,7 @@ TEST(PhaseFraction, TableTakesBothDirectionsAndAnIsothermalPart) {
   EXPECT_EQ(rising.points(), falling.points());
   EXPECT_EQ(rising.below(850), 1);
   EXPECT_EQ(rising.above(850), 0.5);
-  EXPECT_EQ(rising.value(850), 0.75);
+  EXPECT_EQ(rising.value(850), 0.5);
   EXPECT_DOUBLE_EQ(rising.value(865), 0.35);
   EXPECT_DOUBLE_EQ(rising.derivative(850), -0.01);
   EXPECT_DOUBLE_EQ(rising.derivative(880), -0.025);
@@ -105,7 +114,7 @@ TEST(PhaseFraction, LanesAnswerAsNumbersDoAlsoAtJumpsAndOutside) {
       ASSERT_NEAR(line.value[3], f.value(t), 1e-15) << t;  // a product and a sum, contracted or not
       ASSERT_EQ(line.slope[3], f.derivative(t)) << t;
       ASSERT_NEAR(line.value[4], f.value(910), 1e-15);
-      ASSERT_NEAR(f.value(t), 0.5 * (f.below(t) + f.above(t)), 1e-15) << t;
+      ASSERT_NEAR(f.value(t), f.above(t), 1e-15) << t;
       ASSERT_GE(line.value[3], 0);
     }
   }

@@ -80,8 +80,19 @@ struct Kernel {
         directions[0].push_back(1e-3 * std::cos(2.1 * s));
         directions[1].push_back(1e-3 * std::cos(3.7 * s + 1));
       }
-    kernel->prepare(
-        {temperature, temperature, temperature, old_u, old_u, &history, &history, &history, 0.5, 0.5});
+    const std::vector<material::Material> materials{material};
+    mechanics::NodalPhases nodal(mesh, materials, temperature);
+    kernel->prepare({.temperature = temperature,
+                     .pass_temperature = temperature,
+                     .initial_temperature = temperature,
+                     .old_displacement = old_u,
+                     .held_displacement = old_u,
+                     .held_history = &history,
+                     .old_history = &history,
+                     .start_history = &history,
+                     .dt = 0.5,
+                     .effective_dt = 0.5,
+                     .phases = nodal.evaluate(0, temperature, {})});
   }
   /// K d by the tangent, [owned node][component].
   std::vector<double> product(const std::vector<double>& direction) {

@@ -93,6 +93,7 @@ struct Mixed {
             .kind = direct ? algebra::SolverKind::direct : algebra::SolverKind::multigrid,
             .relative_tolerance = 1e-11});
     history = blocks[0]->initial_history();
+    mechanics::NodalPhases nodal(mesh, materials, temperature);
     blocks[0]->prepare({.temperature = temperature,
                         .pass_temperature = temperature,
                         .initial_temperature = temperature,
@@ -102,7 +103,8 @@ struct Mixed {
                         .old_history = &history,
                         .start_history = &history,
                         .dt = 0.5,
-                        .effective_dt = 0.5});
+                        .effective_dt = 0.5,
+                        .phases = nodal.evaluate(0, temperature, {})});
     pressure->begin();
     // Pressures of the size of the stress.
     for (Index node = 0; node < mesh.n_nodes(); ++node) x.push_back(1e-3 * std::cos(0.9 * number(node, 0)));
