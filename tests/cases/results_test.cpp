@@ -137,6 +137,29 @@ TEST(ContactPressure, IntegratesToTheForceOnASurfaceThatIsCoveredInPart) {
   EXPECT_NEAR(run.history.at("on_master[N]").back(), force, 1e-9 * force);
 }
 
+TEST(InternalVariable, IsALengthWhereItIsASlip) {
+  const std::string friction = R"([contact.friction]
+coefficient = 0.2
+internal_variable = "%"
+)";
+  const auto probe = [](const std::string& unit) {
+    return "[[probe]]\nname = \"z\"\nkind = \"maximum\"\nfield = \"internal_variable\"\ngroup = "
+           "\"upper_bottom\"\nunit = \"" +
+           unit + "\"\n";
+  };
+  const auto with = [&](const char* variable, const std::string& unit) {
+    std::string text = k_ledge;
+    std::string law = friction;
+    law.replace(law.find('%'), 1, variable);
+    text.insert(text.find("[[probe]]"), law);
+    return k_here.run("internal", text + probe(unit)).finished;
+  };
+  EXPECT_TRUE(with("slip", "mm"));
+  EXPECT_TRUE(with("normal_work", "N/mm"));
+  EXPECT_THROW(with("slip", "N/mm"), solidus::InputError);
+  EXPECT_THROW(with("normal_work", "mm"), solidus::InputError);
+}
+
 TEST(Profiles, DoNotTakeTheNamesOfOtherTables) {
   k_here.write("metal.toml", k_metal);
   for (const char* name : {"pools", "history", "steps"}) {
