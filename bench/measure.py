@@ -20,6 +20,7 @@ WORK = Path("build/bench")
 REPEAT = int(os.environ.get("REPEAT", "3"))
 SCHEMES = ("isothermal", "isentropic", "simultaneous")
 NODES = {"20k": 26, "100k": 45, "300k": 66}    # divisions: 19 683, 97 336 and 300 763 nodes
+MIXED = (20, 26, 33, 46)                       # divisions: 9 261, 19 683, 39 304 and 103 823 nodes
 UNKNOWNS = {"10k": 13, "100k": 29, "1m": 62}   # divisions: four unknowns at each of (divisions + 1)^3 nodes
 
 
@@ -167,6 +168,21 @@ def side_by_side(size):
     return [median([row]) for row in rows]
 
 
+def mixed():
+    """The default tetrahedron of a steel that yields, with a pressure, beside the one of the displacement alone, in turn; and
+    CalculiX on the second size. Solidus takes eleven steps, as in side_by_side()."""
+    rows = []
+    for n in MIXED:
+        runs = {"displacement": [], "mixed": []}
+        for _ in range(REPEAT):
+            for simplices, of in runs.items():
+                settings = block(n, "tet4", **{"time.end": "11 s", "mechanics.simplices": simplices})
+                of.append(solidus(f"block {(n + 1) ** 3} nodes, tet4 {simplices}", "bench/cooling_block", settings))
+        rows += [median(of) for of in runs.values()]
+    rows.append(median([calculix(f"block {(MIXED[1] + 1) ** 3} nodes, tet4", MIXED[1], "tet4", "iterative")]))
+    return rows
+
+
 def scaling():
     """Processor time and memory of Solidus by the number of unknowns."""
     return [median([solidus(f"block {size} unknowns, {element}", "bench/cooling_block", block(n, element, **{"time.end": "11 s"}))])
@@ -178,7 +194,7 @@ def cylinder():
     return [median([solidus("cylinder 100 x 100, quad4", "bench/cylinder", {}) for _ in range(REPEAT)])]
 
 
-PARTS = {"micro": micro, "case": case, "coupling": coupling, "check": check, "cylinder": cylinder, "scaling": scaling,
+PARTS = {"micro": micro, "case": case, "coupling": coupling, "check": check, "cylinder": cylinder, "mixed": mixed, "scaling": scaling,
          **{f"nodes{size}": functools.partial(side_by_side, size) for size in NODES}}
 
 
