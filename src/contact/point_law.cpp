@@ -78,7 +78,8 @@ PointState PointLaw::next(const PointMotion& motion, const PointState& from, con
   to.status = f.status;
   to.pressure = f.normal.pressure;
   to.balance_pressure = f.normal.balance_pressure;
-  to.multiplier = f.normal.closed ? from.multiplier : least_multiplier(from);
+  if (!f.normal.closed)
+    to.multiplier = normal.kind == NormalKind::augmented_lagrangian ? least_multiplier(from) : 0.0;
   to.traction = f.traction;
   to.anchored = motion.partnered;
   if (motion.partnered) {

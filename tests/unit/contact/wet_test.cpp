@@ -24,6 +24,7 @@ ContactSpec spec(Formulation formulation = Formulation::small_sliding) {
   s.stabilisation = 0;
   s.formulation = formulation;
   s.atmosphere = k_atmosphere;
+  s.gauss_degree = 3;  // no point of a slave's face lies opposite an edge of the master
   return s;
 }
 AnalysisKind kind_of(const mesh::Mesh& mesh) {
@@ -118,13 +119,11 @@ TEST_P(Wet, PullsOnBothBodiesAlike) {
 
 TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
   OneStep run(mesh_, spec(GetParam().formulation));
-  const std::vector<double> u = lifted(mesh_, -0.5 * k_reach, 3 * k_reach);  // closed, pulled, void
+  const std::vector<double> u = lifted(mesh_, -0.5 * k_reach, 3.17 * k_reach);  // closed, pulled, void
   run.step(lifted(mesh_, 0), liquid());
   run.pair.begin(run.state, {.time = 2, .dt = 1, .displacement = u, .coherency = liquid()});
   algebra::NodeGraph graph(mesh_);
   algebra::Contribution& term = run.pair.mechanics();
-  term.add_residual(
-      u, std::vector<double>(static_cast<std::size_t>(mesh_.n_owned_nodes * mesh_.dimension), 0.0));
   term.add_to_graph(graph);
   algebra::BlockMatrix matrix(mesh_, mesh_.dimension, std::move(graph));
   term.bind(matrix);

@@ -301,10 +301,11 @@ TEST(FlowInput, PlasticityNeedsElasticProperties) {
               AllOf(HasSubstr("test.toml:4"), HasSubstr("no elastic properties")));
 }
 
-TEST(FlowInput, OnlyMaxwellsLiquidNeedsItsViscosity) {
+TEST(FlowInput, AMaxwellsLiquidWithoutAViscosityLeavesItToTheProgram) {
   const std::string change = k_solidifies.substr(k_solidifies.find("[["));
-  EXPECT_THAT(refusal(k_elastic + change), HasSubstr("'twice_shear_viscosity' is missing"));
-  EXPECT_EQ(read("liquid_model = \"modified_shear\"\n" + k_elastic + change).liquid_viscosity.max_value(), 0);
+  EXPECT_TRUE(read(k_elastic + change).chooses_viscosity());
+  EXPECT_FALSE(read(k_elastic + k_solidifies).chooses_viscosity());
+  EXPECT_FALSE(read("liquid_model = \"modified_shear\"\n" + k_elastic + change).chooses_viscosity());
 }
 
 TEST(FlowInput, TheFlowDataLeaveTheirRangeLikeTheOthers) {
