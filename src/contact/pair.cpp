@@ -26,6 +26,17 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
+/// Whether the metal on either side of a point that has a partner is below coherency.
+bool is_wet(const PointMotion& motion, std::span<const double> coherency) {
+  const auto n_slave = static_cast<std::size_t>(motion.n_slave);
+  std::array<double, 2> side{};
+  for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
+    const double part = motion.share[b] * coherency[at(motion.nodes[b])];
+    side[b < n_slave ? 0 : 1] += b < n_slave ? part : -part;
+  }
+  return side[0] < k_coherent || (motion.nodes.size() > n_slave && side[1] < k_coherent);
+}
+
 ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec, double reach,
                           const ContactSurface& slave, const ContactSurface& master) {
   IntegrationOptions options;
@@ -261,22 +272,16 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
 /// whatever gap opens. A gap that was there before, or that a coherent skin has left, holds air until it
 /// closes.
 void ContactPair::find_wet_points(std::span<const double> coherency) {
-  const bool wets = active_ && !coherency.empty() && spec_.atmosphere > 0;
-  if (wets) placement_->place(step_.begun, step_.displacement);
+  const auto molten = [](double c) { return c < k_coherent; };
+  const bool any = active_ && spec_.atmosphere > 0 && std::ranges::any_of(coherency, molten);
+  if (any) placement_->place(step_.begun, step_.displacement);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
     const bool touched = from.status != PointStatus::open || from.suction > 0;
     from.suction = 0;
-    if (wets && touched) {
+    if (any && touched) {
       const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
-      const auto n_slave = static_cast<std::size_t>(motion.n_slave);
-      double side[2] = {0, 0};
-      for (std::size_t b = 0; motion.partnered && b < motion.nodes.size(); ++b)
-        side[b < n_slave ? 0 : 1] +=
-            (b < n_slave ? motion.share[b] : -motion.share[b]) * coherency[at(motion.nodes[b])];
-      const bool meshed = motion.nodes.size() > n_slave;
-      if (motion.partnered && (side[0] < k_coherent || (meshed && side[1] < k_coherent)))
-        from.suction = spec_.atmosphere;
+      if (motion.partnered && is_wet(motion, coherency)) from.suction = spec_.atmosphere;
     }
     from.multiplier = std::max(from.multiplier, least_multiplier(from));
   }

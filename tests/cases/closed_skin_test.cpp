@@ -233,6 +233,50 @@ INSTANTIATE_TEST_SUITE_P(Of, ClosedSkin,
                                            Poured{"box_eutectic", true, "aluminium_alsi7mg", 8}),
                          [](const auto& of) { return std::string(of.param.name); });
 
+/// Runs the plate for 3 s and returns its summary.
+std::string summary_of(const std::string& name, const std::vector<std::string>& overrides) {
+  k_here.write("plate.geo", k_plate);
+  k_here.write("range.toml", k_range);
+  k_here.write("stiff_range.toml", "like = \"range.toml\"\ntwice_shear_viscosity = \"1e9 Pa s\"\n");
+  std::vector<std::string> all = overrides;
+  all.push_back("time.end=3 s");
+  const testing::CaseRun r = k_here.run(name, casting(false, "range.toml"), all);
+  EXPECT_TRUE(r.finished) << r.reason;
+  return testing::read_text(k_here.root() / name / "summary.json");
+}
+
+TEST(ClosedSkinRun, SaysWhichModulusTheMeltHasAndWhatLeftItsWall) {
+  using ::testing::HasSubstr;
+  using ::testing::Not;
+  const std::string thin = summary_of("thin_run", {});
+  EXPECT_THAT(thin, HasSubstr("modulus_in_a_step[Pa]"));
+  EXPECT_THAT(thin, HasSubstr("10 times the metallostatic head"));
+  EXPECT_THAT(thin, Not(HasSubstr("liquid_metal_left_its_wall")));
+  EXPECT_THAT(thin, Not(HasSubstr("left its wall")));
+  const std::string stiff =
+      summary_of("stiff_run", {"body.casting.material=" + (k_here.root() / "stiff_range.toml").string()});
+  EXPECT_THAT(stiff, Not(HasSubstr("modulus_in_a_step")));
+  EXPECT_THAT(stiff, HasSubstr("liquid_metal_left_its_wall"));
+  EXPECT_THAT(stiff, HasSubstr("contact 'wall': liquid metal left its wall"));
+}
+
+// The viscosity reaches the law in every scheme, and the tangents know that it is a constant of the step.
+TEST(ClosedSkinRun, EverySchemeHasTheMeltThatTheProgramChose) {
+  for (const char* scheme : {"isothermal", "isentropic", "block_iterative", "simultaneous"}) {
+    SCOPED_TRACE(scheme);
+    const std::string name = std::string("scheme_") + scheme;
+    k_here.write("plate.geo", k_plate);
+    k_here.write("range.toml", k_range);
+    const testing::CaseRun r = k_here.run(name, casting(false, "range.toml"),
+                                          {"time.end=3 s", std::string("coupling.scheme=") + scheme});
+    ASSERT_TRUE(r.finished) << r.reason;
+    for (const double iterations : r.steps.at("mechanics_iterations[1]")) EXPECT_LT(iterations, 30);
+    EXPECT_LT(std::abs(r.history.at("energy_defect[J]").back()),
+              1e-8 * r.history.at("heat_exchanged[J]").back());
+    EXPECT_GT(r.history.at("closed_fraction[1]").back(), 0.99);
+  }
+}
+
 TEST(ClosedSkinRun, GoesOnFromACheckpointWithTheSameBits) {
   k_here.write("plate.geo", k_plate);
   k_here.write("range.toml", k_range);

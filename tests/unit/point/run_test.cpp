@@ -117,6 +117,22 @@ TEST(PointRun, AShearStressOnALiquidStopsWithAdvice) {
   EXPECT_THAT(h.reason, HasSubstr("carries no shear"));
 }
 
+// A point has no height: ten atmospheres stand for the head, in every step whatever its length.
+TEST(PointRun, AMeltWithoutAViscosityHasTheModulusOfABodyWithoutGravity) {
+  for (const char* duration : {"1 s", "100 s"}) {
+    const History h = history_of(
+        std::string("material = \"aluminium_alsi7mg\"\ntemperature = \"700 degC\"\n[[segment]]\nkind = "
+                    "\"shear\"\nstrain = 0.01\nsteps = 1\nduration = \"") +
+        duration + "\"\n");
+    ASSERT_TRUE(h.finished) << h.reason;
+    const Record& last = h.records.back();
+    const double shear = std::abs(last.strain[3]) + std::abs(last.strain[4]) + std::abs(last.strain[5]);
+    const double stress = std::abs(last.stress[3]) + std::abs(last.stress[4]) + std::abs(last.stress[5]);
+    EXPECT_GT(shear, 0);
+    EXPECT_NEAR(stress, 10 * 101325 * shear, 1e-6 * stress) << duration;
+  }
+}
+
 TEST(PointRun, AnAdiabaticPointKeepsTheFirstLaw) {
   const History h = history_of(
       "material = \"aluminium_alsi7mg\"\nthermal = \"adiabatic\"\ntemperature = \"300 degC\"\n[[segment]]\n"
