@@ -16,8 +16,11 @@ namespace solidus::algebra {
 namespace {
 
 constexpr double k_smoothing = 4.0 / 3.0;  ///< ω times the largest eigenvalue of D⁻¹ A
-constexpr double k_dependent = 1e-8;       ///< a mode that keeps less of its length depends on those before
-constexpr double k_no_stiffness = 1e-12;   ///< a coarse diagonal below this share of the mean is no mode
+/// A coupling below this share of the geometric mean of the two diagonals is weak. Jumps of a hundred in the
+/// stiffness leave none that is, those of ten thousand, from solid to melt, do.
+constexpr double k_weak = 0.01;
+constexpr double k_dependent = 1e-8;      ///< a mode that keeps less of its length depends on those before
+constexpr double k_no_stiffness = 1e-12;  ///< a coarse diagonal below this share of the mean is no mode
 constexpr Index k_none = -1;
 
 std::size_t at(std::int64_t i) {
@@ -31,25 +34,67 @@ bool is_diagonal(const double* block, int size) {
   return true;
 }
 
+double squared_norm(const double* block, int size) {
+  double sum = 0;
+  for (int i = 0; i < size * size; ++i) sum += block[i] * block[i];
+  return sum;
+}
+
+/// The rows of this process that each row is strongly coupled with, itself included.
+struct StrongCouplings {
+  std::vector<std::int64_t> start{0};
+  std::vector<Index> column;
+
+  explicit StrongCouplings(const MatrixView& a);
+  std::span<const Index> of(Index row) const {
+    return std::span(column).subspan(at(start[at(row)]), at(start[at(row) + 1] - start[at(row)]));
+  }
+};
+
+StrongCouplings::StrongCouplings(const MatrixView& a) {
+  const Index n = a.n_rows();
+  std::vector<double> diagonal(at(n), 0.0);  // norms
+  for (Index row = 0; row < n; ++row)
+    a.each(row, [&](Index j, std::int64_t s, bool) {
+      if (j == row) diagonal[at(row)] = std::sqrt(squared_norm(a.block(s), a.size));
+    });
+  for (Index row = 0; row < n; ++row) {
+    a.each(row, [&](Index j, std::int64_t s, bool) {
+      if (j >= n) return;
+      if (j == row ||
+          squared_norm(a.block(s), a.size) > k_weak * k_weak * diagonal[at(row)] * diagonal[at(j)])
+        column.push_back(j);
+    });
+    start.push_back(static_cast<std::int64_t>(column.size()));
+  }
+}
+
 /// Greedy: first whole neighbourhoods that are still free, then the rows between them join a neighbour's
-/// aggregate, then what is left. Rows of nodes without unknowns, which couple with no other and within
-/// themselves neither, are in none: smoothing alone solves them, and no coarsening would ever make them
-/// fewer. Returns how many there are.
+/// aggregate, then what is left. Neighbours are rows that are strongly coupled: an aggregate that had both
+/// melt and solid would move neither as it can. Rows that are strongly coupled with no other are in no
+/// aggregate: smoothing alone solves them. Those of nodes without unknowns are among them, which no
+/// coarsening would ever make fewer. Returns how many aggregates there are.
 Index aggregate(const MatrixView& a, std::vector<Index>& of_row) {
   const Index n = a.n_rows();
   of_row.assign(at(n), k_none);
   Index n_aggregates = 0;
-  /// Calls f for the rows of this process that a row couples with, itself included.
+  const StrongCouplings strong(a);
   const auto each_neighbour = [&](Index row, const auto& f) {
-    a.each(row, [&](Index j, std::int64_t, bool) {
-      if (j < n) f(j);
-    });
+    for (const Index j : strong.of(row)) f(j);
   };
   std::vector<char> alone(at(n), 1);
-  for (Index row = 0; row < n; ++row)
+  for (Index row = 0; row < n; ++row) {
+    if (strong.of(row).size() > 1) alone[at(row)] = 0;
+    // A row without neighbours that is a body of its own, or couples with other processes alone.
+    bool coupled = false, own = false;
     a.each(row, [&](Index j, std::int64_t s, bool) {
-      if (j != row || !is_diagonal(a.block(s), a.size)) alone[at(row)] = 0;
+      if (j == row)
+        own = !is_diagonal(a.block(s), a.size);
+      else
+        coupled = coupled || j < n;
     });
+    if (own && !coupled) alone[at(row)] = 0;
+  }
   for (Index row = 0; row < n; ++row) {
     bool free = alone[at(row)] == 0;
     if (free) each_neighbour(row, [&](Index j) { free = free && of_row[at(j)] == k_none; });

@@ -96,6 +96,9 @@ class ContactKinematics {
                                      std::span<Tensor> k) const = 0;
   /// Adds ∂B_a/∂x_b, [a][b], for the nodes of the last motion() with rates: partners that stay have none.
   virtual void add_share_rates(std::span<Point> /*rates*/) const {}
+  /// How far the master's particle at the partner, as last placed, goes by a prescribed motion from one time
+  /// to another [m]: zero for masters with nodes.
+  virtual Point master_way(Index /*point*/, double /*from*/, double /*to*/) const { return {}; }
   /// True when nodes meet that did not at the last add_to_graph(): matrices must be made anew.
   virtual bool graph_outdated() const = 0;
   /// Cliques of nodes that may meet, with a margin for what comes next.

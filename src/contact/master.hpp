@@ -62,6 +62,10 @@ class Master {
   }
   /// @param rates whether nu_rate is asked for
   virtual void frame(const Partner& partner, bool rates, MasterFrame& frame) const = 0;
+  /// Whether a point with this partner at the start lies on the far side, where it never meets the surface.
+  virtual bool behind(const Partner&) const { return false; }
+  /// How far the particle at a partner goes by a prescribed motion from one time to another [m].
+  virtual Point way(const Partner&, double /*from*/, double /*to*/) const { return {}; }
   /// The most nodes that a frame has.
   virtual std::size_t max_nodes() const = 0;
   /// True when the reference normal turns on a face: then carried tractions have rates.

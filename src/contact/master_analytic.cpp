@@ -33,6 +33,17 @@ void AnalyticMaster::place(std::span<const double>, double time) {
   for (std::size_t i = 0; i < 3; ++i) shift_[i] = m.translation[i].value(time);
 }
 
+Point AnalyticMaster::place_at(const Point& own, double time) const {
+  const RigidMotion& m = surface_.motion;
+  Point x = add(m.centre, times(rotation(m.axis, m.angle.value(time)), subtract(own, m.centre)));
+  for (std::size_t i = 0; i < 3; ++i) x[i] += m.translation[i].value(time);
+  return x;
+}
+
+Point AnalyticMaster::way(const Partner& partner, double from, double to) const {
+  return subtract(place_at(partner.xi, to), place_at(partner.xi, from));
+}
+
 Partner AnalyticMaster::find(const Point& x, const Point& slave_normal, Index) const {
   // In the body's own frame: X = c + Qᵀ (x − d − c).
   const Point& c = surface_.motion.centre;
@@ -52,7 +63,8 @@ Partner AnalyticMaster::find(const Point& x, const Point& slave_normal, Index) c
     p.penetration = side * (surface_.radius - rho);
   }
   p.normal = times(turn_, normal);
-  if (!(std::abs(p.penetration) <= search_distance_)) return {};
+  // However deep a point has come into a rigid body, it is pushed out.
+  if (!(p.penetration >= -search_distance_)) return {};
   if (!(dot(p.normal, slave_normal) < k_facing_cosine)) return {};
   p.xi = contact::add_scaled(here, p.penetration, normal);
   p.face = 0;

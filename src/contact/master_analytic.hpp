@@ -31,11 +31,14 @@ struct RigidSurface {
 class AnalyticMaster : public Master {
  public:
   /// @param components of a displacement: two where the surface is seen in a plane
-  /// @param search_distance partners are looked for this far, on both sides [m]
+  /// @param search_distance a point farther outside has no partner [m]
   AnalyticMaster(int components, const RigidSurface& surface, double search_distance);
   void place(std::span<const double> displacement, double time) override;
   /// Partner::xi is Ȳ. A point on the axis or at the centre has none.
   Partner find(const Point& x, const Point& slave_normal, Index hint) const override;
+  /// Deeper inside than the search distance.
+  bool behind(const Partner& partner) const override { return partner.penetration > search_distance_; }
+  Point way(const Partner& partner, double from, double to) const override;
   void frame(const Partner& partner, bool rates, MasterFrame& frame) const override;
   std::size_t max_nodes() const override { return 0; }
   bool reference_turns() const override { return surface_.shape != RigidSurface::Shape::plane; }
@@ -43,6 +46,8 @@ class AnalyticMaster : public Master {
   std::span<const Index> around(Index) const override { return {}; }
 
  private:
+  /// Where a particle of the reference configuration is at a time [m].
+  Point place_at(const Point& own, double time) const;
   /// The curvature 1/R in the directions in which the surface is curved, applied to a tangent vector.
   Point curvature(const Point& radial, const Point& tangent) const;
 

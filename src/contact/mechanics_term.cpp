@@ -110,7 +110,7 @@ void MechanicsTerm::log(const Count& count) const {
 template <int dim>
 void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) {
   const PointForces f = law_.forces(motion, step_.from[at(point)], step_.together.around(motion));
-  if (!f.normal.closed && stabilisation_ == 0) return;
+  if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_ == 0) return;
   const std::size_t n = motion.nodes.size();
   const double w = motion.weight;
   std::array<double, dim * dim> slope;
@@ -148,7 +148,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
       for (std::size_t e = 0; e < dim * dim; ++e) block[e] += motion.share[b] * slope[e];
     }
   }
-  if (!kinematics_.partners_change() || !f.normal.closed) return;
+  if (!kinematics_.partners_change() || (!f.normal.closed && f.normal.balance_pressure == 0)) return;
   run.geometric.assign(n * n, Tensor{});
   kinematics_.add_geometric_tangent(point, f.normal.balance_pressure, f.traction, run.geometric);
   for (std::size_t e = 0; e < n * n; ++e)

@@ -18,7 +18,8 @@ namespace solidus::contact {
 
 /// What a step starts from, shared by the parts of a pair.
 struct ContactStep {
-  std::vector<PointState> from;      ///< at t_n, with the multipliers of now; one per point
+  /// At t_n, one per point; multipliers and tractions are those of the last turn of the augmented Lagrangian.
+  std::vector<PointState> from;
   double dt = 0;                     ///< [s]
   double time = 0;                   ///< t_{n+1} [s]
   double begun = 0;                  ///< t_n [s]

@@ -17,6 +17,17 @@
 /// s = 1/2 for the trapezoidal rule (mechanics/motion.hpp). p_1 may alternate about t_N; displacements and
 /// velocities do not feel that, they depend on t_N alone.
 ///
+/// Wet contact. Between a melt and its wall there is no air: the atmosphere p_a that stands on the melt's
+/// free surface and outside of the wall holds it there. Pressures are counted from p_a, so a wet interface
+/// carries tension down to −p_a, and a gap that opens in it is void: t_N + p_a >= 0 and the gap exclude each
+/// other. That is each of the laws above with another lower bound,
+///
+///   penalty               t_N = max(ε_N g_N, −p_a)
+///   augmented Lagrangian  t_N = max(λ_N + ε_N g_N, −p_a),  λ_N >= −p_a
+///   energy                W_c = ½ ε_N g_N² for g_N >= −p_a/ε_N, beyond it the line that goes on from there
+///
+/// monotone and with a convex energy as before. Which point is wet is known at t_n (ContactPair::begin).
+///
 /// Validity: ε_N large against the stiffness E/h of the elements next to the surface; the penetration left
 /// over by the penalty is t_N/ε_N. A point that touches with g_N = 0 exactly counts as closed: a body that
 /// rests on another has support in the first iteration, before any load has pressed it in. Source: monograph
@@ -34,6 +45,7 @@ struct NormalHistory {
   double penetration = 0;       ///< g_0 [m]
   double balance_pressure = 0;  ///< p_0 [Pa]
   double multiplier = 0;        ///< λ_N of now [Pa]
+  double suction = 0;           ///< p_a of a wet point, of a dry one zero [Pa]
 };
 
 struct NormalLaw {
@@ -47,13 +59,22 @@ struct NormalLaw {
   };
   /// @param share s, of t_{n+1} in the mean that the integrator works with
   Response update(double penetration, const NormalHistory& old, double share) const {
-    if (kind == NormalKind::energy_conserving && old.partnered) return quotient(penetration, old, share);
+    if (kind == NormalKind::energy_conserving && old.partnered)
+      return old.suction > 0 ? wet_quotient(penetration, old, share) : quotient(penetration, old, share);
     const double pressure = old.multiplier + penalty * penetration;
+    if (old.suction > 0) {
+      if (pressure < -old.suction) return {-old.suction, 0, -old.suction, 0, false};
+      return {pressure, penalty, pressure, penalty, true};
+    }
     if (pressure < 0 || (penetration < 0 && kind != NormalKind::augmented_lagrangian)) return {};
     return {pressure, penalty, pressure, penalty, true};
   }
-  double energy(double penetration) const {  ///< W_c [J/m²]
-    return penetration > 0 ? 0.5 * penalty * penetration * penetration : 0.0;
+  /// W_c [J/m²].
+  /// @param suction  p_a of a wet point, of a dry one zero [Pa]
+  double energy(double penetration, double suction = 0) const {
+    if (suction == 0) return penetration > 0 ? 0.5 * penalty * penetration * penetration : 0.0;
+    const double reach = -suction / penalty, spring = penetration > reach ? penetration : reach;
+    return 0.5 * penalty * spring * spring + suction * (spring - penetration);
   }
 
  private:
@@ -68,6 +89,24 @@ struct NormalLaw {
     } else if (g0 > 0) {
       const double path = g0 - g1;
       r = {half * g0 * (g0 / path), half * (g0 / path) * (g0 / path), 0, 0, true};
+    }
+    r.balance_pressure = (r.pressure - (1 - share) * old.balance_pressure) / share;
+    r.balance_tangent = r.tangent / share;
+    return r;
+  }
+  /// The same quotient of the energy of a wet point.
+  Response wet_quotient(double g1, const NormalHistory& old, double share) const {
+    const double g0 = old.penetration, half = 0.5 * penalty, reach = -old.suction / penalty;
+    Response r;
+    if (g1 >= reach && g0 >= reach) {
+      r = {half * (g1 + g0), half, 0, 0, true};
+    } else if (g1 <= reach && g0 <= reach) {
+      r = {-old.suction, 0, 0, 0, false};
+    } else {
+      const double high = g1 > g0 ? g1 : g0, low = g1 > g0 ? g0 : g1;
+      r.pressure = (half * (high - reach) * (high + reach) - old.suction * (reach - low)) / (high - low);
+      r.tangent = ((g1 > reach ? penalty * g1 : -old.suction) - r.pressure) / (g1 - g0);
+      r.closed = true;
     }
     r.balance_pressure = (r.pressure - (1 - share) * old.balance_pressure) / share;
     r.balance_tangent = r.tangent / share;

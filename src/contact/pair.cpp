@@ -19,6 +19,9 @@ namespace solidus::contact {
 
 namespace {
 
+/// A mean of coherencies below it is that of melt: shape functions add up to one but for rounding.
+constexpr double k_coherent = 1 - 1e-9;
+
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
@@ -225,6 +228,7 @@ ContactState ContactPair::initial_state() const {
 }
 
 void ContactPair::set_out_from(const ContactState& state) {
+  start_traction_.clear();
   if (!state.points.empty()) {
     step_.from = state.points;
     worn_from_ = state.master;
@@ -240,7 +244,8 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   step_.dt = pass.dt;
   step_.time = pass.time;
   step_.displacement.assign(pass.displacement.begin(), pass.displacement.end());
-  step_.begun = time_;
+  step_.begun = pass.time - pass.dt;
+  find_wet_points(pass.coherency);
   law_.isentropic = pass.isentropic;
   law_.share = pass.share;
   step_.together = {};
@@ -252,20 +257,50 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   if (law_.friction && !pass.temperature.empty()) find_interface_temperatures(pass.temperature);
 }
 
-/// Where the interface has no temperature yet, the mean of the two sides. A point without a partner at t_n
-/// counts no slip in the step in which it finds one, so friction does not ask for its temperature.
-void ContactPair::find_interface_temperatures(std::span<const double> temperature) {
-  for (Index p = 0; p < partners_.n_points(); ++p) {
+/// Liquid metal that touches its wall wets it; it stays wet while the metal there is below coherency,
+/// whatever gap opens. A gap that was there before, or that a coherent skin has left, holds air until it
+/// closes.
+void ContactPair::find_wet_points(std::span<const double> coherency) {
+  const bool wets = active_ && !coherency.empty() && spec_.atmosphere > 0;
+  if (wets) placement_->place(step_.begun, step_.displacement);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
-    if (from.temperature > 0 || partners_.partnered[at(p)] == 0) continue;
-    const auto nodes = partners_.nodes_of(p);
-    const auto share = partners_.share_of(p);
+    const bool touched = from.status != PointStatus::open || from.suction > 0;
+    from.suction = 0;
+    if (wets && touched) {
+      const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
+      const auto n_slave = static_cast<std::size_t>(motion.n_slave);
+      double side[2] = {0, 0};
+      for (std::size_t b = 0; motion.partnered && b < motion.nodes.size(); ++b)
+        side[b < n_slave ? 0 : 1] +=
+            (b < n_slave ? motion.share[b] : -motion.share[b]) * coherency[at(motion.nodes[b])];
+      const bool meshed = motion.nodes.size() > n_slave;
+      if (motion.partnered && (side[0] < k_coherent || (meshed && side[1] < k_coherent)))
+        from.suction = spec_.atmosphere;
+    }
+    from.multiplier = std::max(from.multiplier, least_multiplier(from));
+  }
+}
+
+/// Where the interface has no temperature yet, the mean of the two sides at t_n, wherever other iterates of
+/// the step have gone. A point without a partner at t_n counts no slip in the step in which it finds one, so
+/// friction does not ask for its temperature.
+void ContactPair::find_interface_temperatures(std::span<const double> temperature) {
+  const auto known = [](const PointState& from) { return from.temperature > 0; };
+  if (std::ranges::all_of(step_.from, known)) return;
+  placement_->place(step_.begun, step_.displacement);
+  const std::optional<double> tool = tool_temperature_at(step_.begun);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    PointState& from = step_.from[at(p)];
+    if (known(from)) continue;
+    const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
+    if (!motion.partnered) continue;
+    const auto n_slave = static_cast<std::size_t>(motion.n_slave);
     double side[2] = {0, 0};
-    for (std::size_t b = 0; b < nodes.size(); ++b)
-      side[b < static_cast<std::size_t>(partners_.n_slave[at(p)]) ? 0 : 1] +=
-          share[b] * temperature[at(nodes[b])];
-    const bool meshed = nodes.size() > static_cast<std::size_t>(partners_.n_slave[at(p)]);
-    from.temperature = 0.5 * (side[0] + (meshed ? -side[1] : tool_temperature().value_or(side[0])));
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b)
+      side[b < n_slave ? 0 : 1] += motion.share[b] * temperature[at(motion.nodes[b])];
+    const bool meshed = motion.nodes.size() > n_slave;
+    from.temperature = 0.5 * (side[0] + (meshed ? -side[1] : tool.value_or(side[0])));
   }
 }
 
@@ -307,9 +342,9 @@ void ContactPair::wear_master(const PointMotion& motion, const PointState& now, 
 
 HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
                                   const PointForces& forces) const {
-  HeatPoint point{.penetration = now.penetration,
+  HeatPoint point{.penetration = seen_by_heat(now.penetration, now.suction),
                   .pressure = now.pressure,
-                  .pressure_slope = forces.normal.tangent,
+                  .pressure_slope = now.pressure >= 0 ? forces.normal.tangent : 0.0,
                   .has_temperature = law_.friction && step_.dt > 0 && from.temperature > 0,
                   .step = {},
                   .joint = forces.joint};
@@ -388,6 +423,7 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
     if (active_) continue;
     now_.points[p].status = PointStatus::open;
     now_.points[p].pressure = now_.points[p].balance_pressure = now_.points[p].multiplier = 0;
+    now_.points[p].suction = 0;
     now_.points[p].traction = {};
     now_.points[p].anchored = false;
   }
@@ -414,6 +450,8 @@ std::vector<double> ContactPair::nodal_penetration() const {
 void ContactPair::augment() {
   if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return;
   const std::vector<double> penetration = nodal_penetration();
+  if (start_traction_.empty())
+    for (const PointState& from : step_.from) start_traction_.push_back(from.traction);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
     const ContactKinematics::Particle particle = kinematics_->particle(p);
@@ -421,9 +459,9 @@ void ContactPair::augment() {
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
       mean += particle.share[b] * penetration[at(particle.nodes[b])];
     if (now_.points[at(p)].status == PointStatus::open)
-      from.multiplier = 0;
+      from.multiplier = least_multiplier(from);
     else
-      from.multiplier = std::max(0.0, from.multiplier + law_.normal.penalty * mean);
+      from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.normal.penalty * mean);
     from.traction = now_.points[at(p)].traction;
   }
 }
@@ -486,8 +524,9 @@ std::vector<double> ContactPair::nodal_heat(std::span<const double> temperature)
 }
 
 std::size_t ContactPair::bytes() const {
-  return partners_.bytes() + (now_.points.capacity() + step_.from.capacity()) * sizeof(PointState) +
-         mechanics_->bytes() + (heat_ ? heat_->bytes() : 0);
+  return partners_.bytes() + start_traction_.capacity() * sizeof(Point) +
+         (now_.points.capacity() + step_.from.capacity()) * sizeof(PointState) + mechanics_->bytes() +
+         (heat_ ? heat_->bytes() : 0);
 }
 
 }  // namespace solidus::contact

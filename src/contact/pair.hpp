@@ -46,7 +46,11 @@ struct ContactSums {
   double energy = 0;       ///< in the springs, normal and tangential [J]
   double work = 0;         ///< of friction so far, ∫ ∫ ‖T‖ dγ dA [J]
   double dissipation = 0;  ///< of friction so far [J]; the work less this is what hardening stores
-  double heat = 0;         ///< from slave to master by conduction and radiation [W]
+  double wet_area = 0;     ///< of points that liquid metal wets [m²]
+  /// What of it has left its wall (ContactSpec::leaving_gap): points, area [m²] and the largest gap [m].
+  GlobalIndex left_points = 0;
+  double left_area = 0, left_gap = 0;
+  double heat = 0;                               ///< from slave to master by conduction and radiation [W]
   double heat_to_slave = 0, heat_to_master = 0;  ///< in all, that of friction included [W]
 };
 
@@ -75,9 +79,12 @@ struct ContactPass {
   double time = 0, dt = 0;                 ///< t_{n+1} and the step [s]
   std::span<const double> displacement{};  ///< u_n, [local node][component] [m]
   std::span<const double> temperature{};   ///< Θ_n, [local node] [K]; empty: unknown
-  bool isentropic = false;                 ///< the pass holds the entropy of the interface, not Θ_c
-  bool simultaneous = false;               ///< Θ_c is found together with the slip (5.40), see surround()
-  double share = 1;                        ///< s of normal.hpp
+  /// f_S/f_c at t_n, the solid fraction over that at which metal is coherent, [local node]; one where nothing
+  /// melts. Empty: nothing does.
+  std::span<const double> coherency{};
+  bool isentropic = false;    ///< the pass holds the entropy of the interface, not Θ_c
+  bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see surround()
+  double share = 1;           ///< s of normal.hpp
 };
 
 class ContactPair {
@@ -159,10 +166,13 @@ class ContactPair {
   /// Sums at the last update(); `temperature` [local node] or empty (heat = 0). Collective.
   ContactSums sums(std::span<const double> temperature) const;
   /// Work that the bodies do on contact from the start of the step to the last update(), by the mean of the
-  /// forces at both [J]. Collective.
+  /// forces at both [J]. Contact that is off has no force at the end, but the balance of a method with a mean
+  /// still holds that of t_n in the first step without it. Collective.
   /// @param share of the last update() in the mean
   double work(double share);
-  /// Work that a rigid master does on contact meanwhile: ∫ (t_N Δg_N + T·ΔG) dA less work(). Collective.
+  /// Work that a rigid master does on contact meanwhile: ∫ (t_N Δg_N + T·ΔG) dA less work(). Where a point
+  /// has a partner at one end of the step only, Δg_N and ΔG are those of the motion of both bodies there.
+  /// Collective.
   double rigid_work(double share);
   /// Averages at nodes, at the last update(); without temperatures, conductances at room temperature. Local.
   ContactNodalFields nodal_fields(std::span<const double> temperature) const;
@@ -187,15 +197,23 @@ class ContactPair {
   void make_laws(const ContactSurface& slave, double penalty);
   std::optional<double> tool_temperature_at(double time) const;
   void set_out_from(const ContactState& state);
+  void find_wet_points(std::span<const double> coherency);
   void wear_master(const PointMotion& motion, const PointState& now, const PointForces& forces);
   HeatPoint heat_point(const PointState& from, const PointState& now, const PointForces& forces) const;
   void show_whole_step();
   void find_interface_temperatures(std::span<const double> temperature);
   /// Of the augmented Lagrangian: ḡ_a, weighted with w N_a², [local node] [m]. Collective.
   std::vector<double> nodal_penetration() const;
-  /// ∫ f · ΔΣ B_b u_b of the points' forces at a displacement, this process's part [J].
-  double force_times_increment(const std::vector<PointState>& states, std::span<const double> displacement,
-                               double time, std::span<const double> increment);
+  /// Of a point at t_n, with the traction that it had there.
+  PointState at_start(std::size_t point) const;
+  /// u_{n+1} − u_n, [local node][component] [m].
+  std::vector<double> increment() const;
+  /// ∫ f · ΔΣ B_b u_b of the points' forces at the start or at the end of the step, this process's part [J].
+  enum class End { start, finish };
+  double force_times_increment(End end, std::span<const double> increment);
+  /// Of points with a partner at one end of the step alone: ∫ f · (Δu_s − Δy) dA with the way Δy of the rigid
+  /// master's particle there, this process's part [J].
+  double force_times_relative_way(End end, std::span<const double> increment);
 
   const mesh::Mesh& mesh_;
   ContactSpec spec_;
@@ -209,8 +227,9 @@ class ContactPair {
   PointLaw law_;
   std::optional<HeatTransferLaw> heat_law_;
   ContactStep step_;
-  std::unique_ptr<MasterWear> worn_;  ///< absent where the master does not wear
-  std::vector<WornNode> worn_from_;   ///< at t_n
+  std::unique_ptr<MasterWear> worn_;   ///< absent where the master does not wear
+  std::vector<WornNode> worn_from_;    ///< at t_n
+  std::vector<Point> start_traction_;  ///< at t_n, [point] [Pa]; empty where step_.from still has them
   ContactState now_;
   std::vector<double> displacement_;  ///< of now_
   double time_ = 0;                   ///< likewise

@@ -1,6 +1,7 @@
 /// What a contact pair tells of a step: work, forces, energies.
 #include <petscsys.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -24,15 +25,27 @@ Point force_on_master(const PointMotion& motion, const PointState& state, double
 
 }  // namespace
 
-double ContactPair::force_times_increment(const std::vector<PointState>& states,
-                                          std::span<const double> displacement, double time,
-                                          std::span<const double> increment) {
-  placement_->place(time, displacement, ContactKinematics::Points::own);
+PointState ContactPair::at_start(std::size_t point) const {
+  PointState start = step_.from[point];
+  if (!start_traction_.empty()) start.traction = start_traction_[point];
+  return start;
+}
+
+std::vector<double> ContactPair::increment() const {
+  std::vector<double> increment = displacement_;
+  for (std::size_t i = 0; i < increment.size(); ++i) increment[i] -= step_.displacement[i];
+  return increment;
+}
+
+double ContactPair::force_times_increment(End end, std::span<const double> increment) {
+  const bool start = end == End::start;
+  placement_->place(start ? step_.begun : time_, start ? step_.displacement : displacement_,
+                    ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(components_);
   double work = 0;
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
-    const PointState& state = states[at(p)];
     if (!kinematics_->particle(p).counted) continue;
+    const PointState state = start ? at_start(at(p)) : now_.points[at(p)];
     if (state.balance_pressure == 0 && state.status == PointStatus::open) continue;
     const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
     const Point force = force_on_master(motion, state, state.balance_pressure);
@@ -43,24 +56,47 @@ double ContactPair::force_times_increment(const std::vector<PointState>& states,
   return work;
 }
 
-double ContactPair::work(double share) {
-  if (!active_) return 0;
-  std::vector<double> increment = displacement_;
-  for (std::size_t i = 0; i < increment.size(); ++i) increment[i] -= step_.displacement[i];
+double ContactPair::force_times_relative_way(End end, std::span<const double> increment) {
+  const bool start = end == End::start;
+  placement_->place(start ? step_.begun : time_, start ? step_.displacement : displacement_,
+                    ContactKinematics::Points::own);
+  const auto n = static_cast<std::size_t>(components_);
   double work = 0;
-  if (share != 1)
-    work += (1 - share) * force_times_increment(step_.from, step_.displacement, step_.begun, increment);
-  if (share != 0) work += share * force_times_increment(now_.points, displacement_, time_, increment);
+  for (Index p = 0; p < kinematics_->n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics_->particle(p);
+    const PointState from = at_start(at(p)), &to = now_.points[at(p)];
+    if (!particle.counted || from.anchored == to.anchored) continue;
+    const PointState& state = start ? from : to;
+    if (!state.anchored || (state.balance_pressure == 0 && state.status == PointStatus::open)) continue;
+    const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
+    const Point force = force_on_master(motion, state, state.balance_pressure);
+    Point way = scale(-1, kinematics_->master_way(p, step_.begun, time_));
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        way[i] += particle.share[b] * increment[at(particle.nodes[b]) * n + i];
+    work += motion.weight * dot(force, way);
+  }
+  return work;
+}
+
+double ContactPair::work(double share) {
+  const std::vector<double> increment = this->increment();
+  double work = 0;
+  if (share != 1) work += (1 - share) * force_times_increment(End::start, increment);
+  if (share != 0) work += share * force_times_increment(End::finish, increment);
   placement_->place(time_, displacement_, ContactKinematics::Points::own);
   return algebra::global_sum(work);
 }
 
 double ContactPair::rigid_work(double share) {
-  if (!spec_.rigid_master || !active_) return 0;
-  placement_->place(time_, displacement_, ContactKinematics::Points::own);
+  if (!spec_.rigid_master) return 0;
+  const std::vector<double> increment = this->increment();
   double together = 0;
+  if (share != 1) together += (1 - share) * force_times_relative_way(End::start, increment);
+  if (share != 0) together += share * force_times_relative_way(End::finish, increment);
+  placement_->place(time_, displacement_, ContactKinematics::Points::own);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
-    const PointState &from = step_.from[at(p)], &to = now_.points[at(p)];
+    const PointState from = at_start(at(p)), &to = now_.points[at(p)];
     if (!to.counted || !from.anchored || !to.anchored) continue;
     const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
     const double pressure = share * to.balance_pressure + (1 - share) * from.balance_pressure;
@@ -72,7 +108,8 @@ double ContactPair::rigid_work(double share) {
 
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
   placement_->place(time_, displacement_, ContactKinematics::Points::own);
-  std::array<double, 18> s{};
+  std::array<double, 21> s{};
+  double left_gap = 0;
   const auto n = static_cast<std::size_t>(components_);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics_->particle(p);
@@ -84,10 +121,19 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
     s[1] += w * (active_ ? law_.stored(state) : 0.0);
     s[2] += w * state.work;
     s[3] += w * state.dissipation;
-    if (state.status == PointStatus::open) continue;
-    s[4] += 1;
+    if (state.suction > 0) {
+      s[18] += w;
+      if (-state.penetration > spec_.leaving_gap) {
+        s[19] += 1;
+        s[20] += w;
+        left_gap = std::max(left_gap, -state.penetration);
+      }
+    }
+    const bool open = state.status == PointStatus::open;
+    if (open && state.pressure == 0) continue;
+    s[4] += open ? 0 : 1;
     s[5] += state.status == PointStatus::sticks ? 1 : 0;
-    s[6] += w;
+    s[6] += open ? 0.0 : w;
     s[7] += w * state.pressure;
     s[8] += w * norm(state.traction);
     Point x = particle.position;
@@ -123,6 +169,10 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
   sums.heat = s[15];
   sums.heat_to_slave = s[16];
   sums.heat_to_master = s[17];
+  sums.wet_area = s[18];
+  sums.left_points = std::llround(s[19]);
+  sums.left_area = s[20];
+  if (sums.left_points > 0) sums.left_gap = algebra::global_max(left_gap);
   return sums;
 }
 

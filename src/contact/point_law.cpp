@@ -1,5 +1,7 @@
 #include "contact/point_law.hpp"
 
+#include <algorithm>
+
 namespace solidus::contact {
 
 /// A point that slipped stands on the slip cone at the start of the next step, up to rounding. There the
@@ -34,20 +36,24 @@ PointForces PointLaw::forces(const PointMotion& motion, const PointState& from,
                              const std::optional<Surroundings>& around) const {
   PointForces f;
   if (!motion.partnered) return f;
-  f.normal = normal.update(motion.penetration + from.offset,
-                           {from.anchored, from.penetration, from.balance_pressure, from.multiplier}, share);
+  f.normal = normal.update(
+      motion.penetration + from.offset,
+      {from.anchored, from.penetration, from.balance_pressure, from.multiplier, from.suction}, share);
   if (!f.normal.closed) return f;
   f.status = friction ? PointStatus::sticks : PointStatus::slips;
   if (!friction) return f;
 
   const Point trial = add_scaled(motion.carried, friction->tangential_penalty(), motion.slip);
   f.trial = norm(trial);
-  const FrictionInput in{f.trial, f.normal.pressure, from.internal_variable, from.temperature};
-  if (around) f.conductance = around->conductance(motion.penetration + from.offset, f.normal.pressure);
+  const double pressing = std::max(f.normal.pressure, 0.0);  // tension of a wet point makes no friction
+  const FrictionInput in{f.trial, pressing, from.internal_variable, from.temperature};
+  if (around)
+    f.conductance =
+        around->conductance(seen_by_heat(motion.penetration + from.offset, from.suction), f.normal.pressure);
   f.friction = respond(in, around, f.conductance.value, f.joint);
   if (!f.friction.sticks) f.status = PointStatus::slips;
   if (f.friction.sticks && from.status == PointStatus::slips &&
-      f.trial >= (1 - k_on_the_cone) * f.friction.coefficient * f.normal.pressure && f.trial > 0) {
+      f.trial >= (1 - k_on_the_cone) * f.friction.coefficient * pressing && f.trial > 0) {
     FrictionInput beyond = in;
     beyond.trial = (1 + 2 * k_on_the_cone) * in.trial;
     const FrictionResponse slipping = respond(beyond, around, f.conductance.value, f.joint);
@@ -62,7 +68,7 @@ PointForces PointLaw::forces(const PointMotion& motion, const PointState& from,
       f.traction_by_trial[i][j] = (f.friction.trial_slope - radial) * m[i] * m[j];
     f.traction_by_trial[i][i] += radial;
   }
-  f.traction_by_pressure = scale(f.friction.pressure_slope, m);
+  f.traction_by_pressure = scale(f.normal.pressure >= 0 ? f.friction.pressure_slope : 0.0, m);
   if (f.joint) f.traction_by_conductance = scale(f.joint->traction_by_conductance, m);
   return f;
 }
@@ -72,7 +78,7 @@ PointState PointLaw::next(const PointMotion& motion, const PointState& from, con
   to.status = f.status;
   to.pressure = f.normal.pressure;
   to.balance_pressure = f.normal.balance_pressure;
-  to.multiplier = f.normal.closed ? from.multiplier : 0.0;
+  to.multiplier = f.normal.closed ? from.multiplier : least_multiplier(from);
   to.traction = f.traction;
   to.anchored = motion.partnered;
   if (motion.partnered) {
@@ -87,14 +93,14 @@ PointState PointLaw::next(const PointMotion& motion, const PointState& from, con
   to.dissipation += f.friction.dissipation;
   to.work += f.friction.slip * f.friction.traction;
   if (wear)
-    to.wear_depth +=
-        (1 - wear->master_share) * wear->depth_increment(f.normal.pressure, f.friction.slip, to.temperature);
+    to.wear_depth += (1 - wear->master_share) *
+                     wear->depth_increment(std::max(f.normal.pressure, 0.0), f.friction.slip, to.temperature);
   return to;
 }
 
 double PointLaw::stored(const PointState& state) const {
   if (!state.anchored) return 0;
-  double energy = normal.energy(state.penetration);
+  double energy = normal.energy(state.penetration, state.suction);
   if (friction && normal.kind != NormalKind::augmented_lagrangian)
     energy += 0.5 * dot(state.traction, state.traction) / friction->tangential_penalty();
   return energy;

@@ -39,6 +39,15 @@ struct JointSlopes {
   std::array<double, 2> traction_by_side{};  ///< ∂‖T‖/∂Θ_i of slave and master [Pa/K]
 };
 
+/// The penetration that heat takes a point to have: a wet one conducts as a closed one [m].
+inline double seen_by_heat(double penetration, double suction) {
+  return suction > 0 && penetration < 0 ? 0.0 : penetration;
+}
+/// The least multiplier that a point may have, that of an open one [Pa].
+inline double least_multiplier(const PointState& state) {
+  return state.suction > 0 ? -state.suction : 0.0;
+}
+
 struct PointForces {
   PointStatus status = PointStatus::open;
   NormalLaw::Response normal;

@@ -44,6 +44,10 @@ SlidingKinematics::SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, 
   carried_rate_.resize(most);
 
   place(std::vector<double>(mesh.x.size() * components_, 0.0));
+  for (std::size_t p = 0; p < partner_.size(); ++p) {
+    behind_[p] = partner_[p].face >= 0 && master_->behind(partner_[p]) ? 1 : 0;
+    if (behind_[p] != 0) partner_[p] = {};
+  }
   double all = 0, paired = 0;
   for (std::size_t p = 0; p < weight_.size(); ++p) {
     all += weight_[p];
@@ -68,6 +72,7 @@ void SlidingKinematics::add_points(AnalysisKind kind, const SlidingOptions& opti
   x_ = position_;
   partner_.resize(weight_.size());
   hint_.assign(weight_.size(), -1);
+  behind_.assign(weight_.size(), 0);
   concern_.assign(weight_.size(), reached);
 }
 
@@ -138,8 +143,8 @@ void SlidingKinematics::place(std::span<const double> displacement, Points point
     x_[p] = place_of(p, face);
     const Point normal = face.normal(xi_[p]);
     partner_[p] = {};
-    if (own || points == Points::all || master_->may_meet_watched(x_[p], normal, hint_[p]))
-      partner_[p] = master_->find(x_[p], normal, hint_[p]);
+    const bool asked = own || points == Points::all || master_->may_meet_watched(x_[p], normal, hint_[p]);
+    if (asked && behind_[p] == 0) partner_[p] = master_->find(x_[p], normal, hint_[p]);
     const Index met = partner_[p].face;
     if (met >= 0) hint_[p] = met;
     concern_[p] = own                                ? reached

@@ -45,6 +45,9 @@ class SlidingKinematics : public ContactKinematics {
   void add_geometric_tangent(Index point, double pressure, const Point& traction,
                              std::span<Tensor> k) const override;
   void add_share_rates(std::span<Point> rates) const override;
+  Point master_way(Index point, double from, double to) const override {
+    return master_->way(partner(point), from, to);
+  }
   bool graph_outdated() const override;
   void add_to_graph(CliqueSink& sink) override;
 
@@ -78,7 +81,8 @@ class SlidingKinematics : public ContactKinematics {
   std::vector<double> weight_;
   std::vector<std::array<double, k_max_face_nodes>> shape_;
   std::vector<Partner> partner_;
-  std::vector<Index> hint_;  ///< the face met last
+  std::vector<Index> hint_;   ///< the face met last
+  std::vector<char> behind_;  ///< Master::behind, in the reference configuration
   /// How a point concerns this process: from a face that it meets, the graph's rings reach a node of its own
   /// (reached), or would from one that many faces on (near), so that the graph holds it before it comes.
   enum Concern : char { none, near, reached };

@@ -30,6 +30,10 @@ struct ContactSpec {
   Formulation formulation = Formulation::small_sliding;
   bool smoothing = false;  ///< averaged normals of the master (large sliding)
   NormalKind normal = NormalKind::penalty;
+  /// The pressure that holds liquid metal on its wall (normal.hpp) [Pa]; zero: it lets go without tension.
+  double atmosphere = 101325;
+  /// A liquid skin that is farther from its wall than this has left it, for reports [m].
+  double leaving_gap = 0;
   /// Of the augmented Lagrangian: the penetration that may be left, as a share of the mean size of the
   /// slave's faces.
   double penetration_tolerance = 1e-6;

@@ -23,6 +23,9 @@ struct PointState {
   /// quotient, which is a mean over the step (normal.hpp).
   double balance_pressure = 0;
   double multiplier = 0;  ///< λ_N [Pa]: of the augmented Lagrangian, else zero
+  /// Of the step that led here: the pressure of the atmosphere where liquid metal wets the wall, else zero
+  /// (normal.hpp) [Pa].
+  double suction = 0;
   // Friction.
   Point traction{};       ///< t_T of 3.42b, a vector in the master's tangent plane (ContactKinematics) [Pa]
   Point anchor{};         ///< where slip is counted from: PointMotion::anchor [m]

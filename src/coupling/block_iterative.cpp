@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -30,9 +31,13 @@ double largest(std::span<const double> a) {
   return algebra::global_max(size);
 }
 
+/// Infinite where a difference is not a number.
 double largest_difference(std::span<const double> a, std::span<const double> b) {
   double size = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) size = std::max(size, std::abs(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = std::abs(a[i] - b[i]);
+    size = std::isnan(difference) ? std::numeric_limits<double>::infinity() : std::max(size, difference);
+  }
   return algebra::global_max(size);
 }
 
@@ -164,6 +169,7 @@ const std::vector<double>& BlockIterative::answered(const Iterate& it) const {
 
 bool BlockIterative::agrees(const State& old, const Iterate& it) const {
   const auto small = [this](double change, std::span<const double> now, std::span<const double> before) {
+    if (!std::isfinite(change)) return false;
     return change <= options_.tolerance * largest_difference(now, before) ||
            change <= k_rounding * largest(now);
   };
@@ -175,6 +181,8 @@ void BlockIterative::require_progress(const Iterate& it) const {
   const std::vector<double>& now = it.now.heat.temperature;
   const bool cold = std::any_of(now.begin(), now.end(), [](double t) { return !(t > 0); });
   if (algebra::any_process(cold)) diverged(it, "a temperature fell below 0 K");
+  if (!std::isfinite(changes_.back().temperature) || !std::isfinite(changes_.back().displacement))
+    diverged(it, "a temperature or displacement is not a number");
   if (changes_.back().temperature > k_diverged * changes_.front().temperature)
     diverged(it, "the phases drive each other away");
   if (it.number < options_.max_iterations) return;

@@ -52,16 +52,22 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
   }
 }
 
-double BodyNorm::operator()(std::span<const double> values) const {
+double BodyNorm::operator()(std::span<const double> values, std::span<const char> counts) const {
   const std::size_t width = n_nodes_ > 0 ? values.size() / n_nodes_ : 0;
   std::vector<double> square(n_bodies_, 0.0);
-  for (const Share& share : shares_)
+  for (const Share& share : shares_) {
+    if (!counts.empty() && counts[static_cast<std::size_t>(share.node)] == 0) continue;
     for (std::size_t k = 0; k < width; ++k) {
       const double v = values[static_cast<std::size_t>(share.node) * width + k];
       square[static_cast<std::size_t>(share.body)] += share.weight * v * v;
     }
+  }
   double largest = 0;
-  for (const double s : square) largest = std::max(largest, algebra::global_sum(s));
+  for (const double s : square) {
+    const double sum = algebra::global_sum(s);
+    if (std::isnan(sum)) return sum;
+    largest = std::max(largest, sum);
+  }
   return std::sqrt(largest);
 }
 

@@ -18,7 +18,10 @@ class BodyNorm {
   /// (mesh::nodal_weights); |v_i| is the length of the node's vector. Collective; the same bits on every
   /// process.
   /// @param values [local node][component]; empty: zero
-  double operator()(std::span<const double> values) const;
+  double operator()(std::span<const double> values) const { return (*this)(values, {}); }
+  /// Of the nodes that count; the others are zero, their volume counts in the mean all the same.
+  /// @param counts [local node]; empty: all do
+  double operator()(std::span<const double> values, std::span<const char> counts) const;
   /// Extent of the mesh, corner to corner [m].
   double diagonal() const { return diagonal_; }
 

@@ -38,13 +38,15 @@ void go_on(const contact::PointState& from, const contact::PointState& to, doubl
 }  // namespace
 
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
-                    const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass) {
+                    const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
+                    std::span<const double> coherency) {
   const profile::Part part("contact");
   const contact::ContactPass of_contact{
       .time = pass.time,
       .dt = pass.dt,
       .displacement = old.displacement,
       .temperature = pass.temperature,
+      .coherency = coherency,
       .isentropic = phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::isentropic,
       .simultaneous =
           phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::simultaneous,

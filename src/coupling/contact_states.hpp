@@ -6,8 +6,10 @@
 namespace solidus::coupling {
 
 /// A mechanical pass sets out: pairs from `contacts` at t_n (State::contacts).
+/// @param coherency  at t_n (coherency_of)
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
-                    const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass);
+                    const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
+                    std::span<const double> coherency = {});
 /// Of the last update of the pairs.
 std::vector<contact::ContactState> contact_states(const Phases& phases);
 /// Pairs stand as in `state`.

@@ -23,23 +23,37 @@ std::vector<double> half_of_what_was_not_predicted(const std::vector<double>& ol
   return error;
 }
 
+/// Nodes that none of these coherencies has as melt; empty: all.
+std::vector<char> casting(const std::vector<double>& coherency, const std::vector<double>& before = {}) {
+  std::vector<char> counts(coherency.size());
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    counts[i] = coherency[i] >= 1 && (before.empty() || before[i] >= 1);
+  return counts;
+}
+
 }  // namespace
+
+std::vector<double> ErrorEstimate::coherency(const State& state) const {
+  return phases_ == nullptr ? std::vector<double>{} : coherency_of(*phases_, state.heat);
+}
 
 LocalError ErrorEstimate::predictor(const State& old, const State& now, double dt, const Rates& rates) const {
   return {norm_(half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt,
                                                rates.temperature)),
           norm_(half_of_what_was_not_predicted(old.mechanics.displacement, now.mechanics.displacement, dt,
-                                               rates.displacement))};
+                                               rates.displacement),
+                casting(coherency(old), rates.coherency))};
 }
 
-LocalError ErrorEstimate::doubling(const State& whole, const State& halves) const {
+LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves) const {
   return {norm_(difference(whole.heat.temperature, halves.heat.temperature)),
-          norm_(difference(whole.mechanics.displacement, halves.mechanics.displacement))};
+          norm_(difference(whole.mechanics.displacement, halves.mechanics.displacement),
+                casting(coherency(old)))};
 }
 
-Rates rates_of(const State& old, const State& now, double dt) {
+Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt) const {
   return {difference(old.heat.temperature, now.heat.temperature, dt),
-          difference(old.mechanics.displacement, now.mechanics.displacement, dt)};
+          difference(old.mechanics.displacement, now.mechanics.displacement, dt), coherency(old)};
 }
 
 }  // namespace solidus::coupling

@@ -11,10 +11,16 @@
 ///             ε = |y_whole − y_halves| is the error of the halves, which are kept. Sees the whole scheme,
 ///             and costs three steps for one.
 ///
+/// The displacement counts at nodes that are coherent (Coherency) at t_n and, where the rate of the step
+/// before predicts it, were so at t_{n−1}: melt that flows has no displacement that is worth a step, and
+/// leaves no stress in what it becomes (docs/theory/melt.md). Its volume counts in the mean, with an error of
+/// zero.
+///
 /// A first step has no step before, and one after a jump none that tells: they are measured by doubling.
 #pragma once
 
 #include "coupling/body_norm.hpp"
+#include "coupling/phases.hpp"
 #include "coupling/rates.hpp"
 #include "coupling/state.hpp"
 
@@ -28,18 +34,22 @@ struct LocalError {
 /// Sizes are those of BodyNorm. All calls are collective.
 class ErrorEstimate {
  public:
-  explicit ErrorEstimate(BodyNorm norm) : norm_(std::move(norm)) {}
+  /// @param phases  which know what is melt and must outlive the estimate; null: nothing melts
+  explicit ErrorEstimate(BodyNorm norm, const Phases* phases = nullptr)
+      : norm_(std::move(norm)), phases_(phases) {}
 
   /// Of the step from `old` to `now` by its extrapolation from `rates`, which must be known.
   LocalError predictor(const State& old, const State& now, double dt, const Rates& rates) const;
-  /// Of `halves`, by the `whole` step.
-  LocalError doubling(const State& whole, const State& halves) const;
+  /// Of `halves`, by the `whole` step, both from `old`.
+  LocalError doubling(const State& old, const State& whole, const State& halves) const;
+  /// The rates of the step from `old` to `now`.
+  Rates rates_of(const State& old, const State& now, double dt) const;
 
  private:
-  BodyNorm norm_;
-};
+  std::vector<double> coherency(const State& state) const;
 
-/// The rates of the step from `old` to `now`.
-Rates rates_of(const State& old, const State& now, double dt);
+  BodyNorm norm_;
+  const Phases* phases_;
+};
 
 }  // namespace solidus::coupling

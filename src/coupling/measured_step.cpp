@@ -10,7 +10,7 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   Taken taken{scheme_.advance(old, trial, time, dt), {}};
   if (control_ == ErrorControl::none) return taken;
   taken.error = estimate_->predictor(old, trial, dt, rates_);
-  next_rates_ = rates_of(old, trial, dt);
+  next_rates_ = estimate_->rates_of(old, trial, dt);
   return taken;
 }
 
@@ -22,8 +22,8 @@ MeasuredStep::Taken MeasuredStep::doubled(const State& old, State& trial, double
   middle.time = time - dt / 2;
   Taken taken{scheme_.advance(old, middle, middle.time, dt / 2), {}};
   taken.effort += scheme_.advance(middle, trial, time, dt / 2);
-  taken.error = estimate_->doubling(whole, trial);
-  if (control_ == ErrorControl::predictor) next_rates_ = rates_of(middle, trial, dt / 2);
+  taken.error = estimate_->doubling(old, whole, trial);
+  if (control_ == ErrorControl::predictor) next_rates_ = estimate_->rates_of(middle, trial, dt / 2);
   return taken;
 }
 

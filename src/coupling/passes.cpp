@@ -24,7 +24,9 @@ bool mechanical_pass(const Phases& phases, const State& old, State& trial,
                      const mechanics::MechanicalPass& pass, StepEffort& effort) {
   const profile::Part part("mechanics");
   const double start = MPI_Wtime();
-  begin_contacts(phases, old.contacts, old.mechanics, pass);
+  const std::vector<double> coherency =
+      phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
+  begin_contacts(phases, old.contacts, old.mechanics, pass, coherency);
   mechanics::PhaseReport report;
   mechanics::MechanicalPass turn = pass;
   mechanics::MechanicalState next;

@@ -29,6 +29,11 @@ std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState
   return phases.heat != nullptr ? phases.heat->plateau_share(state) : std::vector<double>{};
 }
 
+std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat) {
+  return phases.coherency == nullptr ? std::vector<double>{}
+                                     : phases.coherency->at(phases.heat, heat, phases.temperature);
+}
+
 void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   if (phases.heat != nullptr) {
     range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &phases.heat->presence(),
@@ -50,7 +55,10 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
                                .moment = sums.moment,
                                .dissipation = sums.dissipation,
                                .heat_to_slave = sums.heat_to_slave,
-                               .heat_to_master = sums.heat_to_master});
+                               .heat_to_master = sums.heat_to_master,
+                               .wet_area = sums.wet_area,
+                               .left_area = sums.left_area,
+                               .left_gap = sums.left_gap});
   }
 }
 

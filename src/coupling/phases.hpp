@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/pair.hpp"
+#include "coupling/coherency.hpp"
 #include "coupling/observer.hpp"
 #include "coupling/state.hpp"
 #include "criteria/criteria.hpp"
@@ -20,6 +21,7 @@ struct Phases {
   mechanics::StructuralHeat* structural = nullptr;  ///< null: deformation does no heat
   std::vector<contact::ContactPair*> contacts;
   const criteria::Criteria* criteria = nullptr;  ///< what State::criteria holds; null: nothing is followed
+  const Coherency* coherency = nullptr;          ///< null: nothing that deforms melts
   std::vector<double> temperature;               ///< [K], [local node]: of a mechanical phase alone
   std::optional<double> ambient_temperature;     ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
 
@@ -29,6 +31,9 @@ struct Phases {
 
 /// ThermalPhase::plateau_share; empty in mechanics alone. Collective.
 std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState& state);
+
+/// Coherency::at of a state; empty where nothing that deforms melts. Collective.
+std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat);
 
 /// What every scheme reports of the state it reached: temperatures, solid fraction, contact.
 void summarise(const Phases& phases, const State& state, StepEffort& effort);

@@ -9,6 +9,9 @@ namespace solidus::coupling {
 struct Rates {
   std::vector<double> temperature;   ///< [local node] [K/s]
   std::vector<double> displacement;  ///< [local node][component] [m/s]
+  /// Coherency::at of the state that the step set out from: rates of melt say nothing of the next step. Empty
+  /// where nothing that deforms melts.
+  std::vector<double> coherency;
 
   bool known() const { return !temperature.empty() || !displacement.empty(); }
 };

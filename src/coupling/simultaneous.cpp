@@ -93,7 +93,7 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
 StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt) {
   newton_->thermal().begin(old.heat, time, dt);
   const std::vector<double> share = plateau_share(phases_, old.heat);
-  return stage(old.mechanics, old.contacts,
+  return stage(old.mechanics, old.contacts, coherency_of(phases_, old.heat),
                {.time = time, .dt = dt, .temperature = old.heat.temperature, .plateau_share = share}, trial);
 }
 
@@ -106,7 +106,8 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
       .time = middle, .dt = stage_dt, .temperature = old.heat.temperature, .plateau_share = share};
   State first;
   newton_->thermal().begin(old.heat, middle, stage_dt);
-  const StepEffort of_first = stage(old.mechanics, old.contacts, to_middle, first);
+  const std::vector<double> coherency = coherency_of(phases_, old.heat);
+  const StepEffort of_first = stage(old.mechanics, old.contacts, coherency, to_middle, first);
 
   contact.add(1, carried);
   for (mechanics::CoupledKernel* kernel : newton_->kernels()) kernel->carry(carried, first.heat.temperature);
@@ -116,7 +117,7 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   to_end.time = time;
   to_end.iterate = &first.mechanics;
   StepEffort effort =
-      stage(start, second_start(phases_, old.contacts, first.contacts, carried), to_end, trial);
+      stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end, trial);
   drop_carried();
   add_first_stage(effort.energy, of_first.energy, carried);
   effort.mechanics.iterations += of_first.mechanics.iterations;
@@ -130,11 +131,12 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
 
 StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
                                      const std::vector<contact::ContactState>& contacts,
-                                     mechanics::MechanicalPass pass, State& trial) {
+                                     std::span<const double> coherency, mechanics::MechanicalPass pass,
+                                     State& trial) {
   const profile::Part part("both fields");
   const double start = MPI_Wtime();
   pass.iterate_temperature = newton_->thermal().temperature();
-  begin_contacts(phases_, contacts, old, pass);
+  begin_contacts(phases_, contacts, old, pass, coherency);
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
   int iterations = 0, linear_iterations = 0;

@@ -46,8 +46,9 @@ class SimultaneousScheme final : public CouplingScheme {
   StepEffort backward_euler(const State& old, State& trial, double time, double dt);
   StepEffort two_stages(const State& old, State& trial, double time, double dt, ContactWork& contact);
   /// Mechanics from `old`, heat as thermal() has begun.
+  /// @param coherency  at t_n
   StepEffort stage(const mechanics::MechanicalState& old, const std::vector<contact::ContactState>& contacts,
-                   mechanics::MechanicalPass pass, State& trial);
+                   std::span<const double> coherency, mechanics::MechanicalPass pass, State& trial);
   void drop_carried();
 
   Phases phases_;

@@ -8,8 +8,12 @@ namespace solidus::coupling {
 
 namespace {
 
-// Two times closer than this share of the step are the same: sums of steps carry rounding errors.
+// Two times closer than this share of the step are the same.
 constexpr double k_same_time = 1e-9;
+// A step may be longer by this share to land. Sums of steps carry rounding, which grows with the square of
+// their number: 1e-8 of a step after 30 000 of them. A step as short as what is left would be no step that a
+// method in time stands.
+constexpr double k_stretch = 1e-3;
 // An estimate that is far off must not cost more than this at once.
 constexpr double k_deepest_cut = 0.1;
 
@@ -36,10 +40,11 @@ StepControl::StepControl(const StepOptions& options, double start, std::vector<d
 }
 
 PlannedStep StepControl::plan(double time) const {
-  const double tolerance = k_same_time * state_.size;
-  const auto next = std::upper_bound(landings_.begin(), landings_.end(), time + tolerance);
+  const auto next = std::upper_bound(landings_.begin(), landings_.end(), time + k_same_time * state_.size);
   const double landing = next == landings_.end() ? end_ : *next;
-  const double rest = landing - time;
+  // Less than what a cut takes off: a step that was rejected is not planned again.
+  const double stretch = std::min(k_stretch, 0.5 * (1 / options_.cut - 1));
+  const double rest = landing - time, tolerance = stretch * state_.size;
   if (rest <= state_.size + tolerance)
     return {landing, rest,
             rest < state_.size - tolerance ? (landing == end_ ? "end" : "output time") : state_.reason};
@@ -93,7 +98,7 @@ bool StepControl::is_jump(const PlannedStep& step, const Strictest& limit) const
 }
 
 bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) const {
-  if (!options_.adaptive || step.dt <= options_.min_step * (1 + k_same_time)) return false;
+  if (!options_.adaptive || step.dt <= options_.min_step * (1 + k_stretch) * (1 + k_same_time)) return false;
   const Strictest limit = strictest(options_.limits, measure);
   return limit.exceeded && !is_jump(step, limit);
 }

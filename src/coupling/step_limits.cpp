@@ -21,8 +21,9 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
   Strictest result;
   result.factor = std::numeric_limits<double>::infinity();
   const auto look = [&](const char* name, const char* unit, double value, double allowed, double order) {
-    if (!(value > 0)) return;
-    const double ratio = value / allowed;
+    if (value <= 0) return;
+    // What is not a number exceeds every limit by far.
+    const double ratio = std::isnan(value) ? std::numeric_limits<double>::infinity() : value / allowed;
     result.ratio = std::max(result.ratio, ratio);
     const double factor = k_safety * std::pow(ratio, -1 / order);
     if (factor >= result.factor) return;

@@ -117,9 +117,15 @@ void Freezing::follow(const FreezingNode& who, const Step& step, std::span<doubl
   double* const h = history.data() + i * k_width;
 
   if (after < 1 && (before == 1 || after == 0)) {  // melted, wholly or in part
-    std::fill(h, h + k_width, 0.0);
-    h[k_evaluated_at] = h[k_solidified_at] = k_never;
-    h[k_liquidus_at] = after == 0 ? k_never : step.next.time;
+    const bool keeps = after > 0 && !levels.at_end && to <= levels.evaluation && h[k_solidified_at] >= 0;
+    if (keeps) {  // T_e was not passed: only the time as a solid does not count as solidification
+      h[k_liquidus_at] += step.next.time - h[k_solidified_at];
+    } else {
+      std::fill(h, h + k_width, 0.0);
+      h[k_evaluated_at] = k_never;
+      h[k_liquidus_at] = after == 0 ? k_never : step.next.time;
+    }
+    h[k_solidified_at] = k_never;
     if (after == 0) return;
   }
   if (before == 1) return;

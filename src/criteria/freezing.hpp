@@ -22,7 +22,8 @@
 /// its latent heat. It stands in where t_e is the same all around.
 ///
 /// A node that freezes before every neighbour (at the mould) has nothing behind it: it waits for its first
-/// element to be passed. Metal that melts again forgets, and is told by its next freezing.
+/// element to be passed. Metal that melts again beyond T_e forgets, and is told by its next freezing;
+/// where it stays colder it keeps G and Ṫ, and the time that it was solid does not count as solidification.
 #pragma once
 
 #include <array>

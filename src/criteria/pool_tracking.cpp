@@ -106,10 +106,12 @@ std::vector<int> follow_pools(std::vector<Pool>& pools, const Melt& melt, double
       pool.into = number_of.at(joined->label);
       continue;
     }
-    pool.frozen = time;
     const auto last = std::find_if(melt.last.begin(), melt.last.end(),
                                    [&](const LastNode& n) { return n.pool == pool.number; });
-    if (last == melt.last.end()) continue;
+    if (last == melt.last.end()) {  // no node of it is left
+      pool.into = Pool::k_left;
+      continue;
+    }
     pool.frozen = last->time;
     pool.temperature = last->temperature;
     pool.where = last->where;

@@ -61,7 +61,6 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
       storage_(storage),
       options_(std::move(options)),
       feeder_(mesh.x.size(), 0),
-      volume_(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0),
       body_(static_cast<std::size_t>(mesh.n_owned_nodes), -1),
       ghosts_(mesh),
       connectivity_(mesh, ghosts_, melting_bodies(mesh, storage)) {
@@ -74,17 +73,24 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
   const auto n_bodies = static_cast<int>(mesh.bodies.size());
   for (int b = 0; b < n_bodies; ++b) levels_.push_back(FreezingLevels::of(storage.material(b)));
   double own = 0;
-  for (std::size_t i = 0; i < volume_.size(); ++i) {
+  for (std::size_t i = 0; i < body_.size(); ++i) {
     double most = 0;
     for (int b = 0; b < n_bodies; ++b) {
       const double volume = storage.can_melt(b) ? storage.volume(static_cast<Index>(i), b) : 0.0;
-      volume_[i] += volume;
       if (volume > most) body_[i] = b;
       most = std::max(most, volume);
+      own += volume;
     }
-    own += volume_[i];
   }
   whole_ = algebra::global_sum(own);
+}
+
+double Pools::volume(std::size_t node) const {
+  double volume = 0;
+  for (std::size_t b = 0; b < levels_.size(); ++b)
+    if (const auto body = static_cast<int>(b); storage_.can_melt(body))
+      volume += storage_.volume(static_cast<Index>(node), body);
+  return volume;
 }
 
 std::vector<Pool> Pools::pools(const Record& record) {
@@ -127,19 +133,20 @@ void Pools::track(const Moment* old, const Moment& next, Record& record) const {
   std::map<double, MeltPart> own;
   std::map<std::pair<double, int>, double> overlaps;
   Melt melt;
-  for (std::size_t i = 0; i < volume_.size(); ++i) {
+  for (std::size_t i = 0; i < body_.size(); ++i) {
     const int pool = static_cast<int>(number[i]);
     const double fraction = next.solid_fraction[i], temperature = next.heat.temperature[i];
     const auto in_input = static_cast<double>(mesh_.input_node[i]);
+    const double volume = this->volume(i);
     if (inside[i] == 0) {
-      if (pool == 0 || old == nullptr) continue;
+      if (pool == 0 || old == nullptr || volume == 0) continue;  // without volume: its body has left
       melt.last.push_back({pool, passed_at(i, *old, next), in_input, temperature, mesh_.x[i]});
       continue;
     }
     MeltPart& part = own[parts.label[i]];
     part.label = parts.label[i];
-    part.volume += volume_[i];
-    part.solid += volume_[i] * fraction;
+    part.volume += volume;
+    part.solid += volume * fraction;
     part.fed = part.fed || feeder_[i] != 0;
     if (std::tuple(-temperature, fraction, in_input) <
         std::tuple(-part.temperature, part.fraction, part.number)) {
@@ -148,7 +155,7 @@ void Pools::track(const Moment* old, const Moment& next, Record& record) const {
       part.number = in_input;
       part.where = mesh_.x[i];
     }
-    if (pool > 0) overlaps[{parts.label[i], pool}] += volume_[i];
+    if (pool > 0) overlaps[{parts.label[i], pool}] += volume;
   }
   for (auto& [label, part] : own) {
     part.whole = std::binary_search(parts.whole.begin(), parts.whole.end(), label);

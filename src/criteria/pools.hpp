@@ -5,7 +5,8 @@
 /// from step to step: of the parts of a pool that splits the largest keeps the number, every other one that
 /// holds a whole element of melt is a new pool with the old one as its parent; smaller crumbs are none. Where
 /// pools meet (metal melts again) the largest keeps its number. A pool is closed off from the moment it holds
-/// no node of the feeders; without feeders, from the moment it split off.
+/// no node of the feeders; without feeders, from the moment it split off. Melt of a body that leaves ends
+/// with it and has not frozen.
 #pragma once
 
 #include <vector>
@@ -28,7 +29,7 @@ struct Pool {
   double born = 0;             ///< [s]
   double closed_off = -1;      ///< since when [s]; −1: it is not
   double frozen = -1;          ///< when the last node passed the limit [s]; −1: it has not
-  int into = 0;                ///< the pool that it joined, else zero
+  int into = 0;                ///< the pool that it joined, else zero; k_left: it left with its body
   double volume = 0;           ///< that its nodes hold [m³]
   double largest = 0;          ///< the largest volume it had as a closed-off pool [m³]
   double solid_fraction = 0;   ///< mean over it
@@ -36,6 +37,7 @@ struct Pool {
   mesh::Point where = {};      ///< place of that node [m]
   bool ended = false;          ///< in the step just taken
   bool present() const { return frozen < 0 && into == 0; }
+  static constexpr int k_left = -1;
 };
 
 class Pools : public Criterion {
@@ -56,6 +58,8 @@ class Pools : public Criterion {
   static std::vector<Pool> pools(const Record& record);
 
  private:
+  /// Of the active bodies that can melt, around an owned node [m³].
+  double volume(std::size_t node) const;
   /// When a node of a pool passed the limit in a step [s]: its solid fraction grows evenly until it is solid.
   double passed_at(std::size_t node, const Moment& old, const Moment& next) const;
   /// Brings the record to `next`; `old` is null at the start.
@@ -65,7 +69,6 @@ class Pools : public Criterion {
   const heat::NodalEnthalpy& storage_;
   PoolOptions options_;
   std::vector<char> feeder_;            ///< [local node]
-  std::vector<double> volume_;          ///< [owned node] of bodies that can melt [m³]
   std::vector<int> body_;               ///< [owned node]: that of which it holds most among them, else −1
   std::vector<FreezingLevels> levels_;  ///< per body
   double whole_ = 0;                    ///< over all processes [m³]

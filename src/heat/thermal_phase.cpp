@@ -171,7 +171,7 @@ double ThermalPhase::take_out(const algebra::Presence& presence, ThermalState& s
     carried += heat - left - (cold - storage_->held_by(presence, i, cold, k_counted_from));
     if (!state.enthalpy.empty()) state.enthalpy[at(i)] = left;
   }
-  ghosts_.update(state.enthalpy, 1);
+  if (options_.integration == Integration::closed) ghosts_.update(state.enthalpy, 1);
   return algebra::global_sum(carried);
 }
 

@@ -18,7 +18,7 @@ struct PointProperties {
   T shear;           ///< G [Pa] (the full modulus; 2.50 enters through the compliance)
   T thermal_strain;  ///< e^θ, volumetric
   T solid_fraction;  ///< f_S
-  T viscosity;       ///< η of s = η ε̇ [Pa s]
+  T viscosity;  ///< η of s = η ε̇ [Pa s]; not a number where Material::chooses_viscosity(), until set
 };
 
 /// Temperature derivatives for entropy and structural heating (2.53, 2.54, 2.127b), per kelvin.

@@ -2,6 +2,7 @@
 /// elasticity.hpp only.
 #pragma once
 
+#include <limits>
 #include <type_traits>
 
 #include "base/jet.hpp"
@@ -70,7 +71,8 @@ PointProperties<T> properties_at(const Material& material, const T& temperature,
   p.solid_fraction = phase.solid_fraction;
   p.viscosity = T(1.0);  // any positive number where the material is always solid
   if (material.solidification() != nullptr)
-    p.viscosity = detail::value(material.liquid_viscosity, temperature);
+    p.viscosity = material.chooses_viscosity() ? T(std::numeric_limits<double>::quiet_NaN())
+                                               : detail::value(material.liquid_viscosity, temperature);
   return p;
 }
 

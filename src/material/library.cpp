@@ -161,15 +161,12 @@ Material make_material(std::string name, const MaterialData& data) {
     m.young_modulus = note("young_modulus", *data.young_modulus);
     m.poisson_ratio = note("poisson_ratio", *data.poisson_ratio);
     m.expansion = note("expansion", *data.expansion);
-    if (m.solidification() != nullptr && data.liquid_model == LiquidModel::maxwell &&
-        !data.twice_shear_viscosity)
-      throw InputError(data.where,
-                       "the key 'twice_shear_viscosity' is missing: '" + m.name +
-                           "' solidifies and has elastic properties",
-                       "the liquid's eta in s = eta * strain rate, for example \"1e9 Pa s\"");
   }
   if (data.twice_shear_viscosity)
     m.liquid_viscosity = note("twice_shear_viscosity", *data.twice_shear_viscosity);
+  else if (data.young_modulus && m.chooses_viscosity())
+    m.notes.push_back(
+        {"twice_shear_viscosity", "not given: chosen by the program for the body and the step", 0, 0});
   if (data.plasticity) add_flow(m, *data.plasticity);
   add_casting(m, data);
   check_liquid_model(m, data);

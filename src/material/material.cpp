@@ -29,4 +29,9 @@ double Material::solid_fraction(double temperature) const {
   return change == nullptr ? 1.0 : change->fraction.value(temperature);
 }
 
+bool Material::chooses_viscosity() const {
+  return liquid_model == LiquidModel::maxwell && solidification() != nullptr &&
+         !(liquid_viscosity.max_value() > 0);
+}
+
 }  // namespace solidus::material

@@ -31,8 +31,9 @@ struct Material {
   Table poisson_ratio;                  ///< ν(Θ)
   Table expansion;                      ///< α(Θ), mean linear coefficient from Θ_ref [1/K]
   double expansion_reference = 293.15;  ///< Θ_ref of 2.51 [K]
-  Table liquid_viscosity;  ///< η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used
-                           ///< where f_S < 1
+  /// η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used where f_S < 1. Not given
+  /// (zero): whoever updates the law chooses it (material/melt.hpp).
+  Table liquid_viscosity;
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::optional<Flow> flow;  ///< absent: the solid is elastic
   Casting casting;           ///< for criteria; no law uses it
@@ -50,6 +51,9 @@ struct Material {
   /// Whether a change, or a part of it, gives off its heat at one temperature: then the temperature does not
   /// tell how much has changed.
   bool changes_isothermally() const { return !enthalpy().jumps().empty(); }
+  /// True when the melt is a Maxwell element whose viscosity is not given: η then comes from
+  /// material/melt.hpp.
+  bool chooses_viscosity() const;
 };
 
 }  // namespace solidus::material

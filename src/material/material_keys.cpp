@@ -138,7 +138,9 @@ Section<MaterialData> material_keys() {
       .doc(
           "Of the liquid: eta in s = eta * strain rate (s the stress deviator, tensor strain rate), which is "
           "TWICE the Newtonian "
-          "shear viscosity.");
+          "shear viscosity. Left out, the program chooses it: the melt then has in every step a modulus that "
+          "is small against the metallostatic head and the strength of the shell, and says which. The real "
+          "1e-3 Pa s has no effect on stress.");
   s.choice(
        "liquid_model", &MaterialData::liquid_model,
        {{"maxwell", LiquidModel::maxwell,

@@ -73,7 +73,7 @@ PhaseFraction::PhaseFraction(std::vector<Point> points) : points_(std::move(poin
     const auto [t, from] = points_[i];
     while (i + 1 < points_.size() && points_[i + 1].first == t) ++i;
     const double to = points_[i++].second;
-    if (to < from) jumps_.emplace_back(t, from - to);
+    if (to < from) jumps_.emplace_back(t, from);
     const bool last = i == points_.size();
     pieces.push_back({t, to, last ? 0.0 : (points_[i].second - to) / (points_[i].first - t)});
   }
@@ -110,8 +110,8 @@ PhaseFraction PhaseFraction::scheil(double melting_point, double liquidus, doubl
 
 double PhaseFraction::value(double temperature, double plateau_share) const {
   double fraction = value(temperature);
-  for (const auto& [at, height] : jumps_)
-    if (temperature == at) fraction += (1 - plateau_share) * height;
+  for (const auto& [at, cold] : jumps_)
+    if (temperature == at) fraction = std::lerp(cold, fraction, plateau_share);  // exact at both ends
   return fraction;
 }
 

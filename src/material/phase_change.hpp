@@ -60,7 +60,7 @@ class PhaseFraction {
 
   std::vector<std::pair<double, double>> points_;
   Pieces pieces_;  ///< the limits from the right, with one piece below the solidus
-  std::vector<std::pair<double, double>> jumps_;  ///< temperature [K], height
+  std::vector<std::pair<double, double>> jumps_;  ///< temperature [K], f on the cold side
 };
 
 template <class T>

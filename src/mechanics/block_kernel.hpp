@@ -35,6 +35,9 @@ struct StepStart {
   double stress_share = 1;  ///< of t_{n+1} in the mean
   StressAtWork work = StressAtWork::end;
   PhaseFields phases{};  ///< of the block's body at t_n
+  /// 2Ĝ of a melt whose viscosity the program chooses (material/melt.hpp), η = 2Ĝ × effective_dt [Pa]. Zero:
+  /// the material has its viscosity.
+  double melt_modulus = 0;
 };
 
 /// Sums over the counted elements of a block.

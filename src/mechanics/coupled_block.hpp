@@ -139,6 +139,7 @@ class CoupledBlock final : public LawBlock<material::Viscoplastic, n_nodes, kind
     const auto held = this->properties_[index(batch, q)].elastic;
     p.elastic.thermal_strain.v = held.thermal_strain;
     p.elastic.solid_fraction.v = held.solid_fraction;
+    if (this->law_.material().chooses_viscosity()) p.elastic.viscosity = Jet<Lane>(held.viscosity);
     return p;
   }
 

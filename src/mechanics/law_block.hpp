@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "mechanics/element_matrix.hpp"
+#include "mechanics/padding.hpp"
 #include "mechanics/point_block.hpp"
 
 namespace solidus::mechanics {
@@ -152,7 +153,10 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         for (std::size_t i = 0; i < dim; ++i) total[a * dim + i] += w * b.divergence(a, i);
     }
     const Lane inverse = select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));
-    for (std::size_t i = 0; i < n_nodes * dim; ++i) mean_[i] = inverse * total[i];
+    for (std::size_t i = 0; i < n_nodes * dim; ++i) {
+      mean_[i] = inverse * total[i];
+      repeat_last_element(mean_[i], batch, geometry_.n_elements);  // padding has no volume
+    }
     held_batch_ = batch;
   }
 

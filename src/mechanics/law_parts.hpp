@@ -33,6 +33,17 @@ material::PointProperties<T> elastic_part(const material::Isentropic& law,
   return {e.bulk.v, e.shear.v, e.thermal_strain.v, e.solid_fraction.v, e.viscosity.v};
 }
 
+/// Sets η of a melt whose material has none [Pa s].
+inline void set_melt_viscosity(const Lane& viscosity, material::PointProperties<Lane>& p) {
+  p.viscosity = viscosity;
+}
+inline void set_melt_viscosity(const Lane& viscosity, material::Viscoplastic::Properties<Lane>& p) {
+  p.elastic.viscosity = viscosity;
+}
+inline void set_melt_viscosity(const Lane& viscosity, material::Isentropic::Properties<Lane>& p) {
+  p.viscosity = viscosity;
+}
+
 /// The lanes of a state that the material can change, rising: no viscous strain without a melt, no back
 /// strain without kinematic hardening. Others are zero. One at least.
 std::vector<std::size_t> kept_lanes(const material::Viscoelastic& law);

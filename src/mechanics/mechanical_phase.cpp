@@ -9,6 +9,7 @@
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
+#include "mechanics/melt_stiffness.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_solver.hpp"
 #include "mechanics/stress_history.hpp"
@@ -58,6 +59,7 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   }
   find_weight(loads_->conditions().gravity);
   loads_->add_constant(weight_);
+  melt_ = melt_moduli(mesh, materials, presence_, loads_->conditions().gravity);
 
   for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
   create_pressure();
@@ -222,6 +224,7 @@ void MechanicalPhase::set_conditions(Conditions conditions, std::span<const doub
     find_weight(loads->conditions().gravity);
   }
   loads->add_constant(weight_);
+  melt_ = melt_moduli(mesh_, materials_, presence_, loads->conditions().gravity);
   loads_ = std::move(loads);
   create_pressure();
   if (same_matrix && !pressure_) {

@@ -23,6 +23,7 @@
 #include "algebra/newton.hpp"
 #include "base/types.hpp"
 #include "material/material.hpp"
+#include "material/melt.hpp"
 #include "material/time_integration.hpp"
 #include "mechanics/balance.hpp"
 #include "mechanics/conditions.hpp"
@@ -212,6 +213,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   /// The block kernels, for StructuralHeat.
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
+  /// How stiff the melt of every body is in a step where its material leaves that open, [body].
+  std::span<const material::MeltModulus> melt() const { return melt_; }
   /// Drops what the linear solver carried over from earlier steps.
   void forget() { solver_->forget(); }
   const mesh::Mesh& mesh() const { return mesh_; }
@@ -261,7 +264,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;
-  std::vector<double> weight_;  ///< of the bodies, [local node][component] [N]
+  std::vector<double> weight_;               ///< of the bodies, [local node][component] [N]
+  std::vector<material::MeltModulus> melt_;  ///< [body]
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::unique_ptr<NodalPressure> pressure_;  ///< null without mixed elements
   std::vector<int> fields_;                  ///< of Newton's iteration: components of each

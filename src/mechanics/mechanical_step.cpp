@@ -73,7 +73,8 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .new_stress = remembers || keeps ? &stress_[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .work = pass.work,
-         .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share)});
+         .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share),
+         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
   if (pressure_) pressure_->begin();
   stress_at_work_ = pass.work;
   residual_is_known_ = false;
@@ -222,7 +223,8 @@ void MechanicalPhase::rest(const MechanicalState& state, std::span<const double>
                       .start_history = &state.history[b],
                       .dt = 1,
                       .effective_dt = 1,
-                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share)});
+                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
+                      .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,

@@ -6,6 +6,7 @@
 
 #include "mechanics/element_transfer.hpp"
 #include "mechanics/mixed_kernel.hpp"
+#include "mechanics/padding.hpp"
 #include "mesh/block_geometry.hpp"
 
 namespace solidus::mechanics {
@@ -172,7 +173,9 @@ class PressureNodes : public MixedKernel {
         total += mass[a] * p[a];
         volume += mass[a];
       }
-      return select(volume > Lane(0.0), total / volume, Lane(0.0));  // padding has no volume
+      Lane mean = select(volume > Lane(0.0), total / volume, Lane(0.0));
+      repeat_last_element(mean, batch, geometry_.n_elements);  // padding has no volume
+      return mean;
     } else {
       for (const Lane& value : p) total += value;
       return Lane(share) * total;

@@ -18,8 +18,22 @@ bool something_is_held(const CaseSpec& spec) {
                      [](const auto& c) { return c.kind == MechanicalConditionSpec::Kind::displacement; });
 }
 
+/// Another solver than the iterative one that was asked for.
+std::vector<std::string> solver_advice(const CaseSpec& spec) {
+  const bool unsymmetric = std::any_of(spec.contacts.begin(), spec.contacts.end(),
+                                       [](const auto& c) { return c.friction && !c.friction->symmetric; });
+  std::vector<std::string> advice;
+  if (spec.mechanics.solver != algebra::SolverKind::automatic &&
+      spec.mechanics.solver != algebra::SolverKind::direct)
+    advice.emplace_back(
+        fmt::format("another linear solver than the one asked for: mechanics.solver = \"direct\"{}",
+                    unsymmetric ? ", because friction makes the matrix unsymmetric" : ""));
+  return advice;
+}
+
 std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
   std::vector<std::string> advice;
+  if (says(stop, "linear solver")) advice = solver_advice(spec);
   if (spec.dynamics)
     advice.emplace_back("a smaller step: with inertia a short one is an easy one");
   else if (!something_is_held(spec))

@@ -67,6 +67,7 @@ void build_contacts(const CaseSpec& spec, Assembly& a) {
     if (only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
   for (contact::ContactSpec& pair : contact_specs(spec)) {
     set_walls(spec, a.mesh, pair);
+    set_leaving_gap(spec, a.mesh, a.materials, pair);
     a.contacts.push_back(
         std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
     a.phases.contacts.push_back(a.contacts.back().get());
@@ -90,6 +91,8 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
       a.mesh, spec.analysis.kind, a.materials, initial_temperature,
       mechanical_conditions(spec, a.first_stage()), std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
+  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->presence());
+  if (a.coherency->melts()) a.phases.coherency = a.coherency.get();
   a.initial.mechanics = a.mechanics->initial_state();
 }
 

@@ -20,7 +20,8 @@ struct Assembly {
   std::unique_ptr<mechanics::MechanicalPhase> mechanics;
   std::unique_ptr<mechanics::StructuralHeat> structural;
   std::unique_ptr<heat::ThermalPhase> heat;
-  std::unique_ptr<criteria::Criteria> criteria;  ///< null: nothing is followed
+  std::unique_ptr<coupling::Coherency> coherency;  ///< null: nothing that deforms melts
+  std::unique_ptr<criteria::Criteria> criteria;    ///< null: nothing is followed
   coupling::Phases phases;
   coupling::State initial;
   std::vector<StageRun> stages;  ///< empty: the case has none

@@ -49,4 +49,28 @@ void FirstLawWatch::report() const {
                         : "smaller steps lose less");
 }
 
+void WallWatch::step(const coupling::StepRecord& record, const coupling::State&) {
+  for (std::size_t i = 0; i < largest_.size(); ++i) {
+    const coupling::ContactSummary& now = record.contacts[i];
+    if (!(now.left_area > 0)) continue;
+    Largest& largest = largest_[i];
+    largest.area = std::max(largest.area, now.left_area);
+    if (now.left_gap > largest.gap) {
+      largest.gap = now.left_gap;
+      largest.time = record.time;
+    }
+  }
+}
+
+void WallWatch::report() const {
+  for (std::size_t i = 0; i < largest_.size(); ++i)
+    if (largest_[i].area > 0)
+      logging::warn(
+          "contact '{}': liquid metal left its wall, {:.3g} m2 of it at most, by up to {:.3g} m at t = {:g} "
+          "s; "
+          "more than {:.3g} m, 1 % of the free contraction, counts",
+          contacts_[i]->spec().name, largest_[i].area, largest_[i].gap, largest_[i].time,
+          contacts_[i]->spec().leaving_gap);
+}
+
 }  // namespace solidus::model

@@ -43,4 +43,25 @@ class FirstLawWatch : public coupling::Observer {
   double unsolved_ = 0;  ///< what residuals explain, summed [J]
 };
 
+/// Says at the end of a run where liquid metal left its wall (contact::ContactSpec::leaving_gap).
+class WallWatch : public coupling::Observer {
+ public:
+  /// @param contacts  kept by reference
+  explicit WallWatch(const std::vector<contact::ContactPair*>& contacts)
+      : contacts_(contacts), largest_(contacts.size()) {}
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
+  void end(const coupling::State&) override { report(); }
+
+ private:
+  void report() const;
+
+  const std::vector<contact::ContactPair*>& contacts_;
+  struct Largest {
+    double gap = 0, area = 0, time = 0;
+  };
+  std::vector<Largest> largest_;  ///< [contact]; the time is that of the largest gap
+};
+
 }  // namespace solidus::model

@@ -179,6 +179,8 @@ struct ContactSpec {
   contact::IntegrationRule integration = contact::IntegrationRule::segments;
   int gauss_degree = 0;
   std::optional<double> search_distance, touching;  ///< [m]
+  bool wet = true;                                  ///< liquid metal is held on the wall by the atmosphere
+  double atmosphere = 101325;                       ///< its pressure [Pa]
   std::optional<contact::HeatTransferSpec> heat;    ///< absent: no heat passes
   std::optional<FrictionSpec> friction;             ///< absent: none
   std::optional<WearSpec> wear;

@@ -1,5 +1,12 @@
 #include "model/contact_input.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algebra/parallel.hpp"
+#include "material/elasticity.hpp"
+#include "model/body_input.hpp"
 #include "model/friction_input.hpp"
 #include "model/rigid_surface_input.hpp"
 
@@ -37,6 +44,37 @@ void add_friction(const ContactSpec& c, Physics physics, contact::ContactSpec& p
   pair.interface_heat_capacity = c.interface.heat_capacity;
 }
 
+/// Whether a body has nodes on a surface of the pair. Collective.
+bool meets(const mesh::Mesh& mesh, int body, const contact::ContactSpec& pair) {
+  std::vector<char> on(mesh.x.size(), 0);
+  for (const std::string& name : {pair.slave, pair.master})
+    if (const auto found = mesh.surfaces.find(name); found != mesh.surfaces.end())
+      for (const Index node : found->second.nodes) on[static_cast<std::size_t>(node)] = 1;
+  const bool here = std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const mesh::Block& block) {
+    return block.body == body && std::any_of(block.nodes.begin(), block.nodes.end(), [&](Index node) {
+             return on[static_cast<std::size_t>(node)] != 0;
+           });
+  });
+  return algebra::any_process(here);
+}
+
+/// The longest side of a body's bounding box [m]. Collective.
+double extent(const mesh::Mesh& mesh, int body) {
+  double longest = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (const mesh::Block& block : mesh.blocks) {
+      if (block.body != body) continue;
+      for (const Index node : block.nodes) {
+        low = std::min(low, mesh.x[static_cast<std::size_t>(node)][k]);
+        high = std::max(high, mesh.x[static_cast<std::size_t>(node)][k]);
+      }
+    }
+    longest = std::max(longest, algebra::global_max(high) + algebra::global_max(-low));
+  }
+  return longest;
+}
+
 }  // namespace
 
 std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec) {
@@ -60,6 +98,7 @@ std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec) {
     pair.gauss_degree = c.gauss_degree;
     pair.search_distance = c.search_distance;
     pair.touching = c.touching;
+    pair.atmosphere = c.wet ? c.atmosphere : 0.0;
     pair.heat = c.heat;
     add_friction(c, spec.analysis.physics, pair);
     pair.nodal_heat = spec.heat.integration == heat::Integration::closed;
@@ -75,6 +114,23 @@ std::vector<double> contact_moduli(const std::vector<material::Material>& materi
   for (const auto& m : materials)
     moduli.push_back(m.mechanical() ? m.young_modulus.value(k_room_temperature) : k_any);
   return moduli;
+}
+
+void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
+                     const std::vector<material::Material>& materials, contact::ContactSpec& pair) {
+  constexpr double k_leaving_share = 0.01, k_room_temperature = 293.15;
+  double least = 0;
+  for (std::size_t b = 0; b < materials.size(); ++b) {
+    const material::Material& m = materials[b];
+    if (only_conducts(spec.bodies[b]) || !m.mechanical() || m.solidification() == nullptr) continue;
+    if (!meets(mesh, static_cast<int>(b), pair)) continue;
+    const double liquidus = m.solidification()->fraction.liquidus();
+    const double contraction =
+        std::abs(material::properties_at(m, liquidus, k_room_temperature).thermal_strain) / 3;
+    const double gap = k_leaving_share * contraction * extent(mesh, static_cast<int>(b));
+    if (gap > 0 && (least == 0 || gap < least)) least = gap;
+  }
+  pair.leaving_gap = least;
 }
 
 }  // namespace solidus::model

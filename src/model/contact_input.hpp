@@ -5,6 +5,7 @@
 
 #include "contact/spec.hpp"
 #include "material/material.hpp"
+#include "mesh/mesh.hpp"
 #include "model/case_spec.hpp"
 
 namespace solidus::model {
@@ -16,5 +17,11 @@ std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec);
 /// Young's modulus of every body at room temperature [Pa], for penalties given as a factor; of bodies without
 /// one, 1 GPa (in an analysis of heat alone it is never used).
 std::vector<double> contact_moduli(const std::vector<material::Material>& materials);
+
+/// Sets from which gap on a liquid skin has left its wall: k_leaving_share of the free linear contraction,
+/// from the liquidus to room temperature, of the extent of the castings on the pair's surfaces, the smallest
+/// of them. Collective.
+void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
+                     const std::vector<material::Material>& materials, contact::ContactSpec& pair);
 
 }  // namespace solidus::model

@@ -202,6 +202,19 @@ Section<ContactSpec> contact_keys() {
   s.quantity("touching", &C::touching, "m")
       .at_least(0)
       .doc("Initial gaps and penetrations up to this size count as touching; without it rounding only.");
+  s.key("wet", &C::wet)
+      .initially(true)
+      .doc(
+          "Liquid metal is held on the wall by the atmosphere until its solid fraction reaches the "
+          "coherency_fraction of its material, and conducts heat as closed contact until then. Without it a "
+          "gap "
+          "opens as soon as the metal would pull. Bodies that never melt do not feel it.");
+  s.quantity("atmosphere", &C::atmosphere, "Pa")
+      .initially("101325 Pa")
+      .positive()
+      .doc(
+          "The pressure with which liquid metal is held on the wall, where `wet`: less where gas passes the "
+          "wall.");
   s.section("heat", &C::heat, contact_heat_keys());
   s.section("friction", &C::friction, friction_keys());
   s.section("wear", &C::wear, wear_keys());

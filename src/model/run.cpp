@@ -138,6 +138,10 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.summary.variant = results::default_run_folder(c.file).filename().string();
   r.summary.title = spec.title;
   r.summary.mesh = results::count(a.mesh);
+  if (a.mechanics)
+    for (std::size_t b = 0; b < a.mechanics->melt().size(); ++b)
+      if (const material::MeltModulus& melt = a.mechanics->melt()[b]; melt.modulus > 0)
+        r.summary.melt.push_back({spec.bodies[b].name, melt.modulus, material::measured_against(melt)});
   MPI_Comm_size(PETSC_COMM_WORLD, &r.summary.processes);
   return r;
 }
@@ -175,15 +179,17 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
     const double error = displacement_error(spec.time, norm.diagonal());
     times.step.limits.displacement = error;
     for (coupling::Stage& stage : times.stages) stage.step.limits.displacement = error;
-    estimate.emplace(std::move(norm));
+    estimate.emplace(std::move(norm), &a.phases);
   }
   coupling::Simulation simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
   RangeWatch watch(spec, a);
   DissipationWatch dissipation;
   StabilityWatch stability(spec);
   FirstLawWatch first_law(spec);
+  WallWatch walls(a.phases.contacts);
   StopReason why;
   simulation.add(watch);
+  if (a.phases.coherency != nullptr) simulation.add(walls);
   simulation.add(dissipation);
   if (a.phases.audits_stability()) simulation.add(stability);
   if (spec.has_heat()) simulation.add(first_law);
@@ -273,6 +279,11 @@ RunResult run_case(const Case& c, const RunOptions& options) {
     r.continue_from = {{}, from->continuation, from->energy, from->rejected, from->stability};
     r.continue_from->state.time = from->state.time;
   }
+  for (const results::ChosenMelt& melt : r.summary.melt)
+    logging::info(
+        "body '{}': its melt has the modulus 2G = {:.3g} Pa in every step, {}; its viscosity is that times "
+        "the step",
+        melt.body, melt.modulus, melt.against);
   const results::RunFolder folder(options.folder, c.toml(), options.restart);
   r.summary.seconds.emplace_back("mesh", loaded - start);
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);

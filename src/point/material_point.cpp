@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/melt.hpp"
 #include "point/linear_system.hpp"
 
 namespace solidus::point {
@@ -101,12 +102,19 @@ StepResult MaterialPoint::attempt_adiabatic(const Target& end, double dt) const 
   return result;
 }
 
+Law::Properties<double> MaterialPoint::properties(double temperature, double effective_step) const {
+  Law::Properties<double> p = law_.properties_at(temperature, strain_reference());
+  if (law_.material().chooses_viscosity())
+    p.elastic.viscosity = effective_step * material::melt_modulus(law_.material(), 0, 0).modulus;
+  return p;
+}
+
 StepResult MaterialPoint::attempt_at(double temperature, const Target& end, double dt) const {
   const bool two_step = options_.integration == Integration::two_step && step_before_ > 0;
   const auto step =
       two_step ? material::TimeStep::two_step(dt, step_before_) : material::TimeStep::backward_euler(dt);
   const auto start = material::start_state(step, now_.history, history_before_);
-  const auto p = law_.properties_at(temperature, strain_reference());
+  const auto p = properties(temperature, step.dt);
   const auto before = law_.properties_at(now_.temperature, strain_reference());
 
   StepResult result;

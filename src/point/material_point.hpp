@@ -5,6 +5,9 @@
 /// by Newton's method with the law's consistent tangent, on the free rows and columns. Where the tangent has
 /// no shear stiffness (a liquid), the strain of least change is taken. Source: the law, viscoplastic.hpp.
 ///
+/// A melt whose material gives no viscosity has that of material/melt.hpp; a point has no height, so the
+/// atmosphere stands for its head.
+///
 /// An adiabatic point finds its temperature from the first law, mechanical and thermal part at once:
 ///
 ///   E(Θ) + L(Θ) − (E + L)_n = ½ (σ + σ_n) : (ε − ε_n)
@@ -72,6 +75,7 @@ class MaterialPoint {
   Stored stored(const PointState& state) const;
 
  private:
+  material::Viscoplastic::Properties<double> properties(double temperature, double effective_step) const;
   StepResult attempt_at(double temperature, const Target& end, double dt) const;
   StepResult attempt_adiabatic(const Target& end, double dt) const;
 

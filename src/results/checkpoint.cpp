@@ -10,6 +10,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
+#include "mechanics/padding.hpp"
 #include "results/checkpoint_contacts.hpp"
 #include "results/checkpoint_criteria.hpp"
 #include "results/checkpoint_tables.hpp"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 7";
+constexpr const char* k_format = "Solidus checkpoint 8";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -108,6 +109,11 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
     ++taken;
   });
   in.require(taken == block.input_element.size(), values);
+  if (taken == 0) return;
+  const std::size_t last = (taken - 1) / k_lanes;
+  for (std::size_t k = 0; k < per_element; ++k)
+    mechanics::repeat_last_element(history.values[last * per_element + k], static_cast<Index>(last),
+                                   static_cast<Index>(taken));
 }
 
 void compare(const fs::path& path, TableReader& in, const Fingerprint& fingerprint) {
@@ -151,6 +157,10 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     rates.displacement.resize(c.state.mechanics.displacement.size());
     take_nodes(in, "temperature_rate", nodes, rates.temperature);
     take_nodes(in, "displacement_rate", nodes, rates.displacement);
+    if (in.text("rates_of_melt") == k_known) {
+      rates.coherency.resize(mesh.x.size());
+      take_nodes(in, "coherency", nodes, rates.coherency);
+    }
   }
   if (in.text("first_guess") == k_known) {
     c.state.displacement_rate.resize(c.state.mechanics.displacement.size());
@@ -225,6 +235,9 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   if (rates.known()) {
     nodal("temperature_rate", rates.temperature);
     nodal("displacement_rate", rates.displacement);
+    const bool melts = algebra::any_process(!rates.coherency.empty());
+    out.text("rates_of_melt", melts ? k_known : "unknown");
+    if (melts) nodal("coherency", rates.coherency);
   }
   for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b) {
     const mesh::Block& block = mesh.blocks[b];

@@ -15,7 +15,8 @@ namespace solidus::results {
 /// One row a pool and step, largest pools not first but by number: time, pool, parent (0: there from the
 /// start), closed_off_since (−1: it is not), frozen_at (−1: not yet), volume, solid_fraction, and of its
 /// hottest node temperature, x, y, z. A pool's last row has the volume zero, and of its last node where and
-/// when (frozen_at) it passed the limit. One process writes it.
+/// when (frozen_at) it passed the limit; a pool that left as melt with its body has not (−1). One process
+/// writes it.
 class PoolTable {
  public:
   /// @param from  the run goes on from this time [s]

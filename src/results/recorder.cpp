@@ -171,6 +171,22 @@ void Recorder::step(const coupling::StepRecord& record, const coupling::State& s
   seconds_output_ += MPI_Wtime() - start;
   options_.summary.steps = record.number;
   options_.summary.rejected += record.rejected;
+  note_left_walls(record);
+}
+
+void Recorder::note_left_walls(const coupling::StepRecord& record) {
+  std::vector<LeftWall>& left = options_.summary.left_walls;
+  for (std::size_t i = 0; i < record.contacts.size(); ++i) {
+    const coupling::ContactSummary& now = record.contacts[i];
+    if (!(now.left_area > 0)) continue;
+    const std::string& name = phases_.contacts[i]->spec().name;
+    auto wall = std::find_if(left.begin(), left.end(), [&](const LeftWall& w) { return w.contact == name; });
+    if (wall == left.end())
+      wall = left.insert(wall, {.contact = name, .gap = 0, .area = 0, .from = record.time, .to = 0});
+    wall->gap = std::max(wall->gap, now.left_gap);
+    wall->area = std::max(wall->area, now.left_area);
+    wall->to = record.time;
+  }
 }
 
 void Recorder::checkpoint(const coupling::Continuation& continuation, const coupling::State& state) {

@@ -57,6 +57,7 @@ class Recorder : public coupling::Observer {
   void add_history_row(double time);
   void write_fields(const coupling::State& state);
   void add_pools(const coupling::State& state);
+  void note_left_walls(const coupling::StepRecord& record);
   void write_summary_file(const std::string& outcome, const coupling::State& state);
 
   const RunFolder& folder_;

@@ -31,6 +31,30 @@ Json findings(const std::vector<criteria::Finding>& found) {
   return json;
 }
 
+// By body, those alone whose viscosity was chosen.
+Json melts(const std::vector<ChosenMelt>& chosen) {
+  Json json;
+  for (const ChosenMelt& melt : chosen) {
+    Json of_body;
+    of_body.add("modulus_in_a_step[Pa]", melt.modulus).add("measured_against", melt.against);
+    json.add(melt.body, std::move(of_body));
+  }
+  return json;
+}
+
+Json left_walls(const std::vector<LeftWall>& left) {
+  Json json;
+  for (const LeftWall& wall : left) {
+    Json of_contact;
+    of_contact.add("largest_gap[m]", wall.gap)
+        .add("largest_area[m2]", wall.area)
+        .add("from[s]", wall.from)
+        .add("to[s]", wall.to);
+    json.add(wall.contact, std::move(of_contact));
+  }
+  return json;
+}
+
 GlobalIndex sum(Index counted) {
   return static_cast<GlobalIndex>(algebra::global_sum(counted));
 }
@@ -100,9 +124,10 @@ std::string summary_json(const Summary& s) {
       .add("balance", std::move(balance))
       .add("tables[bytes]", object(s.table_bytes));
   if (s.relative_energy_defect) json.add("relative_energy_defect", *s.relative_energy_defect);
-  json.add("final", object(s.final_values))
-      .add("criteria", findings(s.criteria))
-      .add("warnings", std::move(warnings));
+  json.add("final", object(s.final_values)).add("criteria", findings(s.criteria));
+  if (!s.melt.empty()) json.add("melt", melts(s.melt));
+  if (!s.left_walls.empty()) json.add("liquid_metal_left_its_wall", left_walls(s.left_walls));
+  json.add("warnings", std::move(warnings));
   return json.text();
 }
 

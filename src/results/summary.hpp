@@ -32,6 +32,21 @@ struct PeakMemory {
 /// Collective.
 PeakMemory peak_memory();
 
+/// The stiffness of a melt whose viscosity the program chose.
+struct ChosenMelt {
+  std::string body;
+  double modulus = 0;   ///< 2Ĝ of a step [Pa]
+  std::string against;  ///< what it was measured against
+};
+
+/// Liquid metal that left its wall, over the steps since the run began or went on.
+struct LeftWall {
+  std::string contact;
+  double gap = 0;           ///< the largest [m]
+  double area = 0;          ///< the largest [m²]
+  double from = 0, to = 0;  ///< the first and the last time [s]
+};
+
 /// Everything summary.json says. Lists keep their order; `final_values` pairs a header of history.csv with
 /// the last value of that column.
 struct Summary {
@@ -51,6 +66,8 @@ struct Summary {
   std::optional<double> relative_energy_defect;                  ///< absent without heat
   std::vector<std::pair<std::string, double>> final_values;
   std::vector<criteria::Finding> criteria;
+  std::vector<ChosenMelt> melt;
+  std::vector<LeftWall> left_walls;
   std::vector<std::string> warnings;
 };
 

@@ -339,6 +339,68 @@ TEST(NodalFields, ShowTheHeatThatEntersEitherBodyAndWhatOfItIsByFriction) {
   EXPECT_NEAR(sums.heat_to_master, 0.3 * (0.5 * power + across), 1e-9 * across);
 }
 
+// An iterative scheme begins the same step again and again, from wherever the last iterate has left the pair.
+TEST(Pair, BeginsFromTheStateAtTheStartWhereverItStands) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 0.01);
+  ContactSpec s = spec();
+  s.formulation = Formulation::large_sliding;
+  s.search_distance = 1e-3;
+  s.heat = heat_spec();
+  s.interface_heat_capacity = 100;
+  s.friction = FrictionSpec{};
+  s.friction->coefficient.terms = {Table(0.25)};
+  const auto temperature =
+      test::nodal_field(mesh, 1, [](const Point&, bool upper) { return std::vector{upper ? 450.0 : 500.0}; });
+  const auto lowered = [&](double by) {
+    return test::nodal_field(mesh, 2, [&](const Point&, bool upper) {
+      return std::vector{0.0, upper ? -by : 0.0};
+    });
+  };
+  ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+  const std::vector<double> rest = lowered(0);
+  const ContactPass pass{.time = 1, .dt = 1, .displacement = rest, .temperature = temperature};
+  const ContactState start = pair.initial_state();
+  pair.begin(start, pass);
+  pair.update(lowered(0.0101));  // from out of reach into contact
+  const ContactState once = pair.state();
+  pair.begin(start, pass);
+  pair.update(lowered(0.0101));
+  ASSERT_FALSE(once.points.empty());
+  for (std::size_t p = 0; p < once.points.size(); ++p) {
+    EXPECT_GT(once.points[p].pressure, 0);
+    EXPECT_EQ(once.points[p].temperature, 0);
+    EXPECT_EQ(pair.state().points[p].temperature, once.points[p].temperature);
+  }
+}
+
+TEST(Pair, TakesTheWorkOnARigidMasterFromItsPlaceAtTheStartOfTheStep) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 0.1);
+  ContactSpec s = spec();
+  s.formulation = Formulation::large_sliding;
+  s.search_distance = 0.05;
+  s.master = "plane";
+  s.rigid_master.emplace();
+  s.rigid_master->point = s.rigid_master->motion.centre = {0.15, 0.099, 0};
+  s.rigid_master->direction = {0, -1, 0};
+  s.rigid_master->motion.angle = Table({0, 2}, {0, 0.1});
+  ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+  const std::vector<double> rest(mesh.x.size() * 2, 0.0);
+  const auto moved = test::nodal_field(mesh, 2, [](const Point&, bool) { return std::vector{1e-3, 0.0}; });
+  pair.begin({}, {.time = 1, .dt = 1, .displacement = rest});
+  pair.update(rest);
+  const ContactState start = pair.state();
+  double work[2], of_master[2];
+  for (std::size_t i = 0; i < 2; ++i) {  // the second time from where the first has ended
+    pair.begin(start, {.time = 2, .dt = 1, .displacement = rest});
+    pair.update(moved);
+    work[i] = pair.work(0.5);
+    of_master[i] = pair.rigid_work(0.5);
+  }
+  EXPECT_GT(std::abs(work[0]), 1);
+  EXPECT_EQ(work[1], work[0]);
+  EXPECT_EQ(of_master[1], of_master[0]);
+}
+
 TEST(InterfaceHeat, InNodalFormKeepsTheMatrixOfNonNegativeTypeForLinearShapes) {
   for (Shape shape : {Shape::tri3, Shape::quad4, Shape::tet4, Shape::hex8}) {
     SCOPED_TRACE(mesh::name(shape));

@@ -20,6 +20,7 @@ TEST(RigidSurfaces, MeasurePenetrationFromTheirOutside) {
   EXPECT_NEAR(plane.find({0, 1.3, 0}, k_down, -1).penetration, -0.3, 1e-15);
   EXPECT_EQ(plane.find({0, 0.9, 0}, k_up, -1).face, -1) << "the slave looks away";
   EXPECT_EQ(plane.find({0, 2.1, 0}, k_down, -1).face, -1) << "beyond the search distance";
+  EXPECT_NEAR(plane.find({0, -4, 0}, k_down, -1).penetration, 5, 1e-15) << "however deep";
 
   const AnalyticMaster ball(3, {.shape = Shape::sphere, .point = {1, 0, 0}, .radius = 2}, 1);
   EXPECT_NEAR(ball.find({1, 1.5, 0}, k_down, -1).penetration, 0.5, 1e-15);
@@ -30,6 +31,32 @@ TEST(RigidSurfaces, MeasurePenetrationFromTheirOutside) {
   const Partner p = bore.find({7, 2.25, 0}, k_up, -1);
   EXPECT_NEAR(p.penetration, 0.25, 1e-15);
   EXPECT_NEAR(distance(p.normal, k_down), 0, 1e-15);
+}
+
+// The slave's face lies at y = 0.101 m above the lower block: 0.2 m behind a plane at 0.3 m it never meets
+// it, 0.05 m behind it does, and does so when the plane has come 2 m on.
+TEST(RigidSurfaces, PushOutWhatHasMetThemAndLeaveWhatStartsBehindThem) {
+  const mesh::Mesh mesh = test::two_blocks(mesh::Shape::quad4);
+  const std::vector<double> u(mesh.x.size() * 2, 0.0);
+  const ContactSurface slave(mesh, "upper_bottom");
+  const double y = slave.reference_face(0).x[0][1];
+  for (const double depth : {0.05, 0.2}) {
+    RigidSurface plane{.shape = Shape::plane, .point = {0, y + depth, 0}, .direction = {0, 1, 0}};
+    plane.motion.translation[1] = Table({0, 1}, {0, 2});
+    SlidingKinematics k(mesh, AnalysisKind::plane_strain, slave,
+                        std::make_unique<AnalyticMaster>(2, plane, 0.1), {});
+    for (const double time : {0.0, 1.0}) {
+      k.set_time(time);
+      k.place(u);
+      for (Index p = 0; p < k.n_points(); ++p) {
+        const PointMotion m = k.motion(p, {}, Asked::motion);
+        ASSERT_EQ(m.partnered, depth < 0.1) << depth << " at " << time;
+        if (!m.partnered) continue;
+        EXPECT_NEAR(m.penetration, depth + 2 * time, 1e-14);
+        EXPECT_NEAR(k.master_way(p, 0, 0.5)[1], 1, 1e-14);
+      }
+    }
+  }
 }
 
 TEST(RigidSurfaces, MoveByTheirTables) {

@@ -320,6 +320,61 @@ TEST(BodyNorm, IsTheRootMeanSquareOverTheVolume) {
   EXPECT_NEAR(norm(x), std::sqrt(4.0 / 3), 1e-4);
 }
 
+/// A body on (0, 2) × (0, 1) without a thermal phase that is melt where x > 1.
+struct HalfMolten {
+  mesh::Mesh mesh = test::make_mesh({.shape = mesh::Shape::quad4, .cells = {8, 2, 1}, .size = {2, 1, 1}});
+  std::vector<material::Material> materials = {freezes()};
+  coupling::Coherency coherency{mesh, materials, algebra::Presence(mesh, {})};
+  coupling::Phases phases;
+
+  static material::Material freezes() {
+    material::Material m;
+    m.young_modulus = Table(70e9);
+    m.poisson_ratio = Table(0.3);
+    m.phase_changes = {{"solidification", material::PhaseFraction::linear(880, 930), 4e5, 0, true}};
+    return m;
+  }
+  HalfMolten() {
+    for (const mesh::Point& x : mesh.x) phases.temperature.push_back(x[0] > 1.01 ? 950 : 800);
+    phases.coherency = &coherency;
+  }
+  coupling::ErrorEstimate estimate() const {
+    return coupling::ErrorEstimate(coupling::BodyNorm(mesh, AnalysisKind::plane_strain), &phases);
+  }
+  /// Moved up, the melt and the casting.
+  State moved(double melt, double casting) const {
+    State state;
+    for (const mesh::Point& x : mesh.x) {
+      state.mechanics.displacement.push_back(0);
+      state.mechanics.displacement.push_back(x[0] > 1.01 ? melt : casting);
+    }
+    return state;
+  }
+};
+
+TEST(DisplacementError, MeltThatFlowsCostsNoStep) {
+  const HalfMolten body;
+  const coupling::ErrorEstimate estimate = body.estimate();
+  const State rest = body.moved(0, 0);
+  coupling::Rates rates = estimate.rates_of(rest, rest, 1);
+  EXPECT_EQ(estimate.predictor(rest, body.moved(5, 0), 1, rates).displacement, 0);
+  EXPECT_EQ(estimate.doubling(rest, rest, body.moved(5, 0)).displacement, 0);
+  // What is coherent counts with its share of the body's volume: nine of seventeen columns of nodes.
+  const double half = std::sqrt(0.5 + 1.0 / 16);
+  EXPECT_NEAR(estimate.doubling(rest, rest, body.moved(5, 3)).displacement, 3 * half, 1e-12);
+  EXPECT_NEAR(estimate.predictor(rest, body.moved(5, 3), 1, rates).displacement, 1.5 * half, 1e-12);
+}
+
+TEST(DisplacementError, ARateOfMeltPredictsNothingOfWhatFroze) {
+  HalfMolten body;
+  const coupling::ErrorEstimate estimate = body.estimate();
+  const coupling::Rates rates = estimate.rates_of(body.moved(0, 0), body.moved(7, 0), 1);
+  body.phases.temperature.assign(body.mesh.x.size(), 800);  // all is casting now
+  EXPECT_EQ(estimate.predictor(body.moved(7, 0), body.moved(7, 0), 1, rates).displacement, 0);
+  const coupling::Rates next = estimate.rates_of(body.moved(7, 0), body.moved(7, 0), 1);
+  EXPECT_GT(estimate.predictor(body.moved(7, 0), body.moved(8, 0), 1, next).displacement, 0.3);
+}
+
 TEST(Simulation, AdaptiveStepsWithoutAnEstimateAreAProgrammersMistake) {
   Script script;
   coupling::TimeOptions o;

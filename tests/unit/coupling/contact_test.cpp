@@ -175,6 +175,100 @@ TEST(ContactWork, OfARigidPlaneIsItsForceTimesItsWay) {
   EXPECT_GT(along, 0);
 }
 
+// Out of reach at first, or switched off: it does the same work in the step in which it meets the block.
+TEST(ContactWork, OfARigidPlaneCountsWhatItMeetsWithinTheStep) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 0.1);
+  for (const bool out_of_reach : {true, false}) {
+    contact::ContactSpec s = rubbing();
+    s.master = "plane";
+    s.rigid_master.emplace();
+    const double way = out_of_reach ? 0.03 : 1e-3;
+    s.rigid_master->point = {0, 0.1 + way, 0};
+    s.rigid_master->direction = {0, -1, 0};
+    s.rigid_master->motion.translation[1] = Table({1, 2}, {0, -way - 1e-4});
+    mechanics::Conditions c;
+    for (const char* held : {"lower_y_min", "upper"})
+      for (int i = 0; i < 2; ++i) c.displacements.push_back({held, i, 0.0});
+    Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
+    run.pair.activate(out_of_reach);
+    run.scheme.synchronise(run.state);
+    run.step(1);
+    run.pair.activate(true);
+    run.scheme.synchronise(run.state);
+    const coupling::StepEffort effort = run.step(1);
+    const double work = (way + 1e-4) * effort.contacts[0].resultant[1];
+    EXPECT_GT(work, 0);
+    EXPECT_NEAR(effort.energy.work, work, 1e-9 * work) << out_of_reach;
+  }
+}
+
+/// What the balance of forces does on contact in a step with inertia, and what the pair says of it [J].
+struct WorkOnContact {
+  double balance = 0, pair = 0;
+};
+WorkOnContact dynamic_step(Rubbed& run, double dt) {
+  const mechanics::MechanicalState old = run.state.mechanics;
+  mechanics::MechanicalPass pass{
+      .time = run.state.time + dt, .dt = dt, .temperature = run.phases.temperature};
+  coupling::begin_contacts(run.phases, run.state.contacts, old, pass);
+  mechanics::MechanicalWork work;
+  for (int turn = 1;; ++turn) {
+    mechanics::MechanicalState next;
+    work = run.phase.solve(old, next, pass).work;
+    run.state.mechanics = std::move(next);
+    run.pair.update(run.state.mechanics.displacement);
+    if (coupling::penetrations_small(run.phases, turn)) break;
+    pass.start = run.state.mechanics.displacement;
+  }
+  run.state.contacts = coupling::contact_states(run.phases);
+  run.state.time = pass.time;
+  return {work.external_work + work.support_work + work.residual_work - work.internal_work - work.kinetic -
+              work.numerical,
+          run.pair.work(run.phase.work_share())};
+}
+
+const mechanics::Motion k_means[] = {mechanics::Motion::trapezoidal(),
+                                     mechanics::Motion::generalised_alpha(0.6)};
+
+TEST(ContactWork, OfTheAugmentedLagrangianHasTheTractionsOfTheStart) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  contact::ContactSpec s = rubbing();
+  s.normal = contact::NormalKind::augmented_lagrangian;
+  s.penetration_tolerance = 1e-5;
+  for (const mechanics::Motion& motion : k_means) {
+    mechanics::MechanicsOptions options = test::strict_mechanics();
+    options.dynamics = mechanics::DynamicsOptions{.motion = motion, .initial_velocity = {}};
+    Rubbed run(mesh, AnalysisKind::plane_strain, s, pulled(), options);
+    run.scheme.synchronise(run.state);
+    double largest = 0;
+    for (int k = 0; k < 6; ++k) {
+      const WorkOnContact work = dynamic_step(run, 0.05);
+      largest = std::max(largest, std::abs(work.balance));
+      EXPECT_NEAR(work.pair, work.balance, 1e-8 * largest) << k;
+    }
+  }
+}
+
+// The mean of the forces at both ends of the first step without contact still holds half of the last ones.
+TEST(ContactWork, OfContactThatIsSwitchedOffIsThatOfItsLastForces) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  for (const mechanics::Motion& motion : k_means) {
+    mechanics::MechanicsOptions options = test::strict_mechanics();
+    options.dynamics = mechanics::DynamicsOptions{.motion = motion, .initial_velocity = {}};
+    Rubbed run(mesh, AnalysisKind::plane_strain, rubbing(), pulled(), options);
+    run.scheme.synchronise(run.state);
+    for (int k = 0; k < 4; ++k) dynamic_step(run, 0.05);
+    run.pair.activate(false);
+    run.scheme.synchronise(run.state);
+    const WorkOnContact first = dynamic_step(run, 0.05);
+    EXPECT_GT(std::abs(first.balance), 1);
+    EXPECT_NEAR(first.pair, first.balance, 1e-8 * std::abs(first.balance));
+    const WorkOnContact second = dynamic_step(run, 0.05);
+    EXPECT_EQ(second.pair, 0);
+    EXPECT_NEAR(second.balance, 0, 1e-8 * std::abs(first.balance));
+  }
+}
+
 TEST(LargeSliding, GivesMatricesNewPlacesInTheMiddleOfARun) {
   const mesh::Mesh mesh =
       test::distribute_blocks(test::raw_blocks({{0.3, 0.1}, {0.3, 0.2}, {20, 2}, {16, 2}, 0}, Shape::quad4));

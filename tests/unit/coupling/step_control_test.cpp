@@ -46,6 +46,50 @@ TEST(StepControl, FixedStepsMeetTheEndExactly) {
   EXPECT_EQ(n, 10);
 }
 
+// The times of 30 000 steps of 0.01 s add up to less than 300 s by 1.3e-10 s.
+TEST(StepControl, RoundingOfManyStepsLeavesNoSliverBeforeALanding) {
+  StepControl control(step_of(0.01), 0, {100.0, 300.0});
+  double time = 0, shortest = 1;
+  int n = 0;
+  while (!control.finished(time)) {
+    const PlannedStep step = control.plan(time);
+    shortest = std::min(shortest, step.dt);
+    time = step.time;
+    control.accepted(step, iterations(3));
+    ++n;
+  }
+  EXPECT_EQ(time, 300.0);
+  EXPECT_EQ(n, 30000);
+  EXPECT_NEAR(shortest, 0.01, 1e-8);
+}
+
+TEST(StepControl, AStretchedStepThatIsTooLongIsShortenedOrTheSmallest) {
+  StepOptions options = adaptive(1, 1);
+  options.min_step = 1;
+  StepControl control(options, 0, {1.0005});
+  const PlannedStep step = control.plan(0);
+  EXPECT_DOUBLE_EQ(step.dt, 1.0005);
+  StepMeasure measure = iterations(3);
+  measure.solid_fraction_change = 1;
+  EXPECT_FALSE(control.too_long(step, measure));  // there is none shorter
+  options.min_step = 0.1;
+  options.cut = 0.9995;
+  StepControl other(options, 0, {1.0005});
+  ASSERT_TRUE(other.rejected(other.plan(0), "physics"));
+  EXPECT_LT(other.plan(0).dt, 1.0005);
+}
+
+TEST(StepLimits, WhatIsNotANumberExceedsThem) {
+  StepMeasure measure = iterations(3);
+  measure.temperature_error = std::nan("");
+  measure.solid_fraction_change = 0.01;
+  solidus::coupling::StepLimits limits;
+  limits.control = ErrorControl::predictor;
+  const auto worst = strictest(limits, measure);
+  EXPECT_TRUE(worst.exceeded);
+  EXPECT_EQ(worst.name, "temperature error");
+}
+
 TEST(StepControl, OutputTimesAreMetExactly) {
   StepControl control(step_of(0.4), 0, {1.0, 2.0});
   double time = 0;

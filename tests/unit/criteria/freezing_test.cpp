@@ -115,6 +115,33 @@ TEST(Freezing, SaysNothingOfWhatHasNotFrozenAndForgetsWhatMeltsAgain) {
   everywhere("local_solidification_time", 4);
 }
 
+// T_e = 864 K: at 862 K the fraction is 0.95, which is not what gradient and rate are about.
+TEST(Freezing, KeepsWhatAPartialRemeltDoesNotReach) {
+  Casting casting(test::block_mesh(mesh::Shape::quad4, {0.1, 0.1}, {4, 4}), 40);
+  criteria::Freezing freezing(casting.mesh, casting.kind, casting.storage);
+  // 1000 K/m
+  const auto graded = [](double t) { return [=](const mesh::Point& x) { return t + 1000 * x[0]; }; };
+  const auto uniform = [](double t) { return [=](const mesh::Point&) { return t; }; };
+  casting.start(freezing, 0, graded(920));
+  for (int i = 1; i <= 20; ++i) casting.step(freezing, 10.0 * i, graded(920 - 10 * i));
+  const auto once = casting.fields(freezing);
+  EXPECT_GT(once.at("niyama").front(), 0);
+  casting.step(freezing, 210, uniform(850));
+  casting.step(freezing, 1000, uniform(862));
+  const auto between = casting.fields(freezing);
+  for (const double v : between.at("solidified_at")) EXPECT_EQ(v, -1);
+  casting.step(freezing, 1010, uniform(859));
+  const auto twice = casting.fields(freezing);
+  for (std::size_t i = 0; i < casting.mesh.x.size(); ++i) {
+    for (const char* kept : {"niyama", "thermal_gradient", "cooling_rate", "front_speed"})
+      EXPECT_NEAR(twice.at(kept)[i], once.at(kept)[i], 1e-9 * once.at(kept)[i]) << kept;
+    const double more = 10.0 * 2 / 3;  // from 862 K at 1000 s to 860 K
+    EXPECT_NEAR(twice.at("solidified_at")[i], 1000 + more, 1e-6);
+    EXPECT_NEAR(twice.at("local_solidification_time")[i], once.at("local_solidification_time")[i] + more,
+                1e-6);
+  }
+}
+
 TEST(Freezing, NamesTheLastNodeThatFroze) {
   Casting casting(test::block_mesh(mesh::Shape::quad4, {0.1, 0.1}, {4, 4}), 40);
   criteria::Freezing freezing(casting.mesh, casting.kind, casting.storage);

@@ -68,4 +68,18 @@ TEST(BodyBalance, WithoutExchangeASmallShareOfTheInternalForcesIsTheReference) {
   EXPECT_NEAR(norm(r) / balance.reference(), norm(r) / 1e-3, 1e-9);
 }
 
+// Newton's iteration asks again where the residual is known already.
+TEST(BodyBalance, TheReferenceIsTheSameWhenAskedTwice) {
+  const mesh::Mesh mesh = two_bodies();
+  mechanics::BodyBalance balance(mesh, algebra::Presence(mesh), 2);
+  const std::vector<double> load = vertical_force(mesh, true, 3.0), r = vertical_force(mesh, true, 1e-3);
+  const std::vector<char> none(r.size(), 0);
+  balance.begin();
+  balance.add_exchanged(load);
+  balance.add_residual(r, none, none);
+  const double once = balance.reference();
+  EXPECT_NEAR(once, norm(load), 1e-12 * norm(load));
+  EXPECT_EQ(balance.reference(), once);
+}
+
 }  // namespace

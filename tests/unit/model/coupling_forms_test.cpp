@@ -74,5 +74,17 @@ TEST(Advice, NamesTheCouplingWhereItIsTooStrongForTheIsothermalSplitAndNoShorter
   EXPECT_THAT(weak, HasSubstr("time.min_step"));
 }
 
+TEST(Advice, NamesTheLinearSolverWhereItFails) {
+  CaseSpec spec = read("scheme = \"isothermal\"");
+  coupling::Stop stop{false, "mechanics: linear solver: DIVERGED_ITS", "node 1", 11, 1e-3};
+  EXPECT_THAT(stop_text(stop, spec, 3, "there", {}), Not(HasSubstr("mechanics.solver")));
+  spec.mechanics.solver = algebra::SolverKind::multigrid;
+  EXPECT_THAT(stop_text(stop, spec, 3, "there", {}), HasSubstr("mechanics.solver = \"direct\""));
+  spec.contacts.emplace_back().friction.emplace();
+  EXPECT_THAT(stop_text(stop, spec, 3, "there", {}), HasSubstr("friction makes the matrix unsymmetric"));
+  stop.reason = "mechanics: no convergence in 25 iterations";
+  EXPECT_THAT(stop_text(stop, spec, 3, "there", {}), Not(HasSubstr("mechanics.solver")));
+}
+
 }  // namespace
 }  // namespace solidus::model

@@ -1,0 +1,42 @@
+/// Which nodes are melt and which are casting: the solid fraction over that at which metal is coherent
+/// (material::Casting::coherency_fraction).
+///
+/// The solid fraction is that of the nodes' enthalpy, which alone knows how much is solid where freezing is
+/// isothermal; without a thermal phase that of the temperature.
+#pragma once
+
+#include <vector>
+
+#include "algebra/presence.hpp"
+#include "heat/thermal_state.hpp"
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::heat {
+class ThermalPhase;
+}
+
+namespace solidus::coupling {
+
+class Coherency {
+ public:
+  /// @param materials  [body]; kept by reference
+  /// @param presence   of the mechanical phase at the start: bodies that only conduct heat do not count
+  Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+            const algebra::Presence& presence);
+
+  /// Whether a body that deforms can melt. The same on every process.
+  bool melts() const { return melts_; }
+  /// f_S/f_c of every node, [local node], ghosts up to date; one where nothing melts. A node that bodies
+  /// share goes with the first one that can melt. Empty unless melts(). Collective.
+  /// @param heat         null: mechanics alone, at `temperature` [local node] [K]
+  std::vector<double> at(const heat::ThermalPhase* heat, const heat::ThermalState& state,
+                         const std::vector<double>& temperature) const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  std::vector<const material::Material*> material_;  ///< [owned node]; null where nothing melts
+  bool melts_ = false;
+};
+
+}  // namespace solidus::coupling

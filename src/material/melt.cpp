@@ -1,0 +1,54 @@
+#include "material/melt.hpp"
+
+#include <fmt/format.h>
+
+namespace solidus::material {
+
+MeltModulus melt_modulus(const Material& material, double gravity, double extent) {
+  using Bound = MeltModulus::Bound;
+  if (!material.mechanical() || !material.chooses_viscosity()) return {};
+  const PhaseFraction& fraction = material.solidification()->fraction;
+  const double solidus = fraction.solidus(), liquidus = fraction.liquidus();
+  const auto shear_at = [&](double theta) {
+    return material.young_modulus.value(theta) / (2 * (1 + material.poisson_ratio.value(theta)));
+  };
+  const double head = material.density * gravity * extent;
+  MeltModulus melt{.extent = head > 0 ? extent : 0.0};
+  const auto set = [&melt](double share, double reference, Bound bound) {
+    melt.modulus = share * reference;
+    melt.reference = reference;
+    melt.bound = bound;
+  };
+  if (head > 0)
+    set(k_melt_heads, head, Bound::head);
+  else
+    set(k_melt_heads, k_atmosphere, Bound::atmosphere);
+  const double strength =
+      material.flow ? material.flow->flow_stress.value(solidus) : k_shell_strain * shear_at(solidus);
+  if (strength > 0 && k_melt_strengths * strength < melt.modulus)
+    set(k_melt_strengths, strength, Bound::strength);
+  const double bulk =
+      material.young_modulus.value(liquidus) / (3 * (1 - 2 * material.poisson_ratio.value(liquidus)));
+  if (k_least_melt_share * bulk > melt.modulus) set(k_least_melt_share, bulk, Bound::arithmetic);
+  return melt;
+}
+
+std::string measured_against(const MeltModulus& melt) {
+  using Bound = MeltModulus::Bound;
+  switch (melt.bound) {
+    case Bound::head:
+      return fmt::format("{:g} times the metallostatic head of {:.3g} Pa (rho g H, H = {:.3g} m)",
+                         k_melt_heads, melt.reference, melt.extent);
+    case Bound::atmosphere:
+      return fmt::format("{:g} times the atmosphere, for there is no gravity", k_melt_heads);
+    case Bound::strength:
+      return fmt::format("{:g} times the strength of the shell of {:.3g} Pa at the solidus", k_melt_strengths,
+                         melt.reference);
+    case Bound::arithmetic:
+      break;
+  }
+  return fmt::format("{:g} of the bulk modulus of {:.3g} Pa, the least that the arithmetic stands",
+                     k_least_melt_share, melt.reference);
+}
+
+}  // namespace solidus::material

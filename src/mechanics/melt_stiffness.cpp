@@ -1,0 +1,46 @@
+#include "mechanics/melt_stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algebra/parallel.hpp"
+
+namespace solidus::mechanics {
+
+namespace {
+
+/// Extent of a body along a unit vector [m]. Collective.
+double extent_along(const mesh::Mesh& mesh, int body, const std::array<double, 3>& direction) {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  for (const mesh::Block& block : mesh.blocks) {
+    if (block.body != body) continue;
+    for (const Index node : block.nodes) {
+      const mesh::Point& x = mesh.x[static_cast<std::size_t>(node)];
+      const double along = x[0] * direction[0] + x[1] * direction[1] + x[2] * direction[2];
+      low = std::min(low, along);
+      high = std::max(high, along);
+    }
+  }
+  return algebra::global_max(high) + algebra::global_max(-low);
+}
+
+}  // namespace
+
+std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
+                                               const std::vector<material::Material>& materials,
+                                               const algebra::Presence& presence,
+                                               const std::array<double, 3>& gravity) {
+  const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
+  std::array<double, 3> direction{};
+  for (std::size_t i = 0; i < 3 && g > 0; ++i) direction[i] = gravity[i] / g;
+  std::vector<material::MeltModulus> melt(materials.size());
+  for (std::size_t b = 0; b < materials.size(); ++b) {
+    const auto body = static_cast<int>(b);
+    if (!presence.body(body) || !materials[b].mechanical() || !materials[b].chooses_viscosity()) continue;
+    melt[b] = material::melt_modulus(materials[b], g, g > 0 ? extent_along(mesh, body, direction) : 0.0);
+  }
+  return melt;
+}
+
+}  // namespace solidus::mechanics

@@ -1,0 +1,23 @@
+/// How stiff the melts of a mesh are in a step where their materials leave the viscosity open
+/// (material/melt.hpp).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "algebra/presence.hpp"
+#include "material/melt.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::mechanics {
+
+/// One per body of the mesh; zero for bodies that are absent. Collective; the same bits on every number of
+/// processes.
+/// @param materials  [body]
+/// @param gravity    acceleration [m/s²]
+std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
+                                               const std::vector<material::Material>& materials,
+                                               const algebra::Presence& presence,
+                                               const std::array<double, 3>& gravity);
+
+}  // namespace solidus::mechanics

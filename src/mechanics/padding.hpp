@@ -1,0 +1,17 @@
+/// The lanes behind the last element of a block repeat it in everything but weights (mesh::BlockGeometry),
+/// also in history and means: what is decided over all lanes of a batch, as how long a local iteration goes
+/// on, is then decided by elements alone, and a run that is continued decides alike.
+#pragma once
+
+#include "base/simd.hpp"
+#include "base/types.hpp"
+
+namespace solidus::mechanics {
+
+/// Gives the padding lanes of a batch the value of the last element; other batches have none.
+inline void repeat_last_element(Lane& value, Index batch, Index n_elements) {
+  const int last = static_cast<int>(n_elements - 1 - batch * k_lanes);
+  for (int lane = last + 1; lane < k_lanes; ++lane) value.set(lane, value[last]);
+}
+
+}  // namespace solidus::mechanics

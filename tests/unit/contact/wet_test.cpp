@@ -1,0 +1,290 @@
+// Liquid metal on its wall: held by the atmosphere until it is coherent.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "bodies.hpp"
+#include "contact/pair.hpp"
+
+namespace solidus::contact {
+namespace {
+
+using mesh::Shape;
+
+constexpr double k_atmosphere = 1e5, k_penalty = 1e10, k_reach = k_atmosphere / k_penalty;
+
+ContactSpec spec(Formulation formulation = Formulation::small_sliding) {
+  ContactSpec s;
+  s.name = "wall";
+  s.slave = "lower_top";
+  s.master = "upper_bottom";
+  s.penalty = k_penalty;
+  s.penalty_is_factor = false;
+  s.stabilisation = 0;
+  s.formulation = formulation;
+  s.atmosphere = k_atmosphere;
+  return s;
+}
+AnalysisKind kind_of(const mesh::Mesh& mesh) {
+  return mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+}
+/// The lower body at f_S/f_c = `lower`, the upper one at `upper`.
+std::vector<double> coherency(const mesh::Mesh& mesh, double lower, double upper) {
+  return test::nodal_field(mesh, 1, [&](const Point&, bool up) { return std::vector{up ? upper : lower}; });
+}
+/// The upper body lifted, and tilted by so much over the width.
+std::vector<double> lifted(const mesh::Mesh& mesh, double lift, double tilt = 0) {
+  const auto last = static_cast<std::size_t>(mesh.dimension - 1);
+  return test::nodal_field(mesh, mesh.dimension, [&](const Point& x, bool up) {
+    std::vector<double> u(static_cast<std::size_t>(mesh.dimension), 0.0);
+    if (up) u[last] = lift + tilt * x[0] / 0.3;
+    return u;
+  });
+}
+double area(const mesh::Mesh& mesh) {
+  return mesh.dimension == 2 ? 0.3 : 0.3 * 0.2;
+}
+
+struct OneStep {
+  const mesh::Mesh& mesh;
+  ContactPair pair;
+  ContactState state;
+
+  OneStep(const mesh::Mesh& m, ContactSpec s) : mesh(m), pair(m, kind_of(m), std::move(s)) {
+    state = pair.initial_state();
+  }
+  /// A step from the state so far to a displacement.
+  ContactSums step(const std::vector<double>& displacement, const std::vector<double>& coherent) {
+    pair.begin(state, {.time = 1, .dt = 1, .displacement = displacement, .coherency = coherent});
+    pair.update(displacement);
+    state = pair.state();
+    return pair.sums({});
+  }
+};
+
+struct Melt {
+  Shape shape;
+  Formulation formulation;
+  bool slave;  ///< melts, else the master does
+};
+
+class Wet : public ::testing::TestWithParam<Melt> {
+ protected:
+  const mesh::Mesh mesh_ = test::two_blocks(GetParam().shape);
+  std::vector<double> liquid(double at = 0.5) const {
+    return GetParam().slave ? coherency(mesh_, at, 1) : coherency(mesh_, 1, at);
+  }
+};
+
+TEST_P(Wet, HoldsTheWallUntilTheAtmosphereGivesInAndOpensWhenItIsCoherent) {
+  OneStep run(mesh_, spec(GetParam().formulation));
+  const double a = area(mesh_), whole = k_atmosphere * a;
+  ContactSums sums = run.step(lifted(mesh_, 0.4 * k_reach), liquid());
+  EXPECT_NEAR(sums.force, -0.4 * whole, 2e-2 * whole);  // what points at fixed places integrate
+  EXPECT_EQ(sums.closed_points, sums.points);
+  EXPECT_NEAR(sums.wet_area, a, 1e-9 * a);
+  sums = run.step(lifted(mesh_, 50 * k_reach), liquid());
+  EXPECT_NEAR(sums.force, -whole, 1e-9 * whole);  // no more than the atmosphere
+  EXPECT_EQ(sums.closed_points, 0);
+  sums = run.step(lifted(mesh_, 0.4 * k_reach), liquid());  // wet all the while: it did not draw air
+  EXPECT_NEAR(sums.force, -0.4 * whole, 2e-2 * whole);
+  sums = run.step(lifted(mesh_, 0.4 * k_reach), liquid(1.2));
+  EXPECT_EQ(sums.force, 0);
+  EXPECT_EQ(sums.wet_area, 0);
+  sums = run.step(lifted(mesh_, 0.4 * k_reach), liquid());  // melts again behind its gap of air
+  EXPECT_EQ(sums.force, 0);
+  sums = run.step(lifted(mesh_, -0.1 * k_reach), liquid());  // touches
+  EXPECT_GT(sums.force, 0);
+  sums = run.step(lifted(mesh_, 0.4 * k_reach), liquid());
+  EXPECT_NEAR(sums.force, -0.4 * whole, 2e-2 * whole);
+}
+
+TEST_P(Wet, PullsOnBothBodiesAlike) {
+  OneStep run(mesh_, spec(GetParam().formulation));
+  const std::vector<double> u = lifted(mesh_, -0.5 * k_reach, 3 * k_reach);
+  run.step(u, liquid());
+  const auto dim = static_cast<std::size_t>(mesh_.dimension);
+  std::vector<double> r(static_cast<std::size_t>(mesh_.n_owned_nodes) * dim, 0.0);
+  run.pair.mechanics().add_residual(u, r);
+  double sum = 0, size = 0;
+  for (std::size_t i = dim - 1; i < r.size(); i += dim) {
+    sum += r[i];
+    size += std::abs(r[i]);
+  }
+  EXPECT_GT(algebra::global_sum(size), 0.1 * k_atmosphere * area(mesh_));
+  EXPECT_LT(std::abs(algebra::global_sum(sum)), 1e-12 * algebra::global_sum(size));
+}
+
+TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
+  OneStep run(mesh_, spec(GetParam().formulation));
+  const std::vector<double> u = lifted(mesh_, -0.5 * k_reach, 3 * k_reach);  // closed, pulled, void
+  run.step(lifted(mesh_, 0), liquid());
+  run.pair.begin(run.state, {.time = 2, .dt = 1, .displacement = u, .coherency = liquid()});
+  algebra::NodeGraph graph(mesh_);
+  algebra::Contribution& term = run.pair.mechanics();
+  term.add_residual(
+      u, std::vector<double>(static_cast<std::size_t>(mesh_.n_owned_nodes * mesh_.dimension), 0.0));
+  term.add_to_graph(graph);
+  algebra::BlockMatrix matrix(mesh_, mesh_.dimension, std::move(graph));
+  term.bind(matrix);
+  term.add_tangent(u, matrix);
+  const double h = 1e-3 * k_reach;
+  std::vector<double> d(u.size()), up = u, down = u;
+  const auto dim = static_cast<std::size_t>(mesh_.dimension);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const auto& x = mesh_.x[i / dim];
+    d[i] = std::sin(31 * x[0] + 17 * x[1] + 13 * x[2] + static_cast<double>(i % dim));
+    up[i] += h * d[i];
+    down[i] -= h * d[i];
+  }
+  const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes) * dim;
+  std::vector<double> r_up(n, 0.0), r_down(n, 0.0), product(n, 0.0);
+  term.add_residual(up, r_up);
+  term.add_residual(down, r_down);
+  matrix.multiply(d, product);
+  double defect = 0, size = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    defect = std::max(defect, std::abs((r_up[i] - r_down[i]) / (2 * h) - product[i]));
+    size = std::max(size, std::abs(product[i]));
+  }
+  EXPECT_LT(algebra::global_max(defect), 1e-5 * algebra::global_max(size));
+}
+
+TEST_P(Wet, ConductsAsClosedContactWhateverGapOpens) {
+  ContactSpec s = spec(GetParam().formulation);
+  s.heat = HeatTransferSpec{};
+  s.heat->conductance = 2000;
+  s.heat->gap_law = HeatTransferSpec::GapLaw::gas;
+  s.heat->gas_conductivity = 0.03;
+  OneStep run(mesh_, s);
+  const auto temperature =
+      test::nodal_field(mesh_, 1, [](const Point&, bool up) { return std::vector{up ? 400.0 : 900.0}; });
+  const double closed = 2000 * 500 * area(mesh_);
+  run.step(lifted(mesh_, 1e-4), liquid());
+  EXPECT_NEAR(run.pair.sums(temperature).heat, closed, 1e-9 * closed);
+  const std::vector<double> gap = lifted(mesh_, 1e-4);
+  run.pair.restore(run.state, gap, 1);  // as a run that goes on from a checkpoint
+  EXPECT_NEAR(run.pair.sums(temperature).heat, closed, 1e-9 * closed);
+  run.step(gap, liquid(1.1));
+  EXPECT_NEAR(run.pair.sums(temperature).heat, closed * 0.03 / (0.03 + 1e-4 * 2000), 1e-6 * closed);
+}
+
+TEST_P(Wet, IsSwitchedOffWithTheAtmosphere) {
+  ContactSpec s = spec(GetParam().formulation);
+  s.atmosphere = 0;
+  OneStep run(mesh_, s);
+  EXPECT_EQ(run.step(lifted(mesh_, 0.4 * k_reach), liquid()).force, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Wet,
+                         ::testing::Values(Melt{Shape::quad4, Formulation::small_sliding, true},
+                                           Melt{Shape::tri3, Formulation::small_sliding, false},
+                                           Melt{Shape::quad4, Formulation::large_sliding, true},
+                                           Melt{Shape::quad8, Formulation::large_sliding, false},
+                                           Melt{Shape::tet4, Formulation::small_sliding, true},
+                                           Melt{Shape::hex8, Formulation::large_sliding, false}),
+                         [](const auto& of) {
+                           return std::string(mesh::name(of.param.shape)) +
+                                  (of.param.formulation == Formulation::large_sliding ? "Sliding" : "Fixed") +
+                                  (of.param.slave ? "Slave" : "Master");
+                         });
+
+TEST(WetContact, AGapThatWasThereHoldsAirUntilItCloses) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4, 1e-3);
+  ContactSpec s = spec();
+  s.search_distance = 0.05;
+  OneStep run(mesh, s);
+  const std::vector<double> melt = coherency(mesh, 0.2, 1);
+  EXPECT_EQ(run.step(lifted(mesh, 0), melt).wet_area, 0);
+  EXPECT_EQ(run.step(lifted(mesh, -1e-3 - 1e-6), melt).wet_area, 0);  // it touches in this step
+  EXPECT_NEAR(run.step(lifted(mesh, -1e-3 + 0.1 * k_reach), melt).wet_area, 0.3, 1e-12);
+}
+
+TEST(WetContact, WhatLeavesTheWallWhileLiquidIsCounted) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.leaving_gap = 1e-4;
+  OneStep run(mesh, s);
+  const std::vector<double> melt = coherency(mesh, 0.2, 1);
+  EXPECT_EQ(run.step(lifted(mesh, 0.9e-4), melt).left_points, 0);
+  const ContactSums left = run.step(lifted(mesh, 0, 2e-4), melt);  // half of the width is beyond
+  EXPECT_NEAR(left.left_area, 0.15, 0.04);
+  EXPECT_GT(left.left_gap, 1.8e-4);
+  EXPECT_LT(left.left_gap, 2e-4);
+  EXPECT_EQ(run.step(lifted(mesh, 0, 2e-4), coherency(mesh, 1.1, 1)).left_points, 0);
+}
+
+TEST(WetContact, TensionMakesNoFriction) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.friction = FrictionSpec{};
+  s.friction->coefficient.terms = {Table(0.3)};
+  OneStep run(mesh, s);
+  const std::vector<double> melt = coherency(mesh, 0.2, 1);
+  std::vector<double> u = lifted(mesh, 0.5 * k_reach);
+  run.step(lifted(mesh, 0), melt);
+  for (std::size_t i = 0; i < u.size(); i += 2) u[i] = u[i + 1] > 0 ? 1e-3 : 0.0;  // the upper body slides
+  const ContactSums sums = run.step(u, melt);
+  EXPECT_LT(sums.force, 0);
+  EXPECT_EQ(sums.friction, 0);
+  EXPECT_EQ(sums.dissipation, 0);
+}
+
+// A flat punch of the augmented Lagrangian: pulled with half of the atmosphere it keeps its wall exactly, and
+// the multipliers go where the metal is coherent.
+TEST(WetContact, MultipliersHoldTensionDownToTheAtmosphere) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.normal = NormalKind::augmented_lagrangian;
+  OneStep run(mesh, s);
+  const std::vector<double> melt = coherency(mesh, 0.2, 1), u = lifted(mesh, 0.3 * k_reach);
+  run.pair.begin(run.state, {.time = 1, .dt = 1, .displacement = u, .coherency = melt});
+  for (int turn = 1; turn <= 5; ++turn) {
+    run.pair.update(u);
+    const double expected = -std::min(0.3 * turn, 1.0) * k_atmosphere * 0.3;
+    EXPECT_NEAR(run.pair.sums({}).force, expected, 1e-9 * k_atmosphere) << turn;
+    run.pair.augment();
+  }
+  run.state = run.pair.state();
+  const ContactSums dry = run.step(u, coherency(mesh, 1.1, 1));
+  EXPECT_EQ(dry.force, 0);
+  EXPECT_EQ(dry.closed_points, 0);
+}
+
+TEST(WetNormalLaw, IsMonotoneAndTheDerivativeOfItsEnergy) {
+  for (const NormalKind kind : {NormalKind::penalty, NormalKind::augmented_lagrangian}) {
+    const NormalLaw law{kind, 1e9};
+    const NormalHistory wet{true, 0, 0, 0, 1e5};
+    double before = -1e300;
+    for (double g = -3e-4; g < 2e-4; g += 0.7e-5) {
+      const NormalLaw::Response r = law.update(g, wet, 1);
+      EXPECT_GE(r.pressure, before);
+      EXPECT_GE(r.pressure, -1e5);
+      before = r.pressure;
+      const double h = 1e-9;
+      EXPECT_NEAR((law.energy(g + h, 1e5) - law.energy(g - h, 1e5)) / (2 * h), r.pressure, 1.0);
+      EXPECT_EQ(r.closed, r.pressure > -1e5);
+    }
+  }
+}
+
+TEST(WetNormalLaw, QuotientDoesExactlyTheWorkThatTheEnergyGains) {
+  const NormalLaw law{NormalKind::energy_conserving, 3e9};
+  constexpr double k_suction = 6e3;  // reach 2e-6
+  for (const double g0 : {-5e-6, -2.5e-6, -1e-6, 0.0, 4e-6})
+    for (const double g1 : {-7e-6, -3e-6, -1.5e-6, 0.5e-6, 5e-6})
+      for (const double share : {0.5, 1.0}) {
+        const NormalHistory old{true, g0, 0, 0, k_suction};
+        const NormalLaw::Response r = law.update(g1, old, share);
+        EXPECT_NEAR(r.pressure * (g1 - g0), law.energy(g1, k_suction) - law.energy(g0, k_suction), 1e-15);
+        EXPECT_DOUBLE_EQ(share * r.balance_pressure, r.pressure);
+        const double h = 1e-10;
+        const double slope =
+            (law.update(g1 + h, old, share).pressure - law.update(g1 - h, old, share).pressure) / (2 * h);
+        EXPECT_NEAR(r.tangent, slope, 1e-5 * law.penalty);
+      }
+}
+
+}  // namespace
+}  // namespace solidus::contact

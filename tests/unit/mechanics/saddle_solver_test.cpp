@@ -1,0 +1,137 @@
+/// The iterative solver of mixed elements: its iterations hardly depend on how thin the melt is, nor on the
+/// mesh, and a factorisation finds the same direction.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mechanics/saddle_solver.hpp"
+#include "plastic_material.hpp"
+
+namespace solidus {
+namespace {
+
+using mechanics::Mapping;
+using mechanics::Stabilisation;
+
+material::Material alloy(double viscosity) {
+  material::Material m = test::elastic_material(7e10, 0.33, 2e-5);
+  m.liquid_viscosity = viscosity;
+  m.phase_changes.push_back({.name = "freezing",
+                             .fraction = material::PhaseFraction::linear(800, 900),
+                             .volume_change = -0.05,
+                             .solidification = true});
+  return m;
+}
+
+/// A cube of tetrahedra on its bottom, whose outer fifth has frozen around the melt; steps of 1 s.
+struct Casting {
+  mesh::Mesh mesh;
+  std::vector<material::Material> materials;
+  algebra::GhostExchange ghosts;
+  std::vector<std::unique_ptr<mechanics::BlockKernel>> blocks;
+  mechanics::BlockHistory history;
+  std::unique_ptr<mechanics::NodalPressure> pressure;
+  std::unique_ptr<algebra::BlockMatrix> matrix;
+  std::unique_ptr<mechanics::SaddleSolver> solver;
+  std::vector<double> temperature, at_rest;
+
+  Casting(int cells, double viscosity, algebra::SolverKind kind, bool shell = true)
+      : mesh(
+            test::make_mesh({.shape = mesh::Shape::tet4, .cells = {cells, cells, cells}, .distortion = 0.1})),
+        materials{alloy(viscosity)},
+        ghosts(mesh),
+        at_rest(3 * mesh.x.size(), 0.0) {
+    for (const mesh::Point& x : mesh.x) {
+      double depth = 1;
+      for (const double coordinate : x) depth = std::min({depth, coordinate, 1 - coordinate});
+      temperature.push_back(shell ? 750 + 600 * depth : 950);
+    }
+    for (const mesh::Block& block : mesh.blocks)
+      blocks.push_back(mechanics::make_mixed_kernel(mesh, block, AnalysisKind::solid, materials[0],
+                                                    Mapping::isothermal, Stabilisation::algebraic));
+    pressure = std::make_unique<mechanics::NodalPressure>(mesh, materials, blocks,
+                                                          std::vector<std::array<double, 3>>{{0, 0, -7e4}});
+    algebra::NodeGraph graph(mesh);
+    for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+    matrix = std::make_unique<algebra::BlockMatrix>(mesh, 3, std::move(graph),
+                                                    algebra::BlockMatrix::Storage::upper);
+    std::vector<char> fixed(at_rest.size(), 0);
+    for (std::size_t node = 0; node < mesh.x.size(); ++node)
+      if (mesh.x[node][2] < 1e-9) std::fill_n(fixed.begin() + static_cast<std::ptrdiff_t>(3 * node), 3, 1);
+    matrix->set_fixed(fixed);
+    solver = std::make_unique<mechanics::SaddleSolver>(
+        mesh, *matrix, *pressure, ghosts,
+        mechanics::SaddleSolverOptions{.kind = kind, .relative_tolerance = 1e-10});
+    history = blocks[0]->initial_history();
+    for (const auto& block : blocks) {
+      block->bind(*matrix);
+      block->prepare({.temperature = temperature,
+                      .pass_temperature = temperature,
+                      .initial_temperature = temperature,
+                      .old_displacement = at_rest,
+                      .held_displacement = at_rest,
+                      .held_history = &history,
+                      .old_history = &history,
+                      .start_history = &history,
+                      .dt = 1,
+                      .effective_dt = 1});
+    }
+    pressure->begin();
+    pressure->set(std::vector<double>(mesh.x.size(), 0.0));
+    matrix->set_zero();
+    for (const auto& block : blocks) block->add_tangent(at_rest, *matrix);
+    solver->assemble();
+  }
+
+  /// K⁻¹ of the weight and of an even shrinking, to a share of their norm.
+  algebra::LinearReport solve(double share, std::vector<double>& d) {
+    const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+    std::vector<double> volume(mesh.x.size(), 0.0), b(4 * n, 0.0);
+    for (const auto& block : blocks) block->add_nodal_volume(1.0, volume);
+    for (std::size_t node = 0; node < n; ++node) {
+      if (!matrix->fixed()[3 * node]) b[3 * node + 2] = -7e4 * volume[node];
+      b[3 * n + node] = 1e-3 * pressure->unit() * volume[node];
+    }
+    d.assign(4 * n, 0.0);
+    return solver->solve(*matrix, b, d, share);
+  }
+  int iterations(double share) {
+    std::vector<double> d;
+    const algebra::LinearReport report = solve(share, d);
+    EXPECT_TRUE(report.converged) << report.reason;
+    return report.iterations;
+  }
+};
+
+TEST(SaddleSolver, IterationsHardlyDependOnTheViscosityOfTheMelt) {
+  for (const bool shell : {true, false}) {
+    std::vector<int> counts;
+    for (const double viscosity : {1.0, 1e3, 1e5, 1e7, 1e9})
+      counts.push_back(Casting(8, viscosity, algebra::SolverKind::multigrid, shell).iterations(1e-6));
+    const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+    EXPECT_LE(*most, 2 * *least) << ::testing::PrintToString(counts);
+    EXPECT_LE(*most, 60) << ::testing::PrintToString(counts);
+  }
+}
+
+TEST(SaddleSolver, IterationsHardlyDependOnTheMesh) {
+  std::vector<int> counts;
+  for (const int cells : {6, 12, 24})
+    counts.push_back(Casting(cells, 1e5, algebra::SolverKind::multigrid).iterations(1e-6));
+  EXPECT_LE(counts.back(), 1.6 * counts.front()) << ::testing::PrintToString(counts);
+}
+
+TEST(SaddleSolver, BothSolversFindTheSameDirection) {
+  std::vector<double> exact, found;
+  EXPECT_TRUE(Casting(6, 1e5, algebra::SolverKind::direct).solve(1e-10, exact).converged);
+  EXPECT_TRUE(Casting(6, 1e5, algebra::SolverKind::multigrid).solve(1e-10, found).converged);
+  double difference = 0, size = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    difference += std::pow(found[i] - exact[i], 2);
+    size += exact[i] * exact[i];
+  }
+  EXPECT_LT(std::sqrt(algebra::global_sum(difference)), 1e-5 * std::sqrt(algebra::global_sum(size)));
+}
+
+}  // namespace
+}  // namespace solidus
