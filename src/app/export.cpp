@@ -20,6 +20,10 @@ ExitCode export_state(const ExportArguments& arguments) {
   print(fmt::format(
       "{}: {} elements at t = {:g} s; equilibrium at the final temperature moved nodes by up to {:.3g} m\n",
       options.file.string(), report.elements, report.time, report.adjusted));
+  if (report.supports > 0)
+    print(fmt::format(
+        "  only contact held a part: {} further degrees of freedom hold its rigid motions in the file\n",
+        report.supports));
   return k_done;
 }
 

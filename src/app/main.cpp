@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "base/errors.hpp"
 #include "base/free_memory.hpp"
@@ -170,6 +171,9 @@ ExitCode parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
+  const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
+  if (run_wanted) listen_to_signals();
   profile::begin();
   give_large_arrays_back();
   // What stands behind "--" is PETSc's; its first argument is the program's name.
@@ -187,6 +191,7 @@ int main(int argc, char** argv) {
   }
 
   start.reset();
+  if (run_wanted && !stop_asked()) listen_to_signals();  // MPI and PETSc may have put theirs in place
   const int own_argc = static_cast<int>(separator - argv);
   const ExitCode code = guarded([&] { return parse_and_run(own_argc, argv); });
   PetscFinalize();

@@ -4,11 +4,11 @@
 #include <petscsys.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 
 #include "app/places.hpp"
+#include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
@@ -26,21 +26,6 @@ fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
   return results_root() / results::default_run_folder(c.file);
 }
 
-volatile std::sig_atomic_t stop_asked = 0;
-
-extern "C" void ask_to_stop(int) {
-  stop_asked = 1;
-}
-
-/// Ctrl-C, `kill` and what a batch system sends before the time is up end the run at the end of its step; the
-/// second time they end it at once.
-void listen_to_signals() {
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
-}
-
 }  // namespace
 
 ExitCode run(const CaseArguments& arguments) {
@@ -52,8 +37,7 @@ ExitCode run(const CaseArguments& arguments) {
   options.progress = rank == 0 ? &std::cout : nullptr;
   options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
   options.restart = arguments.restart;
-  options.stop_asked = [] { return stop_asked != 0; };
-  listen_to_signals();
+  options.stop_asked = stop_asked;
   const model::RunResult result = model::run_case(c, options);
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
   if (!result.finished) {

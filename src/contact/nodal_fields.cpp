@@ -50,6 +50,7 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
   std::vector<SurfaceHeat> heat(now_.points.size());
   if (heat_ && !temperature.empty()) heat = heat_->surface_heat(temperature);
   NodalAverage<k_met> met(n);
+  std::vector<double> paired_area(n, 0.0);
   NodalAverage<k_kept> kept(n);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const PointState& state = now_.points[static_cast<std::size_t>(p)];
@@ -67,6 +68,8 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     const SurfaceHeat& q = heat[static_cast<std::size_t>(p)];
     for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
       const std::size_t side = b < static_cast<std::size_t>(motion.n_slave) ? 0 : 1;
+      if (const auto node = static_cast<std::size_t>(motion.nodes[b]); node < n)
+        paired_area[node] += motion.weight * (side == 0 ? motion.share[b] : -motion.share[b]);
       met.add(
           motion.nodes[b], motion.weight * motion.share[b] * motion.share[b],
           {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)], q.total[side],
@@ -80,6 +83,7 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     fields.opening.push_back(m[0]);
     fields.pressure.push_back(m[1]);
     fields.conductance.push_back(m[2]);
+    fields.paired_area.push_back(paired_area[static_cast<std::size_t>(node)]);
     fields.heat_flux.push_back(m[3]);
     fields.frictional_heat_flux.push_back(m[4]);
     if (!law_.friction) continue;

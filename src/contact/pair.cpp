@@ -55,7 +55,7 @@ double find_penalty(const mesh::Mesh& mesh, const ContactSpec& spec, const Conta
         spec.where,
         fmt::format("contact '{}': a penalty factor needs the stiffness of the bodies", spec.name),
         "a penalty in Pa/m");
-  return spec.penalty * stiffness;
+  return std::min(spec.penalty * stiffness, spec.largest_penalty);
 }
 
 void choose_roles(const mesh::Mesh& mesh, std::span<const double> modulus, ContactSpec& spec) {

@@ -62,6 +62,8 @@ struct ContactNodalFields {
   std::vector<double> opening;      ///< [m], negative: penetration
   std::vector<double> pressure;     ///< t_N [Pa]
   std::vector<double> conductance;  ///< h without radiation [W/(m² K)]; zero without heat
+  /// ∫ N_a dA over what has a partner, of which the values here are means; zero where nothing has [m²].
+  std::vector<double> paired_area;
   /// Into the body of the node, through the gap, the spots and radiation and from friction; and what of it
   /// is by friction (SurfaceHeat). Zero without heat or temperatures [W/m²].
   std::vector<double> heat_flux, frictional_heat_flux;

@@ -1,5 +1,5 @@
-/// The interface that every coupling scheme implements: isothermal and isentropic now, simultaneous and
-/// block-iterative later.
+/// The interface that every coupling scheme implements: isothermal and isentropic split, double pass,
+/// simultaneous and block-iterative.
 #pragma once
 
 #include "coupling/observer.hpp"

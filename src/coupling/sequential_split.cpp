@@ -10,6 +10,23 @@
 
 namespace solidus::coupling {
 
+namespace {
+
+/// x + dt × rate; empty where no rate is known.
+std::vector<double> extrapolated(const std::vector<double>& x, const std::vector<double>& rate, double dt) {
+  std::vector<double> guess(rate.size());
+  for (std::size_t i = 0; i < guess.size(); ++i) guess[i] = x[i] + dt * rate[i];
+  return guess;
+}
+
+std::vector<double> rate(const std::vector<double>& from, const std::vector<double>& to, double dt) {
+  std::vector<double> result(to.size());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = (to[i] - from[i]) / dt;
+  return result;
+}
+
+}  // namespace
+
 SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping) : phases_(std::move(phases)) {
   if (phases_.mechanics != nullptr && phases_.mechanics->mapping() != mapping)
     throw std::invalid_argument("the mechanical phase was built for another split");
@@ -43,18 +60,19 @@ void SequentialSplit::mechanical_phase(const State& old, State& trial, double ti
   ContactWork contact(phases_);
   const std::vector<double>& temperature =
       phases_.heat != nullptr ? old.heat.temperature : phases_.temperature;
-  // A guess may lift a body off what holds it: where there is contact the step starts from where it stands.
-  const bool guesses = phases_.contacts.empty();
-  const std::vector<double>&u = old.mechanics.displacement, &rate = old.displacement_rate;
-  std::vector<double> guess(guesses ? rate.size() : 0);
-  for (std::size_t i = 0; i < guess.size(); ++i) guess[i] = u[i] + dt * rate[i];
+  const std::vector<double> guess = extrapolated(old.mechanics.displacement, old.displacement_rate, dt),
+                            pressure = extrapolated(old.mechanics.pressure, old.pressure_rate, dt);
   const std::vector<double> share = plateau_share(phases_, old.heat);
-  mechanical_pass(
-      phases_, old, trial,
-      {.time = time, .dt = dt, .temperature = temperature, .plateau_share = share, .guess = guess}, effort);
-  trial.displacement_rate.resize(guesses ? u.size() : 0);
-  for (std::size_t i = 0; i < trial.displacement_rate.size(); ++i)
-    trial.displacement_rate[i] = (trial.mechanics.displacement[i] - u[i]) / dt;
+  mechanical_pass(phases_, old, trial,
+                  {.time = time,
+                   .dt = dt,
+                   .temperature = temperature,
+                   .plateau_share = share,
+                   .guess = guess,
+                   .guessed_pressure = pressure},
+                  effort);
+  trial.displacement_rate = rate(old.mechanics.displacement, trial.mechanics.displacement, dt);
+  trial.pressure_rate = rate(old.mechanics.pressure, trial.mechanics.pressure, dt);
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
 }

@@ -16,6 +16,13 @@ namespace {
 // Output times this close to the end of a stage, as a share of its step, are that end.
 constexpr double k_same_time = 1e-9;
 
+/// A state whose change cannot be measured is none to go on from. The same on every process.
+void require_numbers(const StepMeasure& measure) {
+  if (std::isfinite(measure.temperature_error + measure.displacement_error + measure.solid_fraction_change))
+    return;
+  throw StepRejected("coupling: the error of the step is not a number");
+}
+
 }  // namespace
 
 struct Simulation::Progress {
@@ -26,9 +33,9 @@ struct Simulation::Progress {
   std::optional<MeasuredStep> step;
   std::vector<double> outputs;  ///< times at which fields are written, rising
   StepRecord record;            ///< of the step last committed; its rejections are those since
-  double solid_fraction = 1;
-  int saved = -1;       ///< the step whose checkpoint is written
-  bool warned = false;  ///< of a limit that the smallest step exceeds
+  double solid_fraction = 1;    ///< of the committed state
+  int saved = -1;               ///< the step whose checkpoint is written
+  bool warned = false;          ///< of a limit that the smallest step exceeds
   Stop stop;
 };
 
@@ -68,7 +75,8 @@ void Simulation::measure_steps(Progress& p, const StepOptions& step, Rates rates
     p.step.emplace(*scheme_);
 }
 
-void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& from) {
+void Simulation::enter_stage(Progress& p, const SolidFraction& solid_fraction,
+                             const std::optional<Continuation>& from) {
   const Stage& stage = options_.stages[p.stage];
   const bool first = p.stage == 0, staged = stage.of_case > 0;
   const double start = first ? p.committed.time : options_.stages[p.stage - 1].end;
@@ -78,6 +86,7 @@ void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& fro
                      p.committed.mechanics.displacement};
     p.committed.mechanics.dt_before = 0;
     p.committed.displacement_rate.clear();
+    p.committed.pressure_rate.clear();
   } else {
     p.stage_start = from->stage;
   }
@@ -102,6 +111,7 @@ void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& fro
     stage_begins_(p.stage, p.stage_start, anew && !begun ? &p.committed : nullptr);
     scheme_->conditions_changed();
   }
+  p.solid_fraction = solid_fraction(p.committed);
   if (criteria_ != nullptr) criteria_->forget();
   scheme_->synchronise(p.committed);
   scheme_->forget();  // as after a checkpoint of this state
@@ -112,25 +122,25 @@ Outcome Simulation::stopped(const Stop& why, Progress& p, Outcome outcome) {
   return outcome;
 }
 
-Outcome Simulation::run(State initial, double solid_fraction, const std::optional<Continuation>& from) {
+Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
+                        const std::optional<Continuation>& from) {
   Progress p;
   if (criteria_ != nullptr) criteria_->forget();
   p.trial = initial;
   p.committed = std::move(initial);
-  p.solid_fraction = solid_fraction;
   p.saved = from ? from->steps : -1;
   p.record.number = from ? from->steps : 0;
   const auto ahead = std::find_if(options_.stages.begin(), options_.stages.end(),
                                   [&](const Stage& s) { return s.end > p.committed.time; });
   if (ahead == options_.stages.end()) throw std::invalid_argument("the end time must lie after the start");
   p.stage = static_cast<std::size_t>(ahead - options_.stages.begin());
-  enter_stage(p, from);
+  enter_stage(p, solid_fraction, from);
   for (Observer* o : observers_) o->begin(p.committed);
   while (true) {
     if (const std::optional<Outcome> outcome = run_stage(p)) return *outcome;
     if (p.stage + 1 == options_.stages.size()) break;
     ++p.stage;
-    enter_stage(p, {});
+    enter_stage(p, solid_fraction, {});
   }
   for (Observer* o : observers_) o->end(p.committed);
   return Outcome::finished;
@@ -170,6 +180,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
     measure = {std::max(taken.effort.heat.iterations, taken.effort.mechanics.iterations),
                taken.error.temperature, taken.error.displacement,
                std::abs(taken.effort.solid_fraction - p.solid_fraction)};
+    require_numbers(measure);
     if (p.control->too_long(step, measure)) {
       ++p.record.rejected;
       p.record.rejection = strictest(options_.stages[p.stage].step.limits, measure).excess;

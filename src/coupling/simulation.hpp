@@ -62,18 +62,22 @@ class Simulation {
   void at_stage(std::function<void(std::size_t stage, const StageStart&, State* begins)> begins) {
     stage_begins_ = std::move(begins);
   }
+  /// Gives the solid fraction of a committed state, of the bodies that are active in the present stage, as
+  /// StepEffort gives it of the states that follow. Collective.
+  using SolidFraction = std::function<double(const State&)>;
   /// Runs from `initial` to the end time, which must lie ahead. Collective.
-  /// @param solid_fraction  of `initial`, as StepEffort gives it of the states that follow
+  /// @param solid_fraction  asked at the start and whenever a stage begins, because bodies may have left
   /// @param from where the run that `initial` comes from stood; without it a new run begins. Its step size
   /// counts only if the step options are still the same; it must have stood in the stage of this time.
-  Outcome run(State initial, double solid_fraction, const std::optional<Continuation>& from = {});
+  Outcome run(State initial, const SolidFraction& solid_fraction,
+              const std::optional<Continuation>& from = {});
 
  private:
   struct Progress;  ///< what changes from step to step
 
   enum class Try { committed, repeat, stuck };
   /// Begins the stage that holds at the committed time, or goes on in it.
-  void enter_stage(Progress& p, const std::optional<Continuation>& from);
+  void enter_stage(Progress& p, const SolidFraction& solid_fraction, const std::optional<Continuation>& from);
   /// As run(), within the stage; nothing where its end is reached.
   std::optional<Outcome> run_stage(Progress& p);
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);

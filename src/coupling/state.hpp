@@ -17,8 +17,10 @@ struct State {
   /// One per pair; empty, or one that is empty: bodies that have not moved yet.
   std::vector<contact::ContactState> contacts;
   /// (u_n − u_{n−1})/(t_n − t_{n−1}) [m/s], [local node][component]: where Newton's iteration of the next
-  /// step may start. Empty where a run or a stage begins, with contact, and with schemes that do not use it.
+  /// step may start. Empty where a run or a stage begins, and with schemes that do not use it.
   std::vector<double> displacement_rate;
+  /// The same of the nodal pressure of mixed elements [Pa/s], [local node][field].
+  std::vector<double> pressure_rate;
   /// Schemes leave it alone: the simulation brings it to the state that it commits.
   criteria::State criteria;
 };

@@ -117,6 +117,7 @@ struct MechanicalPass {
   std::span<const double> start{};  ///< of Newton's iteration, instead of the iterate's displacement
   /// Another start, taken where it leaves less out of balance.
   std::span<const double> guess{};
+  std::span<const double> guessed_pressure{};  ///< that goes with it [Pa], [local node][field]
 };
 
 class MechanicalPhase : private algebra::NonlinearSystem {

@@ -186,6 +186,8 @@ void MechanicalPhase::look_ahead(const MechanicalPass& pass, std::vector<double>
   std::vector<double> guess = x;
   std::copy(pass.guess.begin(), pass.guess.end(), guess.begin());
   loads_->prescribe(pass.time, std::span(guess).first(n_displacements()));
+  if (pressure_ && !pass.guessed_pressure.empty())
+    pressure_->to_unknowns(pass.guessed_pressure, std::span(guess).subspan(n_displacements()));
   const double here = unbalanced(x);
   if (here <= round_off_) return;
   const double there = unbalanced(guess);

@@ -14,6 +14,7 @@
 #include "model/run_input.hpp"
 #include "model/stage_input.hpp"
 #include "model/time_input.hpp"
+#include "results/run_folder.hpp"
 
 namespace solidus::model {
 
@@ -203,12 +204,25 @@ void check_contacts(const CaseSpec& spec) {
   }
 }
 
+/// The unit of a field in this case: the internal variable of friction may be a slip
+/// (results/state_fields.cpp).
+std::string field_unit(const CaseSpec& spec, const std::string& field) {
+  if (field != "internal_variable") return field_info(field).unit;
+  bool works = false, slips = false;
+  for (const ContactSpec& c : spec.contacts) {
+    if (!c.friction) continue;
+    const bool slip = c.friction->internal_variable == contact::InternalVariable::slip;
+    (slip ? slips : works) = true;
+  }
+  return works && slips ? "1" : slips ? "m" : "N/m";
+}
+
 /// The unit of a probe inside the program, through differences.
 std::string probe_unit(const CaseSpec& spec, const ProbeSpec& probe) {
-  if (probe.kind != ProbeSpec::Kind::difference) return field_info(probe.field).unit;
+  if (probe.kind != ProbeSpec::Kind::difference) return field_unit(spec, probe.field);
   const auto first = std::find_if(spec.probes.begin(), spec.probes.end(),
                                   [&](const ProbeSpec& p) { return p.name == probe.of[0]; });
-  return field_info(first->field).unit;
+  return field_unit(spec, first->field);
 }
 
 /// The unit of an integral follows from the dimension of its group, which only the mesh knows; which global
@@ -228,16 +242,16 @@ void check_profiles(const CaseSpec& spec) {
     const bool plain = std::all_of(p.name.begin(), p.name.end(), [](unsigned char c) {
       return std::isalnum(c) != 0 || c == '_' || c == '-';
     });
-    if (!plain || p.name == "history" || p.name == "steps")
+    if (!plain || results::RunFolder::is_taken(p.name + ".csv"))
       throw InputError(p.where, fmt::format("a file cannot be called '{}.csv' here", p.name),
-                       "letters, digits, _ and -; not history and steps");
+                       "letters, digits, _ and -; not history, steps and pools");
     if (p.columns.empty())
       throw InputError(p.where, fmt::format("the profile '{}' has no [[profile.column]]", p.name));
     check_names(p.columns, "[[profile.column]]");
     for (const ProfileColumnSpec& c : p.columns)
-      if (!units::compatible(c.unit, field_info(c.field).unit))
+      if (!units::compatible(c.unit, field_unit(spec, c.field)))
         throw InputError(c.where, fmt::format("the column '{}' cannot be given in '{}'", c.name, c.unit),
-                         "a unit of " + units::dimension_name(field_info(c.field).unit));
+                         "a unit of " + units::dimension_name(field_unit(spec, c.field)));
   }
 }
 

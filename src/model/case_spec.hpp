@@ -174,7 +174,7 @@ struct ContactSpec {
   Normal normal = Normal::automatic;
   double penetration_tolerance = 0;
   std::optional<double> penalty;  ///< ε_N [N/m³]; absent: from the factor
-  double penalty_factor = 0;      ///< ε_N = factor × E / height of the slave's elements
+  std::optional<double> penalty_factor;  ///< ε_N = factor × E / height of the slave's elements
   double stabilisation = 0;       ///< share of ε_N added to the tangent only
   contact::IntegrationRule integration = contact::IntegrationRule::segments;
   int gauss_degree = 0;

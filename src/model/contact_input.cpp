@@ -14,6 +14,11 @@ namespace solidus::model {
 
 namespace {
 
+/// ε_N over the stiffness of the elements behind a surface.
+constexpr double k_penalty_factor = 10;
+/// By how much the atmosphere moves a liquid skin that it holds on its wall, over what counts as leaving it.
+constexpr double k_wet_share = 0.1;
+
 contact::NormalKind normal_kind(ContactSpec::Normal normal, bool dynamic) {
   using Normal = ContactSpec::Normal;
   switch (normal) {
@@ -92,7 +97,7 @@ std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec) {
     pair.normal = normal_kind(c.normal, spec.dynamics.has_value());
     pair.penetration_tolerance = c.penetration_tolerance;
     pair.penalty_is_factor = !c.penalty;
-    pair.penalty = c.penalty.value_or(c.penalty_factor);
+    pair.penalty = c.penalty.value_or(c.penalty_factor.value_or(k_penalty_factor));
     pair.stabilisation = c.stabilisation;
     pair.integration = c.integration;
     pair.gauss_degree = c.gauss_degree;
@@ -131,6 +136,9 @@ void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
     if (gap > 0 && (least == 0 || gap < least)) least = gap;
   }
   pair.leaving_gap = least;
+  const ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &ContactSpec::name);
+  if (least > 0 && pair.atmosphere > 0 && !c.penalty_factor)
+    pair.largest_penalty = pair.atmosphere / (k_wet_share * least);
 }
 
 }  // namespace solidus::model

@@ -175,10 +175,11 @@ Section<ContactSpec> contact_keys() {
       .positive()
       .doc("Pressure per penetration; without it from `penalty_factor`.");
   s.key("penalty_factor", &C::penalty_factor)
-      .initially(10.0)
       .positive()
       .doc(
-          "Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces.");
+          "Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces. "
+          "Without it and `penalty` the factor is 10; next to a melt the penalty is then at most that with "
+          "which the `atmosphere` moves a liquid skin by 0.1 % of the body's free contraction.");
   s.key("stabilisation", &C::stabilisation)
       .initially(1e-10)
       .range(0, 1)

@@ -15,6 +15,7 @@
 #include "model/fingerprint.hpp"
 #include "model/mesh_input.hpp"
 #include "results/checkpoint.hpp"
+#include "results/deck_supports.hpp"
 #include "results/output_file.hpp"
 
 namespace solidus::model {
@@ -63,6 +64,42 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
   return stress;
 }
 
+/// Mixed triangles around an axis take the hoop work of their pressure at the nodes exactly, and so have
+/// other nodal forces than the stress at their one point. Around them the loads are what that stress
+/// balances, ∫ Bᵀ σ dV.
+void balance_triangles(results::StructuralDeck& deck) {
+  std::vector<char> around(deck.mesh.x.size(), 0);
+  std::vector<double> force(deck.force.size(), 0.0);
+  for (std::size_t b = 0; b < deck.mesh.blocks.size(); ++b) {
+    const mesh::Block& block = deck.mesh.blocks[b];
+    if (!deck.presence.body(block.body)) continue;
+    const mesh::BlockGeometry geometry(deck.mesh, block, deck.kind, mesh::stiffness_rule(block.shape));
+    const auto n = static_cast<std::size_t>(geometry.n_nodes);
+    for (Index e = 0; e < block.size(); ++e) {
+      const Index batch = e / k_lanes;
+      const int lane = static_cast<int>(e % k_lanes);
+      for (int q = 0; q < geometry.n_points; ++q) {
+        const std::array<double, 6>& s =
+            deck.stress[b][static_cast<std::size_t>(e)][static_cast<std::size_t>(q)];
+        const double w = geometry.weight_at(batch, q)[lane];
+        const double hoop =
+            geometry.inverse_radius[static_cast<std::size_t>(batch * geometry.n_points + q)][lane] * s[2];
+        const Lane* const gradients = geometry.gradients_at(batch, q);
+        for (std::size_t a = 0; a < n; ++a) {
+          const auto node = static_cast<std::size_t>(block.element(e)[a]);
+          const double gr = gradients[2 * a][lane], gz = gradients[2 * a + 1][lane];
+          const double value = geometry.values[static_cast<std::size_t>(q) * n + a];
+          force[2 * node] += w * (gr * s[0] + gz * s[3] + value * hoop);
+          force[2 * node + 1] += w * (gz * s[1] + gr * s[3]);
+          if (block.shape == mesh::Shape::tri3) around[node] = 1;
+        }
+      }
+    }
+  }
+  for (std::size_t node = 0; node < around.size(); ++node)
+    for (std::size_t i = 0; i < 2 && around[node] != 0; ++i) deck.force[2 * node + i] = force[2 * node + i];
+}
+
 std::vector<std::vector<Index>> tied_entries(const algebra::Ties& ties, std::size_t n_entries) {
   std::map<GlobalIndex, std::vector<Index>> groups;
   for (std::size_t i = 0; i < n_entries && !ties.empty(); ++i)
@@ -106,7 +143,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
                              .iterate_temperature = temperature},
                             effort);
 
-  ExportReport report{state.time, 0, 0};
+  ExportReport report{state.time, 0, 0, 0};
   for (std::size_t i = 0; i < state.mechanics.displacement.size(); ++i)
     report.adjusted = std::max(report.adjusted,
                                std::abs(still.mechanics.displacement[i] - state.mechanics.displacement[i]));
@@ -124,6 +161,9 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
                                .fixed = a.mechanics->fixed(),
                                .ties = tied_entries(a.mechanics->ties(), still.mechanics.displacement.size()),
                                .force = a.mechanics->applied_forces()};
+  for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
+  deck.supports = results::missing_supports(a.mesh, presence, spec.analysis.kind, deck.fixed, deck.ties);
+  report.supports = deck.supports.size();
   if (options.deformed) deck.displacement = still.mechanics.displacement;
   const std::vector<double> plastic_strain =
       a.mechanics->element_field(mechanics::ElementField::equivalent_plastic_strain);
@@ -139,6 +179,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
     deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], mean);
     report.elements += deck.stress[b].size();
   }
+  if (spec.analysis.kind == AnalysisKind::axisymmetric) balance_triangles(deck);
   results::write_file(options.file, results::structural_deck(deck, options.dialect));
   return report;
 }

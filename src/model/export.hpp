@@ -19,6 +19,7 @@ struct ExportReport {
   double time = 0;      ///< of the checkpoint [s]
   double adjusted = 0;  ///< the largest displacement that equilibrium at the final temperature asks for [m]
   std::size_t elements = 0;
+  std::size_t supports = 0;  ///< degrees of freedom held besides, in parts that only contact held
 };
 
 /// Brings the state of the checkpoint into equilibrium at its own temperature (the phases take turns: the

@@ -13,6 +13,7 @@
 #include "base/log.hpp"
 #include "base/profile.hpp"
 #include "base/units.hpp"
+#include "coupling/contact_work.hpp"
 #include "coupling/simulation.hpp"
 #include "material/library.hpp"
 #include "model/advice.hpp"
@@ -114,6 +115,13 @@ class StopReason : public coupling::Observer {
   double time = 0;
 };
 
+/// With the names of the bodies, which need not be those of their groups.
+results::MeshCounts counts(const CaseSpec& spec, const mesh::Mesh& mesh) {
+  results::MeshCounts counts = results::count(mesh);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) counts.elements_of_body[b].first = spec.bodies[b].name;
+  return counts;
+}
+
 bool melts(const std::vector<material::Material>& materials) {
   return std::any_of(materials.begin(), materials.end(),
                      [](const material::Material& m) { return m.solidification() != nullptr; });
@@ -127,6 +135,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.profiles = profiles(spec);
   r.fields = spec.output.fields;
   r.stages = !spec.stages.empty();
+  r.steady = spec.time.steady;
   r.progress = options.progress;
   r.progress_options.end = spec.time.end.value_or(0);
   r.progress_options.heat = spec.has_heat();
@@ -137,7 +146,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.summary.case_file = c.file.string();
   r.summary.variant = results::default_run_folder(c.file).filename().string();
   r.summary.title = spec.title;
-  r.summary.mesh = results::count(a.mesh);
+  r.summary.mesh = counts(spec, a.mesh);
   if (a.mechanics)
     for (std::size_t b = 0; b < a.mechanics->melt().size(); ++b)
       if (const material::MeltModulus& melt = a.mechanics->melt()[b]; melt.modulus > 0)
@@ -156,6 +165,12 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
     record.heat = {report.newton.iterations, report.newton.linear_iterations,
                    report.newton.residuals.empty() ? 0.0 : report.newton.residuals.back(),
                    MPI_Wtime() - start};
+    // Joules are those of one second.
+    for (const heat::ConditionHeat& condition : report.balance.conditions)
+      record.energy.heat_in += condition.heat;
+    record.energy.entropy_in = report.balance.entropy_in;
+    record.energy.heat_exchanged = report.balance.exchanged;
+    coupling::settle_contacts(a.phases, steady.heat.temperature, report.balance.contributions, record.energy);
     coupling::summarise(a.phases, steady, record);
   } catch (const StepRejected& rejected) {
     const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};
@@ -203,10 +218,10 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   // A state is large: the one at the start is not needed beside those of the run.
   coupling::State start = std::move(from ? from->state : a.initial);
   a.initial = {};
-  coupling::StepEffort at_start;
-  coupling::summarise(a.phases, start, at_start);
-  const coupling::Outcome outcome = simulation.run(std::move(start), at_start.solid_fraction,
-                                                   from ? std::optional(from->continuation) : std::nullopt);
+  const coupling::Outcome outcome = simulation.run(
+      std::move(start),
+      [&a](const coupling::State& state) { return a.heat ? a.heat->mean_solid_fraction(state.heat) : 1.0; },
+      from ? std::optional(from->continuation) : std::nullopt);
   if (outcome == coupling::Outcome::finished) return {};
   std::vector<CouplingEstimate> couplings;
   if (spec.coupled() && spec.coupling.scheme == CouplingSpec::Scheme::isothermal)
@@ -249,7 +264,7 @@ CheckedRun check_run(const Case& c) {
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
-  CheckedRun checked{results::count(a.mesh), {}};
+  CheckedRun checked{counts(c.spec, a.mesh), {}};
   if (a.phases.audits_stability()) checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh);
   return checked;
 }
@@ -284,7 +299,9 @@ RunResult run_case(const Case& c, const RunOptions& options) {
         "body '{}': its melt has the modulus 2G = {:.3g} Pa in every step, {}; its viscosity is that times "
         "the step",
         melt.body, melt.modulus, melt.against);
-  const results::RunFolder folder(options.folder, c.toml(), options.restart);
+  std::vector<std::string> tables;
+  for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
+  const results::RunFolder folder(options.folder, c.toml(), options.restart, tables);
   r.summary.seconds.emplace_back("mesh", loaded - start);
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
   results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));

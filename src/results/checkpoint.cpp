@@ -165,6 +165,8 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   if (in.text("first_guess") == k_known) {
     c.state.displacement_rate.resize(c.state.mechanics.displacement.size());
     take_nodes(in, "rate_of_last_step", nodes, c.state.displacement_rate);
+    c.state.pressure_rate.resize(c.state.mechanics.pressure.size());
+    take_nodes(in, "pressure_rate_of_last_step", nodes, c.state.pressure_rate);
   }
   mechanics::MechanicalState& mechanics = c.state.mechanics;
   // A run that went on with backward Euler left no history before the last: the next step is one too.
@@ -230,6 +232,7 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   if (c.continuation.stage.number > 0) nodal("stage_displacement", c.continuation.stage.displacement);
   out.text("first_guess", algebra::any_process(!c.state.displacement_rate.empty()) ? k_known : "unknown");
   nodal("rate_of_last_step", c.state.displacement_rate);
+  nodal("pressure_rate_of_last_step", c.state.pressure_rate);
   const coupling::Rates& rates = c.continuation.rates;
   out.text("rates", rates.known() ? k_known : "unknown");
   if (rates.known()) {

@@ -17,6 +17,17 @@ std::string number_text(double value) {
   return fmt::format("{}", value == 0 ? 0.0 : value);
 }
 
+std::vector<double> last_row(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line, last, cell;
+  std::getline(file, line);  // the header
+  while (std::getline(file, line)) last = line;
+  std::vector<double> row;
+  for (std::istringstream cells(last); std::getline(cells, cell, ',');)
+    row.push_back(std::strtod(cell.c_str(), nullptr));
+  return row;
+}
+
 std::string csv_text(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string out = "\"";

@@ -48,6 +48,8 @@ class CsvTable {
   OutputFile file_;
 };
 
+/// The last row of a table of numbers; empty where there is none.
+std::vector<double> last_row(const std::filesystem::path& path);
 /// The shortest text that reads back as the same number.
 std::string number_text(double value);
 /// A text as one CSV cell, quoted if it has to be.

@@ -26,6 +26,9 @@ struct Field {
   Place place = Place::node;
   std::span<const double> values;                     ///< empty where they are computed
   std::function<std::vector<double>()> compute = {};  ///< local to this process; empty: there are values
+  /// The part of the surface around a node that its value holds for, [local node]: what means and integrals
+  /// over a group count it with. Empty: all of it.
+  std::span<const double> covered = {};
 
   /// The values, computed ones in `storage`. Who reads several times keeps what it got.
   std::span<const double> read(std::vector<double>& storage) const;

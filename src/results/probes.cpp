@@ -264,7 +264,7 @@ void Probes::take(const Sample& sample, const Field& field, std::span<const doub
   for (const auto& [entity, weight] : sample.weights) {
     const double value = component_of(field, values, entity, sample.component);
     if (sample.reduce == Reduce::sum) {
-      to.sum += weight * value;
+      to.sum += weight * value * (field.covered.empty() ? 1.0 : field.covered[entity]);
       continue;
     }
     // Written so that a NaN stays and is found in the end, which std::max would lose.

@@ -75,7 +75,7 @@ int process() {
 }  // namespace
 
 void check_output(const mesh::Mesh& mesh, const coupling::Phases& phases, const RecorderOptions& options) {
-  const StateFields fields(mesh, phases);
+  const StateFields fields(mesh, phases, options.kind);
   const Probes probes(mesh, options.kind, options.probes, fields.bodies(), global_readings(phases, options));
   for (const Profile& profile : options.profiles)
     const ProfileTable table(mesh, options.kind, profile, fields.bodies());
@@ -89,7 +89,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       phases_(phases),
       options_(std::move(options)),
       rank_(process()),
-      fields_(mesh, phases),
+      fields_(mesh, phases, options_.kind),
       probes_(mesh, options_.kind, options_.probes, fields_.bodies(), global_readings(phases, options_)),
       globals_(global_columns(phases, options_, probes_.columns())),
       output_(options_.continue_from ? FieldOutput(folder, mesh, options_.continue_from->state.time)
@@ -144,13 +144,18 @@ void Recorder::begin(const coupling::State& state) {
     options_.summary.steps = options_.continue_from->continuation.steps;
     options_.summary.rejected = options_.continue_from->rejected;
     last_row_ = history_row(state.time);
+    // Stresses follow with the first step: a run that stops before it ends with the row that it has.
+    on_first_process([&] {
+      const std::vector<double> row = last_row(folder_.history());
+      if (row.size() == last_row_.size()) last_row_ = row;
+    });
     return;
   }
   globals_.start(initial);
   if (criteria_probed_) fields_.update_criteria(state);
   add_history_row(state.time);
   add_pools(state);
-  write_fields(state);
+  if (!options_.steady) write_fields(state);
 }
 
 void Recorder::step(const coupling::StepRecord& record, const coupling::State& state) {

@@ -30,6 +30,7 @@ struct RecorderOptions {
   ProgressOptions progress_options;
   bool melting = true;                      ///< a material can melt
   bool stages = false;                      ///< the run has stages
+  bool steady = false;                      ///< one state without a time: fields of it alone
   Fingerprint fingerprint;                  ///< of the case, for checkpoints
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
   Summary summary;  ///< what is known before the run: names, mesh, seconds of setting up

@@ -27,18 +27,39 @@ bool written_by_us(const fs::path& case_file) {
   return std::getline(file, line) && line == k_marker;
 }
 
-void check_owner(const fs::path& root) {
-  if (written_by_us(root / "case.toml")) return;
+/// The tables NAME.csv of [[profile]] sections that the earlier run of this folder wrote.
+std::vector<std::string> tables_of(const fs::path& case_file) {
+  std::vector<std::string> tables;
+  if (!written_by_us(case_file)) return tables;
+  constexpr std::string_view k_name = "name = \"";
+  std::ifstream file(case_file);
+  bool in_profile = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("[")) in_profile = line == "[[profile]]";
+    if (in_profile && line.starts_with(k_name) && line.ends_with("\""))
+      tables.push_back(line.substr(k_name.size(), line.size() - k_name.size() - 1) + ".csv");
+  }
+  return tables;
+}
+
+/// @param ours    tables that the earlier run of this folder wrote
+/// @param tables  those that this run writes
+void check_owner(const fs::path& root, const std::vector<std::string>& ours,
+                 std::span<const std::string> tables) {
   // A link is the user's wish to have the file elsewhere (it is written through), not a stranger's file.
-  const auto foreign = [&](const char* name) {
+  const auto foreign = [&](const std::string& name) {
     return fs::exists(root / name) && !fs::is_symlink(root / name);
   };
-  std::vector<const char*> names(k_files.begin(), k_files.end());
-  names.insert(names.begin(), "case.toml");
-  for (const char* name : names)
+  std::vector<std::string> names;
+  if (!written_by_us(root / "case.toml")) {
+    names = {"case.toml"};
+    names.insert(names.end(), k_files.begin(), k_files.end());
+  }
+  for (const std::string& table : tables)
+    if (std::find(ours.begin(), ours.end(), table) == ours.end()) names.push_back(table);
+  for (const std::string& name : names)
     if (foreign(name))
-      throw OutputError(root.string(),
-                        std::string("this folder holds a ") + name + " that Solidus did not write",
+      throw OutputError(root.string(), "this folder holds a " + name + " that Solidus did not write",
                         "choose another folder with -o, or move that file away");
 }
 
@@ -70,12 +91,14 @@ bool is_field_file(std::string_view name) {
 }
 
 // Checkpoints first: a run that is killed in between must not seem to have one.
-void remove_old(const fs::path& root) {
+void remove_old(const fs::path& root, const std::vector<std::string>& tables) {
   for (const char* name : {"state.h5", "previous.h5", "state.h5.part"})
     fs::remove(root / "checkpoint" / name);
-  for (const char* name : k_files) {
+  std::vector<std::string> names(k_files.begin(), k_files.end());
+  names.insert(names.end(), tables.begin(), tables.end());
+  for (const std::string& name : names) {
     if (!fs::is_symlink(root / name)) fs::remove(root / name);
-    fs::remove(root / (std::string(name) + ".part"));
+    fs::remove(root / (name + ".part"));
   }
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(root / "fields"))
@@ -91,12 +114,19 @@ fs::path default_run_folder(const fs::path& case_file) {
   return fs::path("results") / full.parent_path().filename() / (variant == "case" ? "default" : variant);
 }
 
-RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool go_on) : root_(std::move(root)) {
+bool RunFolder::is_taken(std::string_view file) {
+  return std::find(k_files.begin(), k_files.end(), file) != k_files.end();
+}
+
+RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool go_on,
+                     std::span<const std::string> tables)
+    : root_(std::move(root)) {
   on_first_process([&] {
     try {
-      check_owner(root_);
+      const std::vector<std::string> ours = tables_of(root_ / "case.toml");
+      check_owner(root_, ours, tables);
       fs::create_directories(fields());
-      if (!go_on) remove_old(root_);
+      if (!go_on) remove_old(root_, ours);
     } catch (const fs::filesystem_error& error) {
       throw OutputError(root_.string(), "cannot make the results folder: " + error.code().message(),
                         "choose another folder with -o");

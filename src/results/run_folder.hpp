@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace solidus::results {
@@ -20,10 +22,15 @@ class RunFolder {
  public:
   /// Creates the folder, removes what an earlier run of ours left there and writes case.toml. Files that are
   /// not ours stay; links are kept and written through. Collective. Throws OutputError on every process when
-  /// the folder cannot be made or written, or holds a case.toml, history.csv ... that Solidus did not write.
+  /// the folder cannot be made or written, or holds a case.toml, history.csv ... or a table that Solidus did
+  /// not write.
   /// @param resolved_case  text of case.toml
   /// @param go_on  a run goes on: what it left stays
-  RunFolder(std::filesystem::path root, std::string_view resolved_case, bool go_on = false);
+  /// @param tables  names of further files that the run writes there
+  RunFolder(std::filesystem::path root, std::string_view resolved_case, bool go_on = false,
+            std::span<const std::string> tables = {});
+  /// Whether the run itself writes a file of this name.
+  static bool is_taken(std::string_view file);
 
   const std::filesystem::path& root() const { return root_; }
   std::filesystem::path history() const { return root_ / "history.csv"; }

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <string_view>
+
+#include "mesh/block_geometry.hpp"
 
 namespace solidus::results {
 
@@ -14,11 +17,16 @@ struct FieldName {
 };
 // Of contact surfaces; and what friction adds up, which a surface keeps when its partner has gone.
 constexpr FieldName k_contact[] = {{"gap", "m"}, {"contact_pressure", "Pa"}, {"conductance", "W/m2/K"}};
+constexpr const char* k_internal_variable = "internal_variable";
 constexpr FieldName k_remembered[] = {{"slip", "m"},
-                                      {"internal_variable", "N/m"},
+                                      {k_internal_variable, "N/m"},
                                       {"friction_coefficient", "1"},
                                       {"friction_dissipation", "J/m2"},
                                       {"wear_depth", "m"}};
+
+/// Per area of what touches: a surface that is covered in part carries them there alone.
+constexpr std::string_view k_of_area[] = {"contact_pressure", "contact_heat_flux", "frictional_heat_flux",
+                                          "friction_traction"};
 
 using mechanics::ElementField;
 struct ElementFieldName {
@@ -41,6 +49,17 @@ bool rubs(const contact::ContactPair* pair) {
   return pair->spec().friction.has_value();
 }
 
+/// Of ζ_c: work per area, or a slip; a mere number where pairs differ.
+const char* internal_variable_unit(const coupling::Phases& phases) {
+  bool works = false, slips = false;
+  for (const contact::ContactPair* pair : phases.contacts) {
+    if (!rubs(pair)) continue;
+    const bool slip = pair->spec().friction->internal_variable == contact::InternalVariable::slip;
+    (slip ? slips : works) = true;
+  }
+  return works && slips ? "1" : slips ? "m" : "N/m";
+}
+
 bool heats(const contact::ContactPair* pair) {
   return pair->spec().heat.has_value();
 }
@@ -55,8 +74,9 @@ bool with_friction(const coupling::Phases& phases) {
 
 }  // namespace
 
-StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
+StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases, AnalysisKind kind)
     : mesh_(mesh), phases_(phases), ghosts_(mesh) {
+  find_side_areas(kind);
   if (phases.heat != nullptr) {
     add("temperature", "K", 1, Place::node);
     add("solid_fraction", "1", 1, Place::node);
@@ -83,7 +103,14 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
     const std::vector<double>& values = add(field.name, field.unit, components, Place::node);
     values_.back()->of_contact = true;
     contact.add({field.name, field.unit, components, Place::node, values});
-    bodies_.add({field.name, field.unit, components, Place::node, values});
+    const bool of_area = std::ranges::find(k_of_area, std::string_view(field.name)) != std::end(k_of_area);
+    bodies_.add({field.name,
+                 field.unit,
+                 components,
+                 Place::node,
+                 values,
+                 {},
+                 of_area ? std::span<const double>(covered_) : std::span<const double>()});
   };
   for (const FieldName& field : k_contact) add_everywhere(field, 1);
   if (with_heat(phases)) {
@@ -92,13 +119,38 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases)
   }
   if (with_friction(phases)) {
     add_everywhere({"friction_traction", "Pa"}, phases.mechanics->components());
-    for (const FieldName& field : k_remembered) add_everywhere(field, 1);
+    for (const FieldName& field : k_remembered) {
+      const bool internal = std::string_view(field.name) == k_internal_variable;
+      add_everywhere({field.name, internal ? internal_variable_unit(phases) : field.unit}, 1);
+    }
     add_everywhere({"contact_status", "1"}, 1);
     if (phases.heat != nullptr) add_everywhere({"interface_temperature", "K"}, 1);
   }
   for (const contact::ContactPair* pair : phases.contacts)
     for (const std::string& surface : {pair->spec().slave, pair->spec().master})
       if (surface == pair->spec().slave || !pair->spec().rigid_master) surfaces_[surface] = contact;
+}
+
+void StateFields::find_side_areas(AnalysisKind kind) {
+  if (phases_.contacts.empty()) return;
+  covered_.assign(mesh_.x.size(), 0.0);
+  for (const contact::ContactPair* pair : phases_.contacts) {
+    auto& sides = side_area_.emplace_back();
+    for (std::size_t side = 0; side < 2; ++side) {
+      sides[side].assign(mesh_.x.size(), 0.0);
+      const auto surface = mesh_.surfaces.find(side == 0 ? pair->spec().slave : pair->spec().master);
+      if (surface == mesh_.surfaces.end()) continue;  // a rigid one
+      for (const mesh::Block& faces : surface->second.faces) {
+        const mesh::FaceGeometry g(mesh_, faces, kind, mesh::gauss_rule(faces.shape, 4));
+        const auto n = static_cast<std::size_t>(g.n_nodes), n_points = static_cast<std::size_t>(g.n_points);
+        for (Index f = 0; f < g.n_faces; ++f)
+          for (std::size_t q = 0; q < n_points; ++q)
+            for (std::size_t a = 0; a < n; ++a)
+              sides[side][static_cast<std::size_t>(faces.element(f)[a])] +=
+                  g.values[q * n + a] * g.weight[static_cast<std::size_t>(f) * n_points + q];
+      }
+    }
+  }
 }
 
 std::vector<double>& StateFields::add(std::string name, std::string unit, int components, Place place) {
@@ -168,7 +220,10 @@ void StateFields::update_contacts(std::span<const double> temperature) {
   std::vector<double>&gap = *by_name_["gap"], &pressure = *by_name_["contact_pressure"],
   &conductance = *by_name_["conductance"];
   std::vector<char> seen(gap.size(), 0);
-  for (const contact::ContactPair* pair : phases_.contacts) {
+  std::fill(covered_.begin(), covered_.end(), 0.0);
+  for (std::size_t number = 0; number < phases_.contacts.size(); ++number) {
+    const contact::ContactPair* pair = phases_.contacts[number];
+    const auto& [slave_area, master_area] = side_area_[number];
     const contact::ContactNodalFields fields = pair->nodal_fields(temperature);
     std::vector<char> closest(fields.nodes.size(), 0);
     for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
@@ -178,12 +233,16 @@ void StateFields::update_contacts(std::span<const double> temperature) {
       gap[i] = fields.opening[k];
       pressure[i] = fields.pressure[k];
       conductance[i] = fields.conductance[k];
+      // More than all of it: a rule of few points at the rim of a quadratic face.
+      const double area = std::max(slave_area[i], master_area[i]);
+      covered_[i] = area > 0 ? std::clamp(fields.paired_area[k] / area, 0.0, 1.0) : 0.0;
     }
     update_heat(fields, closest);
     if (phases_.mechanics != nullptr && rubs(pair)) update_friction(fields, closest);
   }
   for (const auto& v : values_)
     if (v->of_contact) ghosts_.update(v->values, v->components);
+  ghosts_.update(covered_, 1);
 }
 
 // Of the closest partner.

@@ -22,7 +22,7 @@ namespace solidus::results {
 /// (criteria/criterion.hpp). Those exist that the analysis has.
 class StateFields {
  public:
-  StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases);
+  StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases, AnalysisKind kind);
 
   /// Takes the values of a state that the phases have just reached and committed (stresses and gaps are those
   /// of their last solve). Fields of elements are computed when they are read, and stay those of this moment
@@ -46,6 +46,7 @@ class StateFields {
     std::function<std::vector<double>()> compute;  ///< instead of values
   };
   std::vector<double>& add(std::string name, std::string unit, int components, Place place);
+  void find_side_areas(AnalysisKind kind);
   void add_elements();
   void add_criteria();
   void update_contacts(std::span<const double> temperature);
@@ -58,6 +59,9 @@ class StateFields {
   algebra::GhostExchange ghosts_;
   std::vector<std::unique_ptr<Values>> values_;  // stable addresses: the sets hold views
   std::map<std::string, std::vector<double>*> by_name_;
+  /// Of the sides of each pair, slave and master: ∫ N_a dA, [local node], owned ones complete [m²].
+  std::vector<std::array<std::vector<double>, 2>> side_area_;
+  std::vector<double> covered_;  ///< Field::covered of tractions and fluxes of contact
   FieldSet bodies_;
   std::map<std::string, FieldSet> surfaces_;
 };

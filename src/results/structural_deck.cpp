@@ -22,6 +22,8 @@ namespace {
 /// suffixes). Two names that become alike get numbers.
 class Names {
  public:
+  /// @param kind, name  of a set that the deck makes itself
+  void reserve(const std::string& kind, const std::string& name) { used_.insert(kind + name); }
   const std::string& operator()(const std::string& kind, const std::string& name) {
     std::string& text = given_[kind + "\n" + name];
     if (!text.empty()) return text;
@@ -49,6 +51,7 @@ class Writer {
         calculix_(dialect == Dialect::calculix),
         components_(static_cast<std::size_t>(displacement_components(deck.kind))) {
     number_elements();
+    names_.reserve("nset", k_all);
   }
 
   std::string text() {
@@ -67,6 +70,8 @@ class Writer {
   }
 
  private:
+  static constexpr const char* k_all = "ALL";
+
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
@@ -94,7 +99,7 @@ class Writer {
   }
 
   void nodes() {
-    line("*NODE, NSET=ALL");
+    line("*NODE, NSET={}", k_all);
     for (Index i = 0; i < d_.mesh.n_nodes(); ++i) {
       if (!d_.presence.node(i)) continue;
       mesh::Point x = d_.mesh.x[static_cast<std::size_t>(i)];
@@ -129,8 +134,9 @@ class Writer {
     }
   }
 
-  const std::string& body_set(int body) {
-    return names_("elset", d_.mesh.bodies[static_cast<std::size_t>(body)].name);
+  const std::string& body_set(int body) { return names_("elset", name_of(static_cast<std::size_t>(body))); }
+  const std::string& name_of(std::size_t body) const {
+    return d_.body_names.empty() ? d_.mesh.bodies[body].name : d_.body_names[body];
   }
 
   void sets() {
@@ -194,7 +200,7 @@ class Writer {
 
   void material(std::size_t body) {
     const material::Material& m = d_.materials[body];
-    line("*MATERIAL, NAME={}", names_("material", d_.mesh.bodies[body].name));
+    line("*MATERIAL, NAME={}", names_("material", name_of(body)));
     line("*DENSITY");
     line("{:.10g},", m.density);
     line("*ELASTIC");
@@ -228,7 +234,7 @@ class Writer {
     for (std::size_t b = 0; b < d_.mesh.bodies.size(); ++b) {
       if (!d_.presence.body(static_cast<int>(b))) continue;
       line("*SOLID SECTION, ELSET={}, MATERIAL={}", body_set(static_cast<int>(b)),
-           names_("material", d_.mesh.bodies[b].name));
+           names_("material", name_of(b)));
       if (d_.kind == AnalysisKind::plane_strain) line("1.,");
     }
   }
@@ -306,6 +312,15 @@ class Writer {
       }
     }
     if (!boundary.empty()) out_ += "*BOUNDARY\n" + boundary;
+    if (!d_.supports.empty()) {
+      line(
+          "** Of a part that only contact held: these hold its rigid motions and take no force while loads "
+          "are in");
+      line("** equilibrium. Put your own supports in their place.");
+      line("*BOUNDARY");
+      for (const Index entry : d_.supports)
+        line("{}, {}, {}", node(node_of(entry)), component_of(entry), component_of(entry));
+    }
     if (!loads.empty()) out_ += "*CLOAD\n" + loads;
     if (calculix_) {
       out_ += "*NODE FILE\nU\n*EL FILE\nS\n";

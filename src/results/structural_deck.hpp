@@ -37,8 +37,11 @@ struct StructuralDeck {
   std::vector<std::vector<std::vector<std::array<double, 6>>>> stress;
   std::vector<std::vector<double>> plastic_strain;  ///< equivalent, [block][element]; empty: elastic
   std::span<const char> fixed;                      ///< [node][component]: held where they are
-  std::vector<std::vector<Index>> ties;             ///< degrees of freedom that move as one
-  std::vector<double> force;                        ///< of loads and contact, [node][component] [N]
+  std::vector<Index> supports =
+      {};  ///< held besides, for want of contact (deck_supports.hpp), as [node][component]
+  std::vector<std::string> body_names = {};  ///< of the element sets and materials; empty: those of the mesh
+  std::vector<std::vector<Index>> ties;      ///< degrees of freedom that move as one
+  std::vector<double> force;                 ///< of loads and contact, [node][component] [N]
 };
 
 /// Throws std::invalid_argument for a shape that neither program has.

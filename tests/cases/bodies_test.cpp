@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -204,6 +205,22 @@ TEST_F(Bodies, GoOnWithTheSameBitsBeforeAtAndAfterTheyLeave) {
   k_here.expect_to_go_on("conducting", k_shake_out, 14, {"body.sand.physics=heat"});
 }
 
+TEST_F(Bodies, ARunThatStopsRightAfterItWentOnKeepsWhatItsSummarySaid) {
+  const std::string file = k_here.write("again.toml", k_shake_out);
+  const auto stop = [&](bool restart, int steps) {
+    solidus::model::RunOptions options;
+    options.folder = k_here.root() / "again";
+    options.restart = restart;
+    int asked = 0;
+    options.stop_asked = [&asked, steps] { return asked++ == steps; };
+    EXPECT_FALSE(solidus::model::run_case(solidus::model::load_case(file), options).finished);
+    return summary("again", "sxx[MPa]");
+  };
+  const double stress = stop(false, 6);
+  EXPECT_GT(stress, 1);
+  EXPECT_EQ(stop(true, 0), stress);
+}
+
 // Sand of 2000 GPa against sand that stands still by definition: what is left of its yielding is the bound of
 // the displacements, 1e-4 of the shrinkage, and temperatures feel displacements by the work of stresses
 // alone.
@@ -399,6 +416,68 @@ TEST_F(Bodies, ACheckpointIsOfTheBodiesThatWereThere) {
     EXPECT_THAT(error.what(),
                 HasSubstr("'part, sand in cool', that of this case 'part, sand that only conducts in cool'"));
   }
+}
+
+/// A solid part under a molten riser that is taken away as melt.
+const std::string k_riser = R"(title = "A riser that leaves as melt"
+stage = [
+  { name = "pour", duration = "0.4 s", step = "0.1 s" },
+  { name = "cool", duration = "2 s", step = "0.1 s" },
+]
+[analysis]
+kind = "plane_strain"
+physics = "heat"
+[mesh]
+shape = "two_blocks"
+element = "quad4"
+[mesh.two_blocks]
+lower = ["40 mm", "20 mm"]
+upper = ["40 mm", "20 mm"]
+lower_divisions = [4, 4]
+upper_divisions = [4, 4]
+gap = "1 mm"
+[time]
+adaptive = true
+[criteria]
+[[body]]
+name = "lower"
+material = "aluminium_alsi7mg"
+initial_temperature = "300 degC"
+[[body]]
+name = "upper"
+material = "aluminium_alsi7mg"
+initial_temperature = "700 degC"
+stages = "pour"
+[[thermal_condition]]
+name = "air"
+group = "lower_y_min"
+kind = "film"
+coefficient = "200 W/m2/K"
+ambient = "20 degC"
+)";
+
+// What a body that leaves takes away is no change that a step makes.
+TEST_F(Bodies, ThatLeaveAsMeltShortenNoStep) {
+  const CaseRun r = k_here.run("riser", k_riser);
+  ASSERT_TRUE(r.finished) << r.reason;
+  EXPECT_THAT(r.steps.at("rejected[1]"), ::testing::Each(0.0));
+  EXPECT_THAT(solidus::logging::warnings(), ::testing::Not(::testing::Contains(HasSubstr("steps down"))));
+  EXPECT_NEAR(at(r.history, "solid_fraction[1]", 0.4), 0.5, 1e-9);
+  EXPECT_EQ(at(r.history, "solid_fraction[1]", 2.4), 1);
+  const std::size_t in_pour = static_cast<std::size_t>(std::count_if(
+      r.steps.at("time[s]").begin(), r.steps.at("time[s]").end(), [](double t) { return t <= 0.4; }));
+  k_here.expect_to_go_on("riser_at", k_riser, static_cast<int>(in_pour));
+  k_here.expect_to_go_on("riser_after", k_riser, static_cast<int>(in_pour) + 1);
+}
+
+TEST_F(Bodies, ThatLeaveAsMeltHaveNotFrozen) {
+  ASSERT_TRUE(k_here.run("riser_pools", k_riser).finished);
+  const auto pools = solidus::testing::read_csv(k_here.root() / "riser_pools/pools.csv");
+  ASSERT_FALSE(pools.at("frozen_at[s]").empty());
+  EXPECT_THAT(pools.at("frozen_at[s]"), ::testing::Each(-1.0));
+  EXPECT_EQ(pools.at("volume[m3]").back(), 0);  // the last row of the pool, in the first step without it
+  EXPECT_GT(pools.at("time[s]").back(), 0.4);
+  EXPECT_LT(pools.at("time[s]").back(), 0.6);
 }
 
 TEST_F(Bodies, WhatNamesAStageInWhichItsBodyHasGoneIsRefused) {

@@ -188,6 +188,18 @@ TEST_F(Restart, APhysicsThatCannotGoOnLeavesACheckpointAndAdvice) {
   EXPECT_EQ(rest.code, 0) << rest.output;
 }
 
+// The case comes through a pipe that nobody has filled yet: the program has started, but not read its case.
+TEST_F(Restart, ASignalBeforeTheFirstStepEndsTheRunInGoodOrder) {
+  fs::create_directories(root());
+  const std::string pipe = "'" + (root() / "case.toml").string() + "'";
+  const Outcome stopped = shell("(mkfifo " + pipe + "; '" SOLIDUS_BINARY_DIR "/solidus' run " + pipe +
+                                " -o '" + (root() / "early").string() + "' & p=$!; exec 9>" + pipe +
+                                "; kill -USR1 $p; echo 'include = \"" SOLIDUS_SOURCE_DIR
+                                "/cases/aluminium_cylinder/case.toml\"' >&9; exec 9>&-; wait $p)");
+  EXPECT_EQ(stopped.code, 2) << stopped.output;
+  EXPECT_THAT(stopped.output, HasSubstr("stopped as asked at t = 0 s"));
+}
+
 TEST_F(Restart, ASignalEndsTheRunAfterItsStepAndTheRestGivesTheSameBits) {
   const std::string steps = "--set time.step='\"0.02 s\"'";
   ASSERT_EQ(run("whole", steps).code, 0);

@@ -98,7 +98,8 @@ Diary run(QuenchedBar& bar, ErrorControl control, double temperature_error) {
                                   coupling::ErrorEstimate(bar.norm));
   Diary diary;
   simulation.add(diary);
-  EXPECT_EQ(simulation.run(bar.start, 1.0), coupling::Outcome::finished);
+  EXPECT_EQ(simulation.run(bar.start, [](const coupling::State&) { return 1.0; }),
+            coupling::Outcome::finished);
   return diary;
 }
 

@@ -41,6 +41,10 @@ State uniform(const mesh::Mesh& mesh) {
   return state;
 }
 
+double solid_fraction_of(const State& state) {
+  return 1 - state.heat.temperature.front() / k_start;
+}
+
 /// What the fake schemes saw and shall do.
 struct Script {
   std::set<int> fail_at;             ///< calls of advance() that are rejected, from 1
@@ -69,7 +73,7 @@ class Relaxation : public coupling::CouplingScheme {
     trial.time = time;
     coupling::StepEffort effort;
     effort.heat.iterations = script_.iterations;
-    effort.solid_fraction = 1 - trial.heat.temperature.front() / k_start;
+    effort.solid_fraction = solid_fraction_of(trial);
     return effort;
   }
 
@@ -120,7 +124,7 @@ class Adaptive : public ::testing::TestWithParam<ErrorControl> {
         std::make_unique<Relaxation>(script_), o,
         coupling::ErrorEstimate(coupling::BodyNorm(mesh_, AnalysisKind::plane_strain)));
     simulation.add(diary_);
-    return simulation.run(uniform(mesh_), 0.0);
+    return simulation.run(uniform(mesh_), &solid_fraction_of);
   }
   double before(std::size_t step) const { return diary_.states[step].heat.temperature.front(); }
 };
@@ -257,7 +261,7 @@ TEST_P(Adaptive, GoesOnFromACheckpointWithTheSameBits) {
         coupling::ErrorEstimate(coupling::BodyNorm(mesh_, AnalysisKind::plane_strain)));
     simulation.add(diary_);
     const auto& [continuation, state] = whole.checkpoints[k];
-    simulation.run(state, whole.steps[k].solid_fraction, continuation);
+    simulation.run(state, &solid_fraction_of, continuation);
     ASSERT_EQ(diary_.steps.size() + k + 1, whole.steps.size());
     for (std::size_t n = 0; n < diary_.steps.size(); ++n) {
       EXPECT_EQ(diary_.steps[n].time, whole.steps[n + k + 1].time);
@@ -290,6 +294,14 @@ TEST_P(Adaptive, AJumpThatNoStepResolvesIsTakenWithAWarningAndSlowsNothingBehind
   }
   logging::set_level(level);
   logging::clear_warnings();
+}
+
+TEST_P(Adaptive, AStateThatIsNotANumberIsNeverCommitted) {
+  script_.jump_at = 4.0;
+  script_.jump = std::nan("");
+  EXPECT_EQ(run(options()), Outcome::stuck);
+  EXPECT_LT(diary_.steps.back().time, 4.0);
+  for (const State& state : diary_.states) EXPECT_TRUE(std::isfinite(state.heat.temperature.front()));
 }
 
 INSTANTIATE_TEST_SUITE_P(By, Adaptive, ::testing::Values(ErrorControl::predictor, ErrorControl::doubling),

@@ -57,6 +57,26 @@ TEST(MaterialLibrary, AluminiumHasTheMonographsDataInSi) {
   EXPECT_FALSE(find_material("green_sand", k_library).mechanical());
 }
 
+TEST(MaterialLibrary, HotIronHasTheHeatCapacityOfAusteniteAndOfTheMelt) {
+  for (const char* name : {"grey_iron", "nodular_iron"}) {
+    const Material m = find_material(name, k_library);
+    for (const double celsius : {800.0, 1000.0, 1100.0}) {
+      EXPECT_GE(m.specific_heat.value(273.15 + celsius), 650) << name;
+      EXPECT_LE(m.specific_heat.value(273.15 + celsius), 700) << name;
+    }
+    EXPECT_GE(m.specific_heat.value(273.15 + 1350), 840) << name;
+    EXPECT_LE(m.specific_heat.value(273.15 + 1350), 920) << name;
+  }
+}
+
+// 298.15 K to 970 K of aluminium: 17.5 kJ/mol in the solid up to 933 K, 10.7 on melting, 1.2 in the melt
+// (NIST-JANAF).
+TEST(MaterialLibrary, HandbookAluminiumHasTheHeatContentOfTheTables) {
+  const EnthalpyCurve h = find_material("aluminium_1070", k_library).enthalpy();
+  const double per_mole = 0.0269815 / 2700;
+  EXPECT_NEAR(per_mole * (h.upper(970) - h.upper(298.15)), 29.9e3, 0.02 * 29.9e3);
+}
+
 TEST(MaterialLibrary, GreyIronGrowsAndAluminiumShrinksOnFreezing) {
   const auto growth = [](const char* name) {
     double sum = 0;

@@ -72,6 +72,25 @@ TEST(RunFolder, NeverTakesACaseFolderForAResultsFolder) {
   EXPECT_EQ(test::read_text(folder.path / "case.toml"), "title = \"mine\"\n");
 }
 
+// NAME.csv of a [[profile]] is Solidus's where the case of the last run has that profile.
+TEST(RunFolder, ReplacesOwnTablesOfProfilesAndNoOthers) {
+  test::SharedFolder folder;
+  const fs::path root = folder.path / "run";
+  const std::vector<std::string> wear{"wear.csv"}, both{"wear.csv", "mine.csv"};
+  RunFolder(root, "[[profile]]\nname = \"wear\"\n[[probe]]\nname = \"mine\"\n", false, wear);
+  test::on_first([&] {
+    for (const auto& name : both) std::ofstream(root / name) << "old";
+  });
+  for (const bool go_on : {true, false}) {
+    EXPECT_THROW(RunFolder(root, "", go_on, both), OutputError);
+    EXPECT_EQ(test::read_text(root / "mine.csv"), "old");
+    EXPECT_EQ(test::read_text(root / "wear.csv"), "old");
+  }
+  RunFolder(root, "", false, wear);
+  EXPECT_FALSE(fs::exists(root / "wear.csv"));
+  EXPECT_EQ(test::read_text(root / "mine.csv"), "old");
+}
+
 TEST(RunFolder, KeepsTablesThatSomebodyElseWrote) {
   test::SharedFolder folder;
   test::on_first([&] { std::ofstream(folder.path / "history.csv") << "mine"; });

@@ -11,6 +11,7 @@
 #include "../mesh/split_block.hpp"
 #include "mesh/quadrature.hpp"
 #include "results/deck_elements.hpp"
+#include "results/deck_supports.hpp"
 #include "sample.hpp"
 
 namespace solidus::results {
@@ -215,6 +216,37 @@ TEST(StructuralDeck, LeavesBodiesOutThatAreNotThere) {
   EXPECT_EQ(lines_of(deck, "*SURFACE, NAME=BETWEEN, TYPE=ELEMENT").size(), 2u);
   EXPECT_THAT(lines_of(deck, "*BOUNDARY").size(), 1u);
   EXPECT_THAT(lines_of(deck, "*CLOAD").size(), 1u);
+}
+
+TEST(StructuralDeck, KeepsTheSetOfAllNodesApartFromAGroupOfThatName) {
+  if (!serial()) return;
+  Sample sample(Shape::quad4);
+  sample.mesh.node_sets["all"] = {0};
+  const std::string deck = structural_deck(sample.deck(false), Dialect::calculix);
+  EXPECT_THAT(deck, HasSubstr("*NSET, NSET=ALL_2\n"));
+  EXPECT_THAT(deck, Not(HasSubstr("*NSET, NSET=ALL\n")));
+}
+
+TEST(MissingSupports, AreThoseOfTheFreeRigidMotions) {
+  if (!serial()) return;
+  for (const Shape shape : {Shape::quad4, Shape::tet4}) {
+    Sample sample(shape);
+    const std::size_t modes = sample.components == 2 ? 3 : 6;
+    std::fill(sample.fixed.begin(), sample.fixed.end(), char{0});
+    const auto missing = [&](const std::vector<std::vector<Index>>& ties = {}) {
+      return missing_supports(sample.mesh, sample.presence, sample.kind, sample.fixed, ties);
+    };
+    const std::vector<Index> all = missing();
+    EXPECT_EQ(all.size(), modes);
+    for (const Index entry : all) sample.fixed[static_cast<std::size_t>(entry)] = 1;
+    EXPECT_TRUE(missing().empty());
+    // A plane face that is free to move: it cannot turn out of its plane.
+    std::fill(sample.fixed.begin(), sample.fixed.end(), char{0});
+    std::vector<Index> face;
+    for (std::size_t i = 0; i < sample.mesh.x.size(); ++i)
+      if (sample.mesh.x[i][0] == 0) face.push_back(static_cast<Index>(i * sample.components));
+    EXPECT_EQ(missing({face}).size(), sample.components == 2 ? 2u : 4u);
+  }
 }
 
 }  // namespace

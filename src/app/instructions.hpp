@@ -1,0 +1,18 @@
+/// Whether this processor has the instructions that the compiler has used: a binary built for one machine
+/// dies on another with SIGILL, which says nothing.
+#pragma once
+
+namespace solidus::app {
+
+/// Sets of instructions as bits, in the order of instruction_names().
+using Instructions = unsigned;
+
+/// What the compiler was allowed to use where the program was built.
+extern const Instructions k_built_for;
+
+/// Of the processor that runs this.
+Instructions instructions_here();
+/// The names of a set, up to a null.
+const char* const* instruction_names();
+
+}  // namespace solidus::app
