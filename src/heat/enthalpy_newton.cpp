@@ -16,8 +16,8 @@ constexpr double k_plateau_stiffness =
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if the slope behind it is at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope is this share
 constexpr int k_search_trials = 40;
-constexpr std::size_t k_remembered = 4;  ///< residuals that a step that is halved may rise to
-constexpr int k_halvings = 6;
+constexpr std::size_t k_free = 4;  ///< residuals after which a step that is halved must lower the last one
+constexpr int k_halvings = 12;
 
 constexpr int k_plain = 6;                ///< iterations before plateaus are tilted
 constexpr double k_tilt = 1.0;            ///< temperature difference over a tilted plateau [K]
@@ -187,8 +187,8 @@ double EnthalpyNewton::search(std::span<const double> temperature) const {
 }
 
 void EnthalpyNewton::move_and_halve(std::span<const double> residuals, std::span<double> temperature) {
-  const std::size_t n = std::min(residuals.size(), k_remembered);
-  const double largest = *std::max_element(residuals.end() - static_cast<std::ptrdiff_t>(n), residuals.end());
+  const double largest =
+      residuals.size() <= k_free ? *std::max_element(residuals.begin(), residuals.end()) : residuals.back();
   start_.assign(heat_.begin(), heat_.begin() + static_cast<std::ptrdiff_t>(r_.size()));
   double alpha = 1;
   for (int halvings = 0;; ++halvings, alpha *= 0.5) {

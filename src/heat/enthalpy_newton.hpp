@@ -89,8 +89,7 @@ class EnthalpyNewton {
   double temperature_of(std::size_t i, double heat) const;
   void set_tilt(double tilt, std::span<double> temperature);
   double search(std::span<const double> temperature) const;
-  /// Moves by a step that is halved where the residual rises above the largest of the last ones (over the
-  /// heat moved).
+  /// Moves by a step that is halved until the residual over the heat moved falls.
   void move_and_halve(std::span<const double> residuals, std::span<double> temperature);
 
   HeatSystem& system_;
