@@ -11,7 +11,7 @@ namespace solidus::mechanics {
 namespace {
 
 /// Unknowns up to which a factorisation is the default: in three dimensions its factors fill up.
-constexpr GlobalIndex k_direct_limit_3d = 12000, k_direct_limit_2d = 60000;
+constexpr GlobalIndex k_direct_limit_3d = 25000, k_direct_limit_2d = 60000;
 /// Up to so many it takes over where multigrid fails.
 constexpr GlobalIndex k_rescue_limit = 200000;
 /// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
