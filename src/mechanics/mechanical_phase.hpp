@@ -247,8 +247,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   void add_residual_to_balance(std::span<const double> r);
   /// ‖r(x)‖ of what the unknowns can change.
   double unbalanced(std::span<const double> x);
-  /// Moves the start to the guess of the pass where that is nearer to equilibrium.
-  void look_ahead(const MechanicalPass& pass, std::vector<double>& x);
+  /// Moves the start to the guess of the pass where that is nearer to equilibrium; whether it did.
+  bool look_ahead(const MechanicalPass& pass, std::vector<double>& x);
   std::string law_failure(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;

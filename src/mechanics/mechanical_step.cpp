@@ -161,9 +161,17 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
   std::vector<double> x = start(old, pass);
-  look_ahead(pass, x);
+  const bool guessed = look_ahead(pass, x);
   PhaseReport report;
   report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
+  if (guessed && !report.newton.converged) {
+    // A guess may lift a body off what holds it, which leaves a singular tangent.
+    const algebra::NewtonReport from_guess = std::move(report.newton);
+    x = start(old, pass);
+    report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
+    report.newton.iterations += from_guess.iterations;
+    report.newton.linear_iterations += from_guess.linear_iterations;
+  }
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
   if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
   report.work = conclude(old, pass, std::move(x), trial);
@@ -181,17 +189,19 @@ double MechanicalPhase::unbalanced(std::span<const double> x) {
   return std::sqrt(algebra::global_sum(squares));
 }
 
-void MechanicalPhase::look_ahead(const MechanicalPass& pass, std::vector<double>& x) {
-  if (!algebra::any_process(!pass.guess.empty())) return;
+bool MechanicalPhase::look_ahead(const MechanicalPass& pass, std::vector<double>& x) {
+  if (!algebra::any_process(!pass.guess.empty())) return false;
   std::vector<double> guess = x;
   std::copy(pass.guess.begin(), pass.guess.end(), guess.begin());
   loads_->prescribe(pass.time, std::span(guess).first(n_displacements()));
   if (pressure_ && !pass.guessed_pressure.empty())
     pressure_->to_unknowns(pass.guessed_pressure, std::span(guess).subspan(n_displacements()));
   const double here = unbalanced(x);
-  if (here <= round_off_) return;
+  if (here <= round_off_) return false;
   const double there = unbalanced(guess);
-  if (there < here) x = std::move(guess);
+  if (!(there < here)) return false;
+  x = std::move(guess);
+  return true;
 }
 
 void MechanicalPhase::begin(const MechanicalState& old, const MechanicalPass& pass) {
