@@ -97,6 +97,7 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions,
   if (kind == AnalysisKind::axisymmetric) {
     double largest = 0;
     for (const mesh::Point& x : mesh.x) largest = std::max(largest, std::abs(x[0]));
+    largest = algebra::global_max(largest);  // a process may have nothing but nodes on the axis
     Support axis{0.0, {}, {}};
     for (Index node = 0; node < mesh.n_nodes(); ++node)
       if (std::abs(mesh.x[static_cast<std::size_t>(node)][0]) <= 1e-10 * largest)

@@ -24,7 +24,9 @@ TEST(Bracket, FreezesWithFewIterationsAStepAndItsSkinOnTheWall) {
         &closed = run.steps.at("closed_points[1]"), &points = run.steps.at("contact_points[1]");
   EXPECT_GT(solid.back(), 0.999);
   for (std::size_t i = 0; i < solid.size(); ++i) {
-    if (solid[i] < 0.05) EXPECT_EQ(closed[i], points[i]) << "step " << i;
+    if (solid[i] < 0.05) {
+      EXPECT_EQ(closed[i], points[i]) << "step " << i;
+    }
   }
   // First law: what is stored is what went in, to 1e-8 of the heat that moved.
   const std::vector<double>& defect = run.steps.at("energy_defect[J]");
