@@ -17,6 +17,16 @@ namespace solidus::testing {
 
 using Columns = std::map<std::string, std::vector<double>>;
 
+/// The next cell of a row; a text in quotation marks may hold commas.
+inline bool next_cell(std::istringstream& row, std::string& cell) {
+  if (row.peek() != '"') return static_cast<bool>(std::getline(row, cell, ','));
+  row.get();
+  std::getline(row, cell, '"');
+  std::string rest;
+  std::getline(row, rest, ',');
+  return true;
+}
+
 /// Columns of numbers by header; texts read as zero.
 inline Columns read_csv(const std::filesystem::path& path) {
   std::ifstream in(path);
@@ -27,7 +37,7 @@ inline Columns read_csv(const std::filesystem::path& path) {
   Columns columns;
   while (std::getline(in, line)) {
     std::istringstream row(line);
-    for (std::size_t i = 0; i < header.size() && std::getline(row, cell, ','); ++i)
+    for (std::size_t i = 0; i < header.size() && next_cell(row, cell); ++i)
       columns[header[i]].push_back(std::strtod(cell.c_str(), nullptr));
   }
   return columns;
