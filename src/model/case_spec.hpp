@@ -173,9 +173,9 @@ struct ContactSpec {
   enum class Normal { automatic, penalty, augmented_lagrangian, energy_conserving };
   Normal normal = Normal::automatic;
   double penetration_tolerance = 0;
-  std::optional<double> penalty;  ///< ε_N [N/m³]; absent: from the factor
+  std::optional<double> penalty;         ///< ε_N [N/m³]; absent: from the factor
   std::optional<double> penalty_factor;  ///< ε_N = factor × E / height of the slave's elements
-  double stabilisation = 0;       ///< share of ε_N added to the tangent only
+  double stabilisation = 0;              ///< share of ε_N added to the tangent only
   contact::IntegrationRule integration = contact::IntegrationRule::segments;
   int gauss_degree = 0;
   std::optional<double> search_distance, touching;  ///< [m]

@@ -108,8 +108,8 @@ TEST(Crankshaft, IsAsSymmetricAsItsMesh) {
   const Columns& c = whole().history;
   const std::vector<double>& t = c.at("time[s]");
   for (std::size_t i = 0; i < t.size(); ++i) {
-    // Mirror images of one another but for nose and flange, which are far; the mesh is not symmetric: 30 K apart
-    // at the pins while the shell leaves the sand, where a second is 10 K.
+    // Mirror images of one another but for nose and flange, which are far; the mesh is not symmetric: 30 K
+    // apart at the pins while the shell leaves the sand, where a second is 10 K.
     for (const auto& [one, other] :
          {std::pair{"T_journal_2[degC]", "T_journal_4[degC]"}, std::pair{"T_pin[degC]", "T_pin_3[degC]"},
           std::pair{"T_web_above[degC]", "T_web_below[degC]"}})

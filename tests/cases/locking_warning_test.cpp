@@ -7,9 +7,9 @@
 namespace {
 
 std::vector<std::string> warnings_with(const std::string& scheme) {
-  solidus::testing::run("cases/aluminium_cylinder", "locking_" + scheme,
-                        {"time.end=\"1 s\"", "mechanics.simplices=\"automatic\"",
-                         "coupling.scheme=\"" + scheme + "\""});
+  solidus::testing::run(
+      "cases/aluminium_cylinder", "locking_" + scheme,
+      {"time.end=\"1 s\"", "mechanics.simplices=\"automatic\"", "coupling.scheme=\"" + scheme + "\""});
   return solidus::logging::warnings();
 }
 

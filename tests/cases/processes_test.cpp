@@ -23,7 +23,8 @@ using solidus::testing::Columns;
 constexpr const char* k_case =
     " --set mesh.cylinder_in_mould.element_size='\"3.5 mm\"'"
     " --set mesh.cylinder_in_mould.mould_element_size='\"7 mm\"'"
-    " --set body.part.material='\"" SOLIDUS_SOURCE_DIR "/cases/aluminium_cylinder/plastic_aluminium_99_7.toml\"'"
+    " --set body.part.material='\"" SOLIDUS_SOURCE_DIR
+    "/cases/aluminium_cylinder/plastic_aluminium_99_7.toml\"'"
     " --set contact.interface.formulation='\"large_sliding\"'"
     " --set contact.interface.friction.coefficient=0.3"
     " --set contact.interface.wear.archard=1e-4 --set contact.interface.wear.hardness='\"1 GPa\"'"

@@ -103,8 +103,8 @@ struct Casting {
   }
 };
 
-/// From 1e-6 of the bulk modulus on, above which the program chooses the melt of castings; moduli below 1e-7 of
-/// it are under the floor of the stabilisation, and a factorisation takes over.
+/// From 1e-6 of the bulk modulus on, above which the program chooses the melt of castings; moduli below 1e-7
+/// of it are under the floor of the stabilisation, and a factorisation takes over.
 TEST(SaddleSolver, IterationsHardlyDependOnTheViscosityOfTheMelt) {
   for (const bool shell : {true, false}) {
     std::vector<int> counts;
