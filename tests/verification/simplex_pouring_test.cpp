@@ -161,7 +161,9 @@ Pour pour(const Element& element, mechanics::Mapping mapping) {
 
 TEST(FreezingMeltColumn, IsHydrostaticFirstAndKeepsTheStrainOfTheMeltApartFromThatOfTheSolid) {
   for (const mechanics::Mapping mapping : {mechanics::Mapping::isothermal, mechanics::Mapping::isentropic})
-    for (const Element& element : {verification::k_quad4, verification::k_tri3}) {
+    for (const Element& element :
+         {verification::k_quad4, verification::k_tri3, verification::k_tri3_algebraic, verification::k_tet4,
+          verification::k_tet4_algebraic}) {
       const bool simplex = element.shape == mesh::Shape::tri3 || element.shape == mesh::Shape::tet4;
       const Pour p = pour(element, mapping);
       printf(
@@ -174,7 +176,7 @@ TEST(FreezingMeltColumn, IsHydrostaticFirstAndKeepsTheStrainOfTheMeltApartFromTh
       EXPECT_LT(p.defect, 1e-8) << element.name;
       EXPECT_GT(p.solid, 0.3) << element.name;
       // The surface sinks by what the metal shrinks, whatever single elements do.
-      EXPECT_LT(p.sinking, 0.02) << element.name;
+      EXPECT_LT(p.sinking, element.shape == mesh::Shape::tet4 ? 0.03 : 0.02) << element.name;
       if (simplex) {
         EXPECT_LT(p.early_pressure, 1e-4) << element.name;
       }
