@@ -3,7 +3,7 @@
 ///   ⎡ K_uu  K_uΘ ⎤ ⎧δu⎫     ⎧r_u⎫      [N]
 ///   ⎣ K_Θu  K_ΘΘ ⎦ ⎩δΘ⎭ = − ⎩r_Θ⎭      [W]
 ///
-/// The second field may have several components a node, as pressures do (mechanics/pressure_equation.hpp).
+/// The second field may have several components a node.
 /// The diagonal blocks are the matrices of the two phases. The rectangular ones have the graph of K_uu, a
 /// block of `components` numbers per pair of nodes, and are added to through its slots. Prescribed degrees of
 /// freedom and ties of either field are eliminated as in BlockMatrix.

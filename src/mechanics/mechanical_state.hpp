@@ -18,7 +18,7 @@ struct BlockHistory {
 struct MechanicalState {
   std::vector<double> displacement;   ///< [local node][component] [m], ghosts up to date
   std::vector<BlockHistory> history;  ///< one per block of the mesh
-  /// The mean stress of mixed elements at the nodes, [local node][field] [Pa] (pressure_equation.hpp); empty
+  /// The mean stress of mixed elements at the nodes, [local node][field] [Pa] (nodal_pressure.hpp); empty
   /// where there are none.
   std::vector<double> pressure;
   /// Of the two-step method: the history at t_{n−1} and t_n − t_{n−1} [s], zero where none is known. Empty
