@@ -8,7 +8,7 @@ namespace solidus::algebra {
 
 namespace {
 
-/// What an entry of the whole is, before it has a number.
+/// Marks entries of the whole before they are numbered: unknowns, and degrees of freedom that are none.
 constexpr double k_unknown = 1, k_none = -1;
 
 std::size_t at(std::int64_t i) {

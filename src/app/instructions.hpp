@@ -7,10 +7,10 @@ namespace solidus::app {
 /// Sets of instructions as bits, in the order of instruction_names().
 using Instructions = unsigned;
 
-/// What the compiler was allowed to use where the program was built.
+/// Lists the instruction sets that the compiler was allowed to use where the program was built.
 extern const Instructions k_built_for;
 
-/// Of the processor that runs this.
+/// Lists those that the processor which runs this program has.
 Instructions instructions_here();
 /// The names of a set, up to a null.
 const char* const* instruction_names();

@@ -47,7 +47,8 @@ struct ContactSums {
   double work = 0;         ///< of friction so far, ∫ ∫ ‖T‖ dγ dA [J]
   double dissipation = 0;  ///< of friction so far [J]; the work less this is what hardening stores
   double wet_area = 0;     ///< of points that liquid metal wets [m²]
-  /// What of it has left its wall (ContactSpec::leaving_gap): points, area [m²] and the largest gap [m].
+  /// The part of the liquid skin that has left its wall (ContactSpec::leaving_gap): points, area [m²] and the
+  /// largest gap [m].
   GlobalIndex left_points = 0;
   double left_area = 0, left_gap = 0;
   double heat = 0;                               ///< from slave to master by conduction and radiation [W]
@@ -206,15 +207,15 @@ class ContactPair {
   void find_interface_temperatures(std::span<const double> temperature);
   /// Of the augmented Lagrangian: ḡ_a, weighted with w N_a², [local node] [m]. Collective.
   std::vector<double> nodal_penetration() const;
-  /// Of a point at t_n, with the traction that it had there.
+  /// The state of a point at t_n, with the traction that it had there.
   PointState at_start(std::size_t point) const;
   /// u_{n+1} − u_n, [local node][component] [m].
   std::vector<double> increment() const;
   /// ∫ f · ΔΣ B_b u_b of the points' forces at the start or at the end of the step, this process's part [J].
   enum class End { start, finish };
   double force_times_increment(End end, std::span<const double> increment);
-  /// Of points with a partner at one end of the step alone: ∫ f · (Δu_s − Δy) dA with the way Δy of the rigid
-  /// master's particle there, this process's part [J].
+  /// The work of points with a partner at one end of the step alone: ∫ f · (Δu_s − Δy) dA with the way Δy of
+  /// the rigid master's particle there, this process's part [J].
   double force_times_relative_way(End end, std::span<const double> increment);
 
   const mesh::Mesh& mesh_;

@@ -71,7 +71,8 @@ struct ContactSummary {
   double dissipation = 0;                        ///< of friction, since the start [J]
   double heat_to_slave = 0, heat_to_master = 0;  ///< in all, that of friction included [W]
   double wet_area = 0;                           ///< of points that liquid metal wets [m²]
-  /// What of it has left its wall (contact::ContactSpec::leaving_gap): area [m²], largest gap [m].
+  /// The part of the liquid skin that has left its wall (contact::ContactSpec::leaving_gap): area [m²],
+  /// largest gap [m].
   double left_area = 0, left_gap = 0;
 };
 

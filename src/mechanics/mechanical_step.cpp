@@ -148,8 +148,10 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
   const std::span<const double> u = std::span<const double>(x_).first(n_displacements());
   for (const auto& block : blocks_) block->add_tangent(u, *matrix_);
   if (inertia_) inertia_->add_tangent(*matrix_);
-  const profile::Part of_contact("contact");
-  for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(u, *matrix_);
+  {
+    const profile::Part of_contact("contact");
+    for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(u, *matrix_);
+  }
   if (saddle_solver_ != nullptr) saddle_solver_->assemble();
   return *matrix_;
 }

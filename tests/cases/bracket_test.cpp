@@ -1,5 +1,6 @@
-/// The case cases/bracket: a casting of tetrahedra in sand with nothing set but its data. Liquid metal stays
-/// on its wall, steps are cheap and none is tried twice in vain once the first second is over.
+/// The case cases/bracket on a coarse mesh: a casting of tetrahedra in sand with nothing set but its data.
+/// Every point of the contact is closed until a twentieth of the metal is solid, a step takes six iterations
+/// in the mean, and the first law is closed to 1e-8.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -14,7 +15,7 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-TEST(Bracket, FreezesWithFewIterationsAStepAndItsSkinOnTheWall) {
+TEST(Bracket, FreezesWithFewIterationsAStepAndLeavesItsWallOnlyWithAShell) {
   const auto run = solidus::testing::run(
       "cases/bracket", "bracket",
       {"time.end=\"200 s\"", "mesh.constant=[{name=\"size\", value=12}, {name=\"sand_size\", value=30}]"});

@@ -116,6 +116,18 @@ TEST(SaddleSolver, IterationsHardlyDependOnTheViscosityOfTheMelt) {
   }
 }
 
+TEST(SaddleSolver, AFactorisationTakesOverWhereTheMeltIsTooThinForTheIteration) {
+  std::vector<double> exact, found;
+  EXPECT_TRUE(Casting(6, 1.0, algebra::SolverKind::direct).solve(1e-8, exact).converged);
+  EXPECT_TRUE(Casting(6, 1.0, algebra::SolverKind::multigrid).solve(1e-8, found).converged);
+  double difference = 0, size = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    difference += std::pow(found[i] - exact[i], 2);
+    size += exact[i] * exact[i];
+  }
+  EXPECT_LT(std::sqrt(algebra::global_sum(difference)), 1e-4 * std::sqrt(algebra::global_sum(size)));
+}
+
 TEST(SaddleSolver, IterationsHardlyDependOnTheMesh) {
   std::vector<int> counts;
   for (const int cells : {6, 12, 24})
