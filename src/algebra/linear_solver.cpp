@@ -116,9 +116,11 @@ void set_preconditioner(PC pc, Ours& ours) {
 
 /// The coarse matrices of GAMG. By default PETSc adds up what other processes have for them in the order in
 /// which their messages arrive, so that no two runs on three processes have the same bits; this product of
-/// three matrices takes them in a fixed order.
+/// three matrices takes them in a fixed order. Matrices of one process do not know it.
 void make_gamg_reproducible() {
-  set_default_option("matptap_via", "allatonce");
+  int n_processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  if (n_processes > 1) set_default_option("matptap_via", "allatonce");
 }
 
 /// Rigid-body modes for PETSc's own multigrid.
