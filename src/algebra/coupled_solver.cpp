@@ -8,15 +8,15 @@ namespace solidus::algebra {
 
 namespace {
 
-/// Degrees of freedom of both fields; above, a factorisation in three dimensions fills up.
+/// Degrees of freedom of all fields; above, a factorisation in three dimensions fills up.
 constexpr GlobalIndex k_direct_limit_3d = 20000;
 
-bool is_direct(CoupledSolverKind kind, const mesh::Mesh& mesh, int components) {
-  if (kind != CoupledSolverKind::automatic) return kind == CoupledSolverKind::direct;
-  return mesh.dimension == 2 || mesh.n_global_nodes * (components + 1) < k_direct_limit_3d;
-}
-
 }  // namespace
+
+bool CoupledSolver::is_direct(CoupledSolverKind kind, const mesh::Mesh& mesh, GlobalIndex n_unknowns) {
+  if (kind != CoupledSolverKind::automatic) return kind == CoupledSolverKind::direct;
+  return mesh.dimension == 2 || n_unknowns < k_direct_limit_3d;
+}
 
 struct CoupledSolver::Petsc {
   MatHandle assembled;  ///< the nest as one matrix, for the direct solver
@@ -24,7 +24,7 @@ struct CoupledSolver::Petsc {
 
 CoupledSolver::CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind,
                              double relative_tolerance)
-    : direct_(is_direct(kind, mesh, components)),
+    : direct_(is_direct(kind, mesh, mesh.n_global_nodes * (components + 1))),
       solver_(mesh, {.prefix = "coupled_",
                      .kind = direct_ ? SolverKind::direct : SolverKind::field_split,
                      .symmetric = false,

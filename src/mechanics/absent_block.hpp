@@ -36,8 +36,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   std::size_t bytes() const override { return 0; }
 
   void bind_heat(const algebra::BlockMatrix&) override {}
-  void add_coupling(StructuralForm, std::span<const double>, std::span<const double>, std::span<const double>,
-                    algebra::CoupledMatrix&) override {}
+  void add_coupling(const CoupledIterate&, algebra::CoupledMatrix&) override {}
   void carry(double, std::span<const double>) override {}
   void drop_carried() override {}
 

@@ -80,11 +80,10 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
       continue;
     }
     plastic_ = plastic_ || material.flow.has_value();
-    const bool mixed =
-        options_.mapping != Mapping::simultaneous && is_mixed(block, material, options_.simplices);
     blocks_.push_back(
-        mixed ? make_mixed_kernel(mesh_, block, kind_, material, options_.mapping, options_.stabilisation)
-              : make_block_kernel(mesh_, block, kind_, material, options_.mapping, options_.b_bar));
+        is_mixed(block, material, options_.simplices)
+            ? make_mixed_kernel(mesh_, block, kind_, material, options_.mapping, options_.stabilisation)
+            : make_block_kernel(mesh_, block, kind_, material, options_.mapping, options_.b_bar));
   }
 }
 

@@ -34,16 +34,17 @@ Section<heat::HeatOptions> heat_keys() {
       .range(0, 10)
       .doc("Polynomial degree that the open rule integrates exactly; 0: by element.");
   s.key("tolerance", &HeatOptions::tolerance)
-      .initially(1e-9)
-      .positive()
-      .doc("Newton stops when the residual falls below this share of the heat moved in the step.");
+      .initially(0.0)
+      .range(0, 1)
+      .doc(
+          "Newton stops when the residual falls below this share of the heat moved in the step. 0: 1e-5 "
+          "where "
+          "nodes hold the heat (closed rule), which take up the rest, so that energy is exact for every "
+          "tolerance; else 1e-9, because there the rest is heat lost or gained.");
   s.key("max_iterations", &HeatOptions::max_iterations)
       .initially(50)
       .range(1, 1000)
       .doc("Newton iterations before a step is cut.");
-  s.key("exact_conductivity", &HeatOptions::exact_conductivity)
-      .initially(false)
-      .doc("The slope of the conductivity enters the tangent: fewer iterations, an unsymmetric matrix.");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
   return s;
 }
@@ -80,7 +81,7 @@ Section<MechanicsSpec> mechanics_keys() {
   s.choice("simplices", &MechanicsSpec::simplices,
            {{"automatic", Simplices::automatic,
              "mixed where a body's material melts, flows plastically or has a Poisson's ratio above 0.45; "
-             "displacement with the simultaneous scheme"},
+             "else displacement"},
             {"mixed", Simplices::mixed, "displacement and continuous pressure, stabilised: no locking"},
             {"displacement", Simplices::displacement, "displacement alone, which locks in plastic flow"}})
       .initially("automatic")
@@ -202,7 +203,7 @@ Section<CouplingSpec> coupling_keys() {
              "direct in two dimensions and below 20 000 unknowns, field_split above"},
             {"direct", Solver::direct, "MUMPS, LU"},
             {"field_split", Solver::field_split,
-             "GMRES; multigrid on the displacements, incomplete LU on the temperatures"}})
+             "GMRES; multigrid on the displacements, incomplete factors on pressures and temperatures"}})
       .initially("automatic")
       .doc("Linear solver of the simultaneous scheme.");
   s.quantity("ambient_temperature", &CouplingSpec::ambient_temperature, "K")
