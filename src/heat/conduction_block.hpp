@@ -1,44 +1,41 @@
 /// Conduction in one mesh block behind an interface: one virtual call per block, none per element.
 ///
-///   r_a += ∫ ∇N_a · k(Θ) ∇Θ dV       K_ab += ∫ k ∇N_a · ∇N_b dV  (+ ∫ k'(Θ) N_b ∇N_a · ∇Θ dV, if exact)
+///   r_a += ∫ ∇N_a · ∇u dV,   u = Σ_b N_b u(Θ_b)       ∂r_a/∂Θ_b = k(Θ_b) ∫ ∇N_a · ∇N_b dV
 ///
-/// Closed rule, linear shapes: simplices take the mean of the nodal conductivities; quads and hexes are
-/// integrated at their nodes, which makes the matrix of non-negative type on rectangles and boxes (6.34).
-/// Their nodal gradients are shifted by a constant so that the mean gradient is the exact one: a linear field
-/// is then reproduced on distorted elements too, and nothing changes on rectangles. Otherwise Gauss points
-/// with k at the point's own temperature.
+/// with Kirchhoff's potential u = ∫ k dΘ at the nodes (kirchhoff_potential.hpp), interpolated as the
+/// temperature is: the flux k ∇Θ to the order of the element, exact in one dimension, and linear in the nodal
+/// potentials for every k(Θ).
+///
+/// Closed rule: quads and hexes are integrated at their nodes, which makes the matrix of non-negative type on
+/// rectangles and boxes (6.34). Their nodal gradients are shifted by a constant so that the mean gradient is
+/// the exact one: a linear field is then reproduced on distorted elements too, and nothing changes on
+/// rectangles. Otherwise Gauss points.
 #pragma once
 
 #include <memory>
 #include <span>
 
 #include "algebra/block_matrix.hpp"
-#include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {
-
-/// Conductivity at the nodes of a body and its derivative, [local node]; used by closed linear shapes only.
-struct NodalConductivity {
-  std::span<const double> value;  ///< [W/(m K)]
-  std::span<const double> slope;  ///< dk/dΘ, read for the exact tangent only
-};
 
 class ConductionBlock {
  public:
   virtual ~ConductionBlock() = default;
   virtual void bind(const algebra::BlockMatrix& matrix) = 0;
-  /// heat += heat flow out of the nodes into the element [W], [local node]; ghost rows are scrap.
-  virtual void add_heat(std::span<const double> temperature, const NodalConductivity& k,
-                        std::span<double> heat) const = 0;
-  virtual void add_tangent(std::span<const double> temperature, const NodalConductivity& k, bool exact,
+  /// heat_a += factor ∫ ∇N_a · ∇u dV: heat flow out of the nodes into the element [W], [local node]; ghost
+  /// rows are scrap.
+  /// @param potential  u [W/m] with a factor of one, or Θ [K] with the conductivity; [local node]
+  virtual void add_heat(std::span<const double> potential, double factor, std::span<double> heat) const = 0;
+  /// matrix_ab += factor ∫ ∇N_a · ∇N_b dV columns_b.
+  /// @param columns  [local node]; empty: one
+  virtual void add_tangent(double factor, std::span<const double> columns,
                            algebra::BlockMatrix& matrix) const = 0;
   virtual std::size_t bytes() const = 0;
 };
 
-/// @param material kept by reference
 std::unique_ptr<ConductionBlock> make_conduction_block(const mesh::Mesh& mesh, const mesh::Block& block,
-                                                       AnalysisKind kind, const material::Material& material,
-                                                       bool closed);
+                                                       AnalysisKind kind, bool closed);
 
 }  // namespace solidus::heat

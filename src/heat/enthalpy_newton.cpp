@@ -13,38 +13,26 @@ namespace {
 constexpr double k_round_off = 2e-15;  ///< of heat contents and of conductance × temperature
 constexpr double k_plateau_stiffness =
     1e13;  ///< times the diagonal: δΘ = 0 to rounding, without a change of structure
-constexpr double k_accept_rise = 0.5;   ///< the full step stands if the slope behind it is at most this share
-constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope is this share
-constexpr int k_search_trials = 40;
-constexpr std::size_t k_free = 4;  ///< residuals after which a step that is halved must lower the last one
-constexpr int k_halvings = 12;
 
 constexpr int k_plain = 6;                ///< iterations before plateaus are tilted
 constexpr double k_tilt = 1.0;            ///< temperature difference over a tilted plateau [K]
 constexpr double k_tilted_enough = 1e-2;  ///< residual over the heat moved at which the tilt goes
 constexpr int k_tilted_at_most = 8;       ///< iterations with one tilt
 constexpr double k_less_tilt = 0.3, k_least_tilt = 2e-3;  ///< its fall, and where it ends [K]
-constexpr int k_full_steps = 40;                          ///< iterations before the line search sets in
 
 }  // namespace
 
 EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
-                               HeatSolver& solver, const algebra::GhostExchange& ghosts,
-                               EnthalpyNewtonOptions options)
-    : system_(system), storage_(storage), solver_(solver), ghosts_(ghosts), options_(options) {
+                               const algebra::GhostExchange& ghosts, double tolerance)
+    : system_(system), storage_(storage), ghosts_(ghosts), tolerance_(tolerance) {
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
-  for (auto* v : {&r_, &b_, &step_h_, &inverse_, &balance_}) v->resize(n);
-  step_t_.resize(mesh.x.size());
+  for (auto* v : {&r_, &b_, &step_h_, &inverse_}) v->resize(n);
   per_latent_.resize(n);
-  storage_changed();
-  has_plateaus_ = algebra::any_process(storage.has_plateaus());
-}
-
-void EnthalpyNewton::storage_changed() {
-  for (std::size_t i = 0; i < per_latent_.size(); ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const double latent = storage_.latent_capacity(static_cast<Index>(i));
     per_latent_[i] = latent > 0 ? 1.0 / latent : 0.0;
   }
+  has_plateaus_ = algebra::any_process(storage.has_plateaus());
 }
 
 void EnthalpyNewton::evaluate(std::span<const double> temperature) {
@@ -79,13 +67,13 @@ void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
 
 bool EnthalpyNewton::converged() const {
   if (tilt_ > 0) return false;
-  return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_;
+  return norm_ <= tolerance_ * moved_ || norm_ <= round_off_;
 }
 
 /// J + D; nodes on a plateau are held.
-void EnthalpyNewton::assemble(std::span<const double> temperature, bool exact_conductivity) {
+void EnthalpyNewton::assemble(std::span<const double> temperature) {
   const profile::Part part("assembly");
-  system_.assemble(temperature, exact_conductivity);
+  system_.assemble(temperature);
   double conductance = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) {
     const auto node = static_cast<Index>(i);
@@ -145,107 +133,6 @@ void EnthalpyNewton::begin(std::span<const double> old_heat, double dt, std::spa
   conductance_ = 0;
   tilt_ = 0;
   tilted_ = 0;
-}
-
-/// dE/dα at H + α δH.
-double EnthalpyNewton::slope(double alpha, std::span<const double> temperature) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    if (system_.fixed()[i] || step_h_[i] == 0.0) continue;
-    const double t = temperature_of(i, heat_[i] + alpha * step_h_[i]);
-    const double balance = (1 - alpha) * balance_[i] + alpha * (temperature[i] + step_t_[i]);
-    sum += step_h_[i] * (t - balance);
-  }
-  return algebra::global_sum(sum);
-}
-
-double EnthalpyNewton::search(std::span<const double> temperature) const {
-  const double start = slope(0.0, temperature);
-  if (!(start < 0)) return 1.0;  // rounding, or a conductivity that moved more than the rest
-  double low = 0, low_slope = start, high = 1, high_slope = slope(1.0, temperature), alpha = 1;
-  if (high_slope <= -k_accept_rise * start) return 1.0;
-  int side = 0;
-  for (int trial = 0; trial < k_search_trials; ++trial) {
-    // The Illinois rule, kept inside the bracket.
-    alpha = (low * high_slope - high * low_slope) / (high_slope - low_slope);
-    alpha = std::clamp(alpha, low + 0.05 * (high - low), high - 0.05 * (high - low));
-    const double s = slope(alpha, temperature);
-    if (std::abs(s) <= -k_accept_slope * start) break;
-    if (s < 0) {
-      low = alpha;
-      low_slope = s;
-      if (side == 1) high_slope *= 0.5;
-      side = 1;
-    } else {
-      high = alpha;
-      high_slope = s;
-      if (side == -1) low_slope *= 0.5;
-      side = -1;
-    }
-  }
-  return alpha;
-}
-
-void EnthalpyNewton::move_and_halve(std::span<const double> residuals, std::span<double> temperature) {
-  const double largest =
-      residuals.size() <= k_free ? *std::max_element(residuals.begin(), residuals.end()) : residuals.back();
-  start_.assign(heat_.begin(), heat_.begin() + static_cast<std::ptrdiff_t>(r_.size()));
-  double alpha = 1;
-  for (int halvings = 0;; ++halvings, alpha *= 0.5) {
-    move(start_, alpha, temperature);
-    ghosts_.update(temperature, 1);
-    evaluate(temperature);
-    if (norm_ <= largest * moved_ || halvings == k_halvings) return;
-  }
-}
-
-algebra::NewtonReport EnthalpyNewton::solve(std::span<const double> old_heat, double dt,
-                                            std::span<double> temperature, std::span<double> heat,
-                                            int newton_steps) {
-  begin(old_heat, dt, heat);
-  const auto n = r_.size();
-  const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
-  algebra::NewtonReport report;
-  while (true) {
-    evaluate(temperature);
-    report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
-    if (!std::isfinite(norm_)) {
-      report.reason = "the residual is not a number";
-      break;
-    }
-    if (converged()) {
-      report.converged = true;
-      break;
-    }
-    if (report.iterations == most) {
-      report.out_of_iterations = true;
-      report.reason = "no convergence in " + std::to_string(most) + " iterations";
-      break;
-    }
-    adapt_tilt(report.iterations, temperature);
-    assemble(temperature, options_.exact_conductivity);
-    const algebra::LinearReport linear = solver_.solve(system_.matrix(), b_, std::span(step_t_).first(n));
-    ++report.iterations;
-    report.linear_iterations += linear.iterations;
-    if (!linear.converged) {
-      report.reason = "linear solver: " + linear.reason;
-      break;
-    }
-    hold(std::span(step_t_).first(n));
-    ghosts_.update(step_t_, 1);
-    enthalpy_step(step_t_, {});
-    if (options_.halving) {
-      move_and_halve(report.residuals, temperature);
-      continue;
-    }
-    const double alpha = report.iterations <= k_full_steps ? 1.0 : search(temperature);
-    for (std::size_t i = 0; i < n; ++i)
-      balance_[i] = (1 - alpha) * balance_[i] + alpha * (temperature[i] + step_t_[i]);
-    move(heat, alpha, temperature);
-    ghosts_.update(temperature, 1);
-  }
-  ghosts_.update(heat, 1);
-  return report;
 }
 
 }  // namespace solidus::heat

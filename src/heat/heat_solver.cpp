@@ -1,11 +1,13 @@
 #include "heat/heat_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace solidus::heat {
 
 namespace {
-constexpr int k_slow = 200;  ///< iterations of the quick solver above which the strong solver takes over
+/// Iterations of the quick solver for one digit above which the strong solver takes over.
+constexpr double k_slow = 20;
 constexpr int k_quick_limit = 400;  ///< iterations after which the quick solver gives up
 }  // namespace
 
@@ -37,13 +39,14 @@ void HeatSolver::begin(bool transient) {
 }
 
 algebra::LinearReport HeatSolver::solve(algebra::BlockMatrix& a, std::span<const double> b,
-                                        std::span<double> x) {
-  if (!use_quick_) return strong().solve(a, b, x);
-  algebra::LinearReport report = quick_->solve(a, b, x);
-  use_quick_ = report.converged && report.iterations <= k_slow;
+                                        std::span<double> x, double forcing) {
+  if (!use_quick_) return strong().solve(a, b, x, forcing);
+  algebra::LinearReport report = quick_->solve(a, b, x, forcing);
+  const double digits = -std::log10(std::max(forcing, options_.relative_tolerance));
+  use_quick_ = report.converged && report.iterations <= k_slow * digits;
   if (report.converged) return report;
   const int spent = report.iterations;
-  report = strong().solve(a, b, x);
+  report = strong().solve(a, b, x, forcing);
   report.iterations += spent;
   return report;
 }

@@ -19,7 +19,9 @@ class HeatSolver {
   /// Call at the start of a step, so that the same step gives the same bits.
   /// @param transient false: the strong solver at once
   void begin(bool transient);
-  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x);
+  /// @param forcing  as of algebra::LinearSolver::solve()
+  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                              double forcing = 0);
   /// The solver that runs now, for algebra::newton().
   algebra::LinearSolver& strong();
   /// As algebra::LinearSolver::forget().

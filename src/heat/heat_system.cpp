@@ -34,6 +34,7 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
 
+  nodal_ = std::make_unique<NodalPotential>(mesh, potentials_, presence_);
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, graph(), storage);
   matrix_->set_fixed(fixed_);
   bind();
@@ -54,6 +55,7 @@ algebra::NodeGraph HeatSystem::graph() const {
 }
 
 void HeatSystem::bind() {
+  kept_conduction_.clear();
   for (const auto& block : conduction_)
     if (block) block->bind(*matrix_);
   for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
@@ -107,26 +109,25 @@ void HeatSystem::remove_bodies(const algebra::Presence& presence) {
       throw std::invalid_argument("a body that has gone cannot come back");
     if (presence.body(body)) continue;
     conduction_[b].reset();
-    conductivity_[static_cast<std::size_t>(body)].nodes.clear();
+    fields_[static_cast<std::size_t>(body)].nodes.clear();
   }
   presence_ = presence;
+  nodal_ = std::make_unique<NodalPotential>(mesh_, potentials_, presence_);
 }
 
 void HeatSystem::add_conduction(const std::vector<material::Material>& materials) {
-  for (const material::Material& m : materials) conductivity_.push_back({&m.conductivity, {}, {}, {}});
+  for (const material::Material& m : materials) potentials_.emplace_back(m.conductivity);
+  fields_.resize(materials.size());
   for (const mesh::Block& block : mesh_.blocks) {
     const auto body = static_cast<std::size_t>(block.body);
-    conduction_.push_back(make_conduction_block(mesh_, block, kind_, materials[body], closed_));
-    auto& nodes = conductivity_[body].nodes;
-    if (!conductivity_[body].table->constant())
-      nodes.insert(nodes.end(), block.nodes.begin(), block.nodes.end());
+    conduction_.push_back(make_conduction_block(mesh_, block, kind_, closed_));
+    auto& nodes = fields_[body].nodes;
+    if (!potentials_[body].constant()) nodes.insert(nodes.end(), block.nodes.begin(), block.nodes.end());
   }
-  for (NodalTable& k : conductivity_) {
-    std::sort(k.nodes.begin(), k.nodes.end());
-    k.nodes.erase(std::unique(k.nodes.begin(), k.nodes.end()), k.nodes.end());
-    if (k.nodes.empty()) continue;
-    k.value.resize(mesh_.x.size());
-    k.slope.resize(mesh_.x.size());
+  for (Field& u : fields_) {
+    std::sort(u.nodes.begin(), u.nodes.end());
+    u.nodes.erase(std::unique(u.nodes.begin(), u.nodes.end()), u.nodes.end());
+    if (!u.nodes.empty()) u.value.resize(mesh_.x.size());
   }
 }
 
@@ -184,15 +185,6 @@ void HeatSystem::prescribe(std::span<double> temperature) const {
     for (Index node : p.nodes) temperature[static_cast<std::size_t>(node)] = p.now;
 }
 
-void HeatSystem::update_conductivity(std::span<const double> temperature, bool slopes) {
-  for (NodalTable& k : conductivity_)
-    for (Index node : k.nodes) {
-      const auto i = static_cast<std::size_t>(node);
-      k.value[i] = k.table->value(temperature[i]);
-      if (slopes) k.slope[i] = k.table->derivative(temperature[i]);
-    }
-}
-
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
   double moved = 0;
   for (auto* heat : {&local_, &supplied_}) std::fill(heat->begin(), heat->end(), 0.0);
@@ -216,11 +208,19 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
 
 /// Conduction, surfaces and sources, in local_. Returns the magnitudes of the last two.
 double HeatSystem::add_flows(std::span<const double> temperature) {
-  update_conductivity(temperature, false);
+  for (std::size_t b = 0; b < fields_.size(); ++b)
+    for (const Index node : fields_[b].nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      fields_[b].value[i] = potentials_[b].value(temperature[i]);
+    }
   double moved = 0;
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
-    const NodalTable& k = conductivity_[static_cast<std::size_t>(mesh_.blocks[b].body)];
-    if (conduction_[b]) conduction_[b]->add_heat(temperature, {k.value, k.slope}, local_);
+    if (!conduction_[b]) continue;
+    const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
+    if (potentials_[body].constant())
+      conduction_[b]->add_heat(temperature, potentials_[body].reference(), local_);
+    else
+      conduction_[b]->add_heat(fields_[body].value, 1.0, local_);
   }
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     surface_power_[s] = surfaces_[s].add_residual(temperature, supplied_);
@@ -244,18 +244,62 @@ double HeatSystem::entropy_power(std::span<const double> temperature) const {
   return sum;
 }
 
-void HeatSystem::assemble(std::span<const double> temperature, bool exact) {
-  assert((!exact || matrix_->storage() == algebra::BlockMatrix::Storage::whole) && "it is not symmetric");
+void HeatSystem::assemble(std::span<const double> temperature) {
+  assert((nodal_->identity() || matrix_->storage() == algebra::BlockMatrix::Storage::whole) &&
+         "it is not symmetric");
   matrix_->set_zero();
   for (algebra::Contribution* contribution : contributions_)
     if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);
   if (!exchange_) return;
-  update_conductivity(temperature, exact);
+  for (std::size_t b = 0; b < fields_.size(); ++b)
+    for (const Index node : fields_[b].nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      fields_[b].value[i] = potentials_[b].conductivity(temperature[i]);
+    }
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
-    const NodalTable& k = conductivity_[static_cast<std::size_t>(mesh_.blocks[b].body)];
-    if (conduction_[b]) conduction_[b]->add_tangent(temperature, {k.value, k.slope}, exact, *matrix_);
+    if (!conduction_[b]) continue;
+    const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
+    if (potentials_[body].constant())
+      conduction_[b]->add_tangent(potentials_[body].reference(), {}, *matrix_);
+    else
+      conduction_[b]->add_tangent(1.0, fields_[body].value, *matrix_);
   }
   for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
+}
+
+/// Assembles what never changes while the pattern stays.
+void HeatSystem::keep_conduction() {
+  matrix_->set_zero();
+  for (std::size_t b = 0; b < conduction_.size(); ++b)
+    if (conduction_[b])
+      conduction_[b]->add_tangent(potentials_[static_cast<std::size_t>(mesh_.blocks[b].body)].reference(), {},
+                                  *matrix_);
+  const double* values = matrix_->block(0);
+  kept_conduction_.assign(values, values + matrix_->row_start().back());
+}
+
+void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
+                                    const std::function<void(algebra::BlockMatrix&)>& further) {
+  if (exchange_ && kept_conduction_.empty()) keep_conduction();
+  matrix_->set_zero();
+  for (algebra::Contribution* contribution : contributions_)
+    if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);
+  if (exchange_)
+    for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
+  if (further) further(*matrix_);
+  const std::span<const std::int64_t> start = matrix_->row_start();
+  const std::span<const Index> columns = matrix_->columns();
+  double* values = matrix_->block(0);
+  if (!nodal_->identity()) {
+    roots_.resize(slopes.size());
+    for (std::size_t i = 0; i < slopes.size(); ++i) roots_[i] = 1.0 / std::sqrt(slopes[i]);
+    for (std::size_t row = 0; row + 1 < start.size(); ++row)
+      for (std::int64_t s = start[row]; s < start[row + 1]; ++s)
+        if (values[s] != 0)
+          values[s] *= roots_[row] * roots_[static_cast<std::size_t>(columns[static_cast<std::size_t>(s)])];
+  }
+  if (exchange_)
+    for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
 }
 
 std::vector<HeatSystem::Power> HeatSystem::powers() const {
@@ -288,8 +332,9 @@ std::size_t HeatSystem::bytes() const {
   std::size_t total = matrix_->bytes() + (local_.capacity() + contributed_.capacity()) * sizeof(double);
   for (const auto& block : conduction_)
     if (block) total += block->bytes();
-  for (const NodalTable& k : conductivity_)
-    total += k.nodes.capacity() * sizeof(Index) + (k.value.capacity() + k.slope.capacity()) * sizeof(double);
+  for (const Field& u : fields_)
+    total += u.nodes.capacity() * sizeof(Index) + u.value.capacity() * sizeof(double);
+  total += (kept_conduction_.capacity() + roots_.capacity()) * sizeof(double) + nodal_->bytes();
   return total;
 }
 

@@ -1,10 +1,11 @@
 /// Everything of the thermal balance but storage: conduction, surfaces, sources, contributions from outside.
 ///
-///   r_i = ∫ ∇N_i · k ∇Θ dV − ∫ N_i q dA − ∫ N_i R dV + contributions      [W], heat that leaves node i
+///   r_i = ∫ ∇N_i · ∇u dV − ∫ N_i q dA − ∫ N_i R dV + contributions        [W], heat that leaves node i
 ///
-/// (monograph 2.150 without the capacity terms).
+/// (monograph 2.150 without the capacity terms), k ∇Θ = ∇u by Kirchhoff's transform (conduction_block.hpp).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,6 +15,8 @@
 #include "algebra/presence.hpp"
 #include "heat/conditions.hpp"
 #include "heat/conduction_block.hpp"
+#include "heat/kirchhoff_potential.hpp"
+#include "heat/nodal_potential.hpp"
 #include "heat/surface_heat.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
@@ -45,8 +48,18 @@ class HeatSystem {
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);
-  /// Fills the matrix with ∂r/∂Θ; `exact` includes the slope of the conductivity (unsymmetric).
-  void assemble(std::span<const double> temperature, bool exact);
+  /// Fills the matrix with ∂r/∂Θ, which is unsymmetric where a conductivity varies.
+  void assemble(std::span<const double> temperature);
+  /// Fills the matrix with ∂r/∂v in the unknown of nodal_potential.hpp. It is symmetric if the contributions
+  /// are, and exact but for conduction at nodes that materials of different k(Θ)/κ share, and for
+  /// contributions and surfaces between nodes of different c = dv/dΘ: with S = ∂r/∂Θ of those, what stands
+  /// there is c^-1/2 S c^-1/2 for S c^-1.
+  /// @param slopes   c, [local node], ghosts up to date
+  /// @param further  adds to S; may be empty
+  void assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
+                          const std::function<void(algebra::BlockMatrix&)>& further = {});
+  /// The unknown of assemble_symmetric().
+  const NodalPotential& potential() const { return *nodal_; }
   algebra::BlockMatrix& matrix() { return *matrix_; }
   /// Gives the matrix another pattern where a contribution asks for it; then true. Collective.
   bool follow_graph();
@@ -78,11 +91,10 @@ class HeatSystem {
     std::vector<double> weight;  ///< ∫ N_i dV of the body [m³], [owned node]
     double now = 0;
   };
-  /// Conductivity at the nodes of one body.
-  struct NodalTable {
-    const Table* table;
+  /// Kirchhoff's potential at the nodes of one body whose conductivity varies.
+  struct Field {
     std::vector<Index> nodes;
-    std::vector<double> value, slope;  ///< [local node]
+    std::vector<double> value;  ///< u, or k while the matrix is assembled, [local node]
   };
   void add_prescribed(const std::vector<PrescribedTemperature>& conditions);
   void add_sources(const std::vector<Source>& sources);
@@ -92,7 +104,7 @@ class HeatSystem {
   void add_conditions(const Conditions& conditions);
   void remove_bodies(const algebra::Presence& presence);
   double add_flows(std::span<const double> temperature);
-  void update_conductivity(std::span<const double> temperature, bool slopes);
+  void keep_conduction();
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
@@ -101,15 +113,18 @@ class HeatSystem {
   std::vector<algebra::Contribution*> contributions_;
   algebra::Presence presence_;
   std::vector<std::unique_ptr<ConductionBlock>>
-      conduction_;                        ///< one per mesh block, null of a body that left
-  std::vector<NodalTable> conductivity_;  ///< one per body
+      conduction_;                              ///< one per mesh block, null of a body that left
+  std::vector<KirchhoffPotential> potentials_;  ///< one per body
+  std::vector<Field> fields_;                   ///< one per body
+  std::unique_ptr<NodalPotential> nodal_;
+  std::vector<double> kept_conduction_;  ///< Σ_m κ_m ∫∇N_a·∇N_b dV by slot; empty until it is needed
   std::vector<SurfaceHeat> surfaces_;
   std::vector<Volume> sources_;
   std::vector<Prescribed> prescribed_;
   std::vector<char> fixed_;
   bool exchange_ = true;
   std::unique_ptr<algebra::BlockMatrix> matrix_;
-  std::vector<double> local_;     ///< work, [local node]
+  std::vector<double> local_, roots_;  ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]
   std::vector<double> contributed_;                                        ///< work, [owned node]
   std::vector<double> surface_power_, source_power_, contribution_power_;  ///< of this process, last residual

@@ -13,7 +13,9 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
     : materials_(materials) {
   for (const material::Material& m : materials_) {
     curves_.push_back(m.enthalpy());
+    starts_.emplace_back();
     for (const auto& piece : curves_.back().pieces()) {
+      starts_.back().push_back(piece.h0);
       breaks_.push_back(piece.t0);
       breaks_.push_back(piece.t1);
     }
@@ -139,6 +141,37 @@ double NodalEnthalpy::slope(Index node, double heat) const {
   bool plateau = false;
   const double temperature = mixed_temperature(list, heat, plateau);
   return plateau ? 0.0 : 1.0 / capacity(node, temperature);
+}
+
+NodalEnthalpy::Point NodalEnthalpy::point(Index node, double heat) const {
+  const auto list = shares(node);
+  if (list.size() != 1) {
+    assert(!list.empty());
+    bool plateau = false;
+    const double t = mixed_temperature(list, heat, plateau);
+    return {t, plateau ? 0.0 : 1.0 / capacity(node, t)};
+  }
+  const Share& share = list.front();
+  const std::vector<double>& starts = starts_[static_cast<std::size_t>(share.body)];
+  const double h = heat / share.weight;
+  const auto above =
+      static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), h) - starts.begin());
+  const std::size_t i = above == 0 ? 0 : above - 1;
+  const auto& piece = curve(share).pieces()[i];
+  const double from = h - piece.h0, width = piece.t1 - piece.t0;
+  if (from <= 0) return {piece.t0 + from / piece.c0, 1.0 / (piece.c0 * share.weight)};
+  const double in_piece = width * (piece.c0 + 0.5 * piece.c1 * width);
+  if (from >= in_piece) {
+    const double c = piece.c0 + piece.c1 * width;
+    if (i + 1 == starts.size()) return {piece.t1 + (from - in_piece) / c, 1.0 / (c * share.weight)};
+    // In a jump, or at the end of the piece but for rounding.
+    constexpr double k_rounding = 1e-9;
+    const double height = starts[i + 1] - piece.h0;
+    const bool jumps = height - in_piece > k_rounding * height && from > in_piece;
+    return {piece.t1, jumps ? 0.0 : 1.0 / (c * share.weight)};
+  }
+  const double root = std::sqrt(piece.c0 * piece.c0 + 2.0 * piece.c1 * from);
+  return {std::min(piece.t0 + 2.0 * from / (piece.c0 + root), piece.t1), 1.0 / (root * share.weight)};
 }
 
 double NodalEnthalpy::plateau_share(Index node, double heat, double temperature) const {

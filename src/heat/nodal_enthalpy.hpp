@@ -32,6 +32,12 @@ class NodalEnthalpy {
   double temperature(Index node, double heat) const;
   /// dΘ_i/dH [K/J]; zero within a plateau and where nothing is stored.
   double slope(Index node, double heat) const;
+  /// Θ_i(H) and dΘ_i/dH by one look-up.
+  struct Point {
+    double temperature;  ///< [K]
+    double slope;        ///< [K/J]
+  };
+  Point point(Index node, double heat) const;
   /// H_i at a temperature; at a jump both ends.
   double lower(Index node, double temperature) const;
   double upper(Index node, double temperature) const;
@@ -85,6 +91,7 @@ class NodalEnthalpy {
 
   std::vector<material::Material> materials_;
   std::vector<material::EnthalpyCurve> curves_;  ///< per body
+  std::vector<std::vector<double>> starts_;      ///< per body, h at the start of each piece [J/m³]
   std::vector<double> breaks_;                   ///< temperatures where any curve bends or jumps, rising [K]
   std::vector<std::size_t> start_;               ///< first share of each owned node
   std::vector<Share> shares_;

@@ -7,10 +7,45 @@
 
 namespace solidus::heat {
 
+namespace {
+
+/// Divides what another solver finds by the slopes of the unknown: δΘ = δv/c.
+class SlopeSolver final : public algebra::TangentSolver {
+ public:
+  SlopeSolver(algebra::TangentSolver& solver, const std::vector<double>& slope)
+      : solver_(solver), slope_(slope) {}
+  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                              double forcing) override {
+    return divided(solver_.solve(a, b, x, forcing), x);
+  }
+  algebra::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override {
+    return divided(solver_.solve_again(b, x, forcing), x);
+  }
+  void forget() override { solver_.forget(); }
+  void reset() override { solver_.reset(); }
+  double seconds_setup() const override { return solver_.seconds_setup(); }
+  double seconds_solve() const override { return solver_.seconds_solve(); }
+
+ private:
+  algebra::LinearReport divided(algebra::LinearReport report, std::span<double> x) const {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] /= slope_[i];
+    return report;
+  }
+  algebra::TangentSolver& solver_;
+  const std::vector<double>& slope_;
+};
+
+}  // namespace
+
 TemperatureSystem::TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system,
-                                     std::span<const std::unique_ptr<PointStorage>> points,
-                                     bool exact_conductivity)
-    : mesh_(mesh), system_(system), points_(points), exact_(exact_conductivity), local_(mesh.x.size()) {}
+                                     const algebra::GhostExchange& ghosts,
+                                     std::span<const std::unique_ptr<PointStorage>> points)
+    : mesh_(mesh),
+      system_(system),
+      points_(points),
+      ghosts_(ghosts),
+      local_(mesh.x.size()),
+      slope_(mesh.x.size(), 1.0) {}
 
 double TemperatureSystem::residual(std::span<const double> x, std::span<double> r) {
   x_.assign(x.begin(), x.end());
@@ -29,11 +64,29 @@ double TemperatureSystem::residual(std::span<const double> x, std::span<double> 
   return moved_ / std::sqrt(static_cast<double>(mesh_.n_global_nodes));
 }
 
-algebra::BlockMatrix& TemperatureSystem::tangent(bool exact_conductivity) {
-  system_.assemble(x_, exact_conductivity);
+algebra::BlockMatrix& TemperatureSystem::tangent() {
+  const NodalPotential& potential = system_.potential();
+  if (!potential.identity()) {
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+      slope_[static_cast<std::size_t>(i)] = potential.slope(i, x_[static_cast<std::size_t>(i)]);
+    ghosts_.update(slope_, 1);
+  }
+  system_.assemble_symmetric(x_, slope_, [this](algebra::BlockMatrix& matrix) {
+    if (!storing_) return;
+    for (const auto& block : points_) block->add_tangent(x_, matrix);
+  });
+  return system_.matrix();
+}
+
+algebra::BlockMatrix& TemperatureSystem::exact_tangent() {
+  system_.assemble(x_);
   if (storing_)
     for (const auto& block : points_) block->add_tangent(x_, system_.matrix());
   return system_.matrix();
+}
+
+std::unique_ptr<algebra::TangentSolver> TemperatureSystem::solver(algebra::TangentSolver& solver) {
+  return std::make_unique<SlopeSolver>(solver, slope_);
 }
 
 double TemperatureSystem::round_off() const {

@@ -14,16 +14,20 @@ namespace solidus::heat {
 class TemperatureSystem final : public algebra::NonlinearSystem {
  public:
   /// @param points storage of every mesh block (open rule); empty for the steady state only
-  TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system,
-                    std::span<const std::unique_ptr<PointStorage>> points, bool exact_conductivity);
+  TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system, const algebra::GhostExchange& ghosts,
+                    std::span<const std::unique_ptr<PointStorage>> points);
 
   /// With or without storage from now on.
   void use_storage(bool on) { storing_ = on; }
   /// The sum of the nodal residuals' magnitudes is at most √N times their norm, so ‖r‖ is measured against
   /// the heat moved over √N: the balance then closes to the tolerance.
   double residual(std::span<const double> x, std::span<double> r) override;
-  algebra::BlockMatrix& tangent() override { return tangent(exact_); }
-  algebra::BlockMatrix& tangent(bool exact_conductivity);
+  /// In the unknown of nodal_potential.hpp, symmetric: for the solver of solver().
+  algebra::BlockMatrix& tangent() override;
+  /// ∂r/∂Θ, unsymmetric where a conductivity varies.
+  algebra::BlockMatrix& exact_tangent();
+  /// Solves with tangent() by `solver` and returns steps of the temperature, which both must outlive.
+  std::unique_ptr<algebra::TangentSolver> solver(algebra::TangentSolver& solver);
   double moved() const { return moved_; }  ///< of the last residual, all processes [W]
   /// Residuals that rounding alone leaves.
   double round_off() const;
@@ -32,9 +36,11 @@ class TemperatureSystem final : public algebra::NonlinearSystem {
   const mesh::Mesh& mesh_;
   HeatSystem& system_;
   std::span<const std::unique_ptr<PointStorage>> points_;
-  bool exact_, storing_ = false;
+  const algebra::GhostExchange& ghosts_;
+  bool storing_ = false;
   double moved_ = 0;
   std::vector<double> x_, local_;
+  std::vector<double> slope_;  ///< dv/dΘ at the last tangent(), [local node]
 };
 
 }  // namespace solidus::heat

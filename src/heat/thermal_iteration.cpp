@@ -14,6 +14,15 @@
 
 namespace solidus::heat {
 
+ThermalIteration::ThermalIteration(ThermalPhase& phase) : phase_(phase) {}
+
+ThermalIteration::~ThermalIteration() = default;
+
+double ThermalIteration::tolerance() const {
+  const double given = phase_.options_.tolerance;
+  return given > 0 ? given : nodal() ? k_nodal_tolerance : k_point_tolerance;
+}
+
 void ThermalIteration::begin(const ThermalState& old, double time, double dt) {
   begin_stage(old, old, 0.0, time, dt);
 }
@@ -33,7 +42,9 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
     stored_from_ = old.enthalpy;
     for (std::size_t i = 0; i < stored_from_.size(); ++i)
       stored_from_[i] += factor * (stage.enthalpy[i] - old.enthalpy[i]);
-    phase_.enthalpy_newton_->begin(stored_from_, dt, now_.enthalpy);
+    newton_ = std::make_unique<EnthalpyNewton>(phase_.mesh_, *phase_.system_, *phase_.storage_,
+                                               phase_.ghosts_, tolerance());
+    newton_->begin(stored_from_, dt, now_.enthalpy);
   } else {
     for (const auto& block : phase_.points_) {
       block->start(old.temperature, dt);
@@ -46,8 +57,8 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
 
 void ThermalIteration::evaluate() {
   if (nodal()) {
-    phase_.enthalpy_newton_->evaluate(now_.temperature);
-    unbalanced_ = phase_.enthalpy_newton_->unbalanced();
+    newton_->evaluate(now_.temperature);
+    unbalanced_ = newton_->unbalanced();
     return;
   }
   phase_.temperature_system_->residual(now_.temperature, residual_);
@@ -58,17 +69,16 @@ void ThermalIteration::evaluate() {
 }
 
 std::span<const double> ThermalIteration::residual() const {
-  return nodal() ? phase_.enthalpy_newton_->residual() : std::span<const double>(residual_);
+  return nodal() ? newton_->residual() : std::span<const double>(residual_);
 }
 
 double ThermalIteration::moved() const {
-  return nodal() ? phase_.enthalpy_newton_->moved() : phase_.temperature_system_->moved();
+  return nodal() ? newton_->moved() : phase_.temperature_system_->moved();
 }
 
 bool ThermalIteration::converged() const {
-  if (nodal()) return phase_.enthalpy_newton_->converged();
-  return unbalanced_ <= phase_.options_.tolerance * moved() ||
-         unbalanced_ <= phase_.temperature_system_->round_off();
+  if (nodal()) return newton_->converged();
+  return unbalanced_ <= tolerance() * moved() || unbalanced_ <= phase_.temperature_system_->round_off();
 }
 
 algebra::BlockMatrix& ThermalIteration::matrix() {
@@ -77,25 +87,25 @@ algebra::BlockMatrix& ThermalIteration::matrix() {
 
 algebra::BlockMatrix& ThermalIteration::assemble(int iteration) {
   if (nodal()) {
-    phase_.enthalpy_newton_->adapt_tilt(iteration, now_.temperature);
-    phase_.enthalpy_newton_->assemble(now_.temperature, true);
+    newton_->adapt_tilt(iteration, now_.temperature);
+    newton_->assemble(now_.temperature);
     return phase_.system_->matrix();
   }
   rhs_.resize(residual_.size());
   for (std::size_t i = 0; i < rhs_.size(); ++i) rhs_[i] = phase_.system_->fixed()[i] ? 0.0 : -residual_[i];
-  return phase_.temperature_system_->tangent(true);
+  return phase_.temperature_system_->exact_tangent();
 }
 
 std::span<const double> ThermalIteration::right_hand_side() const {
-  return nodal() ? phase_.enthalpy_newton_->right_hand_side() : std::span<const double>(rhs_);
+  return nodal() ? newton_->right_hand_side() : std::span<const double>(rhs_);
 }
 
 void ThermalIteration::set_direction(std::span<double> step_t, std::span<const double> further) {
   start_ = now_;
   if (nodal()) {
-    phase_.enthalpy_newton_->hold(step_t.first(residual().size()));
+    newton_->hold(step_t.first(residual().size()));
     phase_.ghosts_.update(step_t, 1);
-    phase_.enthalpy_newton_->enthalpy_step(step_t, further);
+    newton_->enthalpy_step(step_t, further);
     return;
   }
   for (std::size_t i = 0; i < residual_.size(); ++i)
@@ -106,7 +116,7 @@ void ThermalIteration::set_direction(std::span<double> step_t, std::span<const d
 
 void ThermalIteration::move(double alpha) {
   if (nodal()) {
-    phase_.enthalpy_newton_->move(start_.enthalpy, alpha, now_.temperature);
+    newton_->move(start_.enthalpy, alpha, now_.temperature);
     phase_.ghosts_.update(now_.temperature, 1);
     return;
   }
@@ -116,7 +126,7 @@ void ThermalIteration::move(double alpha) {
 
 HeatBalance ThermalIteration::conclude(ThermalState& trial) {
   phase_.require_positive(now_.temperature);
-  if (nodal()) phase_.ghosts_.update(now_.enthalpy, 1);
+  if (nodal()) phase_.book(residual(), dt_, now_.enthalpy);
   const ThermalState from{old_->temperature, stored_from_};
   const HeatBalance balance = phase_.balance(from, now_, residual(), moved(), dt_);
   trial = now_;

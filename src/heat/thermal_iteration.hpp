@@ -8,6 +8,7 @@
 /// What depends on the displacements enters r through the contributions of the phase.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,10 +16,13 @@
 
 namespace solidus::heat {
 
+class EnthalpyNewton;
+
 class ThermalIteration {
  public:
   /// The phase must outlive this object and must not solve between begin() and conclude().
-  explicit ThermalIteration(ThermalPhase& phase) : phase_(phase) {}
+  explicit ThermalIteration(ThermalPhase& phase);
+  ~ThermalIteration();
 
   /// To `time` = t_n + dt from `old` at t_n, which is H* and must live until conclude().
   void begin(const ThermalState& old, double time, double dt);
@@ -36,7 +40,7 @@ class ThermalIteration {
   double moved() const;                              ///< heat moved per time at the last evaluate() [W]
   /// The criterion of the phase, on the last evaluate().
   bool converged() const;
-  double tolerance() const { return phase_.options_.tolerance; }
+  double tolerance() const;
   int max_iterations() const { return phase_.options_.max_iterations; }
 
   /// Makes the matrix anew where nodes meet that did not before; then true. Collective.
@@ -63,6 +67,7 @@ class ThermalIteration {
   bool nodal() const { return phase_.nodal(); }
 
   ThermalPhase& phase_;
+  std::unique_ptr<EnthalpyNewton> newton_;  ///< where the enthalpy of the nodes is the unknown
   const ThermalState* old_ = nullptr;
   ThermalState now_, start_;         ///< start_: of the direction
   std::vector<double> stored_from_;  ///< H*, [local node]; where the enthalpy of the nodes is the unknown

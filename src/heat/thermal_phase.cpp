@@ -9,7 +9,6 @@
 
 #include "base/errors.hpp"
 #include "heat/consistent_heat.hpp"
-#include "heat/enthalpy_newton.hpp"
 #include "heat/heat_solver.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
@@ -17,6 +16,7 @@
 #include "heat/printed_heat.hpp"
 #include "heat/temperature_system.hpp"
 #include "heat/thermal_iteration.hpp"
+#include "heat/truncated_newton.hpp"
 
 namespace solidus::heat {
 
@@ -113,25 +113,31 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     contributions_.push_back(printed_.get());
   }
   if (consistent_) contributions_.push_back(consistent_.get());
-  const bool symmetric = options_.symmetric && !options_.exact_conductivity;
-  system_ =
-      std::make_unique<HeatSystem>(mesh, kind, materials_, conditions, closed, contributions_,
-                                   options_.alone ? HeatSolver::storage_for(mesh, options_.solver, symmetric)
-                                                  : algebra::BlockMatrix::Storage::whole);
-  solver_ = std::make_unique<HeatSolver>(mesh, options_.solver, symmetric, options_.linear_tolerance);
-  if (nodal)
-    enthalpy_newton_ = std::make_unique<EnthalpyNewton>(
+  system_ = std::make_unique<HeatSystem>(
+      mesh, kind, materials_, conditions, closed, contributions_,
+      options_.alone ? HeatSolver::storage_for(mesh, options_.solver, options_.symmetric)
+                     : algebra::BlockMatrix::Storage::whole);
+  solver_ =
+      std::make_unique<HeatSolver>(mesh, options_.solver, options_.symmetric, options_.linear_tolerance);
+  if (nodal) {
+    std::vector<char> relaxed;
+    const auto one = [](const material::Material&) { return 1.0; };
+    if (at_nodes_)
+      for (Index i = 0; i < mesh.n_owned_nodes; ++i)
+        relaxed.push_back(at_nodes_->sum(i, one) == storage_->sum(i, one) ? 1 : 0);
+    truncated_newton_ = std::make_unique<TruncatedNewton>(
         mesh, *system_, *storage_, *solver_, ghosts_,
-        EnthalpyNewtonOptions{options_.tolerance, options_.max_iterations, options_.exact_conductivity,
-                              consistent_ != nullptr});
+        TruncatedNewtonOptions{options_.tolerance > 0 ? options_.tolerance : k_nodal_tolerance,
+                               options_.max_iterations},
+        std::move(relaxed));
+  }
   for (const mesh::Block& block : mesh.blocks) {
     if (at_nodes(block.body)) continue;
     points_.push_back(make_point_storage(mesh, block, kind, materials_[at(block.body)], options_.sensible,
                                          options_.open_degree));
     points_.back()->bind(system_->matrix());
   }
-  temperature_system_ =
-      std::make_unique<TemperatureSystem>(mesh, *system_, points_, options_.exact_conductivity);
+  temperature_system_ = std::make_unique<TemperatureSystem>(mesh, *system_, ghosts_, points_);
   reactions_.assign(at(mesh.n_owned_nodes), 0.0);
 }
 
@@ -180,7 +186,6 @@ void ThermalPhase::remove_bodies(const algebra::Presence& before) {
   storage_->remove_bodies(now);
   if (at_nodes_) at_nodes_->remove_bodies(now);
   if (consistent_) consistent_->remove_bodies(now);
-  if (enthalpy_newton_) enthalpy_newton_->storage_changed();
   if (options_.integration == Integration::closed) return;
   std::vector<std::unique_ptr<PointStorage>> left;
   auto points = points_.begin();
@@ -191,8 +196,7 @@ void ThermalPhase::remove_bodies(const algebra::Presence& before) {
   }
   points_ = std::move(left);
   for (const auto& block : points_) block->bind(system_->matrix());
-  temperature_system_ =
-      std::make_unique<TemperatureSystem>(mesh_, *system_, points_, options_.exact_conductivity);
+  temperature_system_ = std::make_unique<TemperatureSystem>(mesh_, *system_, ghosts_, points_);
 }
 
 bool ThermalPhase::follow_graph() {
@@ -237,9 +241,8 @@ ThermalState ThermalPhase::start(const ThermalState& old, double time) {
   system_->prescribe(next.temperature);
   if (nodal())
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
-      if (system_->fixed()[at(i)])
-        next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
-                                          storage_->upper(i, next.temperature[at(i)]));
+      next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
+                                        storage_->upper(i, next.temperature[at(i)]));
   return next;
 }
 
@@ -288,12 +291,19 @@ PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalStat
     for (std::size_t i = 0; i < from.enthalpy.size(); ++i)
       from.enthalpy[i] += stage.carried * (before.enthalpy[i] - old.enthalpy[i]);
   report.newton =
-      enthalpy_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, pass.newton_steps);
+      truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, pass.newton_steps);
   require_positive(next.temperature);
   if (!may_end(report.newton, pass.newton_steps))
-    require(report.newton, enthalpy_newton_->residual(), next.temperature);
-  report.balance = balance(from, next, enthalpy_newton_->residual(), enthalpy_newton_->moved(), stage.dt);
+    require(report.newton, truncated_newton_->residual(), next.temperature);
+  book(truncated_newton_->residual(), stage.dt, next.enthalpy);
+  report.balance = balance(from, next, truncated_newton_->residual(), truncated_newton_->moved(), stage.dt);
   return report;
+}
+
+void ThermalPhase::book(std::span<const double> residual, double dt, std::span<double> heat) const {
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    if (!system_->fixed()[i]) heat[i] -= dt * residual[i];
+  ghosts_.update(heat, 1);
 }
 
 void ThermalPhase::begin_stage(const algebra::Stage& stage, std::span<const double> before) {
@@ -355,12 +365,13 @@ algebra::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperat
   temperature_system_->residual(temperature, r);
   temperature_system_->tangent();
   algebra::NewtonOptions newton;
-  newton.tolerance = options_.tolerance;
+  newton.tolerance = options_.tolerance > 0 ? options_.tolerance : k_point_tolerance;
   newton.inexact = false;  // an iteration costs as much as 25 of the linear solver, which takes as many
   newton.absolute_tolerance = temperature_system_->round_off();
   newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;
   const algebra::NewtonReport report =
-      algebra::newton(*temperature_system_, solver_->strong(), ghosts_, k_one_component, temperature, newton);
+      algebra::newton(*temperature_system_, *temperature_system_->solver(solver_->strong()), ghosts_,
+                      k_one_component, temperature, newton);
   temperature_system_->residual(temperature, r);
   require_positive(temperature);
   if (!may_end(report, newton_steps)) require(report, r, temperature);

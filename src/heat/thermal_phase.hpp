@@ -33,7 +33,7 @@ namespace solidus::heat {
 class HeatSystem;
 class HeatSolver;
 class NodalEnthalpy;
-class EnthalpyNewton;
+class TruncatedNewton;
 class TemperatureSystem;
 class PointStorage;
 class PrintedHeat;
@@ -52,17 +52,21 @@ enum class ThermalStepping { backward_euler, sdirk2 };
 /// γ of SDIRK2.
 inline constexpr double k_sdirk_share = 0.29289321881345248;
 
+/// Default tolerances. Nodes that hold heat take up what the iteration leaves (ThermalPhase::book), so that
+/// theirs is one of accuracy; in the open rule and in a steady state the residual is heat lost or gained
+/// (docs/decisions/0013).
+inline constexpr double k_nodal_tolerance = 1e-5, k_point_tolerance = 1e-9;
+
 struct HeatOptions {
   Integration integration = Integration::closed;
   int open_degree = 0;  ///< polynomial degree of the open rule; 0: by element
-  double tolerance =
-      1e-9;  ///< what the nodal residuals may add up to, as a share of the heat moved in the step
+  /// What the nodal residuals may add up to, as a share of the heat moved in the step; zero:
+  /// k_nodal_tolerance where the nodes hold the heat, else k_point_tolerance.
+  double tolerance = 0;
   int max_iterations = 50;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
   double linear_tolerance = 1e-11;  ///< iterative solvers, relative
-  /// The slope of the conductivity enters the tangent: quadratic convergence, unsymmetric matrix.
-  bool exact_conductivity = false;
-  bool symmetric = true;  ///< false when a contribution's tangent is not
+  bool symmetric = true;            ///< false when a contribution's tangent is not
   /// No scheme makes its tangent part of a larger, unsymmetric one: half of a symmetric matrix will do.
   bool alone = false;
   /// Anything but enthalpy loses heat and needs backward Euler; what is lost is in the balance as its defect.
@@ -167,11 +171,15 @@ class ThermalPhase {
   /// Keeps the reactions and measures a solved step.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,
                       double moved, double dt);
-  /// The start of a step: prescribed temperatures hold.
+  /// Puts what the iteration has left, F of the free nodes, into their heats: H_i = H*_i − Δt r_i then holds
+  /// to rounding, and the heat balance is exact for every tolerance. The temperatures stay those for which
+  /// the fluxes r are; the next step begins from these heats. Updates the ghosts.
+  void book(std::span<const double> residual, double dt, std::span<double> heat) const;
+  /// The start of a step: prescribed temperatures hold, and heats are those of their temperatures.
   ThermalState start(const ThermalState& old, double time);
   /// Whether the enthalpy of the nodes is the unknown: with the closed rule, and with the open one where a
   /// material has an isothermal change.
-  bool nodal() const { return enthalpy_newton_ != nullptr; }
+  bool nodal() const { return truncated_newton_ != nullptr; }
   /// Whether a body stores its heat at the nodes.
   bool at_nodes(int body) const;
   double heat_at(const ThermalState& state, Index node) const;
@@ -196,7 +204,7 @@ class ThermalPhase {
   std::unique_ptr<HeatSystem> system_;
   std::vector<std::unique_ptr<PointStorage>> points_;  ///< of bodies that store there: open rule only
   std::unique_ptr<HeatSolver> solver_;
-  std::unique_ptr<EnthalpyNewton> enthalpy_newton_;
+  std::unique_ptr<TruncatedNewton> truncated_newton_;
   std::unique_ptr<TemperatureSystem> temperature_system_;
   std::vector<double> reactions_;
 };

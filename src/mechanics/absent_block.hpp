@@ -12,7 +12,6 @@ namespace solidus::mechanics {
 
 class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
-  /// Keeps a reference to the block.
   /// @param kept  of the body when it was there, whose fields are shown until keep_fields(); may be null
   AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
               const material::Material& material, std::unique_ptr<BlockKernel> kept = nullptr);
@@ -42,7 +41,6 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   void drop_carried() override {}
 
  private:
-  const mesh::Block& block_;
   mesh::BlockGeometry nowhere_;  ///< of no element
   StructuralPoints points_;      ///< there: none
   std::unique_ptr<BlockKernel> kept_;

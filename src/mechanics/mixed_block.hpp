@@ -111,10 +111,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       std::optional<Matrix> skew;
       if (!this->law_.symmetric()) skew.emplace();
       add_isotropic(b, Lane(0.0), w * response.twice_shear, symmetric);
-      if constexpr (RankOneTangent<Response>)
-        if (any(response.flow_increment > Lane(0.0)))  // right is of unit length
-          this->add_rank_one(b, response.left, response.right, w, dot(response.left, response.right),
-                             symmetric, skew);
+      if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, 0, response, w, symmetric, skew);
       if constexpr (adiabatic) {
         VolumeTangent& t = tangent_[at(batch)];
         t = volume_tangent(response);

@@ -27,7 +27,7 @@ SaddleSolver::SaddleSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displac
       pressure_(pressure),
       ghosts_(ghosts),
       options_(options),
-      matrix_(mesh, displacement, pressure.fields()) {
+      matrix_(displacement, pressure.fields()) {
   find_unknowns();
   make_solver(factorises());
 }

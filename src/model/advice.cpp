@@ -79,12 +79,13 @@ std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseS
 std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec& spec) {
   if (says(stop, "temperature falls") || says(stop, "temperature is not"))
     return {"fluxes and sources at that place: do they take more heat than there is?"};
-  return {fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance (now {:g})",
-                      spec.heat.max_iterations, spec.heat.tolerance),
-          "films, radiation, sources or conductivities that change steeply with temperature at that place",
-          spec.heat.integration == heat::Integration::open
-              ? "the closed rule, heat.integration = \"closed\", converges for any step"
-              : "heat.exact_conductivity = true where the conductivity depends strongly on temperature"};
+  std::vector<std::string> advice = {
+      fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance",
+                  spec.heat.max_iterations),
+      "films, radiation, sources or conductivities that change steeply with temperature at that place"};
+  if (spec.heat.integration == heat::Integration::open)
+    advice.emplace_back("the closed rule, heat.integration = \"closed\", converges for any step");
+  return advice;
 }
 
 /// The body for which the isothermal split is unstable, however short the step; null without one.

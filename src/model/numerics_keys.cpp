@@ -34,16 +34,17 @@ Section<heat::HeatOptions> heat_keys() {
       .range(0, 10)
       .doc("Polynomial degree that the open rule integrates exactly; 0: by element.");
   s.key("tolerance", &HeatOptions::tolerance)
-      .initially(1e-9)
-      .positive()
-      .doc("Newton stops when the residual falls below this share of the heat moved in the step.");
+      .initially(0.0)
+      .range(0, 1)
+      .doc(
+          "Newton stops when the residual falls below this share of the heat moved in the step. 0: 1e-5 "
+          "where "
+          "nodes hold the heat (closed rule), which take up the rest, so that energy is exact for every "
+          "tolerance; else 1e-9, because there the rest is heat lost or gained.");
   s.key("max_iterations", &HeatOptions::max_iterations)
       .initially(50)
       .range(1, 1000)
       .doc("Newton iterations before a step is cut.");
-  s.key("exact_conductivity", &HeatOptions::exact_conductivity)
-      .initially(false)
-      .doc("The slope of the conductivity enters the tangent: fewer iterations, an unsymmetric matrix.");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
   return s;
 }

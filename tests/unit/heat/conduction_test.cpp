@@ -83,7 +83,7 @@ TEST_P(EveryShape, HasATangentThatIsTheDerivativeOfItsResidual) {
   for (const mesh::Point& x : mesh.x) direction.push_back(std::cos(5 * x[0] + 3 * x[1] + 2 * x[2]));
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
   std::vector<double> product(n), plus(n), minus(n);
-  system.assemble(t, true);
+  system.assemble(t);
   system.matrix().multiply(direction, product);
   const double eps = 1e-4;  // kinks of the tables lie further from the nodes than this
   std::vector<double> shifted = t;
@@ -131,7 +131,7 @@ TEST(ClosedRule, MakesTheMatrixOfNonNegativeTypeOnRectanglesAndBoxes) {
     for (const bool closed : {true, false}) {
       const std::vector<material::Material> materials{conductor(Table({200, 1200}, {300, 60}))};
       heat::HeatSystem system(mesh, kind_of(shape), materials, {}, closed, {});
-      system.assemble(field(mesh), false);
+      system.assemble(field(mesh));
       double worst = 0;
       std::vector<double> unit(mesh.x.size(), 0.0), column(static_cast<std::size_t>(mesh.n_owned_nodes));
       for (std::size_t j = 0; j < unit.size(); ++j) {

@@ -1,0 +1,358 @@
+#include "heat/truncated_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/forcing.hpp"
+#include "algebra/parallel.hpp"
+#include "base/profile.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr double k_round_off = 2e-15;  ///< of heat contents and of conductance × temperature
+constexpr double k_plateau_stiffness =
+    1e13;                           ///< times the diagonal: δ = 0 to rounding, without a change of structure
+constexpr double k_relaxed = 1e-3;  ///< what a sweep leaves of a node's own residual
+constexpr double k_negligible = 1e-2;   ///< share of the tolerance that nodes which are not relaxed may have
+constexpr int k_relaxations = 60;       ///< evaluations of a node's curve in one visit
+constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
+constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope of E is this share
+constexpr int k_search_trials = 20;
+constexpr double k_clip_below = 0.2;  ///< length of a step below which plateaus shorten it node by node
+
+}  // namespace
+
+TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
+                                 HeatSolver& solver, const algebra::GhostExchange& ghosts,
+                                 TruncatedNewtonOptions options, std::vector<char> relaxed)
+    : mesh_(mesh),
+      system_(system),
+      storage_(storage),
+      solver_(solver),
+      ghosts_(ghosts),
+      options_(options),
+      relaxed_(std::move(relaxed)) {
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
+  for (auto* v : {&r_, &diagonal_, &product_, &b_, &from_heat_, &from_temperature_}) v->resize(n);
+  step_.resize(mesh.x.size());
+  slope_.assign(mesh.x.size(), 1.0);
+}
+
+void TruncatedNewton::evaluate() {
+  const profile::Part part("residual");
+  double moved = system_.residual(temperature_, r_), norm = 0, contents = 0;
+  const std::vector<char>& fixed = system_.fixed();
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const double stored = (heat_[i] - old_heat_[i]) / dt_;
+    r_[i] += stored;
+    moved += std::abs(stored);
+    contents += std::abs(heat_[i]) / dt_;
+    (fixed[i] ? moved : norm) += std::abs(r_[i]);
+  }
+  norm_ = algebra::global_sum(norm);
+  moved_ = 0.5 * algebra::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
+  round_off_ = k_round_off * (algebra::global_sum(contents) + conductance_);
+}
+
+/// A at the temperatures of now.
+void TruncatedNewton::assemble() {
+  const profile::Part part("assembly");
+  const NodalPotential& potential = system_.potential();
+  if (!potential.identity()) {
+    for (std::size_t i = 0; i < r_.size(); ++i)
+      slope_[i] = potential.slope(static_cast<Index>(i), temperature_[i]);
+    ghosts_.update(slope_, 1);
+  }
+  system_.assemble_symmetric(temperature_, slope_);
+  algebra::BlockMatrix& a = system_.matrix();
+  double conductance = 0;
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    diagonal_[i] = *a.diagonal_block(static_cast<Index>(i));
+    conductance += std::abs(diagonal_[i] * slope_[i] * temperature_[i]);
+  }
+  conductance_ = algebra::global_sum(conductance);
+  if (r_.size() == mesh_.x.size()) return;
+  const std::span<const std::int64_t> start = a.row_start();
+  const std::span<const Index> columns = a.columns();
+  const double* values = a.block(0);
+  for (std::size_t i = 0; i < r_.size(); ++i)
+    for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
+      if (columns[static_cast<std::size_t>(s)] >= mesh_.n_owned_nodes) diagonal_[i] += std::abs(values[s]);
+}
+
+/// Solves the equation of one node, F_i + (H − H_i)/Δt + A_ii (v(H) − v_i) = 0, for its H; returns the change
+/// of v. The left-hand side rises with H, at 1/Δt at least: Newton's method, within a bracket as soon as
+/// there is one.
+double TruncatedNewton::relax(std::size_t i, double residual) {
+  if (std::abs(residual) <= negligible_ || system_.fixed()[i] || (!relaxed_.empty() && relaxed_[i] == 0))
+    return 0;
+  const auto node = static_cast<Index>(i);
+  const NodalPotential& potential = system_.potential();
+  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i], v0 = potential.value(node, temperature_[i]);
+  NodalEnthalpy::Point at = storage_.point(node, h0);
+  double low = -HUGE_VAL, high = HUGE_VAL, h = h0, v = v0, defect = residual;
+  for (int trial = 0; trial < k_relaxations; ++trial) {
+    (defect > 0 ? high : low) = h;
+    const double slope =
+        1.0 / dt_ + (at.slope > 0 ? a * at.slope * potential.slope(node, at.temperature) : 0.0);
+    double next = h - defect / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (!std::isfinite(next) || next == h) break;
+    h = next;
+    at = storage_.point(node, h);
+    v = potential.value(node, at.temperature);
+    defect = residual + (h - h0) / dt_ + a * (v - v0);
+    if (std::abs(defect) <= k_relaxed * std::abs(residual)) break;
+  }
+  const double t = at.temperature;
+  heat_[i] = h;
+  temperature_[i] = t;
+  return v - v0;
+}
+
+void TruncatedNewton::sweep(Order order) {
+  const algebra::BlockMatrix& a = system_.matrix();
+  const std::span<const std::int64_t> start = a.row_start();
+  const std::span<const Index> columns = a.columns();
+  const double* values = a.block(0);
+  const auto n = r_.size();
+  for (std::size_t i = 0; i < n; ++i) from_heat_[i] = heat_[i];
+  // A row has its later columns in either storage: going forward they take what a change makes of their
+  // residuals, going backward the row takes what theirs have made.
+  if (order == Order::forward) {
+    std::copy(r_.begin(), r_.end(), b_.begin());
+    for (std::size_t i = 0; i < n; ++i) {
+      const double change = step_[i] = relax(i, b_[i]);
+      if (change == 0) continue;
+      for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
+        const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+        if (j > i && j < n) b_[j] += values[s] * change;
+      }
+    }
+  } else {
+    for (std::size_t i = n; i-- > 0;) {
+      double residual = r_[i];
+      for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
+        const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+        if (j > i && j < n) residual += values[s] * step_[j];
+      }
+      step_[i] = relax(i, residual);
+    }
+  }
+  follow(step_);
+}
+
+void TruncatedNewton::follow(std::span<double> step) {
+  ghosts_.update(step, 1);
+  system_.matrix().multiply(step, product_);
+  for (std::size_t i = 0; i < r_.size(); ++i) r_[i] += (heat_[i] - from_heat_[i]) / dt_ + product_[i];
+}
+
+/// (D + A) δ = −F, δ in step_ with its ghosts and A δ in product_.
+algebra::LinearReport TruncatedNewton::correct(double forcing) {
+  algebra::BlockMatrix& a = system_.matrix();
+  const auto n = r_.size();
+  const NodalPotential& potential = system_.potential();
+  std::vector<char> held(n);
+  std::vector<double> of_a(n);  // its diagonal, without D
+  {
+    const profile::Part part("assembly");
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto node = static_cast<Index>(i);
+      double& diagonal = *a.diagonal_block(node);
+      of_a[i] = diagonal;
+      const double slope = storage_.point(node, heat_[i]).slope;
+      held[i] = slope == 0.0 || system_.fixed()[i] ? 1 : 0;
+      if (slope == 0.0)
+        diagonal = k_plateau_stiffness *
+                   (std::abs(diagonal) + storage_.capacity(node, temperature_[i]) / (dt_ * slope_[i]));
+      else
+        diagonal += 1.0 / (dt_ * slope * potential.slope(node, temperature_[i]));
+      // A held node has no equation here: its residual must not set the scale of the linear solver.
+      b_[i] = held[i] ? 0.0 : -r_[i];
+    }
+  }
+  const algebra::LinearReport report = solver_.solve(a, b_, std::span(step_).first(n), forcing);
+  for (std::size_t i = 0; i < n; ++i) {
+    *a.diagonal_block(static_cast<Index>(i)) = of_a[i];
+    if (held[i]) step_[i] = 0;
+  }
+  if (!report.converged) return report;
+  ghosts_.update(step_, 1);
+  a.multiply(step_, product_);
+  return report;
+}
+
+/// Takes the nodes to v + α δ from where the search begins.
+void TruncatedNewton::move(double alpha) {
+  const NodalPotential& potential = system_.potential();
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    if (step_[i] == 0) continue;
+    const auto node = static_cast<Index>(i);
+    const double from = from_temperature_[i];
+    const double t = potential.temperature(node, potential.value(node, from) + alpha * step_[i], from);
+    temperature_[i] = t;
+    heat_[i] = step_[i] < 0 ? storage_.upper(node, t) : storage_.lower(node, t);
+  }
+}
+
+/// The same, and dE/dα there for the A of now.
+double TruncatedNewton::linear_slope(double alpha) {
+  move(alpha);
+  double sum = 0;
+  for (std::size_t i = 0; i < r_.size(); ++i)
+    if (step_[i] != 0) sum += step_[i] * (r_[i] + (heat_[i] - from_heat_[i]) / dt_ + alpha * product_[i]);
+  return algebra::global_sum(sum);
+}
+
+/// The same for F itself, which is evaluated.
+double TruncatedNewton::true_slope(double alpha) {
+  move(alpha);
+  ghosts_.update(temperature_, 1);
+  evaluate();
+  return slope_along_step();
+}
+
+double TruncatedNewton::slope_along_step() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < r_.size(); ++i) sum += step_[i] * r_[i];
+  return algebra::global_sum(sum);
+}
+
+/// Shortens steps to the plateau that they would lead to if the heat took its temperature along the curve of
+/// now: the node comes to lie at its near end. Returns whether any was.
+bool TruncatedNewton::clip() {
+  const NodalPotential& potential = system_.potential();
+  bool any = false;
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    heat_[i] = from_heat_[i];
+    temperature_[i] = from_temperature_[i];
+    if (step_[i] == 0) continue;
+    const auto node = static_cast<Index>(i);
+    const double slope = storage_.point(node, heat_[i]).slope * potential.slope(node, temperature_[i]);
+    const NodalEnthalpy::Point there = storage_.point(node, heat_[i] + step_[i] / slope);
+    if (there.slope > 0) continue;
+    step_[i] = potential.value(node, there.temperature) - potential.value(node, temperature_[i]);
+    any = true;
+  }
+  if (!algebra::any_process(any)) return false;
+  ghosts_.update(step_, 1);
+  system_.matrix().multiply(step_, product_);
+  return true;
+}
+
+/// Goes to the least E along δ, to a tenth of its slope at the start; leaves F there.
+void TruncatedNewton::search() {
+  const profile::Part part("line search");
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    from_heat_[i] = heat_[i];
+    from_temperature_[i] = temperature_[i];
+  }
+  double start = slope_along_step();
+  double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
+  if (alpha < k_clip_below && clip()) {
+    start = slope_along_step();
+    alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
+  }
+  // A holds what is not linear in v by its derivative: the step must stand before F itself.
+  const double slope = true_slope(alpha);
+  if (start < 0 && !(slope <= -k_accept_rise * start)) minimise(start, alpha, &TruncatedNewton::true_slope);
+}
+
+/// @param start   dE/dα at zero
+/// @param longest  α that is tried first
+double TruncatedNewton::minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double)) {
+  double low = 0, low_slope = start, high = longest, high_slope = (this->*slope_at)(longest), alpha = longest;
+  if (!(start < 0) || high_slope <= -k_accept_rise * start) return longest;
+  int side = 0;
+  for (int trial = 0; trial < k_search_trials; ++trial) {
+    // The Illinois rule, kept inside the bracket.
+    alpha = std::isfinite(high_slope) ? (low * high_slope - high * low_slope) / (high_slope - low_slope)
+                                      : 0.5 * (low + high);
+    alpha = std::clamp(alpha, low + 0.05 * (high - low), high - 0.05 * (high - low));
+    const double slope = (this->*slope_at)(alpha);
+    if (std::abs(slope) <= -k_accept_slope * start) break;
+    if (slope < 0) {
+      low = alpha;
+      low_slope = slope;
+      if (side == 1) high_slope *= 0.5;
+      side = 1;
+    } else {
+      high = alpha;
+      high_slope = slope;
+      if (side == -1) low_slope *= 0.5;
+      side = -1;
+    }
+  }
+  return alpha;
+}
+
+double TruncatedNewton::norm_of_free() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < r_.size(); ++i)
+    if (!system_.fixed()[i]) sum += std::abs(r_[i]);
+  return algebra::global_sum(sum);
+}
+
+/// Both sweeps, with A at the temperatures of now. Where the linear A says that the iteration may end, F is
+/// evaluated.
+void TruncatedNewton::relax_nodes() {
+  assemble();
+  {
+    const profile::Part part("sweeps");
+    negligible_ = k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
+    sweep(Order::forward);
+    sweep(Order::backward);
+    ghosts_.update(temperature_, 1);
+  }
+  norm_ = norm_of_free();
+  if (converged()) evaluate();
+}
+
+algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
+                                             std::span<double> temperature, std::span<double> heat,
+                                             int newton_steps) {
+  old_heat_ = old_heat;
+  heat_ = heat;
+  temperature_ = temperature;
+  dt_ = dt;
+  conductance_ = 0;
+  const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
+  algebra::Forcing forcing(true);
+  algebra::NewtonReport report;
+  evaluate();
+  while (true) {
+    report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
+    if (!std::isfinite(norm_)) {
+      report.reason = "the residual is not a number";
+      break;
+    }
+    if (!converged()) relax_nodes();
+    if (converged()) {
+      report.residuals.back() = moved_ > 0 ? norm_ / moved_ : norm_;
+      report.converged = true;
+      break;
+    }
+    if (report.iterations == most) {
+      evaluate();
+      report.out_of_iterations = true;
+      report.reason = "no convergence in " + std::to_string(most) + " iterations";
+      break;
+    }
+    ++report.iterations;
+    const algebra::LinearReport linear =
+        correct(forcing.next(norm_ / moved_, options_.tolerance * moved_ / norm_));
+    report.linear_iterations += linear.iterations;
+    if (!linear.converged) {
+      report.reason = "linear solver: " + linear.reason;
+      break;
+    }
+    search();
+  }
+  ghosts_.update(heat, 1);
+  return report;
+}
+
+}  // namespace solidus::heat

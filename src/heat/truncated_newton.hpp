@@ -1,0 +1,111 @@
+/// One step of the thermal phase where the nodes hold the heat: truncated nonsmooth Newton's method.
+///
+///   F_i = (H_i − H*_i)/Δt + r_i(Θ) = 0                                                          [W]
+///
+/// H_i(Θ_i) rises, and is vertical where a change is isothermal. In the unknown v of nodal_potential.hpp
+/// conduction is linear, r = A v − b, with A symmetric and positive semi-definite, so F = 0 says that v
+/// minimises the strictly convex functional
+///
+///   E(v) = Σ_i ∫ H_i/Δt dv_i + ½ vᵀA v − (b + H*/Δt)ᵀ v
+///
+/// One iteration is
+///   1. a nonlinear sweep of Gauss and Seidel's method over the nodes, there and back: each node takes the
+///   H_i
+///      that balances its own equation, so it may come to lie on a plateau, or leave it. Where the residual
+///      is small enough now, the iteration ends;
+///   2. a step of Newton's method (D + A) δ = −F, D_i = 1/(Δt dv_i/dH_i), for the nodes that do not lie on a
+///      plateau: the others are held (truncated). The linear solver goes as far as the step is good for;
+///   3. a line search for the least E along δ, which cuts off what is wrong with the step of a node that
+///   passes
+///      a plateau, where H_i jumps, or a bend of its curve. Where it would cut nearly all, the steps of nodes
+///      that pass a plateau end there, and the others need not wait for them.
+/// No part lets E rise, and the sweeps alone converge, so the iteration converges from any start, for every
+/// step and curve; near the solution it is Newton's method. The number of iterations hardly depends on the
+/// mesh. C. Gräser and R. Kornhuber, J. Comput. Math. 27 (2009) 1; C. Gräser, U. Sack and O. Sander,
+/// Truncated nonsmooth Newton multigrid methods for convex minimization problems, Domain Decomposition
+/// Methods XVIII (Springer 2009), where one multigrid cycle stands for the linear solver.
+///
+/// What else the residual holds (radiation, films and contributions that bend in v, materials of different
+/// conductivity curves that share nodes) enters A by its derivative. That goes beyond the argument: the line
+/// search then looks at F itself. With several processes each sweeps over its own nodes; the magnitudes of
+/// couplings to other processes' nodes are added to the diagonal, with which E falls although the neighbours
+/// move at the same time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algebra/newton.hpp"
+#include "heat/heat_solver.hpp"
+#include "heat/heat_system.hpp"
+#include "heat/nodal_enthalpy.hpp"
+
+namespace solidus::heat {
+
+struct TruncatedNewtonOptions {
+  double tolerance = 1e-5;  ///< Σ|F_i| <= tolerance × heat moved per time
+  int max_iterations = 50;
+};
+
+class TruncatedNewton {
+ public:
+  /// @param relaxed  the nodes that sweeps may change, [owned node]; empty: all. Not those where a
+  /// contribution
+  ///                 takes back what the node stores (consistent_heat.hpp)
+  TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
+                  HeatSolver& solver, const algebra::GhostExchange& ghosts, TruncatedNewtonOptions options,
+                  std::vector<char> relaxed = {});
+
+  /// From the start values in `temperature` and `heat` ([local node]), a point of each node's graph;
+  /// `old_heat` is H*. Where the temperature is prescribed, `temperature` already holds it. Collective.
+  /// @param newton_steps  at most so many iterations; zero: the limit of the options
+  algebra::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
+                              std::span<double> heat, int newton_steps = 0);
+  /// F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the heat that
+  /// holds it.
+  std::span<const double> residual() const { return r_; }
+  double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
+
+ private:
+  enum class Order { forward, backward };
+  void evaluate();
+  bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
+  void assemble();
+  void relax_nodes();
+  void sweep(Order order);
+  double relax(std::size_t i, double residual);
+  /// Adds to F what the change of v since then makes of it.
+  void follow(std::span<double> step);
+  algebra::LinearReport correct(double forcing);
+  double norm_of_free() const;
+  void search();
+  double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
+  double linear_slope(double alpha);
+  double true_slope(double alpha);
+  double slope_along_step() const;
+  void move(double alpha);
+  bool clip();
+
+  const mesh::Mesh& mesh_;
+  HeatSystem& system_;
+  const NodalEnthalpy& storage_;
+  HeatSolver& solver_;
+  const algebra::GhostExchange& ghosts_;
+  TruncatedNewtonOptions options_;
+  std::vector<char> relaxed_;
+
+  double dt_ = 1;
+  std::span<const double> old_heat_;
+  std::span<double> heat_, temperature_;
+  std::vector<double> r_;         ///< F, after sweeps that of the linear A, [owned node]
+  std::vector<double> slope_;     ///< c = dv/dΘ where A was assembled, [local node]
+  std::vector<double> diagonal_;  ///< of A, with the magnitudes of the couplings to other processes' nodes
+  std::vector<double> step_;      ///< change of v, [local node]
+  std::vector<double> product_;   ///< A times it, [owned node]
+  std::vector<double> b_;         ///< right-hand side, [owned node]
+  std::vector<double> from_heat_, from_temperature_;  ///< where the line search begins, [owned node]
+  double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
+  double negligible_ = 0;  ///< |F_i| for which no node is relaxed
+};
+
+}  // namespace solidus::heat
