@@ -1,5 +1,4 @@
-/// The linear solver of displacement and temperature at once (coupled_matrix.hpp), where there is no pressure
-/// (coupling/coupled_saddle_solver.hpp): MUMPS, or FGMRES with a multiplicative
+/// The linear solver of both fields at once (coupled_matrix.hpp): MUMPS, or FGMRES with a multiplicative
 /// field split, multigrid with rigid-body modes on the displacements and incomplete LU on the temperatures.
 /// PETSc options: coupled_, within the split coupled_fieldsplit_u_ and coupled_fieldsplit_temperature_.
 #pragma once
@@ -53,6 +52,7 @@ inline bool is_direct(CoupledSolverKind kind, int dimension, GlobalIndex n_unkno
   return dimension == 2 || n_unknowns < limit_3d;
 }
 
+/// Where there is no pressure; with one: coupling/coupled_saddle_solver.hpp.
 class CoupledSolver final : public CoupledTangentSolver {
  public:
   CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind, double relative_tolerance);
