@@ -13,18 +13,13 @@ constexpr GlobalIndex k_direct_limit_3d = 20000;
 
 }  // namespace
 
-bool CoupledSolver::is_direct(CoupledSolverKind kind, const mesh::Mesh& mesh, GlobalIndex n_unknowns) {
-  if (kind != CoupledSolverKind::automatic) return kind == CoupledSolverKind::direct;
-  return mesh.dimension == 2 || n_unknowns < k_direct_limit_3d;
-}
-
 struct CoupledSolver::Petsc {
   MatHandle assembled;  ///< the nest as one matrix, for the direct solver
 };
 
 CoupledSolver::CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind,
                              double relative_tolerance)
-    : direct_(is_direct(kind, mesh, mesh.n_global_nodes * (components + 1))),
+    : direct_(is_direct(kind, mesh.dimension, mesh.n_global_nodes * (components + 1), k_direct_limit_3d)),
       solver_(mesh, {.prefix = "coupled_",
                      .kind = direct_ ? SolverKind::direct : SolverKind::field_split,
                      .symmetric = false,

@@ -10,6 +10,9 @@ namespace solidus::coupling {
 
 namespace {
 
+/// Unknowns up to which a factorisation is the default in three dimensions. Of 5 300 unknowns of tetrahedra
+/// that flow a step takes 0.68 s with it and 0.08 s with GMRES.
+constexpr GlobalIndex k_direct_limit_3d = 3000;
 /// Up to so many unknowns a factorisation takes over where GMRES fails.
 constexpr GlobalIndex k_rescue_limit = 200000;
 /// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
@@ -61,7 +64,7 @@ void CoupledSaddleSolver::find_unknowns() {
 
 bool CoupledSaddleSolver::factorises() const {
   return !mechanics::SaddlePreconditioner::serves(matrix_.displacement()) ||
-         algebra::CoupledSolver::is_direct(kind_, mesh_, unknowns_->n_global());
+         algebra::is_direct(kind_, mesh_.dimension, unknowns_->n_global(), k_direct_limit_3d);
 }
 
 void CoupledSaddleSolver::make_solver(bool direct) {

@@ -29,6 +29,8 @@ class CoupledPoints : public Block, public CoupledKernel {
   double prepare(const StepStart& start) override {
     initial_temperature_ = start.initial_temperature;
     this->points_.keep();
+    // Every iterate is a new start here, and the other parts of the tangent are the consistent ones.
+    this->follows_directions_ = false;
     return Block::prepare(start);
   }
 

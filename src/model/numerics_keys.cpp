@@ -200,7 +200,8 @@ Section<CouplingSpec> coupling_keys() {
   using Solver = algebra::CoupledSolverKind;
   s.choice("solver", &CouplingSpec::solver,
            {{"automatic", Solver::automatic,
-             "direct in two dimensions and below 20 000 unknowns, field_split above"},
+             "direct in two dimensions and below 20 000 unknowns, 3 000 where elements are mixed; "
+             "field_split above"},
             {"direct", Solver::direct, "MUMPS, LU"},
             {"field_split", Solver::field_split,
              "GMRES; multigrid on the displacements, incomplete factors on pressures and temperatures"}})

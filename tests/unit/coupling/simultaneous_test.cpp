@@ -46,11 +46,11 @@ struct Model {
 
   Model(Shape shape, AnalysisKind kind, const material::Material& material, StructuralForm form,
         heat::Integration rule = heat::Integration::closed, heat::Conditions thermal = {},
-        const std::function<void(test::Body&)>& adjust = {})
+        const std::function<void(test::Body&)>& adjust = {}, double distortion = 0.15)
       : body({.shape = shape,
               .cells = {3, 2, 2},
               .size = {0.03, 0.02, 0.02},
-              .distortion = 0.15,
+              .distortion = distortion,
               .map =
                   [](const mesh::Point& x) {
                     return mesh::Point{x[0] + 0.05, x[1], x[2]};
@@ -317,6 +317,41 @@ TEST(SimultaneousScheme, ContinuesFromAStateBitByBit) {
       expect_the_same(trial.heat.enthalpy, next.heat.enthalpy, exact);
       expect_the_same(trial.mechanics.displacement, next.mechanics.displacement, exact);
       expect_the_same(trial.mechanics.pressure, next.mechanics.pressure, exact);
+    }
+}
+
+// A face that stays plane ties its displacements together, whatever process they are of.
+TEST(SimultaneousScheme, KeepsAFacePlaneWithAPressure) {
+  for (const Shape shape : {Shape::tri3, Shape::tet4})
+    for (const auto solver :
+         {algebra::CoupledSolverKind::automatic, algebra::CoupledSolverKind::field_split}) {
+      SCOPED_TRACE(mesh::name(shape));
+      const auto kind = shape == Shape::tet4 ? AnalysisKind::solid : AnalysisKind::plane_strain;
+      heat::Conditions thermal;
+      thermal.films.push_back({"chill", "top", {20000.0}, 300.0});
+      // Flat faces: the lattice is not distorted.
+      Model m(
+          shape, kind, varying(test::plastic_material()), StructuralForm::energy, heat::Integration::closed,
+          thermal,
+          [&](test::Body& body) {
+            for (int i = 0; i < displacement_components(kind); ++i) body.hold("left", i);
+            body.conditions.plane_faces.push_back({"right"});
+          },
+          0.0);
+      coupling::SimultaneousScheme scheme(m.phases, {.solver = solver});
+      coupling::State trial = m.state;
+      const coupling::StepEffort effort = scheme.advance(m.state, trial, 1.0, 1.0);
+      EXPECT_LT(effort.mechanics.iterations, 10);
+      EXPECT_LT(std::abs(effort.energy.defect()), 1e-8 * effort.energy.heat_exchanged);
+      double least = 1, most = -1;
+      const auto nc = static_cast<std::size_t>(m.mechanics->components());
+      for (const Index node : m.body.mesh.surfaces.at("right").nodes) {
+        const double u = trial.mechanics.displacement[static_cast<std::size_t>(node) * nc];
+        least = std::min(least, u);
+        most = std::max(most, u);
+      }
+      EXPECT_LT(algebra::global_max(most), 0);  // it cools
+      EXPECT_LE(algebra::global_max(most) - algebra::global_min(least), 1e-18);
     }
 }
 

@@ -75,7 +75,7 @@ struct Mixed {
           mechanics::make_mixed_kernel(mesh, block, s.kind, materials[0], s.mapping, stabilisation));
     const bool algebraic = stabilisation == Stabilisation::algebraic;
     pressure = std::make_unique<mechanics::NodalPressure>(
-        mesh, materials, blocks,
+        mesh, mechanics::pressure_fields(mesh, materials, blocks), blocks,
         algebraic ? std::vector<std::array<double, 3>>{{0, -7e4, 0}} : std::vector<std::array<double, 3>>{});
     algebra::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
