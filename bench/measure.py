@@ -3,6 +3,7 @@
 
 Every part leaves its rows in build/bench/PART.json; the report shows all that are there, so parts may be run one by one.
 """
+import csv
 import functools
 import json
 import math
@@ -18,6 +19,7 @@ from pathlib import Path
 PROGRAMS = Path(os.environ.get("SOLIDUS_BUILD", "build/release"))
 WORK = Path("build/bench")
 REPEAT = int(os.environ.get("REPEAT", "3"))
+CUBE = (30, 60, 100)                            # divisions: 29 791, 226 981 and 1 030 301 nodes
 SCHEMES = ("isothermal", "isentropic", "simultaneous")
 NODES = {"20k": 26, "100k": 45, "300k": 66}    # divisions: 19 683, 97 336 and 300 763 nodes
 MIXED = (20, 26, 33, 46)                       # divisions: 9 261, 19 683, 39 304 and 103 823 nodes
@@ -194,7 +196,22 @@ def cylinder():
     return [median([solidus("cylinder 100 x 100, quad4", "bench/cylinder", {}) for _ in range(REPEAT)])]
 
 
-PARTS = {"micro": micro, "case": case, "coupling": coupling, "check": check, "cylinder": cylinder, "mixed": mixed, "scaling": scaling,
+def heat():
+    """The freezing cube, heat alone: processor time, iterations of the nonlinear and the linear solver, memory."""
+    rows = []
+    for n in CUBE:
+        name = f"freezing cube {(n + 1) ** 3} nodes"
+        row = solidus(name, "bench/freezing_cube", {"mesh.block.divisions": f"[{n},{n},{n}]"})
+        with open(WORK / re.sub(r"\W+", "_", f"{name}_1") / "steps.csv") as file:
+            steps = list(csv.DictReader(file))
+        iterations = [int(step["heat_iterations[1]"]) for step in steps]
+        rows.append(median([row]) | {"iterations": sum(iterations) / len(steps), "worst": max(iterations),
+                                     "rejected": sum(int(step["rejected[1]"]) for step in steps),
+                                     "linear": sum(int(step["heat_linear_iterations[1]"]) for step in steps) / len(steps)})
+    return rows
+
+
+PARTS = {"micro": micro, "heat": heat, "case": case, "coupling": coupling, "check": check, "cylinder": cylinder, "mixed": mixed, "scaling": scaling,
          **{f"nodes{size}": functools.partial(side_by_side, size) for size in NODES}}
 
 
@@ -232,9 +249,19 @@ def report(parts):
         text.append("Where the wall time goes [s], parts above one per cent somewhere:\n")
         text.append(table(["", "processes", *names], [[r["name"], str(r["processes"]), *(f"{r['profile'].get(name, 0):.2f}" for name in names)]
                                                       for r in profiles]))
+    if "heat" in parts:
+        text.append(table(["", "processor [s]", "exponent", "iterations a step", "worst", "rejected", "linear iterations a step", "memory [kB a node]"],
+                          [[r["name"], f"{r['processor']:.1f}", exponent(before, r) if before else "", f"{r['iterations']:.2f}", str(r["worst"]),
+                            str(r["rejected"]), f"{r['linear']:.0f}", f"{r['memory'] * 2**20 / 1000 / r['nodes']:.2f}"]
+                           for before, r in zip([None, *parts["heat"]], parts["heat"])]))
     if "scaling" in parts:
         text.append(cost(parts["scaling"]))
     return "\n".join(text)
+
+
+def exponent(a, b):
+    """Of the processor time in the number of nodes."""
+    return f"{math.log(b['processor'] / a['processor']) / math.log(b['nodes'] / a['nodes']):.2f}"
 
 
 def cost(rows):
@@ -242,7 +269,7 @@ def cost(rows):
     lines = []
     for element in ("hex8", "tet4"):
         of = [r for r in rows if r["name"].endswith(element)]
-        lines += [[a["name"], b["name"], f"{math.log(b['processor'] / a['processor']) / math.log(b['nodes'] / a['nodes']):.2f}",
+        lines += [[a["name"], b["name"], exponent(a, b),
                    f"{b['memory'] * 2**10 / (4 * b['nodes']):.2f}"] for a, b in zip(of, of[1:])]
     return table(["from", "to", "exponent of processor time", "memory of the latter [KiB per unknown]"], lines)
 

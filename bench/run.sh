@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs benchmarks and writes build/bench/report.md; ./dev bench builds first.
-#   bench/run.sh [PART ...]      parts: micro case coupling check cylinder mixed scaling nodes20k nodes100k nodes300k; without: all but the last
+#   bench/run.sh [PART ...]      parts: micro heat case coupling check cylinder mixed scaling nodes20k nodes100k nodes300k; without: all but the last
 #   REPEAT=3 bench/run.sh case   medians of three runs (the default; the large blocks run once)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

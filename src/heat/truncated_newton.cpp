@@ -15,7 +15,7 @@ constexpr double k_round_off = 2e-15;  ///< of heat contents and of conductance 
 constexpr double k_plateau_stiffness =
     1e13;                           ///< times the diagonal: δ = 0 to rounding, without a change of structure
 constexpr double k_relaxed = 1e-3;  ///< what a sweep leaves of a node's own residual
-constexpr double k_negligible = 1e-2;   ///< share of the tolerance that nodes which are not relaxed may have
+constexpr double k_negligible = 1e-1;   ///< share of the tolerance that nodes which are not relaxed may have
 constexpr int k_relaxations = 60;       ///< evaluations of a node's curve in one visit
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope of E is this share
@@ -35,7 +35,7 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
       options_(options),
       relaxed_(std::move(relaxed)) {
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
-  for (auto* v : {&r_, &diagonal_, &product_, &b_, &from_heat_, &from_temperature_}) v->resize(n);
+  for (auto* v : {&r_, &diagonal_, &product_, &b_, &from_heat_, &from_temperature_, &from_}) v->resize(n);
   step_.resize(mesh.x.size());
   slope_.assign(mesh.x.size(), 1.0);
 }
@@ -191,8 +191,7 @@ void TruncatedNewton::move(double alpha) {
   for (std::size_t i = 0; i < r_.size(); ++i) {
     if (step_[i] == 0) continue;
     const auto node = static_cast<Index>(i);
-    const double from = from_temperature_[i];
-    const double t = potential.temperature(node, potential.value(node, from) + alpha * step_[i], from);
+    const double t = potential.temperature(node, from_[i] + alpha * step_[i], from_temperature_[i]);
     temperature_[i] = t;
     heat_[i] = step_[i] < 0 ? storage_.upper(node, t) : storage_.lower(node, t);
   }
@@ -234,7 +233,7 @@ bool TruncatedNewton::clip() {
     const double slope = storage_.point(node, heat_[i]).slope * potential.slope(node, temperature_[i]);
     const NodalEnthalpy::Point there = storage_.point(node, heat_[i] + step_[i] / slope);
     if (there.slope > 0) continue;
-    step_[i] = potential.value(node, there.temperature) - potential.value(node, temperature_[i]);
+    step_[i] = potential.value(node, there.temperature) - from_[i];
     any = true;
   }
   if (!algebra::any_process(any)) return false;
@@ -246,9 +245,11 @@ bool TruncatedNewton::clip() {
 /// Goes to the least E along δ, to a tenth of its slope at the start; leaves F there.
 void TruncatedNewton::search() {
   const profile::Part part("line search");
+  const NodalPotential& potential = system_.potential();
   for (std::size_t i = 0; i < r_.size(); ++i) {
     from_heat_[i] = heat_[i];
     from_temperature_[i] = temperature_[i];
+    from_[i] = potential.value(static_cast<Index>(i), temperature_[i]);
   }
   double start = slope_along_step();
   double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
@@ -325,11 +326,11 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
   evaluate();
   while (true) {
     report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
+    if (std::isfinite(norm_) && !converged()) relax_nodes();
     if (!std::isfinite(norm_)) {
       report.reason = "the residual is not a number";
       break;
     }
-    if (!converged()) relax_nodes();
     if (converged()) {
       report.residuals.back() = moved_ > 0 ? norm_ / moved_ : norm_;
       report.converged = true;
@@ -342,8 +343,7 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
       break;
     }
     ++report.iterations;
-    const algebra::LinearReport linear =
-        correct(forcing.next(norm_ / moved_, options_.tolerance * moved_ / norm_));
+    const algebra::LinearReport linear = correct(forcing.next(norm_, options_.tolerance * moved_ / norm_));
     report.linear_iterations += linear.iterations;
     if (!linear.converged) {
       report.reason = "linear solver: " + linear.reason;

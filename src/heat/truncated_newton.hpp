@@ -103,7 +103,8 @@ class TruncatedNewton {
   std::vector<double> step_;      ///< change of v, [local node]
   std::vector<double> product_;   ///< A times it, [owned node]
   std::vector<double> b_;         ///< right-hand side, [owned node]
-  std::vector<double> from_heat_, from_temperature_;  ///< where the line search begins, [owned node]
+  std::vector<double> from_heat_, from_temperature_,
+      from_;  ///< H, Θ and v where the search begins, [owned node]
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
   double negligible_ = 0;  ///< |F_i| for which no node is relaxed
 };

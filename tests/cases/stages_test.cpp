@@ -297,6 +297,9 @@ upper_divisions = [4, 4]
 [time]
 step = "1 s"
 
+[heat]
+tolerance = 1e-9                        # means and processes are compared to 1e-6 K
+
 [[stage]]
 name = "pour"
 duration = "2 s"

@@ -31,6 +31,21 @@ std::vector<material::Material> materials(bool together) {
   return {a, b};
 }
 
+TEST(NodalEnthalpy, GivesTemperatureAndSlopeByOneLookUpAsByTwo) {
+  for (const bool together : {false, true}) {
+    const heat::NodalEnthalpy h(two_bodies(), AnalysisKind::plane_strain, materials(together));
+    for (Index node = 0; node < 4; ++node) {
+      const double cold = h.lower(node, 250), hot = h.upper(node, 1300);
+      for (double share = 0; share <= 1; share += 1.0 / 512) {
+        const double heat = cold + share * (hot - cold);
+        const heat::NodalEnthalpy::Point point = h.point(node, heat);
+        EXPECT_DOUBLE_EQ(point.temperature, h.temperature(node, heat));
+        EXPECT_NEAR(point.slope, h.slope(node, heat), 1e-9 * h.slope(node, heat));
+      }
+    }
+  }
+}
+
 TEST(NodalEnthalpy, IsInvertedExactlyAlsoWhereSeveralMaterialsMeet) {
   for (const bool together : {false, true}) {
     const heat::NodalEnthalpy h(two_bodies(), AnalysisKind::plane_strain, materials(together));
