@@ -70,12 +70,13 @@ TEST(FlowDirections, AreNeverLongerThanOneAndStayWhereNothingFlows) {
     const Sym<Lane> m = directions.at(2, 3, relative, flows, [&] { return random_deviator(random); });
     for (int lane = 0; lane < k_lanes; ++lane) {
       EXPECT_LE(norm(m)[lane], 1 + 1e-6);
-      if (!flows[lane])
-        for (int i = 0; i < 6; ++i) EXPECT_EQ(m[i][lane], before[i][lane]);
+      if (flows[lane]) continue;
+      for (int i = 0; i < 6; ++i) EXPECT_EQ(m[i][lane], before[i][lane]);
     }
     before = m;
     for (int i = 0; i < 6; ++i)
-      before[i] = for_each_lane(before[i], [](double x) { return static_cast<double>(static_cast<float>(x)); });
+      before[i] =
+          for_each_lane(before[i], [](double x) { return static_cast<double>(static_cast<float>(x)); });
   }
 }
 
