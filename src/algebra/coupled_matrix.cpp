@@ -19,8 +19,14 @@ struct CoupledMatrix::Petsc {
   MatHandle force, heat, nest;
 };
 
-CoupledMatrix::CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, BlockMatrix& temperature)
-    : mesh_(mesh), displacement_(displacement), temperature_(temperature), petsc_(std::make_unique<Petsc>()) {
+CoupledMatrix::CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, BlockMatrix& temperature,
+                             SaddleMatrix* saddle)
+    : mesh_(mesh),
+      displacement_(displacement),
+      temperature_(temperature),
+      saddle_(saddle),
+      petsc_(std::make_unique<Petsc>()) {
+  assert(saddle == nullptr || &saddle->displacement() == &displacement);
   assert(displacement.storage() == BlockMatrix::Storage::whole &&
          temperature.storage() == BlockMatrix::Storage::whole);
   set_zero();
@@ -36,6 +42,8 @@ void CoupledMatrix::create_rectangles() {
   petsc_->heat.reset();
   force_.assign((displacement_.columns().size() + 1) * at(components() * fields()), 0.0);
   heat_.assign(force_.size(), 0.0);
+  volume_.assign((displacement_.columns().size() + 1) * at(pressures() * fields()), 0.0);
+  heat_of_pressure_.assign(volume_.size(), 0.0);
 }
 
 /// PETSc leaves out entries with a negative number and adds up those of the same place: what is prescribed
@@ -90,8 +98,8 @@ bool CoupledMatrix::set_zero() {
     create_rectangles();
     return true;
   }
-  std::fill(force_.begin(), force_.end(), 0.0);
-  std::fill(heat_.begin(), heat_.end(), 0.0);
+  for (std::vector<double>* values : {&force_, &heat_, &volume_, &heat_of_pressure_})
+    std::fill(values->begin(), values->end(), 0.0);
   return false;
 }
 
@@ -122,6 +130,8 @@ void multiply_rectangles(const BlockMatrix& graph, const double* blocks, int m, 
                          std::span<const double> x, std::span<double> y) {
   const auto with = [&](auto product) { product(graph, blocks, m, n, x.data(), y.data()); };
   switch (10 * m + n) {
+    case 11:
+      return with(multiply_rectangles_of<1, 1>);
     case 12:
       return with(multiply_rectangles_of<1, 2>);
     case 13:
@@ -145,7 +155,16 @@ void CoupledMatrix::multiply_force(std::span<const double> x, std::span<double> 
   multiply_rectangles(displacement_, force_.data(), components(), fields(), x, y);
 }
 
+void CoupledMatrix::multiply_heat_of_pressure(std::span<const double> x, std::span<double> y) const {
+  multiply_rectangles(displacement_, heat_of_pressure_.data(), fields(), pressures(), x, y);
+}
+
+void CoupledMatrix::multiply_volume(std::span<const double> x, std::span<double> y) const {
+  multiply_rectangles(displacement_, volume_.data(), pressures(), fields(), x, y);
+}
+
 Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {
+  assert(saddle_ == nullptr);
   if (!petsc_->force) create_petsc_rectangles();
   const std::ptrdiff_t scrap = components() * fields();
   check(MatSetValuesCOO(petsc_->force, force_.data() + scrap, INSERT_VALUES), "MatSetValuesCOO");
@@ -164,7 +183,9 @@ Mat CoupledMatrix::matrix(double force_scale, double heat_scale) {
 }
 
 std::size_t CoupledMatrix::bytes() const {
-  std::size_t total = (force_.capacity() + heat_.capacity()) * sizeof(double);
+  std::size_t total =
+      (force_.capacity() + heat_.capacity() + volume_.capacity() + heat_of_pressure_.capacity()) *
+      sizeof(double);
   for (const MatHandle* a : {&petsc_->force, &petsc_->heat}) {
     if (!*a) continue;
     MatInfo info;

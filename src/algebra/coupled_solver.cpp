@@ -8,13 +8,8 @@ namespace solidus::algebra {
 
 namespace {
 
-/// Degrees of freedom of both fields; above, a factorisation in three dimensions fills up.
+/// Degrees of freedom of all fields; above, a factorisation in three dimensions fills up.
 constexpr GlobalIndex k_direct_limit_3d = 20000;
-
-bool is_direct(CoupledSolverKind kind, const mesh::Mesh& mesh, int components) {
-  if (kind != CoupledSolverKind::automatic) return kind == CoupledSolverKind::direct;
-  return mesh.dimension == 2 || mesh.n_global_nodes * (components + 1) < k_direct_limit_3d;
-}
 
 }  // namespace
 
@@ -24,7 +19,7 @@ struct CoupledSolver::Petsc {
 
 CoupledSolver::CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind,
                              double relative_tolerance)
-    : direct_(is_direct(kind, mesh, components)),
+    : direct_(is_direct(kind, mesh.dimension, mesh.n_global_nodes * (components + 1), k_direct_limit_3d)),
       solver_(mesh, {.prefix = "coupled_",
                      .kind = direct_ ? SolverKind::direct : SolverKind::field_split,
                      .symmetric = false,
@@ -46,6 +41,8 @@ LinearReport CoupledSolver::solve(CoupledMatrix& a, std::span<const double> forc
     check(MatConvert(matrix, MATAIJ, reuse, reuse == MAT_REUSE_MATRIX ? &assembled : petsc_->assembled.out()),
           "MatConvert");
     matrix = petsc_->assembled;
+  } else {
+    solver_.use_blocks_of_first_field(a.displacement(), weights_.force);
   }
   right_.resize(force.size() + heat.size());
   solution_.resize(right_.size());

@@ -62,9 +62,6 @@ void KrylovSolver::Implementation::create() {
       check(MatGetSize(preconditioner, &n_unknowns, nullptr), "MatGetSize");
       factorisation.set_type(pc, options.prefix, options.symmetric, n_unknowns);
       break;
-    case Preconditioner::multigrid:
-      check(PCSetType(pc, PCGAMG), "PCSetType");
-      break;
     case Preconditioner::given:
       apply_given(pc);
       break;

@@ -16,7 +16,6 @@ namespace solidus::algebra {
 /// What is done with the assembled matrix.
 enum class Preconditioner {
   factorisation,  ///< MUMPS
-  multigrid,      ///< GAMG
   given           ///< that of use()
 };
 

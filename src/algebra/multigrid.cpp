@@ -10,6 +10,7 @@
 #include "algebra/aggregation.hpp"
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
+#include "base/log.hpp"
 
 namespace solidus::algebra {
 
@@ -20,6 +21,10 @@ constexpr double k_interval = 0.1;  ///< its lower end over the largest eigenval
 constexpr double k_margin = 1.1;    ///< the largest eigenvalue over its estimate
 constexpr int k_lanczos_steps = 10;
 constexpr double k_slow = 0.7;  ///< rows left by a coarsening that is not worth a level
+// Of a coarsest level that is too large to be factorised: 40 steps over eigenvalues from 1/400 of the largest
+// leave 4 % of an error, as does a V-cycle.
+constexpr int k_long_sweeps = 40;
+constexpr double k_long_interval = 1.0 / 400;
 constexpr int k_most_levels = 20;
 
 std::size_t at(std::int64_t i) {
@@ -102,7 +107,8 @@ struct Multigrid::Level {
 
   std::size_t n_owned() const { return at(numbering.n_owned) * at(size); }
   void estimate_largest();
-  void smooth(bool from_zero);
+  /// @param sweeps, interval  of Chebyshev's iteration
+  void smooth(bool from_zero, int sweeps = k_sweeps, double interval = k_interval);
   /// r = b − A x on owned rows.
   void residual();
   std::size_t bytes() const {
@@ -163,8 +169,8 @@ void Multigrid::Level::residual() {
   for (std::size_t i = 0; i < n_owned(); ++i) r[i] = b[i] - r[i];
 }
 
-void Multigrid::Level::smooth(bool from_zero) {
-  const double high = k_margin * largest, low = k_interval * largest;
+void Multigrid::Level::smooth(bool from_zero, int sweeps, double interval) {
+  const double high = k_margin * largest, low = interval * largest;
   const double centre = 0.5 * (high + low), radius = 0.5 * (high - low), sigma = centre / radius;
   const std::size_t n = n_owned();
   if (!from_zero) residual();
@@ -175,7 +181,7 @@ void Multigrid::Level::smooth(bool from_zero) {
     x[i] = from_zero ? d[i] : x[i] + d[i];
   }
   double rho = 1 / sigma;
-  for (int k = 1; k < k_sweeps; ++k) {
+  for (int k = 1; k < sweeps; ++k) {
     residual();
     const double next = 1 / (2 * sigma - rho);
     const auto keep = static_cast<float>(next * rho), gain = static_cast<float>(2 * next / radius);
@@ -304,7 +310,8 @@ void Multigrid::add_level(const MatrixView& a, Numbering numbering, std::span<co
   levels_[index].matrix = packed();
 }
 
-/// The levels below the last one.
+/// The levels below the last one. Where one row is left of nearly each there is none: a level that is too
+/// large to be factorised by every process stays the coarsest.
 void Multigrid::add_coarser(const MatrixView& a, std::span<const char> fixed, int modes,
                             std::vector<double> near_null) {
   const auto n_rows = [](const Numbering& n) {
@@ -314,10 +321,19 @@ void Multigrid::add_coarser(const MatrixView& a, std::span<const char> fixed, in
   const GlobalIndex before = n_rows(level.numbering);
   Coarsening next = coarsen(a, level.numbering, *level.rows, std::move(near_null), modes, fixed,
                             level.inverse_diagonal, level.largest);
-  level.interpolation = PackedRows(std::move(next.interpolation), level.numbering.n_owned);
   const GlobalIndex after = n_rows(next.numbering);
-  const bool stalls = static_cast<double>(after) > k_slow * static_cast<double>(before);
-  if (after > coarsest_limit_ && !stalls && levels_.size() < k_most_levels) {
+  const bool stalls =
+      static_cast<double>(after) > k_slow * static_cast<double>(before) || levels_.size() >= k_most_levels;
+  if (stalls && after > std::max(coarsest_limit_, k_most_factorised)) {
+    coarsest_rows_ = before;
+    logging::warn(
+        "multigrid: coarsening stalls above {} block rows (many small bodies, or couplings of very unequal "
+        "strength); they are smoothed, not factorised, and linear solves may take many iterations",
+        k_most_factorised);
+    return;
+  }
+  level.interpolation = PackedRows(std::move(next.interpolation), level.numbering.n_owned);
+  if (after > coarsest_limit_ && !stalls) {
     const MatrixView view{next.modes, next.matrix.start, next.matrix.column, next.matrix.value.data()};
     add_level(view, std::move(next.numbering), {}, modes, std::move(next.near_null));
     return;
@@ -338,7 +354,8 @@ void Multigrid::add_coarser(const MatrixView& a, std::span<const char> fixed, in
 void Multigrid::cycle(std::size_t index) {
   Level& level = levels_[index];
   if (index + 1 == levels_.size()) {
-    if (coarsest_) coarsest_->solve(level.b, level.x);
+    if (coarsest_) return coarsest_->solve(level.b, level.x);
+    if (coarsest_rows_ > 0) level.smooth(true, k_long_sweeps, k_long_interval);
     return;
   }
   Level& next = levels_[index + 1];

@@ -27,8 +27,11 @@ class Multigrid {
  public:
   /// One of the two above. It is asked in every set-up: the modes take as much memory as a dozen vectors.
   using Modes = NearNullSpace (*)(const mesh::Mesh& mesh, int components);
-  /// Block rows that a level may have to be factorised, by every process.
+  /// Block rows down to which rows are coarsened; a level of so many or fewer is factorised by every process.
   static constexpr GlobalIndex k_coarsest = 60;
+  /// The same where coarsening stalls above. A level that stalls with more of them is smoothed at length
+  /// instead, by all processes together, with a warning.
+  static constexpr GlobalIndex k_most_factorised = 1000;
   /// @param symmetric  whether the matrices are, which halves the memory that a cycle reads
   Multigrid(const mesh::Mesh& mesh, int components, Modes modes, bool symmetric,
             GlobalIndex coarsest = k_coarsest);
@@ -40,8 +43,10 @@ class Multigrid {
   /// z ≈ A⁻¹ r on owned degrees of freedom. Collective.
   void apply(std::span<const double> r, std::span<double> z);
   int levels() const;
-  /// Block rows of the coarsest level, which every process factorises; over all of them.
+  /// Block rows of the coarsest level over all processes.
   GlobalIndex coarsest_rows() const { return coarsest_rows_; }
+  /// Whether every process factorises it; else it is smoothed.
+  bool factorises() const { return coarsest_ != nullptr; }
   std::size_t bytes() const;
 
  private:

@@ -69,8 +69,8 @@ void add_borders_of(const BlockMatrix& pattern, const double* border, int compon
 
 }  // namespace
 
-SaddleMatrix::SaddleMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, int fields)
-    : mesh_(mesh), displacement_(displacement), fields_(fields) {
+SaddleMatrix::SaddleMatrix(BlockMatrix& displacement, int fields)
+    : displacement_(displacement), fields_(fields) {
   set_zero();
 }
 

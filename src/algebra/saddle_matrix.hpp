@@ -21,7 +21,7 @@ class SaddleMatrix {
 
   /// @param displacement  A; must outlive this object
   /// @param fields        pressures of a node
-  SaddleMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, int fields);
+  SaddleMatrix(BlockMatrix& displacement, int fields);
 
   int components() const { return displacement_.block_size(); }
   int fields() const { return fields_; }
@@ -47,7 +47,6 @@ class SaddleMatrix {
  private:
   std::ptrdiff_t border_size() const { return 2 * components() * fields_ + fields_ * fields_; }
 
-  const mesh::Mesh& mesh_;
   BlockMatrix& displacement_;
   int fields_;
   int pattern_ = 0;

@@ -22,41 +22,6 @@ std::vector<PetscInt> rounded(std::span<const double> numbers) {
   return result;
 }
 
-/// Calls f(i, j, value) for all entries of the matrix of unknowns, numbers over all processes, −1 where a
-/// degree of freedom is no unknown; always in the same order.
-template <class F>
-void each_entry(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns,
-                const F& f) {
-  const BlockMatrix& a = matrix.displacement();
-  const int dim = matrix.components(), fields = matrix.fields();
-  const bool half = a.storage() == BlockMatrix::Storage::upper;
-  for (Index row = 0; row < mesh.n_owned_nodes; ++row)
-    for (std::int64_t s = a.row_start()[at(row)]; s < a.row_start()[at(row) + 1]; ++s) {
-      const Index column = a.columns()[at(s)];
-      const bool mirrored = half && column != row && column < mesh.n_owned_nodes;
-      const auto entry = [&](PetscInt i, PetscInt j, double value) {
-        f(i, j, value);
-        if (mirrored) f(j, i, value);
-      };
-      const double *const block = a.block(s), *const border = matrix.border(s);
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          entry(unknowns.of_displacement(row, i), unknowns.of_displacement(column, j), block[i * dim + j]);
-      for (int i = 0; i < dim; ++i)
-        for (int field = 0; field < fields; ++field)
-          entry(unknowns.of_displacement(row, i), unknowns.of_pressure(column, field),
-                border[i * fields + field]);
-      for (int field = 0; field < fields; ++field)
-        for (int i = 0; i < dim; ++i)
-          entry(unknowns.of_pressure(row, field), unknowns.of_displacement(column, i),
-                border[dim * fields + field * dim + i]);
-      for (int field = 0; field < fields; ++field)
-        for (int other = 0; other < fields; ++other)
-          entry(unknowns.of_pressure(row, field), unknowns.of_pressure(column, other),
-                border[2 * dim * fields + field * fields + other]);
-    }
-}
-
 }  // namespace
 
 SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matrix,
@@ -107,7 +72,7 @@ void SaddleUnknowns::restrict_to(std::span<const double> whole, std::span<double
 
 void SaddleCopy::create(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns) {
   std::vector<PetscInt> rows, columns;
-  each_entry(mesh, matrix, unknowns, [&](PetscInt i, PetscInt j, double) {
+  each_saddle_entry(mesh.n_owned_nodes, matrix, unknowns, [&](PetscInt i, PetscInt j, double) {
     rows.push_back(i);
     columns.push_back(j);
   });
@@ -124,7 +89,8 @@ void SaddleCopy::create(const mesh::Mesh& mesh, const SaddleMatrix& matrix, cons
 Mat SaddleCopy::copy(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns) {
   if (!matrix_) create(mesh, matrix, unknowns);
   auto to = values_.begin();
-  each_entry(mesh, matrix, unknowns, [&](PetscInt, PetscInt, double value) { *to++ = value; });
+  each_saddle_entry(mesh.n_owned_nodes, matrix, unknowns,
+                    [&](PetscInt, PetscInt, double value) { *to++ = value; });
   check(MatSetValuesCOO(matrix_, values_.data(), INSERT_VALUES), "MatSetValuesCOO");
   return matrix_;
 }

@@ -48,6 +48,42 @@ class SaddleUnknowns {
   std::vector<PetscInt> displacements_, pressures_;
 };
 
+/// Calls f(i, j, value) for all entries of the matrix of unknowns, with their numbers over all processes, −1
+/// where a degree of freedom is no unknown; always in the same order.
+/// @param numbers  has of_displacement(node, component) and of_pressure(node, field)
+template <class Numbers, class F>
+void each_saddle_entry(Index n_owned_nodes, const SaddleMatrix& matrix, const Numbers& numbers, const F& f) {
+  const BlockMatrix& a = matrix.displacement();
+  const int dim = matrix.components(), fields = matrix.fields();
+  const bool half = a.storage() == BlockMatrix::Storage::upper;
+  for (Index row = 0; row < n_owned_nodes; ++row)
+    for (std::int64_t s = a.row_start()[static_cast<std::size_t>(row)];
+         s < a.row_start()[static_cast<std::size_t>(row) + 1]; ++s) {
+      const Index column = a.columns()[static_cast<std::size_t>(s)];
+      const bool mirrored = half && column != row && column < n_owned_nodes;
+      const auto entry = [&](PetscInt i, PetscInt j, double value) {
+        f(i, j, value);
+        if (mirrored) f(j, i, value);
+      };
+      const double *const block = a.block(s), *const border = matrix.border(s);
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          entry(numbers.of_displacement(row, i), numbers.of_displacement(column, j), block[i * dim + j]);
+      for (int i = 0; i < dim; ++i)
+        for (int field = 0; field < fields; ++field)
+          entry(numbers.of_displacement(row, i), numbers.of_pressure(column, field),
+                border[i * fields + field]);
+      for (int field = 0; field < fields; ++field)
+        for (int i = 0; i < dim; ++i)
+          entry(numbers.of_pressure(row, field), numbers.of_displacement(column, i),
+                border[dim * fields + field * dim + i]);
+      for (int field = 0; field < fields; ++field)
+        for (int other = 0; other < fields; ++other)
+          entry(numbers.of_pressure(row, field), numbers.of_pressure(column, other),
+                border[2 * dim * fields + field * fields + other]);
+    }
+}
+
 /// The saddle point of the unknowns in PETSc's format, for factorisations.
 class SaddleCopy {
  public:

@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "coupling/coupled_saddle_solver.hpp"
+#include "mechanics/nodal_pressure.hpp"
+#include "mechanics/saddle_solver.hpp"
 
 namespace solidus::coupling {
 
@@ -29,33 +32,45 @@ CoupledNewton::CoupledNewton(const Phases& phases, algebra::CoupledSolverKind so
     : phases_(phases),
       mechanics_(*phases.mechanics),
       thermal_(phases.heat->iteration()),
-      matrix_(mechanics_.mesh(), mechanics_.matrix(), thermal_->matrix()),
-      solver_(mechanics_.mesh(), mechanics_.components(), solver, mechanics_.options().linear_tolerance),
+      matrix_(mechanics_.mesh(), mechanics_.matrix(), thermal_->matrix(),
+              mechanics_.saddle() != nullptr ? &mechanics_.saddle()->matrix() : nullptr),
       ghosts_(mechanics_.mesh()) {
+  const mesh::Mesh& mesh = mechanics_.mesh();
+  const double tolerance = mechanics_.options().linear_tolerance;
+  if (mechanics_.pressure() != nullptr)
+    solver_ = std::make_unique<CoupledSaddleSolver>(mesh, matrix_, *mechanics_.pressure(), ghosts_, solver,
+                                                    tolerance);
+  else
+    solver_ = std::make_unique<algebra::CoupledSolver>(mesh, mechanics_.components(), solver, tolerance);
   for (const auto& block : mechanics_.blocks()) {
     auto& kernel = dynamic_cast<mechanics::CoupledKernel&>(*block);
     kernel.bind_heat(thermal_->matrix());
     kernels_.push_back(&kernel);
   }
-  const mesh::Mesh& mesh = mechanics_.mesh();
-  const auto n_components = static_cast<std::size_t>(mechanics_.components());
   const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
-  force_.resize(n_owned * n_components);
-  step_u_.resize(mesh.x.size() * n_components);
+  force_.resize(mechanics_.n_residuals());
+  owned_step_.resize(force_.size());
+  step_u_.resize(mesh.x.size() * static_cast<std::size_t>(mechanics_.components() + matrix_.pressures()));
   step_t_.resize(mesh.x.size());
   further_.resize(n_owned);
+  work_.resize(std::max(force_.size(), n_owned));
+}
+
+std::size_t CoupledNewton::n_owned_displacements() const {
+  return further_.size() * static_cast<std::size_t>(mechanics_.components());
 }
 
 CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
                                         const mechanics::MechanicalPass& pass, std::span<const double> x) {
   mechanics_.prepare(old, pass);
   surround_contacts();
-  for (contact::ContactPair* pair : phases_.contacts) pair->update(x);
+  for (contact::ContactPair* pair : phases_.contacts) pair->update(x.first(mechanics_.n_displacements()));
   reference_ = mechanics_.residual(x, force_);
   const std::vector<char>& fixed = mechanics_.matrix().fixed();
-  for (std::size_t i = 0; i < force_.size(); ++i)
-    if (fixed[i]) force_[i] = 0;
-  mechanics_.matrix().ties().sum(force_);
+  const std::span<double> of_displacement = std::span(force_).first(n_owned_displacements());
+  for (std::size_t i = 0; i < of_displacement.size(); ++i)
+    if (fixed[i]) of_displacement[i] = 0;
+  mechanics_.matrix().ties().sum(of_displacement);
   double squares = 0;
   for (const double r : force_) squares += r * r;
   norm_ = std::sqrt(algebra::global_sum(squares));
@@ -88,13 +103,57 @@ algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState
   mechanics_.tangent();
   if (thermal_->follow_graph())
     for (mechanics::CoupledKernel* kernel : kernels_) kernel->bind_heat(thermal_->matrix());
-  if (matrix_.set_zero()) solver_.reset();
+  if (matrix_.set_zero()) solver_->reset();
   thermal_->assemble(iteration);
-  for (mechanics::CoupledKernel* kernel : kernels_)
-    kernel->add_coupling(phases_.structural->form(), old.displacement, x, thermal_->temperature(), matrix_);
+  const mechanics::NodalPressure* const pressure = mechanics_.pressure();
+  const mechanics::CoupledIterate at{.form = phases_.structural->form(),
+                                     .old_u = old.displacement,
+                                     .u = x.first(mechanics_.n_displacements()),
+                                     .temperature = thermal_->temperature(),
+                                     .pressure_unit = pressure != nullptr ? pressure->unit() : 1};
+  for (mechanics::CoupledKernel* kernel : kernels_) kernel->add_coupling(at, matrix_);
   for (const contact::ContactPair* pair : phases_.contacts)
     pair->add_coupling(thermal_->temperature(), matrix_);
   return matrix_;
+}
+
+void CoupledNewton::multiply_heat(std::span<const double> x, std::span<double> heat) {
+  matrix_.multiply_heat(x, heat);
+  if (matrix_.pressures() == 0) return;
+  const std::span<double> part = std::span(work_).first(heat.size());
+  matrix_.multiply_heat_of_pressure(x.subspan(mechanics_.n_displacements()), part);
+  for (std::size_t i = 0; i < heat.size(); ++i) heat[i] += part[i];
+}
+
+void CoupledNewton::multiply(std::span<const double> x, std::span<const double> temperature,
+                             std::span<double> force, std::span<double> heat) {
+  const std::span<const double> u = x.first(mechanics_.n_displacements()), p = x.subspan(u.size());
+  const std::span<double> of_u = force.first(n_owned_displacements()), of_p = force.subspan(of_u.size());
+  const std::span<double> part = std::span(work_).first(force.size());
+  matrix_.multiply_force(temperature, part.first(of_u.size()));
+  if (matrix_.pressures() == 0) {
+    matrix_.displacement().multiply(u, of_u);
+  } else {
+    matrix_.multiply_volume(temperature, part.subspan(of_u.size()));
+    matrix_.saddle()->multiply(u, p, of_u, of_p);
+    mechanics_.pressure()->add_projection_to(p.first(of_p.size()), 1.0, of_p);
+  }
+  for (std::size_t i = 0; i < force.size(); ++i) force[i] += part[i];
+  for (double& value : of_p) value = -value;  // the monotone form
+  matrix_.temperature().multiply(temperature, heat);
+  std::vector<double> of_motion(heat.size());
+  multiply_heat(x, of_motion);
+  for (std::size_t i = 0; i < heat.size(); ++i) heat[i] += of_motion[i];
+}
+
+void CoupledNewton::spread(std::span<const double> owned, std::span<double> x) const {
+  const std::size_t n_u = n_owned_displacements();
+  std::copy_n(owned.begin(), n_u, x.begin());
+  ghosts_.update(x.first(mechanics_.n_displacements()), mechanics_.components());
+  if (mechanics_.pressure() == nullptr) return;
+  const std::span<double> p = x.subspan(mechanics_.n_displacements());
+  std::copy(owned.begin() + static_cast<std::ptrdiff_t>(n_u), owned.end(), p.begin());
+  ghosts_.update(p, mechanics_.pressure()->fields());
 }
 
 algebra::FieldWeights CoupledNewton::weights() {
@@ -105,15 +164,17 @@ algebra::FieldWeights CoupledNewton::weights() {
     squares[0] += heat[i] * heat[i];
   }
   ghosts_.update(step_t_, 1);
-  matrix_.multiply_force(step_t_, std::span(step_u_).first(force_.size()));
-  for (std::size_t i = 0; i < force_.size(); ++i) squares[1] += step_u_[i] * step_u_[i];
+  const std::span<double> caused = std::span(work_).first(force_.size());
+  matrix_.multiply_force(step_t_, caused.first(n_owned_displacements()));
+  if (matrix_.pressures() > 0) matrix_.multiply_volume(step_t_, caused.subspan(n_owned_displacements()));
+  for (const double f : caused) squares[1] += f * f;
   const double of_heat = std::sqrt(algebra::global_sum(squares[0]));
   const double of_force = std::max(norm_, std::sqrt(algebra::global_sum(squares[1])));
   return {of_force > 0 ? 1.0 / of_force : 1.0, of_heat > 0 ? 1.0 / of_heat : 1.0};
 }
 
 double CoupledNewton::forcing_term(algebra::Forcing& forcing, const algebra::FieldWeights& weights) const {
-  const algebra::FieldWeights in_use = solver_.in_use(weights);
+  const algebra::FieldWeights in_use = solver_->in_use(weights);
   // In the norm of the linear solver.
   const double force = in_use.force * norm_, heat = in_use.heat / weights.heat;
   const auto left = [](double norm, double goal) { return goal > 0 ? norm / goal : 1.0; };
@@ -127,10 +188,9 @@ bool CoupledNewton::find_direction(algebra::Forcing& forcing, CoupledReport& rep
   const algebra::FieldWeights scales = weights();
   const double eta = forcing_term(forcing, scales);
   for (double& r : force_) r = -r;
-  const auto n_u = force_.size(), n_t = further_.size();
-  const std::span<double> owned_u = std::span(step_u_).first(n_u);
-  const algebra::LinearReport linear = solver_.solve(matrix_, force_, thermal_->right_hand_side(), scales,
-                                                     owned_u, std::span(step_t_).first(n_t), eta);
+  const algebra::LinearReport linear =
+      solver_->solve(matrix_, force_, thermal_->right_hand_side(), scales, owned_step_,
+                     std::span(step_t_).first(further_.size()), eta);
   for (double& r : force_) r = -r;
   report.linear_iterations += linear.iterations;
   if (!linear.converged) {
@@ -138,11 +198,12 @@ bool CoupledNewton::find_direction(algebra::Forcing& forcing, CoupledReport& rep
     return false;
   }
   const std::vector<char>& fixed = mechanics_.matrix().fixed();
-  for (std::size_t i = 0; i < n_u; ++i)
+  const std::span<double> owned_u = std::span(owned_step_).first(n_owned_displacements());
+  for (std::size_t i = 0; i < owned_u.size(); ++i)
     if (fixed[i]) owned_u[i] = 0;
   mechanics_.matrix().ties().share(owned_u);
-  ghosts_.update(step_u_, mechanics_.components());
-  matrix_.multiply_heat(step_u_, further_);
+  spread(owned_step_, step_u_);
+  multiply_heat(step_u_, further_);
   thermal_->set_direction(step_t_, further_);
   return true;
 }
@@ -168,11 +229,16 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
 void CoupledNewton::equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
                                 std::vector<double>& x) {
   mechanics::MechanicalState iterate = old;
-  iterate.displacement = x;
+  const auto n_u = static_cast<std::ptrdiff_t>(mechanics_.n_displacements());
+  iterate.displacement.assign(x.begin(), x.begin() + n_u);
+  if (mechanics_.pressure() != nullptr) {
+    iterate.pressure.assign(x.begin() + n_u, x.end());
+    for (double& p : iterate.pressure) p *= mechanics_.pressure()->unit();
+  }
   pass.iterate = &iterate;
   try {
     mechanics_.solve(old, iterate, pass);
-    x = std::move(iterate.displacement);
+    x = mechanics_.start(old, pass);
   } catch (const StepRejected&) {
     // The iterate is too far off for its own equilibrium: the step stands as it is.
   }

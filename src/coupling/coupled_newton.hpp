@@ -4,7 +4,14 @@
 ///   r_u(u, Θ) = ∫ B̄ᵀ σ(ε(u), Θ) dV − f + contact + inertia = 0                               [N]
 ///   r_Θ(u, Θ) = (H(Θ) − H_n)/Δt + conduction − sources + contact(u) + structural heat(u, Θ) = 0  [W]
 ///
-/// Both residuals are those of the phases, evaluated at the iterate: properties at Θ, with solid fraction and
+/// Where elements are mixed the nodal pressure p is a third unknown. The forces then have the deviator of the
+/// law and p, the structural heat depends on p as well, and p has its equation
+/// (mechanics/nodal_pressure.hpp):
+///
+///   r_p(u, p, Θ) = ∫ N (div u − e_v(p, Θ)) dV − S p = 0                                          [m³]
+///
+/// In what follows u stands for both, and r_u for both residuals, in the monotone form. All residuals
+/// are those of the phases, evaluated at the iterate: properties at Θ, with solid fraction and
 /// straining of phase changes held at Θ_n (4.81); the conductance of contacts at the gap of u, slip and the
 /// interface's temperature as the solution of 5.40 at u and Θ. The tangent is exact, the slopes of the
 /// conductivity, of the conductance in the gap and of friction in the temperature included; only radiation
@@ -34,7 +41,7 @@ namespace solidus::coupling {
 
 /// Both norms against what their phases measure them by.
 struct CoupledResidual {
-  double force = 0;  ///< ‖r_u‖ over its reference
+  double force = 0;  ///< ‖r_u‖ over its reference, pressures included
   double heat = 0;   ///< Σ|r_Θ| over the heat moved
   double size() const;
 };
@@ -50,8 +57,8 @@ class CoupledNewton {
   /// Both phases must outlive this object; the mechanical one is built for Mapping::simultaneous. Collective.
   CoupledNewton(const Phases& phases, algebra::CoupledSolverKind solver);
 
-  /// Solves one stage. Thermal start and unknowns are those of `thermal`, which has begun; `x` is the
-  /// displacement of the start and, at the end, of the solution, [local node][component].
+  /// Solves one stage. Thermal start and unknowns are those of `thermal`, which has begun; `x` holds the
+  /// unknowns of the mechanical phase at the start (MechanicalPhase::start) and, at the end, at the solution.
   /// @param old   t_n of the mechanical phase, or u*, z* of a second stage
   /// @param pass  time, step and Θ_n
   /// Throws StepRejected on all processes.
@@ -60,18 +67,23 @@ class CoupledNewton {
 
   heat::ThermalIteration& thermal() { return *thermal_; }
   std::span<mechanics::CoupledKernel* const> kernels() const { return kernels_; }
-  void forget() { solver_.forget(); }
-  double seconds_solver() const { return solver_.seconds(); }
+  void forget() { solver_->forget(); }
+  double seconds_solver() const { return solver_->seconds(); }
 
   // The parts of the iteration, for tests of the tangent.
-  /// Residuals at x and the temperature of thermal(), [owned node][component] [N], [owned node] [W]; the
-  /// force is zero where prescribed and summed where tied.
+  /// Residuals at x and the temperature of thermal(), [owned node][component] [N] and, with pressures, [owned
+  /// node][field] [N] behind them, [owned node] [W]; the force is zero where prescribed and summed where
+  /// tied.
   CoupledResidual evaluate(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
                            std::span<const double> x);
   std::span<const double> force() const { return force_; }
   /// The tangent there.
   algebra::CoupledMatrix& assemble(const mechanics::MechanicalState& old, std::span<const double> x,
                                    int iteration);
+  /// That tangent times a direction, which is local as x and Θ are; on owned entries as the residuals are,
+  /// forces that are prescribed or tied as they come.
+  void multiply(std::span<const double> x, std::span<const double> temperature, std::span<double> force,
+                std::span<double> heat);
 
  private:
   /// Interfaces see the temperatures of thermal().
@@ -92,6 +104,11 @@ class CoupledNewton {
               std::vector<double>& x, const CoupledReport& report);
   CoupledResidual evaluate_at(double alpha, const mechanics::MechanicalState& old,
                               const mechanics::MechanicalPass& pass, std::vector<double>& x);
+  /// heat = K_Θu x + K_Θp p, with the displacements and pressures of a local direction.
+  void multiply_heat(std::span<const double> x, std::span<double> heat);
+  /// Displacements and pressures on local nodes from those on owned ones.
+  void spread(std::span<const double> owned, std::span<double> x) const;
+  std::size_t n_owned_displacements() const;
   /// The displacement in equilibrium with the temperature of now; left alone where there is none.
   void equilibrate(const mechanics::MechanicalState& old, mechanics::MechanicalPass pass,
                    std::vector<double>& x);
@@ -101,12 +118,14 @@ class CoupledNewton {
   std::unique_ptr<heat::ThermalIteration> thermal_;
   std::vector<mechanics::CoupledKernel*> kernels_;
   algebra::CoupledMatrix matrix_;
-  algebra::CoupledSolver solver_;
   algebra::GhostExchange ghosts_;
+  std::unique_ptr<algebra::CoupledTangentSolver> solver_;
   std::vector<mechanics::BlockHistory> history_;  ///< of the last residual
-  std::vector<double> force_;                     ///< r_u, [owned node][component]
-  std::vector<double> step_u_, start_u_;          ///< [local node][component]
+  std::vector<double> force_;                     ///< r_u and −unit × r_p, on owned nodes
+  std::vector<double> owned_step_;                ///< of displacement and pressure, on owned nodes
+  std::vector<double> step_u_, start_u_;          ///< the same on local nodes
   std::vector<double> step_t_, further_;          ///< [local node], [owned node]
+  std::vector<double> work_;                      ///< scratch
   double norm_ = 0, reference_ = 0;               ///< of r_u
   bool in_equilibrium_ = false;                   ///< every iterate is brought there
 };

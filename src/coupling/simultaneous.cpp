@@ -48,9 +48,9 @@ mechanics::MechanicalState second_start(const mechanics::MechanicalState& old,
 /// Energies of a step from those of its stages.
 void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried) {
   for (double EnergyAudit::*part :
-       {&EnergyAudit::stored_heat, &EnergyAudit::work, &EnergyAudit::unbalanced, &EnergyAudit::heat_in,
-        &EnergyAudit::entropy_in, &EnergyAudit::heat_exchanged, &EnergyAudit::viscous_dissipation,
-        &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work})
+       {&EnergyAudit::stored_heat, &EnergyAudit::work, &EnergyAudit::unbalanced, &EnergyAudit::numerical,
+        &EnergyAudit::heat_in, &EnergyAudit::entropy_in, &EnergyAudit::heat_exchanged,
+        &EnergyAudit::viscous_dissipation, &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work})
     sum.*part += carried * first.*part;
   add(first.interface, sum.interface, carried);
 }
@@ -68,6 +68,7 @@ void SimultaneousScheme::synchronise(const State& state) {
 
 void SimultaneousScheme::forget() {
   newton_->forget();
+  phases_.mechanics->forget();
   for (contact::ContactPair* pair : phases_.contacts) pair->forget();
 }
 

@@ -89,6 +89,11 @@ class Viscoplastic {
   template <class T>
   Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain, double dt) const;
 
+  /// (s − w q)/max(‖s − w q‖, R) of a state at rest: the direction in which it is loaded, as long as the part
+  /// of the yield radius R = w √⅔ (σ_0 + K_ξ) that it takes, one at most. The material has Material::flow.
+  template <class T>
+  Sym<T> loading(const Properties<T>& p, const State<T>& state, const Sym<T>& strain, double dt) const;
+
   /// What the liquid model makes of stiffness and strength.
   template <class T>
   struct Shear {
@@ -105,6 +110,11 @@ class Viscoplastic {
   const Material& material() const { return *material_; }
 
  private:
+  /// The return mapping's equation from `start`; it refers to `p`, `trial` and `start`.
+  /// @param trial 2Ĝ ê
+  template <class T>
+  return_mapping::Problem<T> problem(const Properties<T>& p, const Shear<T>& shear, const State<T>& start,
+                                     const Sym<T>& trial, double dt) const;
   bool recalls() const {
     return flow_ != nullptr && flow_->kinematic == KinematicHardening::armstrong_frederick;
   }

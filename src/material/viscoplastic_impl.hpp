@@ -44,6 +44,32 @@ template <class T>
 }
 
 template <class T>
+[[gnu::always_inline]] inline return_mapping::Problem<T> Viscoplastic::problem(
+    const Properties<T>& p, const Shear<T>& sh, const State<T>& start, const Sym<T>& trial, double dt) const {
+  return {flow_->isotropic,
+          &flow_->curves,
+          &p.flow,
+          recalls(),
+          sh.twice_shear,
+          sh.strength,
+          T(sh.flow_share * T(dt)),
+          T(T(return_mapping::k_root_two_thirds) * sh.strength * p.flow.recall),
+          trial,
+          start.back_strain,
+          start.hardening};
+}
+
+template <class T>
+Sym<T> Viscoplastic::loading(const Properties<T>& p, const State<T>& state, const Sym<T>& strain,
+                             double dt) const {
+  const Shear<T> sh = shear(p.elastic, dt);
+  const Sym<T> deviator = sh.twice_shear * (dev(strain) - state.plastic_strain - state.viscous_strain);
+  const return_mapping::Yield<T> y = yield(problem(p, sh, state, deviator, dt), T(0.0));
+  const T radius = y.norm - y.value;
+  return T(T(1.0) / select(radius > y.norm, radius, y.norm)) * y.relative;
+}
+
+template <class T>
 Viscoplastic::Response<T> Viscoplastic::update(const Properties<T>& p, const State<T>& start,
                                                const Sym<T>& strain, double dt) const {
   using namespace return_mapping;
@@ -51,22 +77,12 @@ Viscoplastic::Response<T> Viscoplastic::update(const Properties<T>& p, const Sta
   const Sym<T> free = dev(strain) - start.plastic_strain - start.viscous_strain;  // ê
   if (flow_ == nullptr) return elastic(p, start, sh, free, strain, dt, Status::converged);
 
-  const T w = sh.strength;
   const Sym<T> trial_deviator = sh.twice_shear * free;  // 4.131b
-  const Problem<T> problem{flow_->isotropic,
-                           &flow_->curves,
-                           &p.flow,
-                           recalls(),
-                           sh.twice_shear,
-                           w,
-                           T(sh.flow_share * T(dt)),
-                           T(T(k_root_two_thirds) * w * p.flow.recall),
-                           trial_deviator,
-                           start.back_strain,
-                           start.hardening};
-  const Yield<T> trial = yield(problem, T(0.0));
+  const Problem<T> equation = problem(p, sh, start, trial_deviator, dt);
+  const Yield<T> trial = yield(equation, T(0.0));
   const bool in_range = all(trial.norm < T(k_largest_stress));
-  if (in_range && any(flows(problem, trial))) return plastic(p, start, sh, free, strain, dt, problem, trial);
+  if (in_range && any(flows(equation, trial)))
+    return plastic(p, start, sh, free, strain, dt, equation, trial);
   return elastic(p, start, sh, free, strain, dt, in_range ? Status::converged : Status::outside_range);
 }
 

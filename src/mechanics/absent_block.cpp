@@ -18,8 +18,7 @@ mesh::Block without_elements(const mesh::Block& block) {
 
 AbsentBlock::AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
                          const material::Material& material, std::unique_ptr<BlockKernel> kept)
-    : block_(block),
-      nowhere_(mesh, without_elements(block), kind, mesh::stiffness_rule(block.shape)),
+    : nowhere_(mesh, without_elements(block), kind, mesh::stiffness_rule(block.shape)),
       points_(nowhere_, material),
       kept_(std::move(kept)) {}
 

@@ -12,7 +12,6 @@ namespace solidus::mechanics {
 
 class AbsentBlock final : public BlockKernel, public CoupledKernel {
  public:
-  /// Keeps a reference to the block.
   /// @param kept  of the body when it was there, whose fields are shown until keep_fields(); may be null
   AbsentBlock(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
               const material::Material& material, std::unique_ptr<BlockKernel> kept = nullptr);
@@ -37,13 +36,11 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   std::size_t bytes() const override { return 0; }
 
   void bind_heat(const algebra::BlockMatrix&) override {}
-  void add_coupling(StructuralForm, std::span<const double>, std::span<const double>, std::span<const double>,
-                    algebra::CoupledMatrix&) override {}
+  void add_coupling(const CoupledIterate&, algebra::CoupledMatrix&) override {}
   void carry(double, std::span<const double>) override {}
   void drop_carried() override {}
 
  private:
-  const mesh::Block& block_;
   mesh::BlockGeometry nowhere_;  ///< of no element
   StructuralPoints points_;      ///< there: none
   std::unique_ptr<BlockKernel> kept_;

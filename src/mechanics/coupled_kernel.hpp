@@ -10,17 +10,24 @@
 
 namespace solidus::mechanics {
 
+/// Where the tangent is asked for; fields are [local node][component].
+struct CoupledIterate {
+  StructuralForm form;                  ///< of structural heat: energy or entropy
+  std::span<const double> old_u;        ///< from which the strain increment counts
+  std::span<const double> u;            ///< displacement
+  std::span<const double> temperature;  ///< Θ [K]
+  double pressure_unit = 1;             ///< in which the pressures of mixed elements are counted [Pa/m]
+};
+
 class CoupledKernel {
  public:
   virtual ~CoupledKernel() = default;
   /// Looks up slots of the thermal matrix.
   virtual void bind_heat(const algebra::BlockMatrix& matrix) = 0;
-  /// Adds the derivatives of the forces with respect to the temperature, and of structural heat (its form
-  /// being energy or entropy) with respect to both, consistent with the quadrature of StructuralHeat, at the
-  /// displacement and temperature of the last prepare() and finish(). Fields are [local node][component].
-  /// @param old_u  from which the strain increment counts
-  virtual void add_coupling(StructuralForm form, std::span<const double> old_u, std::span<const double> u,
-                            std::span<const double> temperature, algebra::CoupledMatrix& matrix) = 0;
+  /// Adds the derivatives of forces and volumes with respect to the temperature, and of structural heat with
+  /// respect to all fields, consistent with the quadrature of StructuralHeat, at the iterate of the last
+  /// prepare() and finish().
+  virtual void add_coupling(const CoupledIterate& at, algebra::CoupledMatrix& matrix) = 0;
   /// The second stage of a two-stage method begins: until drop_carried() structural heat counts from
   /// S* = S_n + factor (S − S_n), E* likewise, S and E being those of the last finish() at `temperature`.
   virtual void carry(double factor, std::span<const double> temperature) = 0;

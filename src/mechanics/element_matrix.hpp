@@ -60,6 +60,27 @@ void add_product(const typename ElementMatrix<n_nodes, dim>::Vectors& v, Lane fa
   }
 }
 
+/// K_ab += ½ factor (v_a z_bᵀ + z_a v_bᵀ): the symmetric part of a tangent l ⊗ r with v = B̄ᵀ l, z = B̄ᵀ r.
+template <int n_nodes, int dim>
+void add_symmetric_product(const typename ElementMatrix<n_nodes, dim>::Vectors& v,
+                           const typename ElementMatrix<n_nodes, dim>::Vectors& z, Lane factor,
+                           ElementMatrix<n_nodes, dim>& k) {
+  constexpr auto size = static_cast<std::size_t>(dim);
+  const Lane half = Lane(0.5) * factor;
+  std::size_t pair = 0;
+  for (std::size_t p = 0; p < n_nodes; ++p) {
+    std::array<Lane, size> half_v, half_z;
+    for (std::size_t i = 0; i < size; ++i) {
+      half_v[i] = half * v[p][i];
+      half_z[i] = half * z[p][i];
+    }
+    for (std::size_t q = p; q < n_nodes; ++q, ++pair)
+      for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t j = 0; j < size; ++j)
+          k.pairs[pair][i * size + j] += half_v[i] * z[q][j] + half_z[i] * v[q][j];
+  }
+}
+
 /// K_ab += factor v_a z_bᵀ split into its symmetric and its skew part: a tangent l ⊗ r with v = B̄ᵀ l,
 /// z = B̄ᵀ r.
 template <int n_nodes, int dim>

@@ -77,10 +77,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
             for (auto& entry : row) entry *= w;
           add_general(b, c, symmetric);
         }
-        if constexpr (RankOneTangent<Response>)
-          if (any(response.flow_increment > Lane(0.0)))  // right is of unit length
-            this->add_rank_one(b, response.left, response.right, w, dot(response.left, response.right),
-                               symmetric, skew);
+        if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, q, response, w, symmetric, skew);
         if constexpr (AdiabaticTangent<Response>)
           this->add_rank_one(b, response.thermal_left, response.thermal_right, w * response.thermal_factor,
                              Lane(1.0), symmetric, skew);

@@ -33,6 +33,24 @@ material::PointProperties<T> elastic_part(const material::Isentropic& law,
   return {e.bulk.v, e.shear.v, e.thermal_strain.v, e.solid_fraction.v, e.viscosity.v};
 }
 
+/// The isothermal law with flow, and its properties at Θ_n.
+inline const material::Viscoplastic& isothermal_law(const material::Viscoplastic& law) {
+  return law;
+}
+inline const material::Viscoplastic& isothermal_law(const material::Isentropic& law) {
+  return law.isothermal();
+}
+template <class T>
+const material::Viscoplastic::Properties<T>& isothermal_part(const material::Viscoplastic&,
+                                                             const material::Viscoplastic::Properties<T>& p) {
+  return p;
+}
+template <class T>
+material::Viscoplastic::Properties<T> isothermal_part(const material::Isentropic& law,
+                                                      const material::Isentropic::Properties<T>& p) {
+  return {elastic_part(law, p), p.flow};
+}
+
 /// Sets η of a melt whose material has none [Pa s].
 inline void set_melt_viscosity(const Lane& viscosity, material::PointProperties<Lane>& p) {
   p.viscosity = viscosity;

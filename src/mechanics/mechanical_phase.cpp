@@ -80,11 +80,10 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
       continue;
     }
     plastic_ = plastic_ || material.flow.has_value();
-    const bool mixed =
-        options_.mapping != Mapping::simultaneous && is_mixed(block, material, options_.simplices);
     blocks_.push_back(
-        mixed ? make_mixed_kernel(mesh_, block, kind_, material, options_.mapping, options_.stabilisation)
-              : make_block_kernel(mesh_, block, kind_, material, options_.mapping, options_.b_bar));
+        is_mixed(block, material, options_.simplices)
+            ? make_mixed_kernel(mesh_, block, kind_, material, options_.mapping, options_.stabilisation)
+            : make_block_kernel(mesh_, block, kind_, material, options_.mapping, options_.b_bar));
   }
 }
 
@@ -170,6 +169,9 @@ void MechanicalPhase::create_pressure() {
   const bool any = std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) {
     return dynamic_cast<const MixedKernel*>(block.get()) != nullptr;
   });
+  // States hold the fields: they stay when bodies leave.
+  std::optional<PressureFields> fields;
+  if (pressure_) fields = pressure_->fields_of_bodies();
   pressure_.reset();
   fields_.assign(1, components_);
   if (!any) return;  // every process has every block
@@ -184,7 +186,8 @@ void MechanicalPhase::create_pressure() {
       for (double& f : body_force.back()) f *= material.density;
     }
   }
-  pressure_ = std::make_unique<NodalPressure>(mesh_, materials_, blocks_, std::move(body_force));
+  if (!fields) fields = pressure_fields(mesh_, materials_, blocks_);
+  pressure_ = std::make_unique<NodalPressure>(mesh_, std::move(*fields), blocks_, std::move(body_force));
   fields_.push_back(pressure_->fields());
 }
 

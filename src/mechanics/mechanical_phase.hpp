@@ -56,7 +56,7 @@ struct MechanicsOptions {
   /// Constant volumetric mode (Q1/P0, 6.2) in 4-node quads and 8-node hexes; other shapes use the standard
   /// operator.
   bool b_bar = true;
-  Simplices simplices = Simplices::automatic;  ///< with Mapping::simultaneous always displacement
+  Simplices simplices = Simplices::automatic;
   Stabilisation stabilisation = Stabilisation::automatic;
   TimeIntegration integration = TimeIntegration::backward_euler;
   Mapping mapping = Mapping::isothermal;
@@ -176,6 +176,10 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// Newton's start, with the prescribed displacements at the end of the pass: displacements [local
   /// node][component] and, where elements are mixed, pressures in their unit [local node][field].
   std::vector<double> start(const MechanicalState& old, const MechanicalPass& pass) const;
+  /// Entries of the displacement in these unknowns, ghosts included.
+  std::size_t n_displacements() const { return mesh_.x.size() * static_cast<std::size_t>(components_); }
+  /// Residuals of the unknowns, which are on owned nodes.
+  std::size_t n_residuals() const;
   /// The properties at another temperature of the iterate, after begin().
   void prepare(const MechanicalState& old, const MechanicalPass& pass);
   /// As algebra::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
@@ -191,6 +195,10 @@ class MechanicalPhase : private algebra::NonlinearSystem {
                           MechanicalState& trial);
   /// Throws StepRejected on all processes, with the place that says most.
   [[noreturn]] void reject(const std::string& reason, std::span<const double> x);
+  /// The nodal pressure and the solver with its matrix, which are made anew with the conditions; null where
+  /// no element is mixed.
+  NodalPressure* pressure() { return pressure_.get(); }
+  SaddleSolver* saddle() { return saddle_solver_; }
   /// A residual that is rounding [N].
   double round_off() const { return round_off_; }
 
@@ -235,14 +243,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   void bind();
   void create_solver();
   void create_pressure();
-  /// Entries of the displacement in the unknowns of Newton's iteration, ghosts included.
-  std::size_t n_displacements() const { return mesh_.x.size() * static_cast<std::size_t>(components_); }
-  /// The same of residuals, which are on owned nodes.
+  /// Entries of the displacement in the residuals, which are on owned nodes.
   std::size_t n_forces() const {
     return static_cast<std::size_t>(mesh_.n_owned_nodes) * static_cast<std::size_t>(components_);
   }
   std::size_t n_unknowns() const;
-  std::size_t n_residuals() const;
   void set_in_motion(MechanicalState& state);
   void add_residual_to_balance(std::span<const double> r);
   /// ‖r(x)‖ of what the unknowns can change.

@@ -276,7 +276,8 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
   x.resize(n_displacements());
   next.displacement = std::move(x);
   next.stress = std::move(stress_);
-  if (pressure_) next.pressure = pressure_->pressure();
+  // Where the last body with a pressure has left its values stay, as checkpoints have room for them.
+  next.pressure = pressure_ ? pressure_->pressure() : old.pressure;
   if (options_.integration == TimeIntegration::two_step) {
     next.before = old.history;
     next.dt_before = pass.dt;

@@ -18,19 +18,23 @@ template <int n_nodes, AnalysisKind kind>
 inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 1 + n_nodes : 1;
 
 template <class Law, int n_nodes, AnalysisKind kind>
-class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_nodes, kind>>,
-                         public PressureNodes<n_nodes, kind> {
+class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_nodes, kind>>,
+                   public PressureNodes<n_nodes, kind> {
   using Base = PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_nodes, kind>>;
   using Nodes = PressureNodes<n_nodes, kind>;
-  using Base::dim, Base::gather, Base::nodes_of, Base::n_kept_, Base::n_state_;
+
+ protected:
+  using Base::dim, Base::gather, Base::geometry_, Base::nodes_of, Base::n_kept_, Base::n_state_;
   using Nodes::at, Nodes::at_point, Nodes::weight, Nodes::mean, Nodes::masses;
-  using typename Base::Operator, typename Base::Vectors, typename Base::State, typename Base::Properties,
-      typename Base::Response, typename Base::Matrix;
-  using typename Nodes::Nodal, typename Nodes::Slot;
+  using typename Base::State, typename Base::Properties, typename Base::Response, typename Base::Matrix;
+  using typename Nodes::Slot;
   static_assert(IsotropicTangent<Response>);
   static constexpr bool adiabatic = AdiabaticTangent<Response>;
 
  public:
+  using typename Base::Operator, typename Base::Vectors;
+  using typename Nodes::Nodal;
+
   MixedBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material,
              Stabilisation stabilisation)
       : Base(mesh, block, material), Nodes(mesh, block, Base::geometry_, stabilisation) {
@@ -57,10 +61,10 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
         tangent_[i] = volume_tangent(this->update(batch, 0, held));
         stiffness = tangent_[i].stiffness;
       }
-      this->set_step(
-          batch, b,
-          secant_shear(this->law_, this->properties_[i], this->start_state(batch, 0), this->effective_dt_),
-          Lane(1.0) / stiffness);
+      this->set_step(batch, b,
+                     secant_shear(this->law_, stabilisation_properties(start, batch),
+                                  this->start_state(batch, 0), this->effective_dt_),
+                     Lane(1.0) / stiffness);
       Vectors f{};
       this->add_stiffness(b, bulk * weight(batch), f);
       scale += this->counted(batch) * this->squares(f);
@@ -75,7 +79,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
       const Vectors displacement = gather(u, batch);
       const Sym<Lane> gradient = b.strain(displacement);
       const Nodal p = this->gather_pressure(this->field_.pressure, batch), mass = masses(batch);
-      const Point point = answer(batch, gradient, mean(p, batch));
+      const MixedPoint point = answer(batch, gradient, mean(p, batch));
       Vectors f{};
       b.add_force(weight(batch) * dev(point.response.stress), f);
       this->add_pressure_force(b, batch, p, f);
@@ -107,10 +111,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
       std::optional<Matrix> skew;
       if (!this->law_.symmetric()) skew.emplace();
       add_isotropic(b, Lane(0.0), w * response.twice_shear, symmetric);
-      if constexpr (RankOneTangent<Response>)
-        if (any(response.flow_increment > Lane(0.0)))  // right is of unit length
-          this->add_rank_one(b, response.left, response.right, w, dot(response.left, response.right),
-                             symmetric, skew);
+      if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, 0, response, w, symmetric, skew);
       if constexpr (adiabatic) {
         VolumeTangent& t = tangent_[at(batch)];
         t = volume_tangent(response);
@@ -128,7 +129,7 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
       const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
       const Sym<Lane> old_gradient = b.strain(old_displacement), gradient = b.strain(displacement);
       const Lane old_volume = kept_volume(*this->old_history_, batch);
-      const Point point =
+      const MixedPoint point =
           answer(batch, gradient, mean(this->gather_pressure(this->field_.pressure, batch), batch));
       typename Base::Average average;
       const Sym<Lane> at_work = this->record(batch, 0, strain(old_gradient, old_volume), point.strain,
@@ -231,11 +232,12 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
     }
   }
 
- private:
+ protected:  // for the kernel of the simultaneous scheme (coupled_mixed_block.hpp)
   Index n_batches() const { return Base::geometry_.n_batches; }
-  struct Point {
-    Sym<Lane> strain;
-    Lane volume;  ///< e_v
+  /// The answer of the law.
+  struct MixedPoint {
+    Sym<Lane> strain;  ///< that it sees
+    Lane volume;       ///< e_v
     Response response;
   };
 
@@ -248,20 +250,33 @@ class MixedBlock final : public PointBlock<Law, n_nodes, kind, false, k_mixed_ex
   Lane kept_volume(const BlockHistory& history, Index batch) const {
     return history.values[at(batch) * n_kept_ + n_state_];
   }
-  void keep_volume(BlockHistory& history, Index batch, const Lane& volume) const {
-    history.values[at(batch) * n_kept_ + n_state_] = volume;
-  }
-
   /// The law at ∇u and the mean pressure of the element.
-  Point answer(Index batch, const Sym<Lane>& gradient, const Lane& pressure) {
+  MixedPoint answer(Index batch, const Sym<Lane>& gradient, const Lane& pressure) {
     const bool found = find_volume(batch, gradient, pressure);
     const Lane volume = volume_[at(batch)];
-    Point point{strain(gradient, volume), volume, {}};
+    MixedPoint point{strain(gradient, volume), volume, {}};
     point.response = this->update(batch, 0, point.strain);
     if (!found) point.response.status = material::Status::cut_the_step;
     const Lane excess = pressure - Lane(1.0 / 3.0) * trace(point.response.stress);
     for (int i = 0; i < 3; ++i) point.response.stress[i] += excess;  // what the iteration has left
     return point;
+  }
+
+ private:
+  void keep_volume(BlockHistory& history, Index batch, const Lane& volume) const {
+    history.values[at(batch) * n_kept_ + n_state_] = volume;
+  }
+
+  /// The properties at Θ_n, also where the law works at the temperature of an iterate: with them the
+  /// stabilisation is the same from the first iteration of a step to the last, and from scheme to scheme.
+  Properties stabilisation_properties(const StepStart& start, Index batch) const {
+    if (start.pass_temperature.data() == start.temperature.data()) return this->properties_[at(batch)];
+    Properties properties =
+        this->law_.properties_at(temperature_at(this->geometry_, batch, 0, start.temperature),
+                                 temperature_at(this->geometry_, batch, 0, start.initial_temperature),
+                                 this->phase_at(start, batch, 0));
+    if (start.melt_modulus > 0) set_melt_viscosity(Lane(start.melt_modulus * start.effective_dt), properties);
+    return properties;
   }
 
   /// Sets e_v with which the law has this mean stress; false where it finds none.

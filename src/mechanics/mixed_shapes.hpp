@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "mechanics/mixed_block.hpp"
+#include "mechanics/coupled_mixed_block.hpp"
 
 namespace solidus::mechanics {
 
@@ -15,7 +15,7 @@ std::unique_ptr<BlockKernel> make_mixed_block_of_shape(mesh::Shape shape, const 
   if (block.shape != shape) throw std::invalid_argument("mixed elements are linear simplices");
   switch (mapping) {
     case Mapping::simultaneous:
-      throw std::invalid_argument("mixed elements are not for the simultaneous scheme");
+      return std::make_unique<CoupledMixedBlock<n_nodes, kind>>(mesh, block, material, stabilisation);
     case Mapping::isentropic:
       return std::make_unique<MixedBlock<material::Isentropic, n_nodes, kind>>(mesh, block, material,
                                                                                stabilisation);

@@ -3,7 +3,9 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace solidus::mechanics {
 
@@ -27,7 +29,8 @@ std::vector<const mesh::Block*> blocks_with_pressure(const mesh::Mesh& mesh,
 }  // namespace
 
 PressureFields pressure_fields(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-                               std::span<const char> mixed_block) {
+                               std::span<const std::unique_ptr<BlockKernel>> blocks) {
+  const std::vector<char> mixed_block = mixed_blocks(blocks);
   const std::size_t n = mesh.bodies.size();
   std::vector<char> at_node(mesh.x.size() * n, 0);
   std::vector<int> touching(n * n, 0);
@@ -55,13 +58,13 @@ PressureFields pressure_fields(const mesh::Mesh& mesh, const std::vector<materia
   return fields;
 }
 
-NodalPressure::NodalPressure(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+NodalPressure::NodalPressure(const mesh::Mesh& mesh, PressureFields fields_of_bodies,
                              std::span<const std::unique_ptr<BlockKernel>> blocks,
                              std::vector<std::array<double, 3>> body_force)
     : mesh_(mesh),
       orthogonal_(body_force.empty()),
       ghosts_(mesh),
-      fields_of_body_(pressure_fields(mesh, materials, mixed_blocks(blocks))),
+      fields_of_body_(std::move(fields_of_bodies)),
       blocks_(blocks_with_pressure(mesh, blocks)) {
   const auto n = mesh.x.size() * static_cast<std::size_t>(fields());
   pressure_.assign(n, 0.0);
@@ -105,7 +108,8 @@ void NodalPressure::begin() {
 
 void NodalPressure::to_unknowns(std::span<const double> pressure, std::span<double> unknowns) const {
   std::fill(unknowns.begin(), unknowns.end(), 0.0);
-  for (std::size_t i = 0; i < pressure.size(); ++i) unknowns[i] = pressure[i] / unit_;
+  assert(pressure.empty() || pressure.size() == absent_.size());
+  for (std::size_t i = 0; i < pressure.size(); ++i) unknowns[i] = absent_[i] ? 0.0 : pressure[i] / unit_;
 }
 
 void NodalPressure::set(std::span<const double> unknowns) {

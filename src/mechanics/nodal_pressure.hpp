@@ -27,19 +27,20 @@ struct PressureFields {
   std::vector<int> of_body;
 };
 PressureFields pressure_fields(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-                               std::span<const char> mixed_block);
+                               std::span<const std::unique_ptr<BlockKernel>> blocks);
 
 class NodalPressure {
  public:
   /// @param blocks      kernels of the phase; those that are no MixedKernel have no pressure
-  /// @param materials   one per body of the mesh
+  /// @param fields      those of a phase stay as they are when bodies leave: states hold them
   /// @param body_force  ρ g_0 of each body [N/m³]; empty with orthogonal sub-scales
   /// Collective.
-  NodalPressure(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
+  NodalPressure(const mesh::Mesh& mesh, PressureFields fields,
                 std::span<const std::unique_ptr<BlockKernel>> blocks,
                 std::vector<std::array<double, 3>> body_force);
 
   int fields() const { return fields_of_body_.n_fields; }
+  const PressureFields& fields_of_bodies() const { return fields_of_body_; }
   /// Nodes at which no element has this pressure, [local node][field].
   const std::vector<char>& absent() const { return absent_; }
   const std::vector<MixedKernel*>& kernels() const { return kernels_; }
@@ -51,7 +52,7 @@ class NodalPressure {
   void begin();
   /// In which pressures are counted [Pa/m]: 2Ĝ over the length of an element.
   double unit() const { return unit_; }
-  /// The unknowns of a pressure [Pa], [local node][field]; zero where it is empty.
+  /// The unknowns of a pressure [Pa], [local node][field]; zero where it is empty or nothing has it any more.
   void to_unknowns(std::span<const double> pressure, std::span<double> unknowns) const;
   /// Pressures that the kernels work with, from the unknowns of an iterate, [local node][field]; the volume
   /// residual of the kernels' next add_forces() begins at zero.

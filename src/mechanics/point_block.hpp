@@ -17,6 +17,7 @@
 #include "base/common_packs.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/element_transfer.hpp"
+#include "mechanics/flow_directions.hpp"
 #include "mechanics/law_parts.hpp"
 #include "mechanics/structural_points.hpp"
 #include "mesh/block_geometry.hpp"
@@ -134,7 +135,8 @@ class PointBlock : public BlockKernel {
 
   std::size_t bytes() const override {
     return geometry_.bytes() + points_.bytes() + properties_.bytes() + slots_.bytes() + averages_.bytes() +
-           (kept_averages_ ? kept_averages_->bytes() : 0) + kept_stress_.capacity() * sizeof(Sym<Lane>);
+           directions_.bytes() + (kept_averages_ ? kept_averages_->bytes() : 0) +
+           kept_stress_.capacity() * sizeof(Sym<Lane>);
   }
 
  protected:
@@ -189,7 +191,9 @@ class PointBlock : public BlockKernel {
     work_ = start.work;
     effective_dt_ = start.effective_dt;
     temperature_ = start.temperature;
+    old_displacement_ = start.old_displacement;
     points_.set_dt(start.dt);
+    directions_.begin();
   }
 
   /// Properties for the temperature of this step, and the entropy that an isentropic law holds.
@@ -360,6 +364,34 @@ class PointBlock : public BlockKernel {
     add_product(of_left, of_right, factor, symmetric, *skew);
   }
 
+  /// The part left ⊗ right of the tangent where metal flows, with the directions of FlowDirections.
+  void add_flow(const Operator& b, Index batch, int q, const Response& response, Lane weight,
+                Matrix& symmetric, std::optional<Matrix>& skew) requires RankOneTangent<Response> {
+    const LaneMask flows = response.flow_increment > Lane(0.0);
+    if (!any(flows)) return;
+    const Sym<Lane>& n = response.right;  // of unit length
+    const Lane c = dot(response.left, n);
+    if (!follows_directions_) {
+      add_rank_one(b, response.left, n, weight, c, symmetric, skew);
+      return;
+    }
+    const Sym<Lane> m =
+        directions_.at(index(batch, q), properties_.size(), response.relative_norm * n, flows, [&] {
+          return isothermal_law(law_).loading(isothermal_part(law_, properties_[index(batch, q)]),
+                                              start_state(batch, q),
+                                              b.strain(gather(old_displacement_, batch)), effective_dt_);
+        });
+    Vectors of_left{}, of_right{};
+    b.add_force(n, of_right);
+    if (skew) {
+      b.add_force(response.left + c * (m - n), of_left);
+      add_product(of_left, of_right, weight, symmetric, *skew);
+    } else {
+      b.add_force(m, of_left);
+      add_symmetric_product(of_left, of_right, weight * c, symmetric);
+    }
+  }
+
   Vectors gather(std::span<const double> u, Index batch) const {
     return mechanics::gather<n_nodes, static_cast<int>(dim)>(u, nodes_of(batch));
   }
@@ -388,8 +420,12 @@ class PointBlock : public BlockKernel {
   CommonPacks<Values> averages_;  ///< [batch], of the last finish()
   /// Those that are kept, from the next finish() until the one after it is committed.
   std::optional<CommonPacks<Values>> kept_averages_;
-  bool keeps_averages_ = false;          ///< the next finish() sets them aside
-  std::span<const double> temperature_;  ///< Θ_n of the step, [local node]
+  bool keeps_averages_ = false;  ///< the next finish() sets them aside
+  FlowDirections directions_;    ///< of the tangents since begin_step()
+  /// Whether they are unknowns of their own: false for the consistent tangent.
+  bool follows_directions_ = true;
+  std::span<const double> temperature_;       ///< Θ_n of the step, [local node]
+  std::span<const double> old_displacement_;  ///< at t_n [m], [local node][component]
   const BlockHistory* old_history_ = nullptr;
   const BlockHistory* start_history_ = nullptr;
   const BlockHistory* old_stress_ = nullptr;

@@ -181,6 +181,19 @@ class PressureNodes : public MixedKernel {
       return Lane(share) * total;
     }
   }
+  /// The share of each node in that mean.
+  Nodal mean_shares(Index batch) const {
+    Nodal shares;
+    shares.fill(Lane(share));
+    if constexpr (hoop) {
+      const Nodal mass = masses(batch);
+      Lane volume(0.0);
+      for (const Lane& m : mass) volume += m;
+      for (std::size_t a = 0; a < n_nodes; ++a)
+        shares[a] = select(volume > Lane(0.0), mass[a] / volume, Lane(0.0));  // padding has no volume
+    }
+    return shares;
+  }
   /// ∫ b_a N_c dV in direction i, exact: in axisymmetry the hoop part is ∫ N_a N_c 2π dA.
   Lane divergence(const Operator& b, Index batch, std::size_t a, std::size_t i, std::size_t c,
                   const Nodal& mass) const {

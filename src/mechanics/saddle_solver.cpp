@@ -16,9 +16,6 @@ constexpr GlobalIndex k_direct_limit_3d = 25000, k_direct_limit_2d = 60000;
 constexpr GlobalIndex k_rescue_limit = 200000;
 /// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
 constexpr double k_direct_tolerance = 1e-8;
-/// A hierarchy is made anew where a solve takes half as many iterations again for a digit as the first one
-/// with it, and a few more.
-constexpr double k_slower = 0.5, k_few = 4;
 
 }  // namespace
 
@@ -30,7 +27,7 @@ SaddleSolver::SaddleSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displac
       pressure_(pressure),
       ghosts_(ghosts),
       options_(options),
-      matrix_(mesh, displacement, pressure.fields()) {
+      matrix_(displacement, pressure.fields()) {
   find_unknowns();
   make_solver(factorises());
 }
@@ -52,7 +49,7 @@ bool SaddleSolver::factorises() const {
 
 void SaddleSolver::make_solver(bool direct) {
   direct_ = direct;
-  stale_ = true;
+  hierarchy_.renew();
   copy_.reset();
   solver_.emplace(algebra::KrylovOptions{
       .prefix = "mechanics_mixed_",
@@ -119,7 +116,7 @@ void SaddleSolver::set_up() {
     return;
   }
   preconditioner_->set_up_schur();
-  if (stale_) preconditioner_->set_up_displacement();
+  if (hierarchy_.stale()) preconditioner_->set_up_displacement();
   solver_->set(operator_->matrix(), operator_->matrix());
 }
 
@@ -141,8 +138,8 @@ algebra::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::
       report = solver_->solve(right_, solution_, relative);
     }
     if (!direct_) {
-      const bool was_new = stale_;
-      judge_hierarchy(report, relative);
+      const bool was_new = hierarchy_.stale();
+      hierarchy_.judge(report, relative);
       if (!report.converged && !was_new) {
         set_up();
         again = true;
@@ -157,15 +154,6 @@ algebra::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::
   unknowns_->expand(solution_, whole);
   std::copy(whole.begin(), whole.end(), x.begin());
   return report;
-}
-
-/// Decides whether the hierarchy serves again. Tolerances differ from solve to solve: what counts are
-/// iterations for each digit.
-void SaddleSolver::judge_hierarchy(const algebra::LinearReport& report, double reduction) {
-  const double digits = std::max(0.1, -std::log10(reduction));
-  if (stale_) first_rate_ = report.iterations / digits;
-  const double expected = first_rate_ * digits;
-  stale_ = !report.converged || report.iterations > expected + std::max(k_slower * expected, k_few);
 }
 
 void SaddleSolver::forget() {

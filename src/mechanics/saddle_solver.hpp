@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "algebra/function_matrix.hpp"
+#include "algebra/hierarchy_age.hpp"
 #include "algebra/krylov_solver.hpp"
 #include "algebra/saddle_matrix.hpp"
 #include "algebra/saddle_unknowns.hpp"
@@ -44,7 +45,7 @@ class SaddleSolver final : public algebra::TangentSolver {
   /// Adds the pressures' part of the tangent, after the blocks have added theirs to the matrix of
   /// displacements. Collective.
   void assemble();
-  const algebra::SaddleMatrix& matrix() const { return matrix_; }
+  algebra::SaddleMatrix& matrix() { return matrix_; }
 
   /// The right-hand side and the solution are those of the monotone form, [owned node][component] of
   /// displacements and then [owned node][field] of pressures: b = (−r_u, +unit r_p).
@@ -65,7 +66,6 @@ class SaddleSolver final : public algebra::TangentSolver {
   /// y = K x of the unknowns.
   void multiply(std::span<const double> x, std::span<double> y);
   void precondition(std::span<const double> r, std::span<double> z);
-  void judge_hierarchy(const algebra::LinearReport& report, double reduction);
 
   const mesh::Mesh& mesh_;
   algebra::BlockMatrix& displacement_;
@@ -79,8 +79,7 @@ class SaddleSolver final : public algebra::TangentSolver {
   std::unique_ptr<algebra::FunctionMatrix> operator_;
   std::optional<algebra::KrylovSolver> solver_;
   std::optional<SaddlePreconditioner> preconditioner_;
-  bool stale_ = true;      ///< the hierarchy is made anew with the next matrix
-  double first_rate_ = 0;  ///< iterations for each digit with a new hierarchy
+  algebra::HierarchyAge hierarchy_;
   double seconds_setup_ = 0, seconds_solve_ = 0;
   std::vector<double> right_, solution_;                     ///< [unknown]
   std::vector<double> whole_, product_, local_u_, local_p_;  ///< scratch

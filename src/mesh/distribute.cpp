@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/errors.hpp"
+#include "base/common_failure.hpp"
 #include "mesh/parts.hpp"
 #include "mesh/whole.hpp"
 
@@ -34,15 +34,6 @@ std::vector<char> receive() {
   return buffer;
 }
 
-// Rank 0's verdict reaches everybody, so that all throw the same.
-std::string agree(std::string complaint) {
-  int n = static_cast<int>(complaint.size());
-  MPI_Bcast(&n, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  complaint.resize(static_cast<std::size_t>(n));
-  MPI_Bcast(complaint.data(), n, MPI_CHAR, 0, PETSC_COMM_WORLD);
-  return complaint;
-}
-
 }  // namespace
 
 Mesh distribute(const RawMesh& raw, const std::vector<std::string>& bodies,
@@ -52,16 +43,7 @@ Mesh distribute(const RawMesh& raw, const std::vector<std::string>& bodies,
   MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
 
   Whole whole;
-  std::string complaint;
-  if (rank == 0) {
-    try {
-      whole = make_whole(raw, bodies, replicated, work, n_processes);
-    } catch (const std::exception& e) {
-      complaint = e.what();
-    }
-  }
-  complaint = agree(std::move(complaint));
-  if (!complaint.empty()) throw InputError({}, complaint);
+  on_first_process([&] { whole = make_whole(raw, bodies, replicated, work, n_processes); });
 
   if (rank != 0) return unpack_part(receive());
   Parts parts(raw, whole, bodies);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <new>
 #include <sstream>
 #include <unordered_map>
 
@@ -107,6 +108,8 @@ void open(const std::string& path) {
     gmsh::open(path);
   } catch (const std::string& complaint) {
     throw InputError({path}, "the mesh cannot be read: " + complaint, advice);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     throw InputError({path}, std::string("the mesh cannot be read: ") + e.what(), advice);
   } catch (...) {  // the CAD kernel's own exceptions

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 #include "base/errors.hpp"
 #include "mesh/quadrature.hpp"
@@ -146,7 +148,9 @@ std::vector<int> assign_owners(const NodeNeighbours& graph, const NodeWork& work
   const int status =
       partition(&vertices, &constraints, start.data(), node.data(), weight.data(), nullptr, nullptr, &parts,
                 nullptr, n_constraints == 2 ? imbalance : nullptr, options, &cut, part.data());
-  if (status != METIS_OK) throw std::runtime_error("METIS could not partition the mesh");
+  if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
+  if (status != METIS_OK)
+    throw std::runtime_error("METIS could not partition the mesh (status " + std::to_string(status) + ")");
   std::copy(part.begin(), part.end(), owner.begin());
   // METIS may leave a part of a tiny mesh empty; every process must own a node.
   for (int p = 0; p < n_processes; ++p)

@@ -34,7 +34,7 @@ NodeWork node_work(const NodeNeighbours& graph, const std::vector<const RawBlock
 /// The owner of every node: parts of equal work with few cut edges (METIS). Where bodies only conduct heat,
 /// the parts are equal in the work of each phase, for processes wait for each other after either. Throws
 /// InputError for a mesh that has fewer nodes than there are processes, or more neighbours than METIS can
-/// count.
+/// count, std::bad_alloc where METIS runs out of memory, std::runtime_error where it fails otherwise.
 std::vector<int> assign_owners(const NodeNeighbours& graph, const NodeWork& work, int n_processes);
 
 /// New number of every node: processes one behind the other, within each the reverse Cuthill–McKee order,

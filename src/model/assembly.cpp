@@ -9,7 +9,6 @@
 
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
-#include "mechanics/simplices.hpp"
 #include "model/admissible.hpp"
 #include "model/body_input.hpp"
 #include "model/contact_input.hpp"
@@ -60,25 +59,6 @@ std::vector<double> nodal_temperature(const CaseSpec& spec, const std::vector<do
       temperature[static_cast<std::size_t>(i)] = rank(block).second;
   algebra::GhostExchange(mesh).update(temperature, 1);  // an owner sees every body at its node
   return temperature;
-}
-
-/// The simultaneous scheme has no elements with a pressure: linear simplices that need one lock there.
-void warn_of_locking(const CaseSpec& spec, const Assembly& a) {
-  if (!spec.simultaneous() || spec.mechanics.simplices == mechanics::Simplices::displacement) return;
-  std::vector<char> said(spec.bodies.size(), 0);
-  for (const mesh::Block& block : a.mesh.blocks) {
-    const auto body = static_cast<std::size_t>(block.body);
-    if (said[body] != 0 || only_conducts(spec.bodies[body]) ||
-        !mechanics::is_mixed(block, a.materials[body], spec.mechanics.simplices))
-      continue;
-    said[body] = 1;
-    logging::warn(
-        "body '{}': with scheme = \"simultaneous\" its triangles or tetrahedra have one constant strain, "
-        "which "
-        "locks in melt and in plastic flow; quadrilaterals or hexahedra do not, and the splits have elements "
-        "with a pressure",
-        spec.bodies[body].name);
-  }
 }
 
 void build_contacts(const CaseSpec& spec, Assembly& a) {
@@ -176,7 +156,6 @@ void build(const CaseSpec& spec, Assembly& a) {
   for (const StageRun& stage : a.stages)
     if (stage.cycle <= 1) without_body(spec, a.mesh, &stage);  // complains early
   const std::vector<double> body_temperature = body_temperatures(spec, a.materials);
-  warn_of_locking(spec, a);
   build_contacts(spec, a);
   a.phases.temperature = nodal_temperature(spec, body_temperature, a.mesh);
   if (spec.has_mechanics()) {

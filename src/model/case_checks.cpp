@@ -372,11 +372,6 @@ void check_simplices(const CaseSpec& spec) {
         spec.dynamics->where,
         "mechanics.stabilisation = \"algebraic\" is for quasi-statics: its residual has no inertia",
         "stabilisation = \"orthogonal\"");
-  if (m.simplices != mechanics::Simplices::mixed) return;
-  if (spec.simultaneous())
-    throw InputError(spec.coupling.where,
-                     "mechanics.simplices = \"mixed\" does not go with the simultaneous scheme",
-                     "simplices = \"automatic\" or \"displacement\", or another scheme");
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ Section<MechanicsSpec> mechanics_keys() {
   s.choice("simplices", &MechanicsSpec::simplices,
            {{"automatic", Simplices::automatic,
              "mixed where a body's material melts, flows plastically or has a Poisson's ratio above 0.45; "
-             "displacement with the simultaneous scheme"},
+             "else displacement"},
             {"mixed", Simplices::mixed, "displacement and continuous pressure, stabilised: no locking"},
             {"displacement", Simplices::displacement, "displacement alone, which locks in plastic flow"}})
       .initially("automatic")
@@ -200,10 +200,11 @@ Section<CouplingSpec> coupling_keys() {
   using Solver = algebra::CoupledSolverKind;
   s.choice("solver", &CouplingSpec::solver,
            {{"automatic", Solver::automatic,
-             "direct in two dimensions and below 20 000 unknowns, field_split above"},
+             "direct in two dimensions and below 20 000 unknowns, 3 000 where elements are mixed; "
+             "field_split above"},
             {"direct", Solver::direct, "MUMPS, LU"},
             {"field_split", Solver::field_split,
-             "GMRES; multigrid on the displacements, incomplete LU on the temperatures"}})
+             "GMRES; multigrid on the displacements, incomplete factors on pressures and temperatures"}})
       .initially("automatic")
       .doc("Linear solver of the simultaneous scheme.");
   s.quantity("ambient_temperature", &CouplingSpec::ambient_temperature, "K")

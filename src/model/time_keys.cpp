@@ -60,7 +60,7 @@ Section<TimeSpec> time_keys() {
       .range(0.01, 0.99)
       .doc("Factor of the step after one that did not go through.");
   s.key("easy_iterations", &TimeSpec::easy_iterations)
-      .initially(6)
+      .initially(8)
       .range(1, 1000)
       .doc(
           "Adaptive steps grow only where no phase took more Newton iterations than this; beyond twice as "

@@ -24,8 +24,7 @@ class NotFiniteError : public std::runtime_error {
   NotFiniteError(const std::string& field, const std::string& where);
 };
 
-/// Runs `work` on every process of PETSC_COMM_WORLD. If it throws anywhere, every process throws: the failing
-/// one its own exception, the others an OutputError with the message of the lowest failing process.
+/// As solidus::together() of common_failure.hpp; the InputError of another process is an OutputError here.
 /// Collective.
 void together(const std::function<void()>& work);
 

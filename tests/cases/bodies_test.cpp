@@ -198,6 +198,24 @@ TEST_F(Bodies, LeaveBySchemesOfEveryKind) {
   }
 }
 
+// The bodies share nodes, at which each has a pressure.
+TEST_F(Bodies, LeaveWithPressuresOfTheirOwn) {
+  for (const char* scheme : {"isentropic", "simultaneous"})
+    for (const char* sand : {"all", "heat"})
+      for (const char* stabilisation : {"algebraic", "orthogonal"}) {
+        const std::string name = std::string("pressure_") + scheme + "_" + sand + "_" + stabilisation;
+        const std::vector<std::string> overrides{std::string("coupling.scheme=") + scheme,
+                                                 "mechanics.simplices=mixed",
+                                                 std::string("mechanics.stabilisation=") + stabilisation,
+                                                 std::string("body.sand.physics=") + sand};
+        const CaseRun r = k_here.run(name, k_shake_out, overrides);
+        ASSERT_TRUE(r.finished) << name << ": " << r.reason;
+        EXPECT_LT(at(r.history, "sxx[MPa]", 210), 10) << name;
+        EXPECT_LT(std::abs(defect(name)), 1e-6) << name;
+        k_here.expect_to_go_on(name + "_on", k_shake_out, 10, overrides);
+      }
+}
+
 TEST_F(Bodies, GoOnWithTheSameBitsBeforeAtAndAfterTheyLeave) {
   k_here.expect_to_go_on("before", k_shake_out, 6);
   k_here.expect_to_go_on("at", k_shake_out, 10);

@@ -187,6 +187,86 @@ TEST(Stages, InertiaGoesOnThroughThem) {
   }
 }
 
+/// The same plate, pressed and dragged over the block, which lets it through from 0.2 ms on.
+const std::string k_let_go = R"(title = "A plate whose block goes"
+stage = [
+  { name = "press", duration = "0.2 ms", steps = 20 },
+  { name = "gone",  duration = "0.1 ms", steps = 10 },
+]
+[analysis]
+kind = "plane_strain"
+physics = "thermomechanical"
+[mesh]
+shape = "two_blocks"
+element = "quad4"
+[mesh.two_blocks]
+lower = ["40 mm", "10 mm"]
+upper = ["40 mm", "5 mm"]
+lower_divisions = [8, 2]
+upper_divisions = [8, 1]
+[time]
+[coupling]
+scheme = "isentropic"
+[mechanics]
+tolerance = 1e-10
+[heat]
+tolerance = 1e-12
+[dynamics]
+[[body]]
+name = "lower"
+material = "steel_mould"
+initial_temperature = "20 degC"
+[[body]]
+name = "upper"
+material = "steel_mould"
+initial_temperature = "20 degC"
+[[mechanical_condition]]
+name = "ground"
+group = "lower_y_min"
+kind = "displacement"
+ux = "0 mm"
+uy = "0 mm"
+[[mechanical_condition]]
+name = "force"
+group = "upper_y_max"
+kind = "pressure"
+pressure = "100 MPa"
+[[mechanical_condition]]
+name = "drag"
+group = "upper_y_max"
+kind = "traction"
+traction = ["60 MPa", "0 MPa"]
+[[contact]]
+name = "faces"
+slave = "upper_bottom"
+master = "lower_top"
+stages = "press"
+[contact.heat]
+conductance = "1000 W/m2/K"
+gap_law = "constant"
+)";
+
+// The mean over the first step without contact holds half of its last force: the work of that is booked.
+TEST(Stages, ContactThatIsSwitchedOffKeepsTheFirstLawWithInertia) {
+  for (const char* method : {"backward_euler", "trapezoidal", "generalised_alpha"})
+    for (const bool friction : {false, true}) {
+      std::vector<std::string> overrides{std::string("dynamics.method=") + method};
+      if (friction) overrides.push_back("contact.faces.friction.coefficient=0.3");
+      const CaseRun r =
+          k_here.run(std::string("let_go_") + method + (friction ? "_rough" : ""), k_let_go, overrides);
+      ASSERT_TRUE(r.finished) << r.reason;
+      const std::vector<double>&defect = r.history.at("energy_defect[J]"), &work = r.history.at("work[J]"),
+            &force = r.history.at("contact_force[N]");
+      ASSERT_EQ(defect.size(), 31u);
+      EXPECT_GT(force[20], 1e5) << method;
+      EXPECT_EQ(force[21], 0) << method;
+      EXPECT_GT(work.back(), 100) << method;
+      for (std::size_t i = 0; i < defect.size(); ++i)
+        EXPECT_LT(std::abs(defect[i]), 1e-7 * work.back())
+            << method << (friction ? " with friction, row " : ", row ") << i;
+    }
+}
+
 TEST(Stages, MoreCyclesMakeAFinishedRunLonger) {
   const std::string file = k_here.write("longer.toml", k_strokes);
   const auto go = [&](const std::string& repeat, bool restart) {

@@ -7,64 +7,22 @@
 ///    chilled     Θ_c the temperature of the step in which the element became coherent.
 #include <gtest/gtest.h>
 
-#include "coupling_bodies.hpp"
 #include "criteria/strain_criteria.hpp"
+#include "freezing_column.hpp"
 #include "material/elasticity.hpp"
-#include "plasticity_bodies.hpp"
-#include "simplex_bodies.hpp"
 
 namespace solidus {
 namespace {
 
 using verification::Coupled;
 using verification::Element;
-
-constexpr double k_width = 0.06, k_height = 0.08;  // [m]
-constexpr double k_gravity = 9.81;
-constexpr double k_hot = 950, k_solidus = 860, k_liquidus = 900;  // [K]
-
-material::Material aluminium() {
-  material::Material m =
-      verification::plastic_material(6e10, 0.35, Table({300, 800, 880}, {80e6, 10e6, 1e6}), 2e-5);
-  m.density = 2500;
-  m.conductivity = 100.0;
-  m.specific_heat = 1000.0;
-  m.liquid_viscosity = 1e7;
-  m.phase_changes.push_back({.name = "freezing",
-                             .fraction = material::PhaseFraction::linear(k_solidus, k_liquidus),
-                             .latent_heat = 4e5,
-                             .volume_change = -0.05,
-                             .solidification = true});
-  return m;
-}
-
-Coupled column(const Element& element, mechanics::Mapping mapping) {
-  const bool solid = mesh::dimension(element.shape) == 3;
-  Coupled c;
-  c.mesh = test::make_mesh({.shape = element.shape,
-                            .cells = {solid ? 3 : 6, solid ? 8 : 16, 3},
-                            .size = {k_width, k_height, k_width},
-                            .distortion = 0.1});
-  c.kind = solid ? AnalysisKind::solid : AnalysisKind::plane_strain;
-  c.materials = {aluminium()};
-  c.start = {k_hot};
-  c.form = mechanics::StructuralForm::energy;
-  c.mapping = mapping;
-  c.mechanics_tolerance = 1e-5;
-  c.simplices = element.simplices;
-  c.stabilisation = element.stabilisation;
-  for (const char* wall : {"left", "right"}) c.hold(wall, 0);
-  c.hold("bottom", 1);
-  if (solid)
-    for (const char* wall : {"back", "front"}) c.hold(wall, 2);
-  c.mechanical.gravity = {0, -k_gravity, 0};
-  c.thermal.films.push_back({"chill", "bottom", {5000.0}, Table(300.0)});
-  return c;
-}
+using verification::k_column_height;
+using verification::k_gravity;
+using verification::k_poured_at;
 
 /// e^θ of the law, from the temperature at the start.
 double thermal_strain(const material::Material& m, double temperature) {
-  return material::properties_at(m, temperature, k_hot).thermal_strain;
+  return material::properties_at(m, temperature, k_poured_at).thermal_strain;
 }
 
 struct Pour {
@@ -80,7 +38,9 @@ struct Pour {
 Pour pour(const Element& element, mechanics::Mapping mapping) {
   constexpr int n_steps = 60;
   constexpr double dt = 2;
-  const Coupled c = column(element, mapping);
+  const bool is_solid = mesh::dimension(element.shape) == 3;
+  const Coupled c =
+      verification::freezing_column(element, mapping, is_solid ? std::array{3, 8, 3} : std::array{6, 16, 3});
   verification::Assembly assembly(c, n_steps * dt);
   const material::Material& metal = c.materials[0];
   criteria::StrainCriteria strains(c.mesh, c.kind, c.materials);
@@ -101,7 +61,7 @@ Pour pour(const Element& element, mechanics::Mapping mapping) {
   Pour result;
   double defect = 0, moved = 0;
   // The strain follows the temperature of t_n: that of the last step that began as melt, and of the last one.
-  std::vector<double> at_coherency(n_elements, k_hot), last(n_elements, k_hot);
+  std::vector<double> at_coherency(n_elements, k_poured_at), last(n_elements, k_poured_at);
   for (int n = 1; n <= n_steps; ++n) {
     coupling::State trial;
     const coupling::StepEffort effort = assembly.advance(state, trial, n * dt, dt);
@@ -117,9 +77,9 @@ Pour pour(const Element& element, mechanics::Mapping mapping) {
       const std::vector<double> pressure = test::element_fields(assembly.mechanics())[0].pressure;
       const double weight = metal.density * k_gravity;
       for (std::size_t e = 0; e < n_elements; ++e)
-        result.early_pressure =
-            std::max(result.early_pressure,
-                     std::abs(pressure[e] / weight - (k_height - cells.centre[e][1])) / k_height);
+        result.early_pressure = std::max(
+            result.early_pressure,
+            std::abs(pressure[e] / weight - (k_column_height - cells.centre[e][1])) / k_column_height);
     }
     state = std::move(trial);
   }
@@ -152,7 +112,7 @@ Pour pour(const Element& element, mechanics::Mapping mapping) {
   for (const Index node : surface)
     sinking += state.mechanics.displacement[static_cast<std::size_t>(node) * components + 1] /
                static_cast<double>(surface.size());
-  result.sinking = std::abs(sinking / (cells.mean(volume_change) * k_height) - 1);
+  result.sinking = std::abs(sinking / (cells.mean(volume_change) * k_column_height) - 1);
   for (const double u : distortion) result.most_distortion = std::max(result.most_distortion, std::abs(u));
   result.solid = assembly.heat().mean_solid_fraction(state.heat);
   result.defect = std::abs(defect) / moved;

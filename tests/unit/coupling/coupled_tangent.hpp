@@ -25,54 +25,47 @@ inline double global_norm(std::span<const double> a) {
   return std::sqrt(algebra::global_sum(s));
 }
 
+/// Of forces, of heat, and of the volumes of mixed elements where there are any.
 template <class Of>
-struct OfBoth {
-  Of force, heat;
+struct OfAll {
+  Of force{}, heat{}, volume{};
 };
 
-/// A d on owned nodes [N], [W]; no force where the displacement is prescribed, as in the residual.
-inline OfBoth<std::vector<double>> product(algebra::CoupledMatrix& a, std::span<const double> du,
-                                           std::span<const double> dt, std::size_t n_owned) {
-  std::vector<double> force(n_owned * static_cast<std::size_t>(a.components())), heat(n_owned),
-      part(force.size());
-  a.displacement().multiply(du, force);
-  a.multiply_force(dt, part);
-  const std::vector<char>& fixed = a.displacement().fixed();
-  for (std::size_t i = 0; i < force.size(); ++i) force[i] = fixed[i] ? 0 : force[i] + part[i];
-  a.temperature().multiply(dt, heat);
-  part.resize(n_owned);
-  a.multiply_heat(du, part);
-  for (std::size_t i = 0; i < heat.size(); ++i) heat[i] += part[i];
-  return {std::move(force), std::move(heat)};
-}
-
 /// ‖A d − differences of the residuals over ±h d‖ / ‖A d‖; zero where neither changes.
-/// @param a   the tangent at `u` and the temperature of newton.thermal(), which stays
-/// @param du  [local node][component] [m]
+/// @param u   unknowns of the mechanical phase; the tangent is the one of there and of the temperature of
+///            newton.thermal(), which stays
+/// @param du  a change of them
 /// @param dt  [local node] [K]
-inline OfBoth<double> tangent_errors(coupling::CoupledNewton& newton, algebra::CoupledMatrix& a,
-                                     const mechanics::MechanicalState& old,
-                                     const mechanics::MechanicalPass& pass, const std::vector<double>& u,
-                                     std::span<const double> du, std::vector<double> dt, double h) {
-  const std::size_t n_owned = newton.force().size() / static_cast<std::size_t>(a.components());
-  const OfBoth<std::vector<double>> expected = product(a, du, dt, n_owned);
-  OfBoth<std::vector<double>> error = expected;
+inline OfAll<double> tangent_errors(coupling::CoupledNewton& newton, algebra::CoupledMatrix& a,
+                                    const mechanics::MechanicalState& old,
+                                    const mechanics::MechanicalPass& pass, const std::vector<double>& u,
+                                    std::span<const double> du, std::vector<double> dt, double h) {
   heat::ThermalIteration& thermal = newton.thermal();
+  std::vector<double> force(newton.force().size()), heat(thermal.residual().size());
+  const std::size_t n_forces = heat.size() * static_cast<std::size_t>(a.components());
+  newton.multiply(du, dt, force, heat);
+  const std::vector<char>& fixed = a.displacement().fixed();
+  for (std::size_t i = 0; i < n_forces; ++i)
+    if (fixed[i]) force[i] = 0;  // as in the residual
+  const auto norms = [&](std::span<const double> f) {
+    return OfAll<double>{global_norm(f.first(n_forces)), global_norm(heat), global_norm(f.subspan(n_forces))};
+  };
+  const OfAll<double> expected = norms(force);
   thermal.set_direction(dt, {});
   for (const double sign : {1.0, -1.0}) {
     std::vector<double> x = u;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += sign * h * du[i];
     thermal.move(sign * h);
     newton.evaluate(old, pass, x);
-    for (std::size_t i = 0; i < error.force.size(); ++i) error.force[i] -= sign * newton.force()[i] / (2 * h);
-    for (std::size_t i = 0; i < error.heat.size(); ++i)
-      error.heat[i] -= sign * thermal.residual()[i] / (2 * h);
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] -= sign * newton.force()[i] / (2 * h);
+    for (std::size_t i = 0; i < heat.size(); ++i) heat[i] -= sign * thermal.residual()[i] / (2 * h);
   }
   thermal.move(0);
   newton.evaluate(old, pass, u);
+  const OfAll<double> error = norms(force);
   const auto relative = [](double left, double of) { return left == 0 ? 0 : left / of; };
-  return {relative(global_norm(error.force), global_norm(expected.force)),
-          relative(global_norm(error.heat), global_norm(expected.heat))};
+  return {relative(error.force, expected.force), relative(error.heat, expected.heat),
+          relative(error.volume, expected.volume)};
 }
 
 }  // namespace solidus::test

@@ -193,7 +193,7 @@ class Iterate {
     newton.evaluate(old, pass_, u_);
   }
   /// Of the tangent here along a direction.
-  OfBoth<double> tangent_errors(std::span<const double> du, std::vector<double> dt, double h) {
+  OfAll<double> tangent_errors(std::span<const double> du, std::vector<double> dt, double h) {
     const mechanics::MechanicalState& old = blocks_.state.mechanics;
     algebra::CoupledMatrix& a = newton.assemble(old, u_, 0);
     return test::tangent_errors(newton, a, old, pass_, u_, du, std::move(dt), h);

@@ -12,6 +12,7 @@
 
 #include "../mechanics/plastic_material.hpp"
 #include "coupled_tangent.hpp"
+#include "mechanics/nodal_pressure.hpp"
 
 namespace solidus {
 namespace {
@@ -45,11 +46,11 @@ struct Model {
 
   Model(Shape shape, AnalysisKind kind, const material::Material& material, StructuralForm form,
         heat::Integration rule = heat::Integration::closed, heat::Conditions thermal = {},
-        const std::function<void(test::Body&)>& hold = {})
+        const std::function<void(test::Body&)>& adjust = {}, double distortion = 0.15)
       : body({.shape = shape,
               .cells = {3, 2, 2},
               .size = {0.03, 0.02, 0.02},
-              .distortion = 0.15,
+              .distortion = distortion,
               .map =
                   [](const mesh::Point& x) {
                     return mesh::Point{x[0] + 0.05, x[1], x[2]};
@@ -57,7 +58,7 @@ struct Model {
              kind, material) {
     body.options.mapping = mechanics::Mapping::simultaneous;
     std::fill(body.initial_temperature.begin(), body.initial_temperature.end(), k_start);
-    if (hold) hold(body);
+    if (adjust) adjust(body);
     mechanics = body.phase();
     structural.emplace(*mechanics, form, rule == heat::Integration::closed);
     heat::HeatOptions options;
@@ -73,12 +74,21 @@ struct Model {
   }
 };
 
+/// Numbers for the unknowns of the mechanical phase: displacements, and pressures in their unit.
+std::vector<double> unknowns(Model& m, double seed, double size) {
+  std::vector<double> x = noise(m.body.mesh, m.mechanics->components(), seed, size);
+  if (m.mechanics->pressure() != nullptr) {
+    const std::vector<double> p = noise(m.body.mesh, m.mechanics->pressure()->fields(), 0.9 * seed, size);
+    x.insert(x.end(), p.begin(), p.end());
+  }
+  return x;
+}
+
 /// The errors of A d against central differences, in parts of ‖A d‖ of each field.
 double tangent_error(Model& m, double strain) {
   m.structural->leave_tangent();
   coupling::CoupledNewton newton(m.phases, algebra::CoupledSolverKind::direct);
   heat::ThermalIteration& thermal = newton.thermal();
-  const int nc = m.mechanics->components();
   constexpr double k_dt = 0.5;
   mechanics::MechanicalPass pass{.time = k_dt, .dt = k_dt, .temperature = m.state.heat.temperature};
   thermal.begin(m.state.heat, k_dt, k_dt);
@@ -87,7 +97,7 @@ double tangent_error(Model& m, double strain) {
 
   // Some state: a jump from the start.
   const mesh::Mesh& mesh = m.body.mesh;
-  const std::vector<double> u = noise(mesh, nc, 1.3, strain * 0.01);
+  const std::vector<double> u = unknowns(m, 1.3, strain * 0.01);
   std::vector<double> warmer = noise(mesh, 1, 0.7, 30);
   newton.evaluate(m.state.mechanics, pass, std::vector<double>(u.size(), 0.0));
   newton.assemble(m.state.mechanics, std::vector<double>(u.size(), 0.0), 0);
@@ -98,8 +108,8 @@ double tangent_error(Model& m, double strain) {
 
   constexpr double k_h = 1e-5;  // error h² of the differences, rounding 1e-16/h: 1e-10 of either
   const auto error = test::tangent_errors(newton, a, m.state.mechanics, pass, u,
-                                          noise(mesh, nc, 2.1, strain * 0.01), noise(mesh, 1, 1.9, 20), k_h);
-  return std::hypot(error.force, error.heat);
+                                          unknowns(m, 2.1, strain * 0.01), noise(mesh, 1, 1.9, 20), k_h);
+  return std::hypot(error.force, error.heat, error.volume);
 }
 
 struct Case {
@@ -132,7 +142,7 @@ TEST(CoupledTangent, IsTheDerivativeOfBothResidualsInEveryShapeAndKind) {
       }
 }
 
-TEST(CoupledTangent, IsTheDerivativeWithTheOpenRuleAndWithAMushyZone) {
+material::Material mushy() {
   material::Material melt = varying(test::plastic_material());
   melt.liquid_viscosity = 1e9;
   melt.phase_changes.push_back({.name = "freezing",
@@ -140,6 +150,40 @@ TEST(CoupledTangent, IsTheDerivativeWithTheOpenRuleAndWithAMushyZone) {
                                 .latent_heat = 3e4,
                                 .volume_change = -0.01,
                                 .solidification = true});
+  return melt;
+}
+
+TEST(CoupledTangent, IsTheDerivativeOfMixedElementsWithEverySubscaleAndLaw) {
+  using Kinematic = material::KinematicHardening;
+  using mechanics::Stabilisation;
+  material::Material chosen = mushy();
+  chosen.liquid_viscosity = Table();
+  const material::Material materials[] = {varying(test::elastic_material(2e11, 0.3)),
+                                          varying(test::plastic_material(Kinematic::armstrong_frederick)),
+                                          mushy(), chosen};
+  const Case cases[] = {{Shape::tri3, AnalysisKind::plane_strain},
+                        {Shape::tri3, AnalysisKind::axisymmetric},
+                        {Shape::tet4, AnalysisKind::solid}};
+  for (const Case& c : cases)
+    for (const auto form : {StructuralForm::energy, StructuralForm::entropy})
+      for (const auto stabilisation : {Stabilisation::orthogonal, Stabilisation::algebraic})
+        for (std::size_t i = 0; i < std::size(materials); ++i) {
+          Model model(c.shape, c.kind, materials[i], form, heat::Integration::closed, {},
+                      [&](test::Body& body) {
+                        body.options.simplices = mechanics::Simplices::mixed;
+                        body.options.stabilisation = stabilisation;
+                        body.conditions.gravity = {0, -9.81, 0};
+                      });
+          ASSERT_NE(model.mechanics->pressure(), nullptr);
+          EXPECT_LT(tangent_error(model, 2e-3), 1e-6)
+              << "shape " << static_cast<int>(c.shape) << " kind " << static_cast<int>(c.kind) << " form "
+              << static_cast<int>(form) << " sub-scales " << static_cast<int>(stabilisation) << " material "
+              << i;
+        }
+}
+
+TEST(CoupledTangent, IsTheDerivativeWithTheOpenRuleAndWithAMushyZone) {
+  const material::Material melt = mushy();
   for (const auto form : {StructuralForm::energy, StructuralForm::entropy})
     for (const auto rule : {heat::Integration::closed, heat::Integration::open})
       for (const auto& m : {varying(test::plastic_material()), melt}) {
@@ -148,42 +192,56 @@ TEST(CoupledTangent, IsTheDerivativeWithTheOpenRuleAndWithAMushyZone) {
       }
 }
 
-/// Chilled on one side and pulled.
-Model pulled(StructuralForm form, double pull = 1e-4) {
+/// Chilled on one side and pulled. Triangles and tetrahedra are mixed, as their material flows.
+Model pulled(StructuralForm form, double pull = 1e-4, Shape shape = Shape::quad4,
+             mechanics::Stabilisation stabilisation = mechanics::Stabilisation::automatic) {
   heat::Conditions thermal;
   thermal.films.push_back({"chill", "top", {20000.0}, 300.0});
-  return Model(Shape::quad4, AnalysisKind::plane_strain, varying(test::plastic_material()), form,
-               heat::Integration::closed, thermal, [pull](test::Body& body) {
-                 body.hold("left", 0);
-                 body.hold("left", 1);
+  const bool solid = mesh::dimension(shape) == 3;
+  return Model(shape, solid ? AnalysisKind::solid : AnalysisKind::plane_strain,
+               varying(test::plastic_material()), form, heat::Integration::closed, thermal,
+               [pull, solid, stabilisation](test::Body& body) {
+                 body.options.stabilisation = stabilisation;
+                 for (int i = 0; i < (solid ? 3 : 2); ++i) body.hold("left", i);
                  body.hold("right", 0, Table({0, 1}, {0, pull}));
                });
 }
 
+/// What the tests below go through: with a pressure and without, with sub-scales that the factors see and
+/// others that they do not.
+struct Elements {
+  Shape shape;
+  mechanics::Stabilisation stabilisation = mechanics::Stabilisation::automatic;
+};
+const Elements k_elements[] = {
+    {Shape::quad4}, {Shape::tri3}, {Shape::tri3, mechanics::Stabilisation::orthogonal}, {Shape::tet4}};
+
 TEST(SimultaneousScheme, ConvergesQuadratically) {
-  for (const auto form : {StructuralForm::energy, StructuralForm::entropy}) {
-    Model m = pulled(form);
-    coupling::SimultaneousScheme scheme(m.phases);
-    coupling::State trial = m.state;
-    scheme.advance(m.state, trial, 1.0, 1.0);
-    const auto& r = scheme.report().residuals;
-    ASSERT_GE(r.size(), 4U);
-    EXPECT_EQ(scheme.report().shortest_step, 1.0);
-    // The last step that is not cut off by rounding.
-    constexpr double k_rounding = 1e-10;
-    std::size_t last = r.size() - 1;
-    while (last > 2 && r[last].heat < k_rounding) --last;
-    const double exponent =
-        std::log(r[last].heat / r[last - 1].heat) / std::log(r[last - 1].heat / r[last - 2].heat);
-    std::string all;
-    for (const auto& x : r)
-      all += std::to_string(std::log10(x.force)) + " " + std::to_string(std::log10(x.heat)) + "; ";
-    EXPECT_GT(exponent, 1.7) << all;
-  }
+  for (const Elements& e : k_elements)
+    for (const auto form : {StructuralForm::energy, StructuralForm::entropy}) {
+      Model m = pulled(form, 1e-4, e.shape, e.stabilisation);
+      coupling::SimultaneousScheme scheme(m.phases);
+      coupling::State trial = m.state;
+      scheme.advance(m.state, trial, 1.0, 1.0);
+      const auto& r = scheme.report().residuals;
+      ASSERT_GE(r.size(), 4U);
+      EXPECT_EQ(scheme.report().shortest_step, 1.0);
+      // The last step that is not cut off by rounding.
+      constexpr double k_rounding = 1e-11;
+      std::size_t last = r.size() - 1;
+      while (last > 2 && r[last].heat < k_rounding) --last;
+      const double exponent =
+          std::log(r[last].heat / r[last - 1].heat) / std::log(r[last - 1].heat / r[last - 2].heat);
+      std::string all = std::string(mesh::name(e.shape)) + ": ";
+      for (const auto& x : r)
+        all += std::to_string(std::log10(x.force)) + " " + std::to_string(std::log10(x.heat)) + "; ";
+      EXPECT_GT(exponent, 1.7) << all;
+    }
 }
 
-TEST(SimultaneousScheme, GoesTheSameWayFromAStateWithAFieldSplit) {
-  Model a = pulled(StructuralForm::energy), b = pulled(StructuralForm::energy);
+void expect_the_same_way_with_a_field_split(const Elements& e) {
+  Model a = pulled(StructuralForm::energy, 1e-4, e.shape, e.stabilisation),
+        b = pulled(StructuralForm::energy, 1e-4, e.shape, e.stabilisation);
   coupling::SimultaneousScheme direct(a.phases, {.solver = algebra::CoupledSolverKind::direct});
   coupling::SimultaneousScheme split(b.phases, {.solver = algebra::CoupledSolverKind::field_split});
   coupling::State of_direct = a.state, of_split = b.state;
@@ -201,6 +259,15 @@ TEST(SimultaneousScheme, GoesTheSameWayFromAStateWithAFieldSplit) {
     EXPECT_NEAR(of_direct.heat.temperature[i], of_split.heat.temperature[i], 1e-6);
   for (std::size_t i = 0; i < of_direct.mechanics.displacement.size(); ++i)
     EXPECT_NEAR(of_direct.mechanics.displacement[i], of_split.mechanics.displacement[i], 1e-12);
+  for (std::size_t i = 0; i < of_direct.mechanics.pressure.size(); ++i)
+    EXPECT_NEAR(of_direct.mechanics.pressure[i], of_split.mechanics.pressure[i], 100);  // [Pa], of 1e9
+}
+
+TEST(SimultaneousScheme, GoesTheSameWayFromAStateWithAFieldSplit) {
+  for (const Elements& e : k_elements) {
+    SCOPED_TRACE(mesh::name(e.shape));
+    expect_the_same_way_with_a_field_split(e);
+  }
 }
 
 int processes() {
@@ -227,8 +294,11 @@ void expect_the_same(const std::vector<double>& a, const std::vector<double>& b,
 TEST(SimultaneousScheme, ContinuesFromAStateBitByBit) {
   for (const auto integration :
        {SimultaneousOptions::Integration::backward_euler, SimultaneousOptions::Integration::sdirk2})
-    for (const auto solver : {algebra::CoupledSolverKind::direct, algebra::CoupledSolverKind::field_split}) {
-      Model a = pulled(StructuralForm::energy), b = pulled(StructuralForm::energy);
+    for (const auto& [shape, solver] : {std::pair{Shape::quad4, algebra::CoupledSolverKind::direct},
+                                        {Shape::quad4, algebra::CoupledSolverKind::field_split},
+                                        {Shape::tri3, algebra::CoupledSolverKind::direct},
+                                        {Shape::tet4, algebra::CoupledSolverKind::field_split}}) {
+      Model a = pulled(StructuralForm::energy, 1e-4, shape), b = pulled(StructuralForm::energy, 1e-4, shape);
       coupling::SimultaneousScheme whole(a.phases, {integration, solver}),
           rest(b.phases, {integration, solver});
       coupling::State state = a.state, trial = a.state;
@@ -246,6 +316,42 @@ TEST(SimultaneousScheme, ContinuesFromAStateBitByBit) {
       expect_the_same(trial.heat.temperature, next.heat.temperature, exact);
       expect_the_same(trial.heat.enthalpy, next.heat.enthalpy, exact);
       expect_the_same(trial.mechanics.displacement, next.mechanics.displacement, exact);
+      expect_the_same(trial.mechanics.pressure, next.mechanics.pressure, exact);
+    }
+}
+
+// A face that stays plane ties its displacements together, whatever process they are of.
+TEST(SimultaneousScheme, KeepsAFacePlaneWithAPressure) {
+  for (const Shape shape : {Shape::tri3, Shape::tet4})
+    for (const auto solver :
+         {algebra::CoupledSolverKind::automatic, algebra::CoupledSolverKind::field_split}) {
+      SCOPED_TRACE(mesh::name(shape));
+      const auto kind = shape == Shape::tet4 ? AnalysisKind::solid : AnalysisKind::plane_strain;
+      heat::Conditions thermal;
+      thermal.films.push_back({"chill", "top", {20000.0}, 300.0});
+      // Flat faces: the lattice is not distorted.
+      Model m(
+          shape, kind, varying(test::plastic_material()), StructuralForm::energy, heat::Integration::closed,
+          thermal,
+          [&](test::Body& body) {
+            for (int i = 0; i < displacement_components(kind); ++i) body.hold("left", i);
+            body.conditions.plane_faces.push_back({"right"});
+          },
+          0.0);
+      coupling::SimultaneousScheme scheme(m.phases, {.solver = solver});
+      coupling::State trial = m.state;
+      const coupling::StepEffort effort = scheme.advance(m.state, trial, 1.0, 1.0);
+      EXPECT_LT(effort.mechanics.iterations, 10);
+      EXPECT_LT(std::abs(effort.energy.defect()), 1e-8 * effort.energy.heat_exchanged);
+      double least = 1, most = -1;
+      const auto nc = static_cast<std::size_t>(m.mechanics->components());
+      for (const Index node : m.body.mesh.surfaces.at("right").nodes) {
+        const double u = trial.mechanics.displacement[static_cast<std::size_t>(node) * nc];
+        least = std::min(least, u);
+        most = std::max(most, u);
+      }
+      EXPECT_LT(algebra::global_max(most), 0);  // it cools
+      EXPECT_LE(algebra::global_max(most) - algebra::global_min(least), 1e-18);
     }
 }
 

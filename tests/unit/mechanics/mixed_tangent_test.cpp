@@ -75,7 +75,7 @@ struct Mixed {
           mechanics::make_mixed_kernel(mesh, block, s.kind, materials[0], s.mapping, stabilisation));
     const bool algebraic = stabilisation == Stabilisation::algebraic;
     pressure = std::make_unique<mechanics::NodalPressure>(
-        mesh, materials, blocks,
+        mesh, mechanics::pressure_fields(mesh, materials, blocks), blocks,
         algebraic ? std::vector<std::array<double, 3>>{{0, -7e4, 0}} : std::vector<std::array<double, 3>>{});
     algebra::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
@@ -129,8 +129,11 @@ struct Mixed {
   /// K⁻¹ b at x.
   std::vector<double> solve(const std::vector<double>& b) {
     residual(x);
-    matrix->set_zero();
-    for (const auto& block : blocks) block->add_tangent(std::span(x).first(n_local_u()), *matrix);
+    // The second tangent at one iterate is the consistent one: the directions of flow are known by then.
+    for (int i = 0; i < 2; ++i) {
+      matrix->set_zero();
+      for (const auto& block : blocks) block->add_tangent(std::span(x).first(n_local_u()), *matrix);
+    }
     solver->assemble();
     std::vector<double> d(n_owned());
     const algebra::LinearReport report = solver->solve(*matrix, b, d, 0);

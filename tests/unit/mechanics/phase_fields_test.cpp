@@ -1,6 +1,7 @@
 /// Where mechanics has its phases from.
 #include "mechanics/phase_fields.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "body.hpp"

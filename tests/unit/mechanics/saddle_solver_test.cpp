@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "../../late_messages.hpp"
 #include "mechanics/saddle_solver.hpp"
 #include "plastic_material.hpp"
 
@@ -49,8 +50,9 @@ struct Casting {
     for (const mesh::Block& block : mesh.blocks)
       blocks.push_back(mechanics::make_mixed_kernel(mesh, block, AnalysisKind::solid, materials[0],
                                                     Mapping::isothermal, Stabilisation::algebraic));
-    pressure = std::make_unique<mechanics::NodalPressure>(mesh, materials, blocks,
-                                                          std::vector<std::array<double, 3>>{{0, 0, -7e4}});
+    pressure =
+        std::make_unique<mechanics::NodalPressure>(mesh, mechanics::pressure_fields(mesh, materials, blocks),
+                                                   blocks, std::vector<std::array<double, 3>>{{0, 0, -7e4}});
     algebra::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, 3, std::move(graph),
@@ -145,6 +147,16 @@ TEST(SaddleSolver, BothSolversFindTheSameDirection) {
     size += exact[i] * exact[i];
   }
   EXPECT_LT(std::sqrt(algebra::global_sum(difference)), 1e-5 * std::sqrt(algebra::global_sum(size)));
+}
+
+// The melt that is too thin for the iteration is solved by the factorisation that comes to the rescue.
+TEST(SaddleSolver, GivesTheSameBitsInWhateverOrderMessagesArrive) {
+  for (const double viscosity : {1e5, 1.0})
+    test::expect_same_bits([&] {
+      std::vector<double> d;
+      EXPECT_TRUE(Casting(6, viscosity, algebra::SolverKind::multigrid).solve(1e-8, d).converged);
+      return d;
+    });
 }
 
 }  // namespace

@@ -1,13 +1,35 @@
 // The parts of a distributed mesh together are the mesh, on any number of processes.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <metis.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
 
+#include "base/common_failure.hpp"
 #include "base/errors.hpp"
 #include "mesh/distribute.hpp"
 #include "sample_mesh.hpp"
+
+namespace {
+
+/// What METIS answers, other than METIS_OK: it was not asked.
+int answer_of_metis = METIS_OK;
+
+}  // namespace
+
+// Stands before METIS's own function, which it calls unless METIS shall fail.
+extern "C" int METIS_PartGraphRecursive(idx_t* n, idx_t* n_constraints, idx_t* start, idx_t* node,
+                                        idx_t* weight, idx_t* size, idx_t* edge_weight, idx_t* n_parts,
+                                        real_t* target, real_t* imbalance, idx_t* options, idx_t* cut,
+                                        idx_t* part) {
+  if (answer_of_metis != METIS_OK) return answer_of_metis;
+  using Function = decltype(&METIS_PartGraphRecursive);
+  static const auto of_library = reinterpret_cast<Function>(dlsym(RTLD_NEXT, "METIS_PartGraphRecursive"));
+  return of_library(n, n_constraints, start, node, weight, size, edge_weight, n_parts, target, imbalance,
+                    options, cut, part);
+}
 
 namespace {
 
@@ -182,6 +204,50 @@ TEST(Distribute, WorkIsSharedOutAndNotNodes) {
   // METIS is asked for equal sums within 0.1 %; nodes at the rim have smaller rows, so their number may
   // differ.
   EXPECT_LT(here, 1.1 * share);
+}
+
+// On one process METIS has nothing to do.
+TEST(Distribute, AFailureOfMetisOrOfMemoryIsNotTheUsers) {
+  int n_processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  if (n_processes == 1) return;
+  answer_of_metis = METIS_ERROR_MEMORY;
+  EXPECT_THROW(cylinder(), std::bad_alloc);
+  answer_of_metis = METIS_ERROR;
+  try {
+    cylinder();
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    ADD_FAILURE() << error.what();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("METIS could not"), std::string::npos);
+  }
+  answer_of_metis = METIS_OK;
+  EXPECT_GT(cylinder().n_owned_nodes, 0);
+}
+
+// The failing process throws its own exception, the others one of the same kind.
+TEST(CommonFailure, IsOfTheSameKindOnEveryProcess) {
+  int rank = 0, n_processes = 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const auto last = [&](auto error) {
+    together([&] {
+      if (rank == n_processes - 1) throw error;
+    });
+  };
+  EXPECT_THROW(last(InputError({"case.toml", 3, 1}, "no such key")), InputError);
+  EXPECT_THROW(last(std::bad_alloc()), std::bad_alloc);
+  EXPECT_THROW(last(std::logic_error("a mistake")), std::exception);
+  if (rank < n_processes - 1) {
+    EXPECT_THROW(last(std::logic_error("a mistake")), std::runtime_error);
+    EXPECT_THROW(last(std::string("a library's complaint")), std::runtime_error);
+  } else {
+    EXPECT_THROW(last(std::logic_error("a mistake")), std::logic_error);
+    EXPECT_THROW(last(std::string("a library's complaint")), std::string);
+  }
+  EXPECT_THROW(on_first_process([] { throw std::bad_alloc(); }), std::bad_alloc);
+  EXPECT_NO_THROW(together([] {}));
 }
 
 }  // namespace

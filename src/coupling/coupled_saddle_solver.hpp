@@ -1,0 +1,87 @@
+/// The linear solver of displacement, pressure and temperature at once: one linear solve of
+///
+///   ⎡ A    B      K_uΘ ⎤ ⎧δu⎫     ⎧r_u⎫
+///   ⎢ Bᵀ  −(C+S)  K_pΘ ⎥ ⎪δp⎪ = − ⎪r_p⎪
+///   ⎣ K_Θu K_Θp   K_ΘΘ ⎦ ⎩δΘ⎭     ⎩r_Θ⎭
+///
+/// for an iteration of Newton's method in the simultaneous scheme. Few unknowns are factorised, LU by MUMPS.
+/// Many take flexible GMRES with a block triangular preconditioner: first the temperatures, GMRES with
+/// incomplete LU on K_ΘΘ to a hundredth, then displacement and pressure with what those have left, by the
+/// preconditioner of the splits (mechanics/saddle_preconditioner.hpp). What the displacement does to the heat
+/// is a share δ of what it started from (docs/theory/coupling.md) and is left to GMRES. Where that does not
+/// converge and a factorisation is possible, it takes over until forget(); tied unknowns are always
+/// factorised.
+///
+/// The part of S that couples neighbours of neighbours, with orthogonal sub-scales, is applied and never
+/// assembled, as in the splits. PETSc options: coupled_, and coupled_temperature_ within the preconditioner.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "algebra/coupled_solver.hpp"
+#include "algebra/coupled_unknowns.hpp"
+#include "algebra/function_matrix.hpp"
+#include "algebra/hierarchy_age.hpp"
+#include "algebra/krylov_solver.hpp"
+#include "mechanics/nodal_pressure.hpp"
+#include "mechanics/saddle_preconditioner.hpp"
+
+namespace solidus::coupling {
+
+class CoupledSaddleSolver final : public algebra::CoupledTangentSolver {
+ public:
+  /// @param matrix  with a saddle point
+  /// What is passed by reference must outlive this object. Collective.
+  CoupledSaddleSolver(const mesh::Mesh& mesh, algebra::CoupledMatrix& matrix,
+                      mechanics::NodalPressure& pressure, const algebra::GhostExchange& ghosts,
+                      algebra::CoupledSolverKind kind, double relative_tolerance);
+
+  /// @param a  the matrix of the constructor
+  algebra::LinearReport solve(algebra::CoupledMatrix& a, std::span<const double> force,
+                              std::span<const double> heat, algebra::FieldWeights weights,
+                              std::span<double> u, std::span<double> temperature, double forcing) override;
+  algebra::FieldWeights in_use(algebra::FieldWeights weights) const override { return weights; }
+  void forget() override { make_solver(factorises()); }
+  void reset() override;
+  double seconds() const override { return seconds_; }
+
+ private:
+  void find_unknowns();
+  bool factorises() const;
+  void make_solver(bool direct);
+  void set_up();
+  /// y = D K x of the unknowns, D the weights of the rows.
+  void multiply(std::span<const double> x, std::span<double> y);
+  /// z ≈ K⁻¹ D⁻¹ r.
+  void precondition(std::span<const double> r, std::span<double> z);
+  void find_temperatures(std::span<const double> heat, std::span<double> temperature);
+  /// Multiplies rows of the whole by their weights, or divides.
+  void weight(std::span<double> whole, bool divide) const;
+  std::size_t n_displacements() const;
+  std::size_t n_pressures() const;
+
+  const mesh::Mesh& mesh_;
+  algebra::CoupledMatrix& matrix_;
+  mechanics::NodalPressure& pressure_;
+  const algebra::GhostExchange& ghosts_;
+  algebra::CoupledSolverKind kind_;
+  double tightest_;  ///< relative tolerance
+  std::optional<algebra::CoupledUnknowns> unknowns_;
+  algebra::CoupledCopy copy_;
+  bool direct_ = true;
+  std::unique_ptr<algebra::FunctionMatrix> operator_;
+  std::optional<algebra::KrylovSolver> solver_;
+  std::optional<mechanics::SaddlePreconditioner> saddle_;
+  std::optional<algebra::LinearSolver> temperatures_;
+  bool new_temperatures_ = true;  ///< K_ΘΘ has changed since the last solve with it
+  algebra::HierarchyAge hierarchy_;
+  algebra::FieldWeights weights_;
+  double seconds_ = 0;
+  std::vector<double> right_, solution_;                                      ///< [unknown]
+  std::vector<double> whole_, product_, part_, local_u_, local_p_, local_t_;  ///< scratch
+};
+
+}  // namespace solidus::coupling
