@@ -86,6 +86,29 @@ TEST(TruncatedNewton, TakesAtMostTwelveIterationsForSteepCurvesAndLongSteps) {
       }
 }
 
+// 1000 cells of 0.1 mm, of which hundreds freeze in one step of 10 s. At one temperature it can take more
+// iterations than are allowed (docs/verification/heat.md).
+TEST(TruncatedNewton, FollowsAFrontThroughHundredsOfCellsInOneStep) {
+  if (test::processes() > 1) return;  // the serial run proves it
+  const mesh::Mesh strip = test::block_mesh(mesh::Shape::quad4, {0.1, 0.001}, {1000, 1});
+  for (const double range : {0.1, 1.0}) {
+    heat::Conditions conditions;
+    conditions.temperatures.push_back({"chill", "x_min", Table(300.0)});
+    heat::ThermalPhase phase(strip, AnalysisKind::plane_strain, {test::metal(range)}, conditions);
+    heat::ThermalState state = phase.initial_state(std::vector<double>{901.0});
+    int worst = 0;
+    double mean = 0;
+    for (int i = 1; i <= 8; ++i) {
+      const int iterations = phase.solve(state, state, 10.0 * i, 10.0).newton.iterations;
+      worst = std::max(worst, iterations);
+      mean += iterations / 8.0;
+    }
+    EXPECT_LE(worst, 15) << range;
+    RecordProperty("mean_" + std::to_string(range), std::to_string(mean));
+    RecordProperty("worst_" + std::to_string(range), worst);
+  }
+}
+
 TEST(TruncatedNewton, TakesFewIterationsWithEveryElement) {
   using mesh::Shape;
   for (const Shape shape : {Shape::tet4, Shape::tet10, Shape::hex8, Shape::hex20}) {
