@@ -41,6 +41,8 @@ LinearReport CoupledSolver::solve(CoupledMatrix& a, std::span<const double> forc
     check(MatConvert(matrix, MATAIJ, reuse, reuse == MAT_REUSE_MATRIX ? &assembled : petsc_->assembled.out()),
           "MatConvert");
     matrix = petsc_->assembled;
+  } else {
+    solver_.use_blocks_of_first_field(a.displacement(), weights_.force);
   }
   right_.resize(force.size() + heat.size());
   solution_.resize(right_.size());

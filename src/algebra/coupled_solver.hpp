@@ -1,6 +1,8 @@
-/// The linear solver of both fields at once (coupled_matrix.hpp): MUMPS, or FGMRES with a multiplicative
-/// field split, multigrid with rigid-body modes on the displacements and incomplete LU on the temperatures.
-/// PETSc options: coupled_, within the split coupled_fieldsplit_u_ and coupled_fieldsplit_temperature_.
+/// The linear solver of displacement and temperature at once (coupled_matrix.hpp), where there is no pressure
+/// (coupling/coupled_saddle_solver.hpp): MUMPS, or FGMRES with a multiplicative field split, multigrid with
+/// rigid-body modes on the displacements (multigrid.hpp; GAMG where some are tied) and incomplete LU on the
+/// temperatures. PETSc options: coupled_, within the split coupled_fieldsplit_u_ and
+/// coupled_fieldsplit_temperature_.
 #pragma once
 
 #include <memory>
@@ -45,16 +47,10 @@ class CoupledTangentSolver {
   virtual double seconds() const = 0;
 };
 
-/// Whether a kind means a factorisation.
-/// @param n_unknowns, limit_3d  of all processes: from how many on it is not the default in three dimensions
-inline bool is_direct(CoupledSolverKind kind, int dimension, GlobalIndex n_unknowns, GlobalIndex limit_3d) {
-  if (kind != CoupledSolverKind::automatic) return kind == CoupledSolverKind::direct;
-  return dimension == 2 || n_unknowns < limit_3d;
-}
-
-/// Where there is no pressure; with one: coupling/coupled_saddle_solver.hpp.
 class CoupledSolver final : public CoupledTangentSolver {
  public:
+  /// Whether a kind means a factorisation for so many unknowns of all processes.
+  static bool is_direct(CoupledSolverKind kind, const mesh::Mesh& mesh, GlobalIndex n_unknowns);
   CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind, double relative_tolerance);
   ~CoupledSolver() override;
   LinearReport solve(CoupledMatrix& a, std::span<const double> force, std::span<const double> heat,

@@ -98,6 +98,17 @@ class WriteArray {
   PetscInt n_ = 0;
 };
 
+/// Multigrid of a matrix whose rows have another scale.
+struct ScaledMultigrid {
+  Multigrid* multigrid = nullptr;
+  double scale = 1;
+
+  void apply(std::span<const double> r, std::span<double> z) const {
+    multigrid->apply(r, z);
+    for (double& value : z) value /= scale;
+  }
+};
+
 /// z = ours.apply(r)
 template <class Ours>
 void set_preconditioner(PC pc, Ours& ours) {
@@ -167,6 +178,8 @@ struct LinearSolver::Implementation {
   Mat matrix = nullptr;  ///< whose operators the solver holds; owned by the BlockMatrix, or `shell`
   // Multigrid and incomplete factors of our own, which need no copy of the matrix in PETSc.
   std::unique_ptr<Multigrid> multigrid;
+  ScaledMultigrid of_first_field;
+  bool split_failed = false;  ///< with multigrid of our own; GAMG takes over until forget()
   std::unique_ptr<IncompleteCholesky> incomplete;
   BlockMatrix* blocks = nullptr;
   MatHandle shell;  ///< multiplies by the blocks
@@ -185,6 +198,8 @@ struct LinearSolver::Implementation {
   void multiply(Vec in, Vec out);
   void create(Mat a);
   void create_multigrid(PC pc);
+  bool splits_blocks() const;
+  void create_split(Mat a, PC pc);
   void create_factor(PC pc);
   void attach_modes(Mat a) const;
   bool is_direct() const;
@@ -294,30 +309,19 @@ void LinearSolver::Implementation::create(Mat a) {
       check(PCSetType(pc, PCBJACOBI), "PCSetType");
       set_sub_default("sub_pc_type", options.symmetric ? PCICC : PCILU);
       break;
-    case SolverKind::field_split: {
-      IS rows[2] = {nullptr, nullptr};
-      check(MatNestGetISs(a, rows, nullptr), "MatNestGetISs");
+    case SolverKind::field_split:
       check(KSPSetType(ksp, KSPFGMRES), "KSPSetType");
       check(KSPGMRESSetRestart(ksp, k_field_split_restart), "KSPGMRESSetRestart");
-      check(PCSetType(pc, PCFIELDSPLIT), "PCSetType");
-      // Temperatures first: what they do to the forces is then balanced at once, while the heat of the small
-      // displacement that follows is a share δ of what they started from. The other way round the forces of
-      // an unbalanced temperature, ten orders above their criterion, drown the directions in rounding.
-      check(PCFieldSplitSetIS(pc, "temperature", rows[1]), "PCFieldSplitSetIS");
-      check(PCFieldSplitSetIS(pc, "u", rows[0]), "PCFieldSplitSetIS");
-      check(PCFieldSplitSetType(pc, PC_COMPOSITE_MULTIPLICATIVE), "PCFieldSplitSetType");
+      create_split(a, pc);
       set_sub_default("fieldsplit_u_ksp_type", KSPPREONLY);
-      set_sub_default("fieldsplit_u_pc_type", PCGAMG);
-      make_gamg_reproducible();
       set_sub_default("fieldsplit_temperature_ksp_type", KSPPREONLY);
       set_sub_default("fieldsplit_temperature_pc_type", PCBJACOBI);
       set_sub_default("fieldsplit_temperature_sub_pc_type", PCILU);
       reuse_hierarchy = true;
       break;
-    }
   }
   if (!options.symmetric && kind != SolverKind::direct) check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
-  if (multigrid)
+  if (multigrid && kind == SolverKind::multigrid)
     check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
                            std::min(k_patience, options.max_iterations)),
           "KSPSetTolerances");
@@ -331,6 +335,39 @@ void LinearSolver::Implementation::create_multigrid(PC pc) {
   multigrid = std::make_unique<Multigrid>(
       mesh, blocks->block_size(), rigid_components > 0 ? rigid_body_modes : constants, options.symmetric);
   set_preconditioner(pc, *multigrid);
+}
+
+/// Whether multigrid of the first field is ours.
+bool LinearSolver::Implementation::splits_blocks() const {
+  return blocks != nullptr && !split_failed && blocks->ties().empty() && rigid_components > 0 &&
+         Multigrid::supports(blocks->block_size(), rigid_body_mode_count(rigid_components)) &&
+         !user_gave_option(options.prefix + "fieldsplit_u_pc_type");
+}
+
+void LinearSolver::Implementation::create_split(Mat a, PC pc) {
+  IS rows[2] = {nullptr, nullptr};
+  check(MatNestGetISs(a, rows, nullptr), "MatNestGetISs");
+  check(PCSetType(pc, PCFIELDSPLIT), "PCSetType");
+  // Temperatures first: what they do to the forces is then balanced at once, while the heat of the small
+  // displacement that follows is a share δ of what they started from. The other way round the forces of
+  // an unbalanced temperature, ten orders above their criterion, drown the directions in rounding.
+  check(PCFieldSplitSetIS(pc, "temperature", rows[1]), "PCFieldSplitSetIS");
+  check(PCFieldSplitSetIS(pc, "u", rows[0]), "PCFieldSplitSetIS");
+  check(PCFieldSplitSetType(pc, PC_COMPOSITE_MULTIPLICATIVE), "PCFieldSplitSetType");
+  PetscInt n_fields = 0;
+  KSP* of_fields = nullptr;
+  check(PCFieldSplitGetSubKSP(pc, &n_fields, &of_fields), "PCFieldSplitGetSubKSP");
+  PC of_first = nullptr;
+  check(KSPGetPC(of_fields[1], &of_first), "KSPGetPC");
+  check(PetscFree(of_fields), "PetscFree");
+  if (!splits_blocks()) {
+    check(PCSetType(of_first, PCGAMG), "PCSetType");
+    make_gamg_reproducible();
+    return;
+  }
+  multigrid = std::make_unique<Multigrid>(mesh, blocks->block_size(), rigid_body_modes, options.symmetric);
+  of_first_field.multigrid = multigrid.get();
+  set_preconditioner(of_first, of_first_field);
 }
 
 void LinearSolver::Implementation::create_factor(PC pc) {
@@ -429,6 +466,11 @@ void LinearSolver::use_rigid_body_modes(int components) {
   implementation_->rigid_components = components;
 }
 
+void LinearSolver::use_blocks_of_first_field(BlockMatrix& blocks, double scale) {
+  implementation_->blocks = &blocks;
+  implementation_->of_first_field.scale = scale;
+}
+
 LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
                                  double forcing) {
   Implementation& my = *implementation_;
@@ -469,7 +511,14 @@ LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::spa
     my.stale = true;
   }
   check(KSPSetOperators(my.ksp, matrix, matrix), "KSPSetOperators");
-  return solve_again(b, x, forcing);
+  LinearReport report = solve_again(b, x, forcing);
+  if (report.converged || my.kind != SolverKind::field_split || !my.multigrid) return report;
+  const int spent = report.iterations;
+  reset();
+  my.split_failed = true;
+  report = solve(matrix, b, x, forcing);
+  report.iterations += spent;
+  return report;
 }
 
 LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<double> x, double forcing) {
@@ -518,6 +567,7 @@ void LinearSolver::reset() {
   my.incomplete.reset();
   my.shell.reset();
   my.rescue.reset();
+  my.split_failed = false;
   my.matrix = nullptr;
   my.stale = true;
 }

@@ -14,11 +14,11 @@ namespace solidus::algebra {
 enum class SolverKind {
   automatic,   ///< the default of the phase and size (design.md section 4)
   direct,      ///< MUMPS, LDLᵀ for symmetric matrices
-  multigrid,   ///< CG + GAMG (GMRES when unsymmetric)
+  multigrid,   ///< CG + multigrid (GMRES when unsymmetric), GAMG for tied unknowns
   jacobi,      ///< CG + Jacobi
   incomplete,  ///< CG + incomplete Cholesky, on each process for itself (GMRES + incomplete LU when
                ///< unsymmetric); that of incomplete_cholesky.hpp where half of the matrix is kept
-  field_split  ///< FGMRES, blocks of a MATNEST in turn: GAMG on the first, incomplete LU on the second
+  field_split  ///< FGMRES, blocks of a MATNEST in turn: multigrid on the first, incomplete LU on the second
 };
 
 struct LinearSolverOptions {
@@ -66,6 +66,10 @@ class LinearSolver : public TangentSolver {
   ~LinearSolver() override;
   /// Rigid-body modes for multigrid from the coordinates of the owned nodes (mechanics).
   void use_rigid_body_modes(int components);
+  /// Of a field split: multigrid.hpp works with these blocks of the first field, without ties, in place of
+  /// GAMG. Before every solve; they must outlive it.
+  /// @param scale  of the rows of the matrix that is solved, in terms of those of the blocks
+  void use_blocks_of_first_field(BlockMatrix& blocks, double scale);
   /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until
   /// iterations have grown by half) between calls. Collective.
   /// @param forcing  ‖b − A x‖/‖b‖ that will do (forcing.hpp); where it is below the relative tolerance, that

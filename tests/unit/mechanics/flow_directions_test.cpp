@@ -70,8 +70,7 @@ TEST(FlowDirections, AreNeverLongerThanOneAndStayWhereNothingFlows) {
     const Sym<Lane> m = directions.at(2, 3, relative, flows, [&] { return random_deviator(random); });
     for (int lane = 0; lane < k_lanes; ++lane) {
       EXPECT_LE(norm(m)[lane], 1 + 1e-6);
-      if (!flows[lane])
-        for (int i = 0; i < 6; ++i) EXPECT_EQ(m[i][lane], before[i][lane]);
+      for (int i = 0; i < 6 && !flows[lane]; ++i) EXPECT_EQ(m[i][lane], before[i][lane]);
     }
     before = m;
     for (int i = 0; i < 6; ++i)
