@@ -47,10 +47,15 @@ class CoupledTangentSolver {
   virtual double seconds() const = 0;
 };
 
+/// Whether a kind means a factorisation.
+/// @param n_unknowns, limit_3d  of all processes: from how many on it is not the default in three dimensions
+inline bool is_direct(CoupledSolverKind kind, int dimension, GlobalIndex n_unknowns, GlobalIndex limit_3d) {
+  if (kind != CoupledSolverKind::automatic) return kind == CoupledSolverKind::direct;
+  return dimension == 2 || n_unknowns < limit_3d;
+}
+
 class CoupledSolver final : public CoupledTangentSolver {
  public:
-  /// Whether a kind means a factorisation for so many unknowns of all processes.
-  static bool is_direct(CoupledSolverKind kind, const mesh::Mesh& mesh, GlobalIndex n_unknowns);
   CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind, double relative_tolerance);
   ~CoupledSolver() override;
   LinearReport solve(CoupledMatrix& a, std::span<const double> force, std::span<const double> heat,
