@@ -10,15 +10,13 @@
 ///
 /// One iteration is
 ///   1. a nonlinear sweep of Gauss and Seidel's method over the nodes, there and back: each node takes the
-///   H_i
-///      that balances its own equation, so it may come to lie on a plateau, or leave it. Where the residual
-///      is small enough now, the iteration ends;
+///      H_i that balances its own equation, so it may come to lie on a plateau, or leave it. Where the
+///      residual is small enough now, the iteration ends;
 ///   2. a step of Newton's method (D + A) δ = −F, D_i = 1/(Δt dv_i/dH_i), for the nodes that do not lie on a
 ///      plateau: the others are held (truncated). The linear solver goes as far as the step is good for;
 ///   3. a line search for the least E along δ, which cuts off what is wrong with the step of a node that
-///   passes
-///      a plateau, where H_i jumps, or a bend of its curve. Where it would cut nearly all, the steps of nodes
-///      that pass a plateau end there, and the others need not wait for them.
+///      passes a plateau, where H_i jumps, or a bend of its curve. Where it would cut nearly all, the steps
+///      of nodes that pass a plateau end there, and the others need not wait for them.
 /// No part lets E rise, and the sweeps alone converge, so the iteration converges from any start, for every
 /// step and curve; near the solution it is Newton's method. The number of iterations hardly depends on the
 /// mesh. C. Gräser and R. Kornhuber, J. Comput. Math. 27 (2009) 1; C. Gräser, U. Sack and O. Sander,
@@ -50,8 +48,7 @@ struct TruncatedNewtonOptions {
 class TruncatedNewton {
  public:
   /// @param relaxed  the nodes that sweeps may change, [owned node]; empty: all. Not those where a
-  /// contribution
-  ///                 takes back what the node stores (consistent_heat.hpp)
+  ///                 contribution takes back what the node stores (consistent_heat.hpp)
   TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
                   HeatSolver& solver, const algebra::GhostExchange& ghosts, TruncatedNewtonOptions options,
                   std::vector<char> relaxed = {});

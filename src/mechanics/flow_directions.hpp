@@ -15,8 +15,8 @@
 ///
 /// With ‖m‖ < 1, where the direction still changes, it is stiffer than the consistent tangent, and it is
 /// positive semi-definite as that one is. At the solution m = n, and convergence is quadratic. Sources:
-/// T. F. Chan, G. H. Golub, P. Mulet, SIAM J. Sci. Comput. 20 (1999) 1964 (total variation); J. Rudi, Y. Shih,
-/// G. Stadler, Geochem. Geophys. Geosyst. 21 (2020) e2020GC009059 (viscoplastic flow).
+/// T. F. Chan, G. H. Golub, P. Mulet, SIAM J. Sci. Comput. 20 (1999) 1964 (total variation); J. Rudi,
+/// Y. Shih, G. Stadler, Geochem. Geophys. Geosyst. 21 (2020) e2020GC009059 (viscoplastic flow).
 #pragma once
 
 #include <array>
@@ -72,7 +72,8 @@ class FlowDirections {
  private:
   using Values = std::array<std::array<float, k_lanes>, 6>;
   struct Known {
-    Values direction{}, relative{};  ///< m and β [Pa] of the iterate before; β = 0: there was none that flowed
+    Values direction{};  ///< m of the iterate before
+    Values relative{};   ///< its β [Pa]; zero: there was none that flowed
   };
   static Sym<Lane> load(const Values& values) {
     Sym<Lane> a;

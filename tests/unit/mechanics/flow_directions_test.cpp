@@ -71,7 +71,7 @@ TEST(FlowDirections, AreNeverLongerThanOneAndStayWhereNothingFlows) {
     for (int lane = 0; lane < k_lanes; ++lane) {
       EXPECT_LE(norm(m)[lane], 1 + 1e-6);
       if (flows[lane]) continue;
-      for (int i = 0; i < 6; ++i) EXPECT_NEAR(m[i][lane], before[i][lane], 1e-7) << m[i][lane] - before[i][lane];
+      for (int i = 0; i < 6; ++i) EXPECT_NEAR(m[i][lane], before[i][lane], 1e-7);
     }
     before = m;
     for (int i = 0; i < 6; ++i)
