@@ -1,6 +1,6 @@
 /// The linear solver of displacement and temperature at once (coupled_matrix.hpp): MUMPS, or FGMRES with a
-/// multiplicative field split, multigrid with rigid-body modes on the displacements (multigrid.hpp; GAMG where
-/// some are tied) and incomplete LU on the temperatures. PETSc options: coupled_, within the split
+/// multiplicative field split, multigrid with rigid-body modes on the displacements (multigrid.hpp; GAMG
+/// where some are tied) and incomplete LU on the temperatures. PETSc options: coupled_, within the split
 /// coupled_fieldsplit_u_ and coupled_fieldsplit_temperature_.
 #pragma once
 

@@ -11,7 +11,7 @@ namespace solidus::algebra {
 
 namespace {
 
-constexpr int k_restart = 60;          ///< directions that FGMRES keeps
+constexpr int k_restart = 120;         ///< directions that FGMRES keeps; memory is taken as they come
 constexpr int k_first_workspace = 60;  ///< MUMPS ICNTL(14), per cent: pivots of a saddle point move
 
 }  // namespace

@@ -107,6 +107,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const auto response = answer(batch, b.strain(gather(u, batch)),
                                    mean(this->gather_pressure(this->field_.pressure, batch), batch))
                                 .response;
+      this->tangent_shear_[at(batch)] = max(response.twice_shear, Lane(k_least_shear) * response.bulk);
       Matrix symmetric;
       std::optional<Matrix> skew;
       if (!this->law_.symmetric()) skew.emplace();
@@ -190,7 +191,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       Matrix symmetric;
       Vectors divergence{};
       b.add_force(Sym<Lane>::identity(), divergence);
-      add_product(divergence, Lane(part) * weight(batch) * this->twice_shear_[at(batch)], symmetric);
+      add_product(divergence, Lane(part) * weight(batch) * this->tangent_shear_[at(batch)], symmetric);
       scatter<1>(symmetric, this->slots_of(batch), displacement);
     }
   }

@@ -31,6 +31,7 @@ class PressureNodes : public MixedKernel {
     const auto n = static_cast<std::size_t>(geometry.n_batches);
     compliance_.resize(n);
     twice_shear_.resize(n);
+    tangent_shear_.resize(n);
     tau_.resize(n);
     if constexpr (hoop) masses_ = mesh::basis_integrals(mesh, block, kind);
   }
@@ -95,7 +96,7 @@ class PressureNodes : public MixedKernel {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal mass = masses(batch);
       auto terms = compliance_terms(Lane(scale), compliance_[at(batch)], batch);
-      const Lane softness = Lane(scale) / twice_shear_[at(batch)];
+      const Lane softness = Lane(scale) / tangent_shear_[at(batch)];
       for (std::size_t a = 0; a < n_nodes; ++a) terms[a * n_nodes + a] += softness * mass[a];
       const Slot* const slots = pressure_slots_.of(batch);
       double* const base = matrix.block(0);
@@ -127,7 +128,7 @@ class PressureNodes : public MixedKernel {
   }
   /// Of the stabilisation at the start of a step, and 1/κ_v.
   void set_step(Index batch, const Operator& b, const Lane& twice_shear, const Lane& compliance) {
-    twice_shear_[at(batch)] = twice_shear;
+    twice_shear_[at(batch)] = tangent_shear_[at(batch)] = twice_shear;
     tau_[at(batch)] = Lane(orthogonal_ ? k_orthogonal : k_algebraic) * squared_length(b) / twice_shear;
     compliance_[at(batch)] = compliance;
   }
@@ -266,7 +267,8 @@ class PressureNodes : public MixedKernel {
       for (std::size_t i = 0; i < dim; ++i) rows[a] -= stabilised * b.gradient[a][i] * (g[i] + body_force(i));
   }
   std::size_t bytes_of_nodes() const {
-    return (compliance_.capacity() + twice_shear_.capacity() + tau_.capacity() + masses_.capacity()) *
+    return (compliance_.capacity() + twice_shear_.capacity() + tangent_shear_.capacity() + tau_.capacity() +
+            masses_.capacity()) *
                sizeof(Lane) +
            pressure_slots_.bytes();
   }
@@ -276,6 +278,9 @@ class PressureNodes : public MixedKernel {
   PressureField field_;
   PackVector<Lane> compliance_;   ///< 1/κ_v at the start of the step [1/Pa]
   PackVector<Lane> twice_shear_;  ///< 2Ĝ of the stabilisation [Pa]
+  /// 2Ĝ of the last tangent [Pa]: what the Schur complement ∇·A⁻¹∇ and multigrid's share of the divergence go
+  /// by. Where metal flows by many yield strains it is a hundredth of that of the stabilisation.
+  PackVector<Lane> tangent_shear_;
 
  private:
   const mesh::BlockGeometry& geometry_;
