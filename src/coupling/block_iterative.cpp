@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "base/errors.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
+#include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
 
@@ -28,16 +28,6 @@ constexpr double k_diverged = 100;
 double largest(std::span<const double> a) {
   double size = 0;
   for (const double v : a) size = std::max(size, std::abs(v));
-  return algebra::global_max(size);
-}
-
-/// Infinite where a difference is not a number.
-double largest_difference(std::span<const double> a, std::span<const double> b) {
-  double size = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double difference = std::abs(a[i] - b[i]);
-    size = std::isnan(difference) ? std::numeric_limits<double>::infinity() : std::max(size, difference);
-  }
   return algebra::global_max(size);
 }
 

@@ -1,0 +1,25 @@
+/// By how much two iterates differ.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "algebra/parallel.hpp"
+
+namespace solidus::coupling {
+
+/// max |a_i − b_i| over all processes, in the units of the values; infinite where a difference is not a
+/// number, so that no iteration ends there. `a` and `b` are of one size. Collective.
+inline double largest_difference(std::span<const double> a, std::span<const double> b) {
+  double size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = std::abs(a[i] - b[i]);
+    size = std::isnan(difference) ? std::numeric_limits<double>::infinity() : std::max(size, difference);
+  }
+  return algebra::global_max(size);
+}
+
+}  // namespace solidus::coupling
