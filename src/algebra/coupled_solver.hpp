@@ -19,13 +19,13 @@ enum class CoupledSolverKind {
   field_split
 };
 
-/// What one newton and one watt count in the norm of the residual.
+/// The weights of a newton and of a watt in the norm of the residual.
 struct FieldWeights {
   double force = 1;  ///< [1/N]
   double heat = 1;   ///< [1/W]
 };
 
-/// What Newton's method for all fields at once needs of a linear solver.
+/// The interface of linear solvers for Newton's method with all fields at once.
 class CoupledTangentSolver {
  public:
   virtual ~CoupledTangentSolver() = default;

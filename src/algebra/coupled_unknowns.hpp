@@ -44,7 +44,8 @@ class CoupledUnknowns {
   SaddleUnknowns saddle_;
   std::size_t n_saddle_ = 0;  ///< entries of the whole before the temperatures
   GlobalIndex n_global_ = 0;
-  /// Of each process: its first unknown of the saddle point, and the temperatures of the processes before it.
+  /// For each process, the number of its first unknown of the saddle point and how many temperatures the
+  /// processes before it have.
   std::vector<std::int64_t> first_of_saddle_, temperatures_before_;
   std::vector<Index> temperatures_of_process_;  ///< owned nodes whose temperature is an unknown, rising
   std::vector<PetscInt> temperatures_;          ///< [local node]

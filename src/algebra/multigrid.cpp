@@ -21,8 +21,8 @@ constexpr double k_interval = 0.1;  ///< its lower end over the largest eigenval
 constexpr double k_margin = 1.1;    ///< the largest eigenvalue over its estimate
 constexpr int k_lanczos_steps = 10;
 constexpr double k_slow = 0.7;  ///< rows left by a coarsening that is not worth a level
-// Of a coarsest level that is too large to be factorised: 40 steps over eigenvalues from 1/400 of the largest
-// leave 4 % of an error, as does a V-cycle.
+// A coarsest level that is too large to be factorised is relaxed: 40 steps over eigenvalues from 1/400 of the
+// largest leave 4 % of an error, as does a V-cycle.
 constexpr int k_long_sweeps = 40;
 constexpr double k_long_interval = 1.0 / 400;
 constexpr int k_most_levels = 20;

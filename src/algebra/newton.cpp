@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "algebra/forcing.hpp"
@@ -17,6 +18,9 @@ constexpr int k_line_search_trials = 12;  ///< residuals after the full step
 /// second step with the same tangent leaves 2ρ r₁ to leading order. It is taken where five times that is
 /// enough.
 constexpr double k_chord_residual = 10;
+/// A residual so far below the goal ends the iteration whatever the size of its steps: what moves under such
+/// forces has no place of its own.
+constexpr double k_no_force = 1e-3;
 
 double dot(std::span<const double> a, std::span<const double> b) {
   double s = 0;
@@ -56,10 +60,12 @@ class Iteration {
   void spread_step();
   /// The norm that ends the iteration.
   double goal() const { return std::max(options_.tolerance * reference_, options_.absolute_tolerance); }
-  bool converged() const { return norm_ <= goal(); }
+  bool balanced() const { return norm_ <= goal(); }
+  bool converged() const;
   bool chord_converges(double norm_before) const {
     return norm_ * (k_chord_residual * norm_ / norm_before) <= goal();
   }
+  void measure_next_step(double alpha, double norm_before);
   double measured() const { return reference_ > 0 ? norm_ / reference_ : norm_; }
   /// x = start + alpha × step and the residual there; returns step · r.
   double slope_at(double alpha);
@@ -77,7 +83,21 @@ class Iteration {
   const std::vector<char>* fixed_ = nullptr;
   const Ties* ties_ = nullptr;
   double norm_ = 0, reference_ = 0;
+  double next_step_ = std::numeric_limits<double>::infinity();  ///< its estimated relative size
 };
+
+bool Iteration::converged() const {
+  if (options_.step_tolerance <= 0 || norm_ <= options_.absolute_tolerance) return balanced();
+  if (!std::isfinite(next_step_)) return false;  // no step has been taken
+  return balanced() && (next_step_ <= options_.step_tolerance || norm_ <= k_no_force * goal());
+}
+
+void Iteration::measure_next_step(double alpha, double norm_before) {
+  if (options_.step_tolerance <= 0) return;
+  for (double& value : local_step_) value *= alpha;
+  const double contraction = alpha == 1 && norm_before > 0 ? std::min(1.0, norm_ / norm_before) : 1.0;
+  next_step_ = contraction * system_.relative_step(x_, local_step_);
+}
 
 void Iteration::evaluate() {
   reference_ = system_.residual(x_, r_);
@@ -119,7 +139,7 @@ double Iteration::search(double slope) {
   const double enough = options_.line_search_slope * std::abs(slope);
   double trial = slope_at(1.0);
   // The same sign means that the energy still falls at the full step: no reason to shorten it.
-  const auto good = [&](double s) { return std::isfinite(s) && (std::abs(s) <= enough || converged()); };
+  const auto good = [&](double s) { return std::isfinite(s) && (std::abs(s) <= enough || balanced()); };
   if (good(trial) || (std::isfinite(trial) && trial * slope > 0)) return 1.0;
 
   double low = 0, low_slope = slope, high = 1, high_slope = trial;
@@ -206,6 +226,7 @@ NewtonReport Iteration::run() {
       system_.accept(x_, local_step_, 1.0);
       evaluate();
     }
+    measure_next_step(alpha, norm_before);
     chord = options_.chords && !chord && alpha == 1.0 && chord_converges(norm_before);
   }
 }

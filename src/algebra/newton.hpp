@@ -14,6 +14,10 @@ struct NewtonOptions {
   double tolerance =
       1e-3;  ///< ‖r‖ <= tolerance × reference (the monograph's 0.1 % is the default, chapter 7)
   double absolute_tolerance = 0;  ///< or ‖r‖ <= this, in the units of the residual
+  /// And what NonlinearSystem::relative_step makes of the next step is at most this. A residual that meets
+  /// the tolerance says nothing of an error along which the system has next to no stiffness. Zero: the
+  /// residual alone ends the iteration.
+  double step_tolerance = 0;
   int max_iterations = 25;
   bool line_search = true;
   bool chords = true;   ///< steps with the tangent before, where they will do
@@ -45,6 +49,9 @@ class NonlinearSystem {
   virtual double residual(std::span<const double> x, std::span<double> r) = 0;
   /// The tangent at the x of the last residual().
   virtual BlockMatrix& tangent() = 0;
+  /// How large the step d that has led to x is, as a share of what x has changed since the start of the time
+  /// step. Zero: no measure of it. Asked where NewtonOptions::step_tolerance is set.
+  virtual double relative_step(std::span<const double> /*x*/, std::span<const double> /*d*/) { return 0; }
   /// Called with the accepted step: x is the new point, ghosts up to date. Systems with unknowns of their own
   /// (nodal enthalpy) follow. Without line search it comes before the residual at x, with line search after
   /// the residuals of the trials.
@@ -55,6 +62,8 @@ class NonlinearSystem {
 /// values and whose ties are kept.
 /// Where the step before has contracted so much that the same tangent will do for the rest, it serves once
 /// more: a chord step, without assembly and set-up of the solver.
+/// With a step_tolerance the next step is taken to be as much smaller than the last one as the residual has
+/// become; there is at least one step, unless the residual at the start is within the absolute tolerance.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens
 /// the step. x: [local node][component] of each field, ghosts updated on return.
 /// @param components  of each field

@@ -1,6 +1,10 @@
 #include "coupling/body_norm.hpp"
 
+#include <mpi.h>
+#include <petscsys.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -11,6 +15,8 @@
 namespace solidus::coupling {
 
 namespace {
+
+using mesh::Point;
 
 double diagonal_of(const mesh::Mesh& mesh) {
   double square = 0;
@@ -26,10 +32,78 @@ double diagonal_of(const mesh::Mesh& mesh) {
   return std::sqrt(square);
 }
 
+/// Sums over nodes of the weight w, the place x and the displacement u.
+struct Moments {
+  static constexpr int k_size = 17;
+  double weight = 0, square = 0;            ///< Σ w, Σ w |u|²
+  Point place{}, displacement{}, moment{};  ///< Σ w x, Σ w u, Σ w x × u
+  std::array<Point, 2> second{};            ///< Σ w x_i², Σ w x_j x_k
+
+  void add(double w, const Point& x, const Point& u) {
+    weight += w;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      square += w * u[i] * u[i];
+      place[i] += w * x[i];
+      displacement[i] += w * u[i];
+      moment[i] += w * (x[j] * u[k] - x[k] * u[j]);
+      second[0][i] += w * x[i] * x[i];
+      second[1][i] += w * x[j] * x[k];
+    }
+  }
+  /// Σ w |u − t − θ × (x − c)|² at the t and θ that make it least: what they explain is |Σ w u|² / Σ w and
+  /// mᵀ I⁻¹ m, with moment m and inertia I about the centre c of the nodes.
+  double distortion(AnalysisKind kind) const;
+};
+
+double Moments::distortion(AnalysisKind kind) const {
+  if (weight <= 0) return square;
+  const auto explained_by = [&](std::size_t i) { return displacement[i] * displacement[i] / weight; };
+  // A ring that widens does not move.
+  if (kind == AnalysisKind::axisymmetric) return std::max(square - explained_by(1), 0.0);
+  double rest = square;
+  Point m{};
+  std::array<Point, 3> inertia{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    rest -= explained_by(i);
+    m[i] = moment[i] - (place[j] * displacement[k] - place[k] * displacement[j]) / weight;
+    inertia[i][i] = second[0][j] + second[0][k] - (place[j] * place[j] + place[k] * place[k]) / weight;
+    inertia[j][k] = inertia[k][j] = place[j] * place[k] / weight - second[1][i];
+  }
+  const double trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
+  // I = L D Lᵀ: mᵀ I⁻¹ m = Σ y_i² / D_i with L y = m. Nodes on a line do not turn about it.
+  constexpr double k_singular = 1e-9;
+  std::array<Point, 3> l{};
+  Point d{}, y{};
+  for (std::size_t i = kind == AnalysisKind::plane_strain ? 2 : 0; i < 3; ++i) {
+    d[i] = inertia[i][i];
+    y[i] = m[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      if (d[j] <= 0) continue;
+      double value = inertia[i][j];
+      for (std::size_t k = 0; k < j; ++k) value -= l[i][k] * l[j][k] * d[k];
+      l[i][j] = value / d[j];
+      d[i] -= l[i][j] * l[i][j] * d[j];
+      y[i] -= l[i][j] * y[j];
+    }
+    if (d[i] > k_singular * trace)
+      rest -= y[i] * y[i] / d[i];
+    else
+      d[i] = 0;
+  }
+  return std::isnan(rest) ? rest : std::max(rest, 0.0);
+}
+
 }  // namespace
 
 BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
-    : n_bodies_(mesh.bodies.size()), n_nodes_(mesh.x.size()), diagonal_(diagonal_of(mesh)) {
+    : mesh_(&mesh),
+      kind_(kind),
+      centre_(mesh.bodies.size()),
+      n_bodies_(mesh.bodies.size()),
+      n_nodes_(mesh.x.size()),
+      diagonal_(diagonal_of(mesh)) {
   const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
   std::vector<std::vector<double>> weight(n_bodies_, std::vector<double>(n_owned, 0.0));
   for (const mesh::Block& block : mesh.blocks) {
@@ -50,6 +124,12 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
       if (weight[b][i] > 0)
         shares_.push_back({static_cast<Index>(i), static_cast<int>(b), weight[b][i] / volume});
   }
+  for (const Share& share : shares_)
+    for (std::size_t k = 0; k < 3; ++k)
+      centre_[static_cast<std::size_t>(share.body)][k] +=
+          share.weight * mesh.x[static_cast<std::size_t>(share.node)][k];
+  MPI_Allreduce(MPI_IN_PLACE, centre_.data(), static_cast<int>(3 * n_bodies_), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
 }
 
 double BodyNorm::operator()(std::span<const double> values, std::span<const char> counts) const {
@@ -62,13 +142,36 @@ double BodyNorm::operator()(std::span<const double> values, std::span<const char
       square[static_cast<std::size_t>(share.body)] += share.weight * v * v;
     }
   }
+  for (double& s : square) s = algebra::global_sum(s);
+  return largest(square);
+}
+
+double BodyNorm::largest(const std::vector<double>& squares) const {
   double largest = 0;
-  for (const double s : square) {
-    const double sum = algebra::global_sum(s);
-    if (std::isnan(sum)) return sum;
-    largest = std::max(largest, sum);
+  for (const double square : squares) {
+    if (std::isnan(square)) return square;
+    largest = std::max(largest, square);
   }
   return std::sqrt(largest);
+}
+
+double BodyNorm::of_distortion(std::span<const double> displacement, std::span<const char> counts) const {
+  const auto width = static_cast<std::size_t>(displacement_components(kind_));
+  std::vector<Moments> moments(n_bodies_);
+  for (const Share& share : shares_) {
+    const auto node = static_cast<std::size_t>(share.node), body = static_cast<std::size_t>(share.body);
+    if (displacement.empty() || (!counts.empty() && counts[node] == 0)) continue;
+    Point u{}, x = mesh_->x[node];
+    for (std::size_t k = 0; k < width; ++k) u[k] = displacement[node * width + k];
+    for (std::size_t k = 0; k < 3; ++k) x[k] -= centre_[body][k];
+    moments[body].add(share.weight, x, u);
+  }
+  static_assert(sizeof(Moments) == Moments::k_size * sizeof(double));
+  MPI_Allreduce(MPI_IN_PLACE, moments.data(), static_cast<int>(Moments::k_size * n_bodies_), MPI_DOUBLE,
+                MPI_SUM, PETSC_COMM_WORLD);
+  std::vector<double> square;
+  for (const Moments& of_body : moments) square.push_back(of_body.distortion(kind_));
+  return largest(square);
 }
 
 }  // namespace solidus::coupling

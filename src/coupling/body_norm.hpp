@@ -22,6 +22,11 @@ class BodyNorm {
   /// Of the nodes that count; the others are zero, their volume counts in the mean all the same.
   /// @param counts [local node]; empty: all do
   double operator()(std::span<const double> values, std::span<const char> counts) const;
+  /// The same of what is left of a displacement when the rigid motion that fits it best is taken away from
+  /// every body: a translation and a small rotation, in plane strain about z; along the axis where the
+  /// analysis is axisymmetric. Fitted to the nodes that count. Collective.
+  /// @param displacement [local node][component] [m]
+  double of_distortion(std::span<const double> displacement, std::span<const char> counts) const;
   /// Extent of the mesh, corner to corner [m].
   double diagonal() const { return diagonal_; }
 
@@ -31,7 +36,12 @@ class BodyNorm {
     int body;
     double weight;  ///< share of the body's volume
   };
+  double largest(const std::vector<double>& squares) const;
+
+  const mesh::Mesh* mesh_;
+  AnalysisKind kind_;
   std::vector<Share> shares_;
+  std::vector<mesh::Point> centre_;  ///< of each body
   std::size_t n_bodies_ = 0, n_nodes_ = 0;
   double diagonal_ = 0;
 };

@@ -94,8 +94,13 @@ double CoupledNewton::goal() const {
   return std::max({options.tolerance * reference_, options.absolute_tolerance, mechanics_.round_off()});
 }
 
-bool CoupledNewton::converged() const {
+bool CoupledNewton::balanced() const {
   return norm_ <= goal() && thermal_->converged();
+}
+
+bool CoupledNewton::converged() const {
+  const double allowed = mechanics_.options().newton.step_tolerance;
+  return balanced() && (allowed <= 0 || next_step_ <= allowed || norm_ <= mechanics_.round_off());
 }
 
 algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState& old,
@@ -255,7 +260,7 @@ double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanic
   double alpha = 1, best = 1, least = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= k_halvings; ++k, alpha *= 0.5) {
     const double size = evaluate_at(alpha, old, pass, x).size();
-    if (std::isfinite(size) && (full || size <= highest || converged())) return alpha;
+    if (std::isfinite(size) && (full || size <= highest || balanced())) return alpha;
     if (std::isfinite(size) && size < least) {
       least = size;
       best = alpha;
@@ -273,6 +278,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
   CoupledReport report;
   algebra::Forcing forcing(mechanics_.options().newton.inexact, k_loosest);
   in_equilibrium_ = false;
+  next_step_ = std::numeric_limits<double>::infinity();
   CoupledResidual residual = evaluate(old, pass, x);
   while (true) {
     report.residuals.push_back(residual);
@@ -294,6 +300,9 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
     const double alpha = move(old, pass, x, report);
     if (alpha == 0) mechanics_.reject("no step along Newton's direction lowers the residual", x);
     report.shortest_step = std::min(report.shortest_step, alpha);
+    for (double& value : step_u_) value *= alpha;
+    const double contraction = alpha == 1 ? std::min(1.0, present().size() / residual.size()) : 1.0;
+    next_step_ = contraction * mechanics_.relative_step(old, x, step_u_);
     residual = present();
   }
 }

@@ -90,8 +90,9 @@ class CoupledNewton {
   void surround_contacts();
   /// Of the last evaluation.
   CoupledResidual present() const;
-  bool converged() const;
-  double goal() const;  ///< ‖r_u‖ that ends the iteration [N]
+  bool balanced() const;   ///< both residuals are within their tolerances
+  bool converged() const;  ///< and the next step would be a small one (algebra::NewtonOptions)
+  double goal() const;     ///< ‖r_u‖ that ends the iteration [N]
   /// The reciprocals of the heat out of balance and of the forces that the temperatures which balance it
   /// would cause: measured by the forces that bodies exchange, thermal stress would drown the heat.
   algebra::FieldWeights weights();
@@ -127,6 +128,7 @@ class CoupledNewton {
   std::vector<double> step_t_, further_;          ///< [local node], [owned node]
   std::vector<double> work_;                      ///< scratch
   double norm_ = 0, reference_ = 0;               ///< of r_u
+  double next_step_ = 0;                          ///< its estimated size, MechanicalPhase::relative_step
   bool in_equilibrium_ = false;                   ///< every iterate is brought there
 };
 

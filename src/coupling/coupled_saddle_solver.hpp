@@ -34,7 +34,7 @@ namespace solidus::coupling {
 class CoupledSaddleSolver final : public algebra::CoupledTangentSolver {
  public:
   /// @param matrix  with a saddle point
-  /// What is passed by reference must outlive this object. Collective.
+  /// Keeps references to all its arguments but the last two. Collective.
   CoupledSaddleSolver(const mesh::Mesh& mesh, algebra::CoupledMatrix& matrix,
                       mechanics::NodalPressure& pressure, const algebra::GhostExchange& ghosts,
                       algebra::CoupledSolverKind kind, double relative_tolerance);

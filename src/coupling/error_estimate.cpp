@@ -37,18 +37,24 @@ std::vector<double> ErrorEstimate::coherency(const State& state) const {
   return phases_ == nullptr ? std::vector<double>{} : coherency_of(*phases_, state.heat);
 }
 
+double ErrorEstimate::size_of_displacement(std::span<const double> error,
+                                           std::span<const char> counts) const {
+  return displacement_ == Displacement::motion ? norm_(error, counts) : norm_.of_distortion(error, counts);
+}
+
 LocalError ErrorEstimate::predictor(const State& old, const State& now, double dt, const Rates& rates) const {
-  return {norm_(half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt,
-                                               rates.temperature)),
-          norm_(half_of_what_was_not_predicted(old.mechanics.displacement, now.mechanics.displacement, dt,
-                                               rates.displacement),
-                casting(coherency(old), rates.coherency))};
+  return {
+      norm_(
+          half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt, rates.temperature)),
+      size_of_displacement(half_of_what_was_not_predicted(old.mechanics.displacement,
+                                                          now.mechanics.displacement, dt, rates.displacement),
+                           casting(coherency(old), rates.coherency))};
 }
 
 LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves) const {
   return {norm_(difference(whole.heat.temperature, halves.heat.temperature)),
-          norm_(difference(whole.mechanics.displacement, halves.mechanics.displacement),
-                casting(coherency(old)))};
+          size_of_displacement(difference(whole.mechanics.displacement, halves.mechanics.displacement),
+                               casting(coherency(old)))};
 }
 
 Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt) const {

@@ -16,6 +16,10 @@
 /// leaves no stress in what it becomes (docs/theory/melt.md). Its volume counts in the mean, with an error of
 /// zero.
 ///
+/// Where nothing has inertia only the distortion of a body counts, not where the body lies: a casting that
+/// has come off its walls is held by hardly anything, and stress, which is what a step has to resolve, knows
+/// nothing of a rigid motion. What it does to gaps shows in the temperatures.
+///
 /// A first step has no step before, and one after a jump none that tells: they are measured by doubling.
 #pragma once
 
@@ -31,12 +35,16 @@ struct LocalError {
   double displacement = 0;  ///< [m]
 };
 
+/// What of a displacement counts.
+enum class Displacement { distortion, motion };
+
 /// Sizes are those of BodyNorm. All calls are collective.
 class ErrorEstimate {
  public:
   /// @param phases  which know what is melt and must outlive the estimate; null: nothing melts
-  explicit ErrorEstimate(BodyNorm norm, const Phases* phases = nullptr)
-      : norm_(std::move(norm)), phases_(phases) {}
+  explicit ErrorEstimate(BodyNorm norm, const Phases* phases = nullptr,
+                         Displacement displacement = Displacement::motion)
+      : norm_(std::move(norm)), phases_(phases), displacement_(displacement) {}
 
   /// Of the step from `old` to `now` by its extrapolation from `rates`, which must be known.
   LocalError predictor(const State& old, const State& now, double dt, const Rates& rates) const;
@@ -47,9 +55,11 @@ class ErrorEstimate {
 
  private:
   std::vector<double> coherency(const State& state) const;
+  double size_of_displacement(std::span<const double> error, std::span<const char> counts) const;
 
   BodyNorm norm_;
   const Phases* phases_;
+  Displacement displacement_;
 };
 
 }  // namespace solidus::coupling

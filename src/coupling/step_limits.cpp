@@ -14,17 +14,22 @@ namespace {
 constexpr double k_safety = 0.8;
 // Estimates are no sharper than this: a step is repeated only where it is above its limit by this factor.
 constexpr double k_tolerated = 1.5;
+// Without inertia a displacement is not integrated in time, it is what equilibrium asks for at t_{n+1}: its
+// error is not carried on, and that of one point of contact that opens is not worth a second try.
+constexpr double k_tolerated_displacement = 3;
 
 }  // namespace
 
 Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
   Strictest result;
   result.factor = std::numeric_limits<double>::infinity();
-  const auto look = [&](const char* name, const char* unit, double value, double allowed, double order) {
+  const auto look = [&](const char* name, const char* unit, double value, double allowed, double order,
+                        double tolerated) {
     if (value <= 0) return;
     // What is not a number exceeds every limit by far.
     const double ratio = std::isnan(value) ? std::numeric_limits<double>::infinity() : value / allowed;
     result.ratio = std::max(result.ratio, ratio);
+    result.exceeded = result.exceeded || ratio > tolerated;
     const double factor = k_safety * std::pow(ratio, -1 / order);
     if (factor >= result.factor) return;
     result.factor = factor;
@@ -32,11 +37,11 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
     result.excess = fmt::format("{} {:.3g}{}, allowed {:g}{}", name, value, unit, allowed, unit);
   };
   if (limits.control != ErrorControl::none) {
-    look("temperature error", " K", measure.temperature_error, limits.temperature, 2);
-    look("displacement error", " m", measure.displacement_error, limits.displacement, 2);
+    look("temperature error", " K", measure.temperature_error, limits.temperature, 2, k_tolerated);
+    look("displacement error", " m", measure.displacement_error, limits.displacement, 2,
+         limits.inertia ? k_tolerated : k_tolerated_displacement);
   }
-  look("solid fraction", "", measure.solid_fraction_change, limits.solid_fraction, 1);
-  result.exceeded = result.ratio > k_tolerated;
+  look("solid fraction", "", measure.solid_fraction_change, limits.solid_fraction, 1, k_tolerated);
   return result;
 }
 

@@ -13,6 +13,7 @@ struct StepLimits {
   double temperature = 1;       ///< local error per step [K]
   double displacement = 1e-6;   ///< local error per step [m]
   double solid_fraction = 0.1;  ///< change per step of the solid share of all bodies that can melt [1]
+  bool inertia = false;         ///< displacements are integrated in time, as temperatures are
 
   bool operator==(const StepLimits&) const = default;
 };

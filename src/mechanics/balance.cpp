@@ -13,6 +13,8 @@ namespace {
 // A body under thermal stress alone exchanges no forces: then this share of its internal forces is the
 // reference.
 constexpr double k_internal_share = 1e-6;
+// A body that moves by less than this share of its extent is at rest: thermal strain of about 1 mK.
+constexpr double k_at_rest = 1e-8;
 
 // Bodies that share a node, directly or by way of others, get the same number.
 std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const algebra::Presence& presence) {
@@ -39,6 +41,27 @@ std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const algebra:
   return group;
 }
 
+// Corner to corner, over all processes. Zero for a group without nodes.
+std::vector<double> extents(const mesh::Mesh& mesh, std::span<const std::size_t> node_group,
+                            std::size_t n_groups) {
+  constexpr double k_none = -std::numeric_limits<double>::infinity();
+  std::vector<double> local(6 * n_groups, k_none), all(6 * n_groups);  // the least, with the sign changed
+  for (std::size_t i = 0; i < node_group.size(); ++i)
+    for (std::size_t d = 0; d < 3; ++d) {
+      double* const of_group = &local[6 * node_group[i]];
+      of_group[d] = std::max(of_group[d], mesh.x[i][d]);
+      of_group[3 + d] = std::max(of_group[3 + d], -mesh.x[i][d]);
+    }
+  MPI_Allreduce(local.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MAX,
+                PETSC_COMM_WORLD);
+  std::vector<double> extent(n_groups, 0.0);
+  for (std::size_t g = 0; g < n_groups; ++g)
+    if (all[6 * g] > k_none)
+      extent[g] = std::hypot(all[6 * g] + all[6 * g + 3], all[6 * g + 1] + all[6 * g + 4],
+                             all[6 * g + 2] + all[6 * g + 5]);
+  return extent;
+}
+
 }  // namespace
 
 BodyBalance::BodyBalance(const mesh::Mesh& mesh, const algebra::Presence& presence, int components)
@@ -53,6 +76,7 @@ BodyBalance::BodyBalance(const mesh::Mesh& mesh, const algebra::Presence& presen
       if (node < mesh.n_owned_nodes)
         node_group_[static_cast<std::size_t>(node)] = body_group_[static_cast<std::size_t>(block.body)];
   }
+  extent_ = extents(mesh, node_group_, n_groups_);
 }
 
 void BodyBalance::begin() {
@@ -104,6 +128,30 @@ double BodyBalance::reference() {
     look(group.volume_residual, group.volume_change);
   }
   return worst > 0 ? std::sqrt(squares / worst) : std::sqrt(largest);
+}
+
+double BodyBalance::relative_step(std::span<const double> step, std::span<const double> increment) const {
+  struct Squares {
+    double step = 0, increment = 0, entries = 0;
+  };
+  std::vector<Squares> local(n_groups_), all(n_groups_);
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    Squares& of_group = local[group_of_entry(i, components_)];
+    of_group.step += step[i] * step[i];
+    of_group.increment += increment[i] * increment[i];
+    of_group.entries += 1;
+  }
+  static_assert(sizeof(Squares) == 3 * sizeof(double));
+  MPI_Allreduce(local.data(), all.data(), static_cast<int>(3 * n_groups_), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  double largest = 0;
+  for (std::size_t g = 0; g < n_groups_; ++g) {
+    const Squares& group = all[g];
+    const double still = k_at_rest * extent_[g];
+    const double least = still * still * group.entries / components_;
+    if (group.step > 0) largest = std::max(largest, group.step / std::max(group.increment, least));
+  }
+  return std::sqrt(largest);
 }
 
 }  // namespace solidus::mechanics

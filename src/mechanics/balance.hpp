@@ -35,6 +35,12 @@ class BodyBalance {
   /// Collective.
   double reference();
 
+  /// How large a step is beside the increment since t_n: the largest ‖step‖/‖increment‖ of a body. Where
+  /// the root mean square of its increment over its nodes is below 1e-8 of its extent, a body is at rest, and
+  /// its step is compared with that. Collective.
+  /// @param step, increment  [owned node][component] [m]
+  double relative_step(std::span<const double> step, std::span<const double> increment) const;
+
  private:
   std::size_t group_of_entry(std::size_t entry, int of_node) const {
     return node_group_[entry / static_cast<std::size_t>(of_node)];
@@ -44,6 +50,7 @@ class BodyBalance {
   std::vector<std::size_t> body_group_;  ///< of each body
   std::vector<std::size_t> node_group_;  ///< of each owned node
   std::size_t n_groups_ = 0;
+  std::vector<double> extent_;  ///< of each group, corner to corner [m]
   /// Squares of each group: forces exchanged, internal and left over; volumes left over and changed.
   struct Sums {
     double exchanged = 0, internal = 0, residual = 0, volume_residual = 0, volume_change = 0;

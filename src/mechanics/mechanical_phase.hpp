@@ -186,6 +186,10 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   double residual(std::span<const double> x, std::span<double> r) override;
   /// At the x of the last residual().
   algebra::BlockMatrix& tangent() override;
+  /// How large a step is beside the displacement since t_n: BodyBalance::relative_step, of the unknowns x and
+  /// of the step d that has led to them.
+  double relative_step(const MechanicalState& old, std::span<const double> x,
+                       std::span<const double> d) const;
   /// Of the tangent: what is prescribed and what is tied.
   algebra::BlockMatrix& matrix() { return *matrix_; }
   /// Hands what happened at x to StructuralHeat and writes the history there.
@@ -249,6 +253,9 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   }
   std::size_t n_unknowns() const;
   void set_in_motion(MechanicalState& state);
+  double relative_step(std::span<const double> x, std::span<const double> d) override {
+    return relative_step(*solved_from_, x, d);
+  }
   void add_residual_to_balance(std::span<const double> r);
   /// ‖r(x)‖ of what the unknowns can change.
   double unbalanced(std::span<const double> x);
@@ -282,18 +289,19 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   BodyBalance balance_;
   std::vector<double> initial_temperature_;
   NodalPhases nodal_phases_;
-  std::vector<BlockHistory> start_;      ///< z* of the two-step method, one per block
-  bool keeps_stress_ = false;            ///< without inertia
-  bool keeps_fields_ = false;            ///< somebody has asked for it
-  std::vector<BlockHistory> no_stress_;  ///< to keep it against
-  double round_off_ = 0;                 ///< residual that is rounding [N]
-  std::vector<double> x_;                ///< unknowns of the last residual
-  std::vector<double> residual_;         ///< there
-  bool residual_is_known_ = false;       ///< for what prepare() was last called with
-  std::vector<double> forces_;           ///< internal forces, [local node][component]; ghost rows are scrap
-  std::vector<double> external_;         ///< loads at t_{n+1}, [owned node][component]
-  std::vector<double> inertial_;         ///< J at the last residual, [owned node][component]; with inertia
-  std::vector<BlockHistory> stress_;     ///< of the last finish(), where the next step needs it
+  std::vector<BlockHistory> start_;               ///< z* of the two-step method, one per block
+  bool keeps_stress_ = false;                     ///< without inertia
+  bool keeps_fields_ = false;                     ///< somebody has asked for it
+  std::vector<BlockHistory> no_stress_;           ///< to keep it against
+  double round_off_ = 0;                          ///< residual that is rounding [N]
+  const MechanicalState* solved_from_ = nullptr;  ///< t_n of the solve that goes on
+  std::vector<double> x_;                         ///< unknowns of the last residual
+  std::vector<double> residual_;                  ///< there
+  bool residual_is_known_ = false;                ///< for what prepare() was last called with
+  std::vector<double> forces_;        ///< internal forces, [local node][component]; ghost rows are scrap
+  std::vector<double> external_;      ///< loads at t_{n+1}, [owned node][component]
+  std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia
+  std::vector<BlockHistory> stress_;  ///< of the last finish(), where the next step needs it
   std::vector<double> reactions_;
   StressAtWork stress_at_work_ = StressAtWork::end;
   struct {

@@ -136,6 +136,13 @@ void MechanicalPhase::add_residual_to_balance(std::span<const double> r) {
   balance_.add_residual(rest, loads_->fixed(), loads_->supported());
 }
 
+double MechanicalPhase::relative_step(const MechanicalState& old, std::span<const double> x,
+                                      std::span<const double> d) const {
+  std::vector<double> increment(n_forces());
+  for (std::size_t i = 0; i < increment.size(); ++i) increment[i] = x[i] - old.displacement[i];
+  return balance_.relative_step(d.first(increment.size()), increment);
+}
+
 algebra::BlockMatrix& MechanicalPhase::tangent() {
   const Stopwatch watch(seconds_assembly_);
   const profile::Part part("assembly");
@@ -159,6 +166,7 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
 PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& trial,
                                    const MechanicalPass& pass) {
   begin(old, pass);
+  solved_from_ = &old;
   algebra::NewtonOptions newton_options = options_.newton;
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;

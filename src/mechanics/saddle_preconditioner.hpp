@@ -28,7 +28,7 @@ class SaddlePreconditioner {
   /// Whether multigrid can be had for this matrix.
   static bool serves(const algebra::BlockMatrix& displacement);
   /// @param symmetric  whether A is
-  /// What is passed by reference must outlive this object. Collective.
+  /// Keeps references to the other arguments. Collective.
   SaddlePreconditioner(const mesh::Mesh& mesh, algebra::SaddleMatrix& matrix, NodalPressure& pressure,
                        const algebra::GhostExchange& ghosts, bool symmetric);
 

@@ -206,7 +206,7 @@ struct RigidSurfaceSpec {
 };
 
 struct MechanicsSpec {
-  double tolerance = 0;
+  double tolerance = 0, displacement_tolerance = 0;
   int max_iterations = 0;
   bool line_search = true;
   bool inexact = true;

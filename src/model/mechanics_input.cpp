@@ -59,6 +59,7 @@ mechanics::Conditions mechanical_conditions(const CaseSpec& spec, const StageRun
 mechanics::MechanicsOptions mechanics_options(const CaseSpec& spec) {
   mechanics::MechanicsOptions options;
   options.newton.tolerance = spec.mechanics.tolerance;
+  options.newton.step_tolerance = spec.mechanics.displacement_tolerance;
   options.newton.max_iterations = spec.mechanics.max_iterations;
   options.newton.line_search = spec.mechanics.line_search;
   options.newton.inexact = spec.mechanics.inexact;

@@ -55,6 +55,13 @@ Section<MechanicsSpec> mechanics_keys() {
       .initially(1e-3)
       .positive()
       .doc("Newton stops when the residual falls below this share of the forces.");
+  s.key("displacement_tolerance", &MechanicsSpec::displacement_tolerance)
+      .initially(1e-2)
+      .range(0, 1)
+      .doc(
+          "And when the next step would change the displacement by less than this share of what the time "
+          "step has moved the body: forces in balance say little of a casting that hardly anything holds. "
+          "0: the forces alone, the criterion of the monograph.");
   s.key("max_iterations", &MechanicsSpec::max_iterations)
       .initially(50)
       .range(1, 1000)

@@ -192,9 +192,15 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   if (spec.time.adaptive) {
     coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
     const double error = displacement_error(spec.time, norm.diagonal());
-    times.step.limits.displacement = error;
-    for (coupling::Stage& stage : times.stages) stage.step.limits.displacement = error;
-    estimate.emplace(std::move(norm), &a.phases);
+    const auto limit = [&](coupling::StepLimits& limits) {
+      limits.displacement = error;
+      limits.inertia = spec.dynamics.has_value();
+    };
+    limit(times.step.limits);
+    for (coupling::Stage& stage : times.stages) limit(stage.step.limits);
+    using coupling::Displacement;
+    estimate.emplace(std::move(norm), &a.phases,
+                     spec.dynamics ? Displacement::motion : Displacement::distortion);
   }
   coupling::Simulation simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
   RangeWatch watch(spec, a);

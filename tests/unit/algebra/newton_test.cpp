@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "grid.hpp"
 
@@ -108,6 +109,45 @@ TEST(Newton, ConvergesQuadratically) {
   const double p = std::log(r[k] / r[k - 1]) / std::log(r[k - 1] / r[k - 2]);
   EXPECT_GT(p, 1.8);
   EXPECT_LT(p, 2.3);
+}
+
+/// Springs that leave next to nothing but a load in balance with the ground, wherever they stand: a residual
+/// of 1e-6 for a displacement that is off by one.
+class SoftSprings : public SpringGrid {
+ public:
+  explicit SoftSprings(const Grid& grid)
+      : SpringGrid(
+            grid, [](double x) { return k_load + k_stiffness * (x - 1); }, [](double) { return k_stiffness; },
+            k_load) {}
+  double relative_step(std::span<const double> x, std::span<const double> d) override {
+    double of_x = 0, of_d = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      of_x += x[i] * x[i];
+      of_d += d[i] * d[i];
+    }
+    return std::sqrt(global_sum(of_d) / global_sum(of_x));
+  }
+
+ private:
+  static constexpr double k_load = 1, k_stiffness = 1e-6;
+};
+
+TEST(Newton, ForcesInBalanceDoNotEndItWhereTheDisplacementIsFarOff) {
+  const Grid grid(5, 6);
+  const auto solve = [&](double step_tolerance, double absolute) {
+    SoftSprings system(grid);
+    std::vector<double> x(static_cast<std::size_t>(grid.mesh.n_nodes()), 0.0);
+    const NewtonReport report =
+        run(grid, system, x,
+            {.tolerance = 1e-3, .absolute_tolerance = absolute, .step_tolerance = step_tolerance});
+    EXPECT_TRUE(report.converged) << report.reason;
+    return std::pair(x.front(), report.iterations);
+  };
+  EXPECT_EQ(solve(0, 0), std::pair(0.0, 0));  // the residual alone
+  const auto [x, iterations] = solve(1e-2, 0);
+  EXPECT_NEAR(x, 1, 1e-6);
+  EXPECT_EQ(iterations, 1);
+  EXPECT_EQ(solve(1e-2, 1e-3).second, 0);  // rounding is no reason for a step
 }
 
 TEST(Newton, FixedValuesStayAndGhostsAreUpToDate) {

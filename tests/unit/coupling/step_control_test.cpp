@@ -90,6 +90,20 @@ TEST(StepLimits, WhatIsNotANumberExceedsThem) {
   EXPECT_EQ(worst.name, "temperature error");
 }
 
+TEST(StepLimits, ADisplacementThatIsNotIntegratedInTimeMayMissMoreBeforeItsStepIsRepeated) {
+  StepMeasure measure = iterations(3);
+  solidus::coupling::StepLimits limits;
+  limits.control = ErrorControl::predictor;
+  measure.displacement_error = 2 * limits.displacement;
+  EXPECT_FALSE(strictest(limits, measure).exceeded);
+  EXPECT_LT(strictest(limits, measure).factor, 0.6);  // the next step is shorter all the same
+  limits.inertia = true;
+  EXPECT_TRUE(strictest(limits, measure).exceeded);
+  limits.inertia = false;
+  measure.displacement_error = 4 * limits.displacement;
+  EXPECT_TRUE(strictest(limits, measure).exceeded);
+}
+
 TEST(StepControl, OutputTimesAreMetExactly) {
   StepControl control(step_of(0.4), 0, {1.0, 2.0});
   double time = 0;

@@ -57,6 +57,19 @@ TEST(BodyBalance, SupportForcesAreExchangedAndTheAxisIsNot) {
   EXPECT_EQ(balance.reference(), 0.0);
 }
 
+TEST(BodyBalance, AStepIsMeasuredByTheIncrementOfItsOwnBody) {
+  const mesh::Mesh mesh = two_bodies();
+  const mechanics::BodyBalance balance(mesh, algebra::Presence(mesh), 2);
+  std::vector<double> increment = vertical_force(mesh, false, 1e-3);
+  const std::vector<double> upper = vertical_force(mesh, true, 1e-6), step = vertical_force(mesh, true, 1e-7);
+  for (std::size_t i = 0; i < increment.size(); ++i) increment[i] += upper[i];
+  EXPECT_NEAR(balance.relative_step(step, increment), 0.1, 1e-12);
+  EXPECT_EQ(balance.relative_step(std::vector<double>(step.size(), 0.0), increment), 0.0);
+  // A body at rest is measured by 1e-8 of its extent, which is √2 here.
+  const std::vector<double> nothing(step.size(), 0.0);
+  EXPECT_NEAR(balance.relative_step(step, nothing), 1e-7 / (1e-8 * std::sqrt(2.0)), 1e-9);
+}
+
 TEST(BodyBalance, WithoutExchangeASmallShareOfTheInternalForcesIsTheReference) {
   const mesh::Mesh mesh = two_bodies();
   mechanics::BodyBalance balance(mesh, algebra::Presence(mesh), 2);
