@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
@@ -12,6 +14,8 @@
 namespace solidus::heat {
 
 namespace {
+
+constexpr double k_rounding = 1e-7;  ///< of temperatures [K]
 
 template <class Map>
 const typename Map::mapped_type& find(const Map& groups, const std::string& name, const char* what) {
@@ -185,13 +189,69 @@ void HeatSystem::prescribe(std::span<double> temperature) const {
     for (Index node : p.nodes) temperature[static_cast<std::size_t>(node)] = p.now;
 }
 
+void HeatSystem::limit(bool on) {
+  on = on && closed_;
+  if (on == (limiter_ != nullptr)) return;
+  limiter_.reset();
+  kept_conduction_.clear();
+  if (!on) return;
+  limiter_ = std::make_unique<ConductionLimiter>(mesh_, potentials_);
+  gain_.resize(contributed_.size());
+  loss_.resize(contributed_.size());
+}
+
+bool HeatSystem::find_limits(std::span<const double> temperature, double negligible) {
+  if (!limiter_ || !exchange_) return false;
+  if (kept_conduction_.empty()) keep_conduction();
+  if (!limiter_->needed()) return false;
+  // What the nodes gain and lose where nothing that a limit may hold back flows.
+  std::vector<LimitedFlow*> flows;
+  for (SurfaceHeat& surface : surfaces_) {
+    surface.update_flows(temperature);
+    for (LimitedFlow& flow : surface.flows()) flows.push_back(&flow);
+  }
+  std::vector<double> left;
+  for (LimitedFlow* flow : flows) left.push_back(std::exchange(flow->left, 1.0));
+  std::vector<double> r(contributed_.size());
+  residual(temperature, r);
+  for (std::size_t i = 0; i < flows.size(); ++i) flows[i]->left = left[i];
+  return limiter_->find_shares(temperature, gain_, loss_, fixed_, negligible, flows);
+}
+
+bool HeatSystem::hold_nodes(std::span<const double> temperature, const TemperatureRange& range) {
+  return limiter_ && exchange_ &&
+         limiter_->hold(temperature, range.lowest - k_rounding, range.highest + k_rounding);
+}
+
+void HeatSystem::release_nodes() {
+  if (limiter_) limiter_->release();
+}
+
+TemperatureRange HeatSystem::ambient_range() const {
+  TemperatureRange range;
+  const auto include = [&range](double temperature) {
+    range.lowest = std::min(range.lowest, temperature);
+    range.highest = std::max(range.highest, temperature);
+  };
+  for (const Prescribed& p : prescribed_)
+    if (!p.nodes.empty()) include(p.now);
+  for (const SurfaceHeat& surface : surfaces_)
+    if (const std::optional<double> ambient = surface.ambient()) include(*ambient);
+  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+}
+
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
   double moved = 0;
-  for (auto* heat : {&local_, &supplied_}) std::fill(heat->begin(), heat->end(), 0.0);
+  for (auto* heat : {&local_, &supplied_, &gain_, &loss_}) std::fill(heat->begin(), heat->end(), 0.0);
   std::fill(surface_power_.begin(), surface_power_.end(), 0.0);
   std::fill(source_power_.begin(), source_power_.end(), 0.0);
   if (exchange_) moved += add_flows(temperature);
   std::copy_n(local_.begin(), r.size(), r.begin());
+  if (limiter_ && exchange_) {
+    limiter_->add_heat(temperature, r);
+    for (std::size_t i = 0; i < r.size(); ++i)
+      (supplied_[i] < 0 ? gain_ : loss_)[i] += std::abs(supplied_[i]);
+  }
   for (std::size_t c = 0; c < contributions_.size(); ++c) {
     contribution_power_[c] = 0;
     if (!exchange_ && !contributions_[c]->stores()) continue;
@@ -202,6 +262,9 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
       contribution_power_[c] -= contributed_[i];
       moved += std::abs(contributed_[i]);
     }
+    if (limiter_ && !contributions_[c]->stores())
+      for (std::size_t i = 0; i < r.size(); ++i)
+        (contributed_[i] < 0 ? gain_ : loss_)[i] += std::abs(contributed_[i]);
   }
   return moved;
 }
@@ -265,17 +328,24 @@ void HeatSystem::assemble(std::span<const double> temperature) {
       conduction_[b]->add_tangent(1.0, fields_[body].value, *matrix_);
   }
   for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
+  if (limiter_) limiter_->add_tangent(temperature, *matrix_);
 }
 
 /// Assembles what never changes while the pattern stays.
 void HeatSystem::keep_conduction() {
-  matrix_->set_zero();
-  for (std::size_t b = 0; b < conduction_.size(); ++b)
-    if (conduction_[b])
-      conduction_[b]->add_tangent(potentials_[static_cast<std::size_t>(mesh_.blocks[b].body)].reference(), {},
-                                  *matrix_);
-  const double* values = matrix_->block(0);
-  kept_conduction_.assign(values, values + matrix_->row_start().back());
+  const auto n = static_cast<std::size_t>(matrix_->row_start().back());
+  kept_conduction_.assign(n, 0.0);
+  if (limiter_) limiter_->clear();
+  for (std::size_t body = 0; body < potentials_.size(); ++body) {
+    matrix_->set_zero();
+    for (std::size_t b = 0; b < conduction_.size(); ++b)
+      if (conduction_[b] && mesh_.blocks[b].body == static_cast<int>(body))
+        conduction_[b]->add_tangent(1.0, {}, *matrix_);
+    if (limiter_) limiter_->add_body(static_cast<int>(body), *matrix_);
+    const double* values = matrix_->block(0);
+    for (std::size_t s = 0; s < n; ++s) kept_conduction_[s] += potentials_[body].reference() * values[s];
+  }
+  if (limiter_) limiter_->finish(*matrix_);
 }
 
 void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
@@ -300,6 +370,7 @@ void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::sp
   }
   if (exchange_)
     for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
+  if (limiter_ && exchange_) limiter_->add_symmetric_tangent(*matrix_);
 }
 
 std::vector<HeatSystem::Power> HeatSystem::powers() const {
@@ -335,6 +406,7 @@ std::size_t HeatSystem::bytes() const {
   for (const Field& u : fields_)
     total += u.nodes.capacity() * sizeof(Index) + u.value.capacity() * sizeof(double);
   total += (kept_conduction_.capacity() + roots_.capacity()) * sizeof(double) + nodal_->bytes();
+  if (limiter_) total += limiter_->bytes() + (gain_.capacity() + loss_.capacity()) * sizeof(double);
   return total;
 }
 

@@ -38,6 +38,11 @@ SurfaceFlux SurfaceLaw::at(double temperature) const {
   return {c * drive, slope <= 0 ? slope : c * drive_slope};
 }
 
+std::optional<double> SurfaceLaw::ambient() const {
+  if (kind_ == Kind::flux) return std::nullopt;
+  return driver_now_;
+}
+
 double SurfaceHeat::Patch::temperature(std::span<const double> t, Index face, int point) const {
   const Index* of_face = nodes.data() + static_cast<std::ptrdiff_t>(face) * n_nodes;
   const double* n = values.data() + static_cast<std::ptrdiff_t>(point) * n_nodes;
@@ -54,15 +59,21 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
     const int order = mesh::order(faces.shape);
     // Exact for N_a N_b times the radius on straight faces.
     const mesh::FaceGeometry g(mesh, faces, kind, mesh::gauss_rule(faces.shape, 2 * order + 1));
-    if (closed && order == 1) {
+    if (closed) {
       for (Index face = 0; face < g.n_faces; ++face)
         for (int a = 0; a < g.n_nodes; ++a) {
           const Index node = faces.element(face)[a];
-          if (node >= mesh.n_owned_nodes) continue;
+          double weight = 0;
           for (int q = 0; q < g.n_points; ++q)
-            lumped[static_cast<std::size_t>(node)] +=
-                g.weight[static_cast<std::size_t>(face * g.n_points + q)] *
-                g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+            weight += g.weight[static_cast<std::size_t>(face * g.n_points + q)] *
+                      g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+          if (node < mesh.n_owned_nodes) lumped[static_cast<std::size_t>(node)] += weight;
+          const int corners = g.n_nodes / 2;  // of faces in three dimensions
+          if (weight >= 0 || mesh.dimension == 2 || a >= corners || !law_.ambient()) continue;
+          for (const int middle : {corners + a, corners + (a + corners - 1) % corners}) {
+            flows_.push_back({node, faces.element(face)[middle]});
+            flow_weight_.push_back(-0.5 * weight);
+          }
         }
       continue;
     }
@@ -95,7 +106,21 @@ double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<
           r[static_cast<std::size_t>(patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)])] -=
               power * patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
       }
+  for (std::size_t i = 0; i < flows_.size(); ++i) {
+    if (flows_[i].left == 0) continue;
+    const double heat = flows_[i].left * flow(temperature, i);
+    r[static_cast<std::size_t>(flows_[i].from)] -= heat;
+    r[static_cast<std::size_t>(flows_[i].to)] += heat;
+  }
   return counted;
+}
+
+double SurfaceHeat::flow(std::span<const double> temperature, std::size_t i) const {
+  return flow_weight_[i] * law_.at(temperature[static_cast<std::size_t>(flows_[i].from)]).q;
+}
+
+void SurfaceHeat::update_flows(std::span<const double> temperature) {
+  for (std::size_t i = 0; i < flows_.size(); ++i) flows_[i].heat = flow(temperature, i);
 }
 
 void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const {
@@ -110,6 +135,12 @@ void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::Bloc
           for (int b = 0; b < patch.n_nodes; ++b)
             *matrix.block(slot[a * patch.n_nodes + b]) -= slope * n[a] * n[b];
       }
+  }
+  // The corner's own part: what the middles of the edges get by it would not be symmetric.
+  for (std::size_t i = 0; i < flows_.size(); ++i) {
+    const Index from = flows_[i].from;
+    *matrix.block(matrix.slot(from, from)) -=
+        flows_[i].left * flow_weight_[i] * law_.at(temperature[static_cast<std::size_t>(from)]).slope;
   }
 }
 

@@ -20,6 +20,11 @@ constexpr int k_relaxations = 60;       ///< evaluations of a node's curve in on
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope of E is this share
 constexpr int k_search_trials = 20;
+const double k_limit_change = std::getenv("LIMC")
+                                  ? std::atof(std::getenv("LIMC"))
+                                  : 1e-2;  ///< of flows by new limits, over the heat moved, that stays out
+const int k_revisions = std::getenv("REV") ? std::atoi(std::getenv("REV")) : 4;  ///< of limits by flows
+constexpr int k_holds = 6;            ///< and by temperatures out of range
 constexpr double k_clip_below = 0.2;  ///< length of a step below which plateaus shorten it node by node
 
 }  // namespace
@@ -312,14 +317,29 @@ void TruncatedNewton::relax_nodes() {
   if (converged()) evaluate();
 }
 
+/// Looks at the limits of conduction at the temperatures reached. Returns whether the iteration has to go on
+/// with others: when flows change too much, and then when temperatures are out of range.
+bool TruncatedNewton::revise_limits(const TemperatureRange& range) {
+  if (revisions_ < k_revisions && system_.find_limits(temperature_, k_limit_change * moved_)) {
+    ++revisions_;
+    return true;
+  }
+  if (revisions_ >= k_revisions + k_holds) return false;
+  if (!system_.hold_nodes(temperature_, range)) return false;
+  revisions_ = std::max(revisions_, k_revisions) + 1;
+  return system_.find_limits(temperature_);
+}
+
 algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
                                              std::span<double> temperature, std::span<double> heat,
-                                             int newton_steps) {
+                                             const TemperatureRange& range, int newton_steps) {
   old_heat_ = old_heat;
   heat_ = heat;
   temperature_ = temperature;
   dt_ = dt;
   conductance_ = 0;
+  revisions_ = 0;
+  system_.release_nodes();
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
   algebra::Forcing forcing(true);
   algebra::NewtonReport report;
@@ -334,7 +354,10 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
     if (converged()) {
       report.residuals.back() = moved_ > 0 ? norm_ / moved_ : norm_;
       report.converged = true;
-      break;
+      if (newton_steps > 0 || !revise_limits(range)) break;
+      report.converged = false;
+      evaluate();
+      continue;
     }
     if (report.iterations == most) {
       evaluate();
