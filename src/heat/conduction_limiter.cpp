@@ -8,7 +8,7 @@ namespace solidus::heat {
 namespace {
 
 constexpr double k_rounding = 1e-12;  ///< K_ij over the diagonal that is an entry of zero
-constexpr double k_supply = 1.0;      ///< c
+const double k_supply = std::getenv("SUPPLY") ? std::atof(std::getenv("SUPPLY")) : 20.0;     ///< c: large enough for linear fields at surfaces with a flux
 constexpr double k_reserve = 1.5;     ///< γ over what linear fields need
 constexpr double k_least_factor = 0.25, k_largest_factor = 4.0;  ///< of γ
 
@@ -60,6 +60,8 @@ void ConductionLimiter::finish(const algebra::BlockMatrix& matrix) {
     for (const Pair& p : body.pairs) has_pairs[at(p.i)] = has_pairs[at(p.j)] = 1;
   }
   needed_ = algebra::any_process(n_pairs > 0);
+  quadratic_ = algebra::any_process(std::any_of(mesh_.blocks.begin(), mesh_.blocks.end(),
+                                                [](const mesh::Block& b) { return mesh::order(b.shape) == 2; }));
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
     if (has_pairs[at(i)] != 0) nodes_.push_back(i);
   for (Body& body : bodies_) {
@@ -225,6 +227,7 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
     const std::size_t i = at(node);
     for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) {
       shares_[k] = sums_[k] > 0 ? std::min(1.0, shares_[k] / sums_[k]) : 0.0;
+      if (quadratic_) shares_[k] = 1;
       if (!held_nodes_.empty() && held_nodes_[k] != 0) shares_[k] = 0;
       if (fixed[i] != 0) shares_[k] = 1;
     }

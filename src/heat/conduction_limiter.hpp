@@ -28,6 +28,7 @@
 /// principle that keeps linear fields on general meshes). Supply in Q is ours.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -63,6 +64,8 @@ class ConductionLimiter {
   bool find_shares(std::span<const double> temperature, std::span<const double> gain,
                    std::span<const double> loss, std::span<const char> fixed, double negligible,
                    std::span<LimitedFlow* const> flows);
+  /// All α = 1.
+  void clear_shares() { std::fill(left_.begin(), left_.end(), 0.0); }
   /// From here on α = 0 for flows into owned nodes above `highest` and out of those below `lowest`, until
   /// release(). Returns whether that concerns further nodes, on any process. Collective.
   bool hold(std::span<const double> temperature, double lowest, double highest);
@@ -103,6 +106,7 @@ class ConductionLimiter {
   const mesh::Mesh& mesh_;
   std::span<const KirchhoffPotential> potentials_;
   algebra::GhostExchange ghosts_;
+  bool quadratic_ = false;  ///< whether there are quadratic elements, on any process
   const algebra::BlockMatrix* matrix_ = nullptr;  ///< its pattern tells the neighbours
   bool needed_ = false;
   std::vector<Body> bodies_;

@@ -196,26 +196,47 @@ void HeatSystem::limit(bool on) {
   kept_conduction_.clear();
   if (!on) return;
   limiter_ = std::make_unique<ConductionLimiter>(mesh_, potentials_);
-  gain_.resize(contributed_.size());
-  loss_.resize(contributed_.size());
 }
 
 bool HeatSystem::find_limits(std::span<const double> temperature, double negligible) {
+  contributions_heat_ = !contributions_.empty();
   if (!limiter_ || !exchange_) return false;
   if (kept_conduction_.empty()) keep_conduction();
   if (!limiter_->needed()) return false;
-  // What the nodes gain and lose where nothing that a limit may hold back flows.
   std::vector<LimitedFlow*> flows;
+  std::vector<double> gain(contributed_.size()), loss(contributed_.size());
+  conduct(temperature);
+  for (std::size_t i = 0; i < gain.size(); ++i) (local_[i] > 0 ? gain : loss)[i] += std::abs(local_[i]);
   for (SurfaceHeat& surface : surfaces_) {
+    surface.add_supply(temperature, gain, loss);
     surface.update_flows(temperature);
     for (LimitedFlow& flow : surface.flows()) flows.push_back(&flow);
   }
-  std::vector<double> left;
-  for (LimitedFlow* flow : flows) left.push_back(std::exchange(flow->left, 1.0));
-  std::vector<double> r(contributed_.size());
-  residual(temperature, r);
-  for (std::size_t i = 0; i < flows.size(); ++i) flows[i]->left = left[i];
-  return limiter_->find_shares(temperature, gain_, loss_, fixed_, negligible, flows);
+  for (const Volume& source : sources_)
+    for (std::size_t i = 0; i < source.weight.size(); ++i)
+      (source.now > 0 ? gain : loss)[i] += std::abs(source.now * source.weight[i]);
+  contributions_heat_ = false;
+  for (algebra::Contribution* contribution : contributions_) {
+    if (contribution->stores()) continue;
+    std::fill(contributed_.begin(), contributed_.end(), 0.0);
+    contribution->add_residual(temperature, contributed_);
+    double net = 0, magnitude = 0;
+    for (std::size_t i = 0; i < gain.size(); ++i) {
+      (contributed_[i] < 0 ? gain : loss)[i] += std::abs(contributed_[i]);
+      net += contributed_[i];
+      magnitude += std::abs(contributed_[i]);
+    }
+    constexpr double k_passed_on = 1e-9;  // net heat over the heat exchanged
+    if (std::abs(algebra::global_sum(net)) > k_passed_on * algebra::global_sum(magnitude))
+      contributions_heat_ = true;
+  }
+  return limiter_->find_shares(temperature, gain, loss, fixed_, negligible, flows);
+}
+
+void HeatSystem::clear_limits() {
+  if (limiter_) limiter_->clear_shares();
+  for (SurfaceHeat& surface : surfaces_)
+    for (LimitedFlow& flow : surface.flows()) flow.left = 0;
 }
 
 bool HeatSystem::hold_nodes(std::span<const double> temperature, const TemperatureRange& range) {
@@ -235,23 +256,29 @@ TemperatureRange HeatSystem::ambient_range() const {
   };
   for (const Prescribed& p : prescribed_)
     if (!p.nodes.empty()) include(p.now);
-  for (const SurfaceHeat& surface : surfaces_)
-    if (const std::optional<double> ambient = surface.ambient()) include(*ambient);
+  const auto heats = [&include](double power) {
+    if (power != 0) include(power > 0 ? HUGE_VAL : -HUGE_VAL);
+  };
+  for (const SurfaceHeat& surface : surfaces_) {
+    const std::optional<double> ambient = surface.ambient();
+    if (ambient)
+      include(*ambient);
+    else
+      heats(surface.flux());
+  }
+  for (const Volume& source : sources_) heats(source.now);
+  if (contributions_heat_) range = {-HUGE_VAL, HUGE_VAL};
   return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
 }
 
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
   double moved = 0;
-  for (auto* heat : {&local_, &supplied_, &gain_, &loss_}) std::fill(heat->begin(), heat->end(), 0.0);
+  for (auto* heat : {&local_, &supplied_}) std::fill(heat->begin(), heat->end(), 0.0);
   std::fill(surface_power_.begin(), surface_power_.end(), 0.0);
   std::fill(source_power_.begin(), source_power_.end(), 0.0);
   if (exchange_) moved += add_flows(temperature);
   std::copy_n(local_.begin(), r.size(), r.begin());
-  if (limiter_ && exchange_) {
-    limiter_->add_heat(temperature, r);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      (supplied_[i] < 0 ? gain_ : loss_)[i] += std::abs(supplied_[i]);
-  }
+  if (limiter_ && exchange_) limiter_->add_heat(temperature, r);
   for (std::size_t c = 0; c < contributions_.size(); ++c) {
     contribution_power_[c] = 0;
     if (!exchange_ && !contributions_[c]->stores()) continue;
@@ -262,21 +289,18 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
       contribution_power_[c] -= contributed_[i];
       moved += std::abs(contributed_[i]);
     }
-    if (limiter_ && !contributions_[c]->stores())
-      for (std::size_t i = 0; i < r.size(); ++i)
-        (contributed_[i] < 0 ? gain_ : loss_)[i] += std::abs(contributed_[i]);
   }
   return moved;
 }
 
-/// Conduction, surfaces and sources, in local_. Returns the magnitudes of the last two.
-double HeatSystem::add_flows(std::span<const double> temperature) {
+/// Conduction without its limits, in local_.
+void HeatSystem::conduct(std::span<const double> temperature) {
   for (std::size_t b = 0; b < fields_.size(); ++b)
     for (const Index node : fields_[b].nodes) {
       const auto i = static_cast<std::size_t>(node);
       fields_[b].value[i] = potentials_[b].value(temperature[i]);
     }
-  double moved = 0;
+  std::fill(local_.begin(), local_.end(), 0.0);
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     if (!conduction_[b]) continue;
     const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
@@ -285,6 +309,12 @@ double HeatSystem::add_flows(std::span<const double> temperature) {
     else
       conduction_[b]->add_heat(fields_[body].value, 1.0, local_);
   }
+}
+
+/// Conduction, surfaces and sources, in local_. Returns the magnitudes of the last two.
+double HeatSystem::add_flows(std::span<const double> temperature) {
+  conduct(temperature);
+  double moved = 0;
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     surface_power_[s] = surfaces_[s].add_residual(temperature, supplied_);
     moved += std::abs(surface_power_[s]);
@@ -406,7 +436,7 @@ std::size_t HeatSystem::bytes() const {
   for (const Field& u : fields_)
     total += u.nodes.capacity() * sizeof(Index) + u.value.capacity() * sizeof(double);
   total += (kept_conduction_.capacity() + roots_.capacity()) * sizeof(double) + nodal_->bytes();
-  if (limiter_) total += limiter_->bytes() + (gain_.capacity() + loss_.capacity()) * sizeof(double);
+  if (limiter_) total += limiter_->bytes();
   return total;
 }
 

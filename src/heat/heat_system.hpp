@@ -54,12 +54,15 @@ class HeatSystem {
   /// whether they have changed: a change of the flows there by no more than `negligible` [W] over all
   /// processes is left out. Collective.
   bool find_limits(std::span<const double> temperature, double negligible = -1);
+  /// Nothing is held back until the next find_limits().
+  void clear_limits();
   /// Limits conduction at nodes outside this range as far as possible, until release_nodes(); find_limits()
   /// makes it so. Returns whether that concerns further nodes, on any process. Collective.
   bool hold_nodes(std::span<const double> temperature, const TemperatureRange& range);
   void release_nodes();
   /// The range of the prescribed temperatures and of those around films and radiating surfaces, at the time
-  /// set, over all processes [K]. Collective.
+  /// set, over all processes [K]; without end where fluxes, sources or contributions (those that bring heat
+  /// at the last find_limits(), rather than pass it on) can heat or cool beyond it. Collective.
   TemperatureRange ambient_range() const;
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
@@ -119,6 +122,7 @@ class HeatSystem {
   void add_conduction(const std::vector<material::Material>& materials);
   void add_conditions(const Conditions& conditions);
   void remove_bodies(const algebra::Presence& presence);
+  void conduct(std::span<const double> temperature);
   double add_flows(std::span<const double> temperature);
   void keep_conduction();
 
@@ -134,13 +138,13 @@ class HeatSystem {
   std::vector<Field> fields_;                   ///< one per body
   std::unique_ptr<NodalPotential> nodal_;
   std::unique_ptr<ConductionLimiter> limiter_;  ///< null where conduction is not limited
-  std::vector<double> gain_, loss_;             ///< of the nodes, but by conduction, [owned node] [W]
   std::vector<double> kept_conduction_;  ///< Σ_m κ_m ∫∇N_a·∇N_b dV by slot; empty until it is needed
   std::vector<SurfaceHeat> surfaces_;
   std::vector<Volume> sources_;
   std::vector<Prescribed> prescribed_;
   std::vector<char> fixed_;
   bool exchange_ = true;
+  bool contributions_heat_ = false;  ///< whether they brought or took heat at the last find_limits()
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::vector<double> local_, roots_;  ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]

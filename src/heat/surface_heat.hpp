@@ -8,6 +8,7 @@
 
 #include "algebra/block_matrix.hpp"
 #include "heat/conditions.hpp"
+#include "mesh/block_geometry.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {
@@ -51,7 +52,10 @@ struct LimitedFlow {
 ///
 /// At the corners of quadratic quadrilaterals these weights are negative: a film takes heat from them when it
 /// heats the face. With limits this heat goes back, in part or all of it, from the nodes at the middles of
-/// the two edges there, which share it: a flow q(Θ_c) |∫ N_c dA|/2 from the corner c to each of them.
+/// the two edges there, which share it: a flow q(Θ_c) |∫ N_c dA|/2 from the corner c to each of them. What
+/// keeps strong films stable is the part of ∫ N_c q dA that draws corners and middles m together, −∫ N_c N_m
+/// dA (q_c − q_m) where that integral is negative; with it a film has no less than the matrix ∫ N_i N_j h dA
+/// of the Gauss points.
 class SurfaceHeat {
  public:
   SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, std::string name,
@@ -59,6 +63,7 @@ class SurfaceHeat {
   const std::string& name() const { return name_; }
   void set_time(double time) { law_.set_time(time); }
   std::optional<double> ambient() const { return law_.ambient(); }
+  double flux() const { return law_.at(0.0).q; }  ///< of a flux, into the body now [W/m²]
   /// The nodes of a face are nodes of one element: its graph holds them.
   void bind(const algebra::BlockMatrix& matrix);
   /// r −= heat into the nodes [W], [local node]; ghost rows are scrap. Returns the sum over the counted
@@ -69,8 +74,13 @@ class SurfaceHeat {
   /// has no ambient temperature to stay within.
   std::span<LimitedFlow> flows() { return flows_; }
   void update_flows(std::span<const double> temperature);
+  /// Heat that comes to owned nodes and leaves them [W], both positive, spread with positive weights: a node
+  /// gains only where its film or the radiation around it is hotter than it is.
+  void add_supply(std::span<const double> temperature, std::span<double> gain, std::span<double> loss) const;
 
  private:
+  /// Quadratic faces with negative weights.
+  void add_corners(const mesh::Block& faces, const mesh::FaceGeometry& g);
   double flow(std::span<const double> temperature, std::size_t i) const;
 
   /// Points with the values of the nodes they see; a lumped node is a face of one node and one point.
@@ -83,9 +93,18 @@ class SurfaceHeat {
     std::vector<algebra::BlockMatrix::Slot> slots;
     double temperature(std::span<const double> t, Index face, int point) const;
   };
+  /// Draws the nodes of a face together.
+  struct Pair {
+    Index i, j;
+    double weight;  ///< −∫ N_i N_j dA > 0 [m²]
+    algebra::BlockMatrix::Slot ij = 0, ji = 0, ii = 0, jj = 0;
+  };
   std::string name_;
   SurfaceLaw law_;
   std::vector<Patch> patches_;
+  std::vector<Pair> pairs_;
+  std::vector<Index> supplied_nodes_;  ///< of add_supply()
+  std::vector<double> supply_weight_;  ///< area of their faces by ∫ N_i² dA [m²]
   std::vector<LimitedFlow> flows_;
   std::vector<double> flow_weight_;  ///< |∫ N_c dA|/2 of each [m²]
 };

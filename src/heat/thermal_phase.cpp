@@ -381,6 +381,7 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   if (consistent_) consistent_->use(false);
   PhaseReport report;
   const TemperatureRange range = limit_conduction({temperature, {}});
+  system_->clear_limits();  // a linear field, say, needs none
   report.newton = solve_temperature(temperature);
   const double moved = temperature_system_->moved();
   for (int i = 0; i < k_steady_revisions && system_->find_limits(temperature, k_limit_change * moved); ++i)

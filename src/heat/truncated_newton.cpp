@@ -23,8 +23,9 @@ constexpr int k_search_trials = 20;
 const double k_limit_change = std::getenv("LIMC")
                                   ? std::atof(std::getenv("LIMC"))
                                   : 1e-2;  ///< of flows by new limits, over the heat moved, that stays out
-const int k_revisions = std::getenv("REV") ? std::atoi(std::getenv("REV")) : 4;  ///< of limits by flows
-constexpr int k_holds = 6;            ///< and by temperatures out of range
+const int k_revisions = std::getenv("REV") ? std::atoi(std::getenv("REV")) : 1;  ///< of limits by flows
+const int k_holds =
+    std::getenv("HOLDS") ? std::atoi(std::getenv("HOLDS")) : 20;  ///< and by temperatures out of range
 constexpr double k_clip_below = 0.2;  ///< length of a step below which plateaus shorten it node by node
 
 }  // namespace
@@ -304,11 +305,13 @@ double TruncatedNewton::norm_of_free() const {
 
 /// Both sweeps, with A at the temperatures of now. Where the linear A says that the iteration may end, F is
 /// evaluated.
-void TruncatedNewton::relax_nodes() {
+/// @param all  every node, however small its residual is
+void TruncatedNewton::relax_nodes(bool all) {
   assemble();
   {
     const profile::Part part("sweeps");
-    negligible_ = k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
+    negligible_ =
+        all ? 0 : k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
     sweep(Order::forward);
     sweep(Order::backward);
     ghosts_.update(temperature_, 1);
@@ -343,10 +346,12 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
   algebra::Forcing forcing(true);
   algebra::NewtonReport report;
+  bool revised = false;
   evaluate();
   while (true) {
     report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
-    if (std::isfinite(norm_) && !converged()) relax_nodes();
+    if (std::isfinite(norm_) && (!converged() || revised)) relax_nodes(revised);
+    revised = false;
     if (!std::isfinite(norm_)) {
       report.reason = "the residual is not a number";
       break;
@@ -356,6 +361,7 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
       report.converged = true;
       if (newton_steps > 0 || !revise_limits(range)) break;
       report.converged = false;
+      revised = true;
       evaluate();
       continue;
     }

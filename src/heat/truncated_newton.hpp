@@ -72,7 +72,7 @@ class TruncatedNewton {
   void evaluate();
   bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
   void assemble();
-  void relax_nodes();
+  void relax_nodes(bool all);
   void sweep(Order order);
   double relax(std::size_t i, double residual);
   /// Adds to F what the change of v since then makes of it.

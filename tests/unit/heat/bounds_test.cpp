@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "algebra/parallel.hpp"
 #include "block.hpp"
 
 namespace solidus {
@@ -238,6 +239,98 @@ TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
                   kept.iterations, kept.failed >= 0 ? " FAILED" : "", free.kelvins, free.iterations,
                   free.failed >= 0 ? " FAILED" : "");
     }
+  }
+}
+
+/// A block of unit length along x and height `height`, bent inside so that elements are obtuse or warped.
+mesh::Mesh bent(Shape shape, int cells, double height) {
+  const bool solid = test::is_3d(shape);
+  const auto bump = [](double s) { return std::sin(3.14159265358979323846 * s); };
+  return test::block_mesh(
+      shape, solid ? std::vector<double>{1, height, height} : std::vector<double>{1, height},
+      solid ? std::vector<int>{cells, cells, cells} : std::vector<int>{cells, cells}, [&](mesh::Point x) {
+        const double y = x[1] / height, z = x[2] / height;
+        const double b = 0.15 * bump(x[0]) * bump(y) * (solid ? bump(z) : 1.0);
+        return mesh::Point{x[0] + b, x[1] - 0.7 * height * b, solid ? x[2] + 0.5 * height * b : 0.0};
+      });
+}
+
+material::Material conductor() {
+  material::Material m;
+  m.name = "conductor";
+  m.density = 2500;
+  m.conductivity = Table(100.0);
+  m.specific_heat = Table(1000.0);
+  return m;
+}
+
+AnalysisKind kind_of(Shape shape) {
+  return test::is_3d(shape) ? AnalysisKind::solid : AnalysisKind::plane_strain;
+}
+
+TEST(Bounds, LeaveLinearTemperaturesExact) {
+  for (const Shape shape : k_shapes) {
+    const mesh::Mesh mesh = bent(shape, mesh::order(shape) == 1 ? 6 : 3, 0.4);
+    heat::Conditions conditions;
+    conditions.temperatures.push_back({"cold", "x_min", Table(300.0)});
+    conditions.temperatures.push_back({"hot", "x_max", Table(500.0)});
+    heat::HeatOptions options;
+    options.tolerance = 1e-13;
+    heat::ThermalPhase phase(mesh, kind_of(shape), {conductor()}, conditions, options);
+    std::vector<double> start;
+    for (const mesh::Point& x : mesh.x) start.push_back(300 + 200 * x[0]);
+    heat::ThermalState state = phase.initial_state_at_nodes(start);
+    for (int i = 1; i <= 3; ++i) phase.solve(state, state, 100.0 * i, 100.0);
+    heat::ThermalState steady;
+    phase.solve_steady(phase.initial_state(std::vector<double>{350.0}), steady, 0.0);
+    for (std::size_t i = 0; i < mesh.x.size(); ++i) {
+      EXPECT_NEAR(state.temperature[i], start[i], 2e-10) << mesh::name(shape);
+      EXPECT_NEAR(steady.temperature[i], start[i], 2e-8) << mesh::name(shape);
+    }
+  }
+}
+
+/// The root of the mean square of the error of a cosine that dies away, insulated, at the nodes; the error of
+/// backward Euler taken out.
+double cosine_error(Shape shape, int cells, bool bounds) {
+  constexpr double k_pi = 3.14159265358979323846;
+  const mesh::Mesh mesh = bent(shape, cells, 0.4);
+  heat::HeatOptions options;
+  options.bounds = bounds;
+  options.tolerance = 1e-10;
+  heat::ThermalPhase phase(mesh, kind_of(shape), {conductor()}, {}, options);
+  const double rate = k_pi * k_pi * 4e-5, dt = 0.1 / rate;
+  std::vector<double> start;
+  for (const mesh::Point& x : mesh.x) start.push_back(600 + 200 * std::cos(k_pi * x[0]));
+  heat::ThermalState state = phase.initial_state_at_nodes(start);
+  double factor = 1;
+  for (int i = 1; i <= 4; ++i) {
+    phase.solve(state, state, i * dt, dt);
+    factor /= 1 + rate * dt;
+  }
+  double sum = 0;
+  for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const double error = state.temperature[n] - 600 - factor * (start[n] - 600);
+    sum += error * error;
+  }
+  return std::sqrt(algebra::global_sum(sum) / static_cast<double>(mesh.n_global_nodes));
+}
+
+TEST(Bounds, KeepTheSecondOrderOfSmoothTransients) {
+  if (test::processes() > 1) return;  // the serial run proves it
+  for (const Shape shape : k_shapes) {
+    const int n = mesh::order(shape) == 1 ? (test::is_3d(shape) ? 6 : 8) : (test::is_3d(shape) ? 3 : 4);
+    std::vector<double> with, without;
+    for (const int cells : {n, 2 * n}) {
+      with.push_back(cosine_error(shape, cells, true));
+      without.push_back(cosine_error(shape, cells, false));
+    }
+    if (std::getenv("SOLIDUS_TALK"))
+      std::printf("%s: with %.3e %.3e (%.2f), without %.3e %.3e (%.2f)\n",
+                  std::string(mesh::name(shape)).c_str(), with[0], with[1], std::log2(with[0] / with[1]),
+                  without[0], without[1], std::log2(without[0] / without[1]));
+    EXPECT_GE(std::log2(with[0] / with[1]), 1.7) << mesh::name(shape);
   }
 }
 
