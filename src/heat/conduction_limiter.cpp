@@ -8,7 +8,7 @@ namespace solidus::heat {
 namespace {
 
 constexpr double k_rounding = 1e-12;  ///< K_ij over the diagonal that is an entry of zero
-const double k_supply = std::getenv("SUPPLY") ? std::atof(std::getenv("SUPPLY")) : 20.0;     ///< c: large enough for linear fields at surfaces with a flux
+constexpr double k_supply = 20.0;     ///< c: large enough for linear fields at surfaces with a flux
 constexpr double k_reserve = 1.5;     ///< γ over what linear fields need
 constexpr double k_least_factor = 0.25, k_largest_factor = 4.0;  ///< of γ
 
@@ -60,8 +60,9 @@ void ConductionLimiter::finish(const algebra::BlockMatrix& matrix) {
     for (const Pair& p : body.pairs) has_pairs[at(p.i)] = has_pairs[at(p.j)] = 1;
   }
   needed_ = algebra::any_process(n_pairs > 0);
-  quadratic_ = algebra::any_process(std::any_of(mesh_.blocks.begin(), mesh_.blocks.end(),
-                                                [](const mesh::Block& b) { return mesh::order(b.shape) == 2; }));
+  quadratic_ =
+      algebra::any_process(std::any_of(mesh_.blocks.begin(), mesh_.blocks.end(),
+                                       [](const mesh::Block& b) { return mesh::order(b.shape) == 2; }));
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
     if (has_pairs[at(i)] != 0) nodes_.push_back(i);
   for (Body& body : bodies_) {
@@ -255,18 +256,19 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
   return true;
 }
 
-bool ConductionLimiter::hold(std::span<const double> temperature, double lowest, double highest) {
-  if (!needed_) return false;
+ConductionLimiter::Held ConductionLimiter::hold(std::span<const double> temperature, double lowest,
+                                                double highest) {
+  if (!needed_) return Held::none;
   if (held_nodes_.empty()) held_nodes_.assign(sums_.size(), 0);
-  bool further = false;
+  auto held = Held::none;
   for (const Index node : nodes_) {
     const std::size_t i = at(node);
-    const std::size_t k = 2 * i + (temperature[i] > highest ? 0 : 1);
     if (temperature[i] >= lowest && temperature[i] <= highest) continue;
-    further = further || held_nodes_[k] == 0;
-    held_nodes_[k] = 1;
+    char& now = held_nodes_[2 * i + (temperature[i] > highest ? 0 : 1)];
+    held = std::max(held, now == 0 ? Held::further : Held::as_before);
+    now = 1;
   }
-  return algebra::any_process(further);
+  return static_cast<Held>(static_cast<int>(algebra::global_max(static_cast<int>(held))));
 }
 
 void ConductionLimiter::add_heat(std::span<const double> temperature, std::span<double> r) const {

@@ -67,8 +67,9 @@ class ConductionLimiter {
   /// All α = 1.
   void clear_shares() { std::fill(left_.begin(), left_.end(), 0.0); }
   /// From here on α = 0 for flows into owned nodes above `highest` and out of those below `lowest`, until
-  /// release(). Returns whether that concerns further nodes, on any process. Collective.
-  bool hold(std::span<const double> temperature, double lowest, double highest);
+  /// release(). Collective.
+  enum class Held { none, as_before, further };  ///< no node is there, the same ones as before, others too
+  Held hold(std::span<const double> temperature, double lowest, double highest);
   void release() { held_nodes_.clear(); }
   /// r += what is not let through.
   void add_heat(std::span<const double> temperature, std::span<double> r) const;
@@ -106,7 +107,7 @@ class ConductionLimiter {
   const mesh::Mesh& mesh_;
   std::span<const KirchhoffPotential> potentials_;
   algebra::GhostExchange ghosts_;
-  bool quadratic_ = false;  ///< whether there are quadratic elements, on any process
+  bool quadratic_ = false;                        ///< whether there are quadratic elements, on any process
   const algebra::BlockMatrix* matrix_ = nullptr;  ///< its pattern tells the neighbours
   bool needed_ = false;
   std::vector<Body> bodies_;

@@ -239,9 +239,10 @@ void HeatSystem::clear_limits() {
     for (LimitedFlow& flow : surface.flows()) flow.left = 0;
 }
 
-bool HeatSystem::hold_nodes(std::span<const double> temperature, const TemperatureRange& range) {
-  return limiter_ && exchange_ &&
-         limiter_->hold(temperature, range.lowest - k_rounding, range.highest + k_rounding);
+ConductionLimiter::Held HeatSystem::hold_nodes(std::span<const double> temperature,
+                                               const TemperatureRange& range) {
+  if (!limiter_ || !exchange_) return ConductionLimiter::Held::none;
+  return limiter_->hold(temperature, range.lowest - k_rounding, range.highest + k_rounding);
 }
 
 void HeatSystem::release_nodes() {

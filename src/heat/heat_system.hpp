@@ -57,8 +57,8 @@ class HeatSystem {
   /// Nothing is held back until the next find_limits().
   void clear_limits();
   /// Limits conduction at nodes outside this range as far as possible, until release_nodes(); find_limits()
-  /// makes it so. Returns whether that concerns further nodes, on any process. Collective.
-  bool hold_nodes(std::span<const double> temperature, const TemperatureRange& range);
+  /// makes it so. Returns whether there are such nodes, and others than before, on any process. Collective.
+  ConductionLimiter::Held hold_nodes(std::span<const double> temperature, const TemperatureRange& range);
   void release_nodes();
   /// The range of the prescribed temperatures and of those around films and radiating surfaces, at the time
   /// set, over all processes [K]; without end where fluxes, sources or contributions (those that bring heat

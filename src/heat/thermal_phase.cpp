@@ -386,7 +386,9 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   const double moved = temperature_system_->moved();
   for (int i = 0; i < k_steady_revisions && system_->find_limits(temperature, k_limit_change * moved); ++i)
     add_iterations(report.newton, solve_temperature(temperature));
-  for (int i = 0; i < k_steady_revisions && system_->hold_nodes(temperature, range); ++i) {
+  for (int i = 0;
+       i < k_steady_revisions && system_->hold_nodes(temperature, range) == ConductionLimiter::Held::further;
+       ++i) {
     system_->find_limits(temperature);
     add_iterations(report.newton, solve_temperature(temperature));
   }

@@ -20,12 +20,10 @@ constexpr int k_relaxations = 60;       ///< evaluations of a node's curve in on
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope of E is this share
 constexpr int k_search_trials = 20;
-const double k_limit_change = std::getenv("LIMC")
-                                  ? std::atof(std::getenv("LIMC"))
-                                  : 1e-2;  ///< of flows by new limits, over the heat moved, that stays out
-const int k_revisions = std::getenv("REV") ? std::atoi(std::getenv("REV")) : 1;  ///< of limits by flows
-const int k_holds =
-    std::getenv("HOLDS") ? std::atoi(std::getenv("HOLDS")) : 20;  ///< and by temperatures out of range
+constexpr double k_limit_change = 1e-2;  ///< of flows by new limits, over the heat moved, that stays out
+constexpr int k_revisions = 1;           ///< of limits by flows
+constexpr int k_holds = 20;              ///< and by temperatures out of range
+constexpr int k_idle = 4;  ///< such revisions that find no further nodes: what the tolerance has left goes
 constexpr double k_clip_below = 0.2;  ///< length of a step below which plateaus shorten it node by node
 
 }  // namespace
@@ -328,9 +326,12 @@ bool TruncatedNewton::revise_limits(const TemperatureRange& range) {
     return true;
   }
   if (revisions_ >= k_revisions + k_holds) return false;
-  if (!system_.hold_nodes(temperature_, range)) return false;
+  using Held = ConductionLimiter::Held;
+  const Held held = system_.hold_nodes(temperature_, range);
+  if (held == Held::none || (held == Held::as_before && ++idle_ > k_idle)) return false;
   revisions_ = std::max(revisions_, k_revisions) + 1;
-  return system_.find_limits(temperature_);
+  system_.find_limits(temperature_);
+  return true;
 }
 
 algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
@@ -341,7 +342,7 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
   temperature_ = temperature;
   dt_ = dt;
   conductance_ = 0;
-  revisions_ = 0;
+  revisions_ = idle_ = 0;
   system_.release_nodes();
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
   algebra::Forcing forcing(true);

@@ -108,6 +108,7 @@ class TruncatedNewton {
   std::vector<double> from_heat_, from_temperature_,
       from_;  ///< H, Θ and v where the search begins, [owned node]
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
+  int idle_ = 0;           ///< revisions that have found nothing new
   int revisions_ = 0;      ///< of the limits of conduction, in this step
   double negligible_ = 0;  ///< |F_i| for which no node is relaxed
 };

@@ -196,6 +196,7 @@ struct Excursion {
 Excursion run(const Problem& p, bool bounds, int steps) {
   heat::HeatOptions options;
   options.bounds = bounds;
+  if (std::getenv("MAXIT")) options.max_iterations = std::atoi(std::getenv("MAXIT"));
   options.alone = true;
   heat::ThermalPhase phase(p.mesh, p.kind, p.materials, p.conditions, options);
   heat::ThermalState state = phase.initial_state(p.start);
