@@ -234,9 +234,11 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
     }
   }
   ghosts_.update(shares_, 2);
+  // Where nothing flows yet, both ways: the processes of the two nodes must agree.
   const auto left_of = [&](const Pair& p, double flow) {
     const std::size_t i = 2 * at(p.i), j = 2 * at(p.j);
-    return 1.0 - (flow > 0 ? std::min(shares_[i], shares_[j + 1]) : std::min(shares_[i + 1], shares_[j]));
+    const double into_i = std::min(shares_[i], shares_[j + 1]), into_j = std::min(shares_[i + 1], shares_[j]);
+    return 1.0 - (flow > 0 ? into_i : flow < 0 ? into_j : std::min(into_i, into_j));
   };
   const auto left_of_flow = [&](const LimitedFlow& f) {
     const std::size_t from = 2 * at(f.from), to = 2 * at(f.to);
