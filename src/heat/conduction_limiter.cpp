@@ -9,7 +9,10 @@ namespace {
 
 constexpr double k_rounding = 1e-12;  ///< K_ij over the diagonal that is an entry of zero
 constexpr double k_supply = 20.0;     ///< c: large enough for linear fields at surfaces with a flux
-constexpr double k_reserve = 1.5;     ///< γ over what linear fields need
+/// Differences of temperature [K] below which a field counts as even, and nothing is let through: what
+/// rounding and tolerances leave must not decide over the flows of a front that arrives.
+constexpr double k_noise = 1e-4;
+constexpr double k_reserve = 1.5;                                ///< γ over what linear fields need
 constexpr double k_least_factor = 0.25, k_largest_factor = 4.0;  ///< of γ
 
 double value(const KirchhoffPotential& u, double temperature) {
@@ -222,6 +225,9 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
       const double here = value(u, temperature[i]), factor = gamma_[i] * d.k;
       shares_[2 * i] += factor * std::max(value(u, highest_[i]) - here, 0.0);
       shares_[2 * i + 1] += factor * std::max(here - value(u, lowest_[i]), 0.0);
+      const double noise = k_noise * d.k * u.reference();
+      if (sums_[2 * i] > 0) sums_[2 * i] += noise;
+      if (sums_[2 * i + 1] > 0) sums_[2 * i + 1] += noise;
     }
   }
   for (const Index node : nodes_) {
