@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
@@ -12,6 +14,8 @@
 namespace solidus::heat {
 
 namespace {
+
+constexpr double k_rounding = 1e-7;  ///< of temperatures [K]
 
 template <class Map>
 const typename Map::mapped_type& find(const Map& groups, const std::string& name, const char* what) {
@@ -185,6 +189,89 @@ void HeatSystem::prescribe(std::span<double> temperature) const {
     for (Index node : p.nodes) temperature[static_cast<std::size_t>(node)] = p.now;
 }
 
+void HeatSystem::limit(bool on) {
+  on = on && closed_;
+  if (on == (limiter_ != nullptr)) return;
+  limiter_.reset();
+  kept_conduction_.clear();
+  if (!on) return;
+  limiter_ = std::make_unique<ConductionLimiter>(mesh_, potentials_);
+}
+
+bool HeatSystem::find_limits(std::span<const double> temperature, double negligible) {
+  contributions_heat_ = !contributions_.empty();
+  if (!limiter_ || !exchange_) return false;
+  if (kept_conduction_.empty()) keep_conduction();
+  if (!limiter_->needed()) return false;
+  std::vector<LimitedFlow*> flows;
+  std::vector<double> gain(contributed_.size()), loss(contributed_.size());
+  conduct(temperature);
+  for (std::size_t i = 0; i < gain.size(); ++i) (local_[i] > 0 ? gain : loss)[i] += std::abs(local_[i]);
+  for (SurfaceHeat& surface : surfaces_) {
+    surface.add_supply(temperature, gain, loss);
+    surface.update_flows(temperature);
+    for (LimitedFlow& flow : surface.flows()) flows.push_back(&flow);
+  }
+  for (const Volume& source : sources_)
+    for (std::size_t i = 0; i < source.weight.size(); ++i)
+      (source.now > 0 ? gain : loss)[i] += std::abs(source.now * source.weight[i]);
+  contributions_heat_ = false;
+  for (algebra::Contribution* contribution : contributions_) {
+    if (contribution->stores()) continue;
+    std::fill(contributed_.begin(), contributed_.end(), 0.0);
+    contribution->add_residual(temperature, contributed_);
+    double net = 0, magnitude = 0;
+    for (std::size_t i = 0; i < gain.size(); ++i) {
+      (contributed_[i] < 0 ? gain : loss)[i] += std::abs(contributed_[i]);
+      net += contributed_[i];
+      magnitude += std::abs(contributed_[i]);
+    }
+    constexpr double k_passed_on = 1e-9;  // net heat over the heat exchanged
+    if (std::abs(algebra::global_sum(net)) > k_passed_on * algebra::global_sum(magnitude))
+      contributions_heat_ = true;
+  }
+  return limiter_->find_shares(temperature, gain, loss, fixed_, negligible, flows);
+}
+
+void HeatSystem::clear_limits() {
+  if (limiter_) limiter_->clear_shares();
+  for (SurfaceHeat& surface : surfaces_)
+    for (LimitedFlow& flow : surface.flows()) flow.left = 0;
+}
+
+ConductionLimiter::Held HeatSystem::hold_nodes(std::span<const double> temperature,
+                                               const TemperatureRange& range) {
+  if (!limiter_ || !exchange_) return ConductionLimiter::Held::none;
+  return limiter_->hold(temperature, range.lowest - k_rounding, range.highest + k_rounding);
+}
+
+void HeatSystem::release_nodes() {
+  if (limiter_) limiter_->release();
+}
+
+TemperatureRange HeatSystem::ambient_range() const {
+  TemperatureRange range;
+  const auto include = [&range](double temperature) {
+    range.lowest = std::min(range.lowest, temperature);
+    range.highest = std::max(range.highest, temperature);
+  };
+  for (const Prescribed& p : prescribed_)
+    if (!p.nodes.empty()) include(p.now);
+  const auto heats = [&include](double power) {
+    if (power != 0) include(power > 0 ? HUGE_VAL : -HUGE_VAL);
+  };
+  for (const SurfaceHeat& surface : surfaces_) {
+    const std::optional<double> ambient = surface.ambient();
+    if (ambient)
+      include(*ambient);
+    else
+      heats(surface.flux());
+  }
+  for (const Volume& source : sources_) heats(source.now);
+  if (contributions_heat_) range = {-HUGE_VAL, HUGE_VAL};
+  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+}
+
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
   double moved = 0;
   for (auto* heat : {&local_, &supplied_}) std::fill(heat->begin(), heat->end(), 0.0);
@@ -192,6 +279,7 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   std::fill(source_power_.begin(), source_power_.end(), 0.0);
   if (exchange_) moved += add_flows(temperature);
   std::copy_n(local_.begin(), r.size(), r.begin());
+  if (limiter_ && exchange_) limiter_->add_heat(temperature, r);
   for (std::size_t c = 0; c < contributions_.size(); ++c) {
     contribution_power_[c] = 0;
     if (!exchange_ && !contributions_[c]->stores()) continue;
@@ -206,14 +294,14 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   return moved;
 }
 
-/// Conduction, surfaces and sources, in local_. Returns the magnitudes of the last two.
-double HeatSystem::add_flows(std::span<const double> temperature) {
+/// Conduction without its limits, in local_.
+void HeatSystem::conduct(std::span<const double> temperature) {
   for (std::size_t b = 0; b < fields_.size(); ++b)
     for (const Index node : fields_[b].nodes) {
       const auto i = static_cast<std::size_t>(node);
       fields_[b].value[i] = potentials_[b].value(temperature[i]);
     }
-  double moved = 0;
+  std::fill(local_.begin(), local_.end(), 0.0);
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     if (!conduction_[b]) continue;
     const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
@@ -222,6 +310,12 @@ double HeatSystem::add_flows(std::span<const double> temperature) {
     else
       conduction_[b]->add_heat(fields_[body].value, 1.0, local_);
   }
+}
+
+/// Conduction, surfaces and sources, in local_. Returns the magnitudes of the last two.
+double HeatSystem::add_flows(std::span<const double> temperature) {
+  conduct(temperature);
+  double moved = 0;
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     surface_power_[s] = surfaces_[s].add_residual(temperature, supplied_);
     moved += std::abs(surface_power_[s]);
@@ -265,17 +359,24 @@ void HeatSystem::assemble(std::span<const double> temperature) {
       conduction_[b]->add_tangent(1.0, fields_[body].value, *matrix_);
   }
   for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
+  if (limiter_) limiter_->add_tangent(temperature, *matrix_);
 }
 
 /// Assembles what never changes while the pattern stays.
 void HeatSystem::keep_conduction() {
-  matrix_->set_zero();
-  for (std::size_t b = 0; b < conduction_.size(); ++b)
-    if (conduction_[b])
-      conduction_[b]->add_tangent(potentials_[static_cast<std::size_t>(mesh_.blocks[b].body)].reference(), {},
-                                  *matrix_);
-  const double* values = matrix_->block(0);
-  kept_conduction_.assign(values, values + matrix_->row_start().back());
+  const auto n = static_cast<std::size_t>(matrix_->row_start().back());
+  kept_conduction_.assign(n, 0.0);
+  if (limiter_) limiter_->clear();
+  for (std::size_t body = 0; body < potentials_.size(); ++body) {
+    matrix_->set_zero();
+    for (std::size_t b = 0; b < conduction_.size(); ++b)
+      if (conduction_[b] && mesh_.blocks[b].body == static_cast<int>(body))
+        conduction_[b]->add_tangent(1.0, {}, *matrix_);
+    if (limiter_) limiter_->add_body(static_cast<int>(body), *matrix_);
+    const double* values = matrix_->block(0);
+    for (std::size_t s = 0; s < n; ++s) kept_conduction_[s] += potentials_[body].reference() * values[s];
+  }
+  if (limiter_) limiter_->finish(*matrix_);
 }
 
 void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
@@ -300,6 +401,7 @@ void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::sp
   }
   if (exchange_)
     for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
+  if (limiter_ && exchange_) limiter_->add_symmetric_tangent(*matrix_);
 }
 
 std::vector<HeatSystem::Power> HeatSystem::powers() const {
@@ -335,6 +437,7 @@ std::size_t HeatSystem::bytes() const {
   for (const Field& u : fields_)
     total += u.nodes.capacity() * sizeof(Index) + u.value.capacity() * sizeof(double);
   total += (kept_conduction_.capacity() + roots_.capacity()) * sizeof(double) + nodal_->bytes();
+  if (limiter_) total += limiter_->bytes();
   return total;
 }
 

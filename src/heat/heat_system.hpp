@@ -15,9 +15,11 @@
 #include "algebra/presence.hpp"
 #include "heat/conditions.hpp"
 #include "heat/conduction_block.hpp"
+#include "heat/conduction_limiter.hpp"
 #include "heat/kirchhoff_potential.hpp"
 #include "heat/nodal_potential.hpp"
 #include "heat/surface_heat.hpp"
+#include "heat/thermal_state.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -45,15 +47,32 @@ class HeatSystem {
   /// [local node]: one where the temperature is prescribed, or stays since the bodies there have gone.
   const std::vector<char>& fixed() const { return fixed_; }
 
+  /// Whether conduction is limited from here on (conduction_limiter.hpp). Off at first, and with the open
+  /// rule.
+  void limit(bool on);
+  /// Finds the limits of conduction anew at these temperatures; they hold until the next call. Returns
+  /// whether they have changed: a change of the flows there by no more than `negligible` [W] over all
+  /// processes is left out. Collective.
+  bool find_limits(std::span<const double> temperature, double negligible = -1);
+  /// Nothing is held back until the next find_limits().
+  void clear_limits();
+  /// Limits conduction at nodes outside this range as far as possible, until release_nodes(); find_limits()
+  /// makes it so. Returns whether there are such nodes, and others than before, on any process. Collective.
+  ConductionLimiter::Held hold_nodes(std::span<const double> temperature, const TemperatureRange& range);
+  void release_nodes();
+  /// The range of the prescribed temperatures and of those around films and radiating surfaces, at the time
+  /// set, over all processes [K]; without end where fluxes, sources or contributions (those that bring heat
+  /// at the last find_limits(), rather than pass it on) can heat or cool beyond it. Collective.
+  TemperatureRange ambient_range() const;
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);
   /// Fills the matrix with ∂r/∂Θ, which is unsymmetric where a conductivity varies.
   void assemble(std::span<const double> temperature);
   /// Fills the matrix with ∂r/∂v in the unknown of nodal_potential.hpp. It is symmetric if the contributions
-  /// are, and exact but for conduction at nodes that materials of different k(Θ)/κ share, and for
-  /// contributions and surfaces between nodes of different c = dv/dΘ: with S = ∂r/∂Θ of those, what stands
-  /// there is c^-1/2 S c^-1/2 for S c^-1.
+  /// are, and exact but for conduction
+  /// at nodes that materials of different k(Θ)/κ share, and for contributions and surfaces between nodes of
+  /// different c = dv/dΘ: with S = ∂r/∂Θ of those, what stands there is c^-1/2 S c^-1/2 for S c^-1.
   /// @param slopes   c, [local node], ghosts up to date
   /// @param further  adds to S; may be empty
   void assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
@@ -103,6 +122,7 @@ class HeatSystem {
   void add_conduction(const std::vector<material::Material>& materials);
   void add_conditions(const Conditions& conditions);
   void remove_bodies(const algebra::Presence& presence);
+  void conduct(std::span<const double> temperature);
   double add_flows(std::span<const double> temperature);
   void keep_conduction();
 
@@ -117,12 +137,14 @@ class HeatSystem {
   std::vector<KirchhoffPotential> potentials_;  ///< one per body
   std::vector<Field> fields_;                   ///< one per body
   std::unique_ptr<NodalPotential> nodal_;
+  std::unique_ptr<ConductionLimiter> limiter_;  ///< null where conduction is not limited
   std::vector<double> kept_conduction_;  ///< Σ_m κ_m ∫∇N_a·∇N_b dV by slot; empty until it is needed
   std::vector<SurfaceHeat> surfaces_;
   std::vector<Volume> sources_;
   std::vector<Prescribed> prescribed_;
   std::vector<char> fixed_;
   bool exchange_ = true;
+  bool contributions_heat_ = false;  ///< whether they brought or took heat at the last find_limits()
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::vector<double> local_, roots_;  ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]

@@ -1,11 +1,27 @@
 #include "heat/surface_heat.hpp"
 
 #include <cmath>
+#include <initializer_list>
 
 #include "base/types.hpp"
 #include "mesh/block_geometry.hpp"
 
 namespace solidus::heat {
+
+namespace {
+
+/// ∫ Π N_a dA over a face, of the nodes in the list.
+double integral(const mesh::FaceGeometry& g, Index face, std::initializer_list<int> nodes) {
+  double sum = 0;
+  for (int q = 0; q < g.n_points; ++q) {
+    double part = g.weight[static_cast<std::size_t>(face * g.n_points + q)];
+    for (const int a : nodes) part *= g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+    sum += part;
+  }
+  return sum;
+}
+
+}  // namespace
 
 SurfaceLaw::SurfaceLaw(const Flux& flux) : kind_(Kind::flux), driver_(flux.value) {}
 SurfaceLaw::SurfaceLaw(const Film& film)
@@ -38,6 +54,11 @@ SurfaceFlux SurfaceLaw::at(double temperature) const {
   return {c * drive, slope <= 0 ? slope : c * drive_slope};
 }
 
+std::optional<double> SurfaceLaw::ambient() const {
+  if (kind_ == Kind::flux) return std::nullopt;
+  return driver_now_;
+}
+
 double SurfaceHeat::Patch::temperature(std::span<const double> t, Index face, int point) const {
   const Index* of_face = nodes.data() + static_cast<std::ptrdiff_t>(face) * n_nodes;
   const double* n = values.data() + static_cast<std::ptrdiff_t>(point) * n_nodes;
@@ -50,23 +71,34 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
                          std::string name, SurfaceLaw law, bool closed)
     : name_(std::move(name)), law_(std::move(law)) {
   std::vector<double> lumped(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);  // ∫ N_i dA
+  std::vector<double> positive(lumped.size(), 0.0);
   for (const mesh::Block& faces : surface.faces) {
     const int order = mesh::order(faces.shape);
     // Exact for N_a N_b times the radius on straight faces.
     const mesh::FaceGeometry g(mesh, faces, kind, mesh::gauss_rule(faces.shape, 2 * order + 1));
-    if (closed && order == 1) {
-      for (Index face = 0; face < g.n_faces; ++face)
+    if (closed) {
+      for (Index face = 0; face < g.n_faces; ++face) {
+        double area = 0, squares = 0;
+        for (int a = 0; a < g.n_nodes; ++a) {
+          area += integral(g, face, {a});
+          squares += integral(g, face, {a, a});
+        }
         for (int a = 0; a < g.n_nodes; ++a) {
           const Index node = faces.element(face)[a];
           if (node >= mesh.n_owned_nodes) continue;
-          for (int q = 0; q < g.n_points; ++q)
-            lumped[static_cast<std::size_t>(node)] +=
-                g.weight[static_cast<std::size_t>(face * g.n_points + q)] *
-                g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+          lumped[static_cast<std::size_t>(node)] += integral(g, face, {a});
+          positive[static_cast<std::size_t>(node)] += area / squares * integral(g, face, {a, a});
         }
+      }
+      if (order == 2 && mesh.dimension == 3 && law_.ambient()) add_corners(faces, g);
       continue;
     }
     patches_.push_back({g.n_nodes, g.n_points, g.n_faces, g.n_counted, faces.nodes, g.values, g.weight, {}});
+  }
+  for (std::size_t i = 0; i < positive.size(); ++i) {
+    if (positive[i] == 0.0) continue;
+    supplied_nodes_.push_back(static_cast<Index>(i));
+    supply_weight_.push_back(positive[i]);
   }
   Patch nodes;
   nodes.values = {1.0};
@@ -79,7 +111,32 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
   patches_.push_back(std::move(nodes));
 }
 
+void SurfaceHeat::add_corners(const mesh::Block& faces, const mesh::FaceGeometry& g) {
+  const int corners = g.n_nodes / 2;
+  for (Index face = 0; face < g.n_faces; ++face) {
+    const Index* nodes = faces.element(face);
+    for (int a = 0; a < corners; ++a) {
+      const double weight = integral(g, face, {a});
+      if (weight >= 0) continue;
+      for (const int middle : {corners + a, corners + (a + corners - 1) % corners}) {
+        flows_.push_back({nodes[a], nodes[middle]});
+        flow_weight_.push_back(-0.5 * weight);
+      }
+      for (int middle = corners; middle < g.n_nodes; ++middle) {
+        const double product = integral(g, face, {a, middle});
+        if (product < 0) pairs_.push_back({nodes[a], nodes[middle], -product});
+      }
+    }
+  }
+}
+
 void SurfaceHeat::bind(const algebra::BlockMatrix& matrix) {
+  for (Pair& p : pairs_) {
+    p.ij = matrix.slot(p.i, p.j);
+    p.ji = matrix.slot(p.j, p.i);
+    p.ii = matrix.slot(p.i, p.i);
+    p.jj = matrix.slot(p.j, p.j);
+  }
   for (Patch& patch : patches_) patch.slots = matrix.clique_slots(patch.nodes, patch.n_nodes);
 }
 
@@ -95,7 +152,36 @@ double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<
           r[static_cast<std::size_t>(patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)])] -=
               power * patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
       }
+  for (const Pair& p : pairs_) {
+    const auto i = static_cast<std::size_t>(p.i), j = static_cast<std::size_t>(p.j);
+    const double heat = p.weight * (law_.at(temperature[i]).q - law_.at(temperature[j]).q);  // into i
+    r[i] -= heat;
+    r[j] += heat;
+  }
+  for (std::size_t i = 0; i < flows_.size(); ++i) {
+    if (flows_[i].left == 0) continue;
+    const double heat = flows_[i].left * flow(temperature, i);
+    r[static_cast<std::size_t>(flows_[i].from)] -= heat;
+    r[static_cast<std::size_t>(flows_[i].to)] += heat;
+  }
   return counted;
+}
+
+double SurfaceHeat::flow(std::span<const double> temperature, std::size_t i) const {
+  return flow_weight_[i] * law_.at(temperature[static_cast<std::size_t>(flows_[i].from)]).q;
+}
+
+void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<double> gain,
+                             std::span<double> loss) const {
+  for (std::size_t s = 0; s < supplied_nodes_.size(); ++s) {
+    const auto i = static_cast<std::size_t>(supplied_nodes_[s]);
+    const double heat = supply_weight_[s] * law_.at(temperature[i]).q;
+    (heat > 0 ? gain : loss)[i] += std::abs(heat);
+  }
+}
+
+void SurfaceHeat::update_flows(std::span<const double> temperature) {
+  for (std::size_t i = 0; i < flows_.size(); ++i) flows_[i].heat = flow(temperature, i);
 }
 
 void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const {
@@ -110,6 +196,20 @@ void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::Bloc
           for (int b = 0; b < patch.n_nodes; ++b)
             *matrix.block(slot[a * patch.n_nodes + b]) -= slope * n[a] * n[b];
       }
+  }
+  for (const Pair& p : pairs_) {
+    const double of_i = p.weight * law_.at(temperature[static_cast<std::size_t>(p.i)]).slope,
+                 of_j = p.weight * law_.at(temperature[static_cast<std::size_t>(p.j)]).slope;
+    *matrix.block(p.ii) -= of_i;
+    *matrix.block(p.jj) -= of_j;
+    *matrix.block(p.ij) += of_j;
+    *matrix.block(p.ji) += of_i;
+  }
+  // The corner's own part: what the middles of the edges get by it would not be symmetric.
+  for (std::size_t i = 0; i < flows_.size(); ++i) {
+    const Index from = flows_[i].from;
+    *matrix.block(matrix.slot(from, from)) -=
+        flows_[i].left * flow_weight_[i] * law_.at(temperature[static_cast<std::size_t>(from)]).slope;
   }
 }
 

@@ -1,12 +1,14 @@
 /// Heat through a surface as a function of its temperature: flux, film or radiation.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
 #include "heat/conditions.hpp"
+#include "mesh/block_geometry.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {
@@ -27,6 +29,8 @@ class SurfaceLaw {
   /// Where the derivative would make heat run away (a film coefficient that falls steeply with temperature),
   /// the slope is that of the frozen coefficient.
   SurfaceFlux at(double temperature) const;
+  /// Θ_a of a film or of radiation now [K]; none of a flux.
+  std::optional<double> ambient() const;
 
  private:
   enum class Kind { flux, film, radiation };
@@ -36,22 +40,49 @@ class SurfaceLaw {
   double driver_now_ = 0, coefficient_now_ = 0;
 };
 
-/// Integrates a law over a surface. With the closed rule faces of linear shapes are lumped to their nodes,
-/// with weights ∫ N_i dA; else Gauss points.
+/// A flow between two nodes that a limit may hold back (conduction_limiter.hpp).
+struct LimitedFlow {
+  Index from, to;
+  double heat = 0;  ///< from -> to [W]
+  double left = 0;  ///< the share that is not let through
+};
+
+/// Integrates a law over a surface. With the closed rule faces are lumped to their nodes, with weights
+/// ∫ N_i dA; else Gauss points.
+///
+/// At the corners of quadratic quadrilaterals these weights are negative: a film takes heat from them when it
+/// heats the face. With limits this heat goes back, in part or all of it, from the nodes at the middles of
+/// the two edges there, which share it: a flow q(Θ_c) |∫ N_c dA|/2 from the corner c to each of them. What
+/// keeps strong films stable is the part of ∫ N_c q dA that draws corners and middles m together, −∫ N_c N_m
+/// dA (q_c − q_m) where that integral is negative; with it a film has no less than the matrix ∫ N_i N_j h dA
+/// of the Gauss points.
 class SurfaceHeat {
  public:
   SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, std::string name,
               SurfaceLaw law, bool closed);
   const std::string& name() const { return name_; }
   void set_time(double time) { law_.set_time(time); }
+  std::optional<double> ambient() const { return law_.ambient(); }
+  double flux() const { return law_.at(0.0).q; }  ///< of a flux, into the body now [W/m²]
   /// The nodes of a face are nodes of one element: its graph holds them.
   void bind(const algebra::BlockMatrix& matrix);
   /// r −= heat into the nodes [W], [local node]; ghost rows are scrap. Returns the sum over the counted
   /// points.
   double add_residual(std::span<const double> temperature, std::span<double> r) const;
   void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const;
+  /// The flows from corners with negative weights; `left` is for whoever limits them. Not of a flux, which
+  /// has no ambient temperature to stay within.
+  std::span<LimitedFlow> flows() { return flows_; }
+  void update_flows(std::span<const double> temperature);
+  /// Heat that comes to owned nodes and leaves them [W], both positive, spread with positive weights: a node
+  /// gains only where its film or the radiation around it is hotter than it is.
+  void add_supply(std::span<const double> temperature, std::span<double> gain, std::span<double> loss) const;
 
  private:
+  /// Quadratic faces with negative weights.
+  void add_corners(const mesh::Block& faces, const mesh::FaceGeometry& g);
+  double flow(std::span<const double> temperature, std::size_t i) const;
+
   /// Points with the values of the nodes they see; a lumped node is a face of one node and one point.
   struct Patch {
     int n_nodes = 1, n_points = 1;
@@ -62,9 +93,20 @@ class SurfaceHeat {
     std::vector<algebra::BlockMatrix::Slot> slots;
     double temperature(std::span<const double> t, Index face, int point) const;
   };
+  /// Draws the nodes of a face together.
+  struct Pair {
+    Index i, j;
+    double weight;  ///< −∫ N_i N_j dA > 0 [m²]
+    algebra::BlockMatrix::Slot ij = 0, ji = 0, ii = 0, jj = 0;
+  };
   std::string name_;
   SurfaceLaw law_;
   std::vector<Patch> patches_;
+  std::vector<Pair> pairs_;
+  std::vector<Index> supplied_nodes_;  ///< of add_supply()
+  std::vector<double> supply_weight_;  ///< area of their faces by ∫ N_i² dA [m²]
+  std::vector<LimitedFlow> flows_;
+  std::vector<double> flow_weight_;  ///< |∫ N_c dA|/2 of each [m²]
 };
 
 }  // namespace solidus::heat

@@ -66,6 +66,17 @@ struct WorstNode {
   }
 };
 
+/// Of the steady state: how often the limits of conduction are found anew, and the change of flows by them,
+/// over the heat moved, that stays out.
+constexpr int k_steady_revisions = 20;
+constexpr double k_limit_change = 1e-6;
+
+void add_iterations(algebra::NewtonReport& report, algebra::NewtonReport last) {
+  last.iterations += report.iterations;
+  last.linear_iterations += report.linear_iterations;
+  report = std::move(last);
+}
+
 /// Adds the last stage: total = last + carried × first, of all that counts in joules.
 void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
   HeatBalance& first = report.balance;
@@ -290,14 +301,30 @@ PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalStat
   if (stage.carried != 0)
     for (std::size_t i = 0; i < from.enthalpy.size(); ++i)
       from.enthalpy[i] += stage.carried * (before.enthalpy[i] - old.enthalpy[i]);
-  report.newton =
-      truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, pass.newton_steps);
+  const TemperatureRange range = limit_conduction(before);
+  report.newton = truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, range,
+                                           pass.newton_steps);
   require_positive(next.temperature);
   if (!may_end(report.newton, pass.newton_steps))
     require(report.newton, truncated_newton_->residual(), next.temperature);
   book(truncated_newton_->residual(), stage.dt, next.enthalpy);
   report.balance = balance(from, next, truncated_newton_->residual(), truncated_newton_->moved(), stage.dt);
   return report;
+}
+
+/// Limits conduction for a step from `before`, with the prescribed temperatures of the time set; returns the
+/// range of its temperatures and those around.
+TemperatureRange ThermalPhase::limit_conduction(const ThermalState& before) {
+  system_->limit(options_.bounds);
+  std::vector<double> temperature = before.temperature;
+  system_->prescribe(temperature);
+  system_->find_limits(temperature);
+  TemperatureRange range = system_->ambient_range();
+  for (std::size_t i = 0; i < reactions_.size(); ++i) {
+    range.lowest = std::min(range.lowest, temperature[i]);
+    range.highest = std::max(range.highest, temperature[i]);
+  }
+  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
 }
 
 void ThermalPhase::book(std::span<const double> residual, double dt, std::span<double> heat) const {
@@ -353,7 +380,18 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   temperature_system_->use_storage(false);
   if (consistent_) consistent_->use(false);
   PhaseReport report;
+  const TemperatureRange range = limit_conduction({temperature, {}});
+  system_->clear_limits();  // a linear field, say, needs none
   report.newton = solve_temperature(temperature);
+  const double moved = temperature_system_->moved();
+  for (int i = 0; i < k_steady_revisions && system_->find_limits(temperature, k_limit_change * moved); ++i)
+    add_iterations(report.newton, solve_temperature(temperature));
+  for (int i = 0;
+       i < k_steady_revisions && system_->hold_nodes(temperature, range) == ConductionLimiter::Held::further;
+       ++i) {
+    system_->find_limits(temperature);
+    add_iterations(report.newton, solve_temperature(temperature));
+  }
   report.balance = measure(temperature, 1.0);
   report.balance.exchanged = temperature_system_->moved();
   trial = initial_state_at_nodes(temperature);

@@ -66,7 +66,10 @@ struct HeatOptions {
   int max_iterations = 50;
   algebra::SolverKind solver = algebra::SolverKind::automatic;
   double linear_tolerance = 1e-11;  ///< iterative solvers, relative
-  bool symmetric = true;            ///< false when a contribution's tangent is not
+  /// Limits conduction where the mesh would let temperatures leave the range of those around them
+  /// (conduction_limiter.hpp); closed rule only.
+  bool bounds = true;
+  bool symmetric = true;  ///< false when a contribution's tangent is not
   /// No scheme makes its tangent part of a larger, unsymmetric one: half of a symmetric matrix will do.
   bool alone = false;
   /// Anything but enthalpy loses heat and needs backward Euler; what is lost is in the balance as its defect.
@@ -167,6 +170,7 @@ class ThermalPhase {
                           const ThermalPass& pass, ThermalState& next);
   /// Tells the contributions that store.
   void begin_stage(const algebra::Stage& stage, std::span<const double> before);
+  TemperatureRange limit_conduction(const ThermalState& before);
   void set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const;
   /// Keeps the reactions and measures a solved step.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,

@@ -1,6 +1,7 @@
 /// What the thermal phase reads at t_n and writes at t_{n+1}, and what it reports of a step.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,11 @@ namespace solidus::heat {
 struct ThermalState {
   std::vector<double> temperature;  ///< [K], [local node], ghosts up to date
   std::vector<double> enthalpy;     ///< [J], [local node], ghosts up to date; empty with the open rule
+};
+
+/// A range of temperatures [K]; empty at first.
+struct TemperatureRange {
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
 };
 
 /// Heat that one condition brought into the bodies during a step (steady analysis: per second).

@@ -20,6 +20,10 @@ constexpr int k_relaxations = 60;       ///< evaluations of a node's curve in on
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope of E is this share
 constexpr int k_search_trials = 20;
+constexpr double k_limit_change = 1e-2;  ///< of flows by new limits, over the heat moved, that stays out
+constexpr int k_revisions = 1;           ///< of limits by flows
+constexpr int k_holds = 20;              ///< and by temperatures out of range
+constexpr int k_idle = 4;  ///< such revisions that find no further nodes: what the tolerance has left goes
 constexpr double k_clip_below = 0.2;  ///< length of a step below which plateaus shorten it node by node
 
 }  // namespace
@@ -299,11 +303,13 @@ double TruncatedNewton::norm_of_free() const {
 
 /// Both sweeps, with A at the temperatures of now. Where the linear A says that the iteration may end, F is
 /// evaluated.
-void TruncatedNewton::relax_nodes() {
+/// @param all  every node, however small its residual is
+void TruncatedNewton::relax_nodes(bool all) {
   assemble();
   {
     const profile::Part part("sweeps");
-    negligible_ = k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
+    negligible_ =
+        all ? 0 : k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
     sweep(Order::forward);
     sweep(Order::backward);
     ghosts_.update(temperature_, 1);
@@ -312,21 +318,41 @@ void TruncatedNewton::relax_nodes() {
   if (converged()) evaluate();
 }
 
+/// Looks at the limits of conduction at the temperatures reached. Returns whether the iteration has to go on
+/// with others: when flows change too much, and then when temperatures are out of range.
+bool TruncatedNewton::revise_limits(const TemperatureRange& range) {
+  if (revisions_ < k_revisions && system_.find_limits(temperature_, k_limit_change * moved_)) {
+    ++revisions_;
+    return true;
+  }
+  if (revisions_ >= k_revisions + k_holds) return false;
+  using Held = ConductionLimiter::Held;
+  const Held held = system_.hold_nodes(temperature_, range);
+  if (held == Held::none || (held == Held::as_before && ++idle_ > k_idle)) return false;
+  revisions_ = std::max(revisions_, k_revisions) + 1;
+  system_.find_limits(temperature_);
+  return true;
+}
+
 algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
                                              std::span<double> temperature, std::span<double> heat,
-                                             int newton_steps) {
+                                             const TemperatureRange& range, int newton_steps) {
   old_heat_ = old_heat;
   heat_ = heat;
   temperature_ = temperature;
   dt_ = dt;
   conductance_ = 0;
+  revisions_ = idle_ = 0;
+  system_.release_nodes();
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
   algebra::Forcing forcing(true);
   algebra::NewtonReport report;
+  bool revised = false;
   evaluate();
   while (true) {
     report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
-    if (std::isfinite(norm_) && !converged()) relax_nodes();
+    if (std::isfinite(norm_) && (!converged() || revised)) relax_nodes(revised);
+    revised = false;
     if (!std::isfinite(norm_)) {
       report.reason = "the residual is not a number";
       break;
@@ -334,7 +360,11 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
     if (converged()) {
       report.residuals.back() = moved_ > 0 ? norm_ / moved_ : norm_;
       report.converged = true;
-      break;
+      if (newton_steps > 0 || !revise_limits(range)) break;
+      report.converged = false;
+      revised = true;
+      evaluate();
+      continue;
     }
     if (report.iterations == most) {
       evaluate();

@@ -55,9 +55,13 @@ class TruncatedNewton {
 
   /// From the start values in `temperature` and `heat` ([local node]), a point of each node's graph;
   /// `old_heat` is H*. Where the temperature is prescribed, `temperature` already holds it. Collective.
+  /// Conduction is limited as it was before the call; where the iteration has converged the limits are found
+  /// anew, and it goes on if that changes much. Not if `newton_steps` says when it ends.
+  /// @param range         temperatures that nothing should leave [K]
   /// @param newton_steps  at most so many iterations; zero: the limit of the options
   algebra::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
-                              std::span<double> heat, int newton_steps = 0);
+                              std::span<double> heat, const TemperatureRange& range = {-HUGE_VAL, HUGE_VAL},
+                              int newton_steps = 0);
   /// F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the heat that
   /// holds it.
   std::span<const double> residual() const { return r_; }
@@ -68,13 +72,14 @@ class TruncatedNewton {
   void evaluate();
   bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
   void assemble();
-  void relax_nodes();
+  void relax_nodes(bool all);
   void sweep(Order order);
   double relax(std::size_t i, double residual);
   /// Adds to F what the change of v since then makes of it.
   void follow(std::span<double> step);
   algebra::LinearReport correct(double forcing);
   double norm_of_free() const;
+  bool revise_limits(const TemperatureRange& range);
   void search();
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
   double linear_slope(double alpha);
@@ -103,6 +108,8 @@ class TruncatedNewton {
   std::vector<double> from_heat_, from_temperature_,
       from_;  ///< H, Θ and v where the search begins, [owned node]
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
+  int idle_ = 0;           ///< revisions that have found nothing new
+  int revisions_ = 0;      ///< of the limits of conduction, in this step
   double negligible_ = 0;  ///< |F_i| for which no node is relaxed
 };
 

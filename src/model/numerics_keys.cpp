@@ -45,6 +45,12 @@ Section<heat::HeatOptions> heat_keys() {
       .initially(50)
       .range(1, 1000)
       .doc("Newton iterations before a step is cut.");
+  s.key("bounds", &HeatOptions::bounds)
+      .initially(true)
+      .doc(
+          "Closed rule: limits conduction where obtuse, bent or quadratic elements would let temperatures "
+          "leave the range of those around them; linear fields and the order of the elements stay. Not in "
+          "the simultaneous scheme.");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
   return s;
 }
