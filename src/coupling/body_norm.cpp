@@ -71,4 +71,17 @@ double BodyNorm::operator()(std::span<const double> values, std::span<const char
   return std::sqrt(largest);
 }
 
+double BodyNorm::mean(std::span<const double> values) const {
+  std::vector<double> sum(n_bodies_, 0.0);
+  for (const Share& share : shares_)
+    sum[static_cast<std::size_t>(share.body)] += share.weight * values[static_cast<std::size_t>(share.node)];
+  double largest = 0;
+  for (const double s : sum) {
+    const double mean = std::abs(algebra::global_sum(s));
+    if (std::isnan(mean)) return mean;
+    largest = std::max(largest, mean);
+  }
+  return largest;
+}
+
 }  // namespace solidus::coupling

@@ -22,6 +22,9 @@ class BodyNorm {
   /// Of the nodes that count; the others are zero, their volume counts in the mean all the same.
   /// @param counts [local node]; empty: all do
   double operator()(std::span<const double> values, std::span<const char> counts) const;
+  /// max_b |Σ_i w_ib v_i| / Σ_i w_ib of values with one component: how far the mean of a body is off. As
+  /// above.
+  double mean(std::span<const double> values) const;
   /// Extent of the mesh, corner to corner [m].
   double diagonal() const { return diagonal_; }
 

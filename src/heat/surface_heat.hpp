@@ -1,6 +1,7 @@
 /// Heat through a surface as a function of its temperature: flux, film or radiation.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,10 @@ class SurfaceLaw {
   /// Where the derivative would make heat run away (a film coefficient that falls steeply with temperature),
   /// the slope is that of the frozen coefficient.
   SurfaceFlux at(double temperature) const;
+  /// The temperature that heat is exchanged with [K]; a flux has none.
+  std::optional<double> ambient() const {
+    return kind_ == Kind::flux ? std::nullopt : std::optional(driver_now_);
+  }
 
  private:
   enum class Kind { flux, film, radiation };
@@ -43,6 +48,7 @@ class SurfaceHeat {
   SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, std::string name,
               SurfaceLaw law, bool closed);
   const std::string& name() const { return name_; }
+  std::optional<double> ambient() const { return law_.ambient(); }  ///< as of its law
   void set_time(double time) { law_.set_time(time); }
   /// The nodes of a face are nodes of one element: its graph holds them.
   void bind(const algebra::BlockMatrix& matrix);
