@@ -31,7 +31,7 @@ using material::k_sdirk_share;
 constexpr int k_one_component[] = {1};
 /// Share of the range of temperatures by which an extrapolated one may leave it: what the iteration leaves
 /// in the heats of nodes far from all that happens is no overshoot.
-constexpr double k_beyond = 1e-6;
+constexpr double k_beyond = 1e-9;
 /// How much further than the first stage the extrapolation may go where that has left the range: by (1 − γ)/γ
 /// where the capacity is constant, and half as much again where it is not.
 constexpr double k_outside = 1.5 * k_sdirk_carried;
