@@ -174,4 +174,17 @@ double BodyNorm::of_distortion(std::span<const double> displacement, std::span<c
   return largest(square);
 }
 
+double BodyNorm::mean(std::span<const double> values) const {
+  std::vector<double> sum(n_bodies_, 0.0);
+  for (const Share& share : shares_)
+    sum[static_cast<std::size_t>(share.body)] += share.weight * values[static_cast<std::size_t>(share.node)];
+  double largest = 0;
+  for (const double s : sum) {
+    const double mean = std::abs(algebra::global_sum(s));
+    if (std::isnan(mean)) return mean;
+    largest = std::max(largest, mean);
+  }
+  return largest;
+}
+
 }  // namespace solidus::coupling

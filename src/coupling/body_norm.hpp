@@ -27,6 +27,9 @@ class BodyNorm {
   /// analysis is axisymmetric. Fitted to the nodes that count. Collective.
   /// @param displacement [local node][component] [m]
   double of_distortion(std::span<const double> displacement, std::span<const char> counts) const;
+  /// max_b |Σ_i w_ib v_i| / Σ_i w_ib of values with one component: how far the mean of a body is off. As
+  /// above.
+  double mean(std::span<const double> values) const;
   /// Extent of the mesh, corner to corner [m].
   double diagonal() const { return diagonal_; }
 

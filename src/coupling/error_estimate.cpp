@@ -1,5 +1,6 @@
 #include "coupling/error_estimate.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 
@@ -13,6 +14,9 @@ std::vector<double> difference(const std::vector<double>& from, const std::vecto
   for (std::size_t i = 0; i < to.size(); ++i) result[i] = (to[i] - from[i]) / divisor;
   return result;
 }
+
+/// How many steps a run has at least that may let their errors add up.
+constexpr double k_steps = 50;
 
 std::vector<double> half_of_what_was_not_predicted(const std::vector<double>& old,
                                                    const std::vector<double>& now, double dt,
@@ -42,24 +46,55 @@ double ErrorEstimate::size_of_displacement(std::span<const double> error,
   return displacement_ == Displacement::motion ? norm_(error, counts) : norm_.of_distortion(error, counts);
 }
 
+bool ErrorEstimate::knows_flows() const {
+  return phases_ != nullptr && phases_->heat != nullptr && phases_->heat->knows_flows();
+}
+
+double ErrorEstimate::change_of(const State& old, const State& now) const {
+  return knows_flows() ? norm_(phases_->heat->change_in_kelvin(old.heat, now.heat)) : 0.0;
+}
+
+/// What lasts of an error in a step that changes heat by so much [K], after `before`.
+double ErrorEstimate::lasting(double mean, double before, double change) const {
+  return mean * std::min(k_steps, change > 0 ? 1 + before / change : k_steps);
+}
+
 LocalError ErrorEstimate::predictor(const State& old, const State& now, double dt, const Rates& rates) const {
-  return {
-      norm_(
-          half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt, rates.temperature)),
-      size_of_displacement(half_of_what_was_not_predicted(old.mechanics.displacement,
+  double temperature = 0;
+  if (knows_flows() && !rates.heat_flow.empty()) {
+    const std::vector<double> error = phases_->heat->time_error(now.heat, rates.heat_flow);
+    temperature = std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now)));
+  } else {
+    temperature = norm_(
+        half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt, rates.temperature));
+  }
+  return {temperature, size_of_displacement(
+                           half_of_what_was_not_predicted(old.mechanics.displacement,
                                                           now.mechanics.displacement, dt, rates.displacement),
                            casting(coherency(old), rates.coherency))};
 }
 
-LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves) const {
-  return {norm_(difference(whole.heat.temperature, halves.heat.temperature)),
+LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves,
+                                   const Rates& rates) const {
+  double temperature = norm_(difference(whole.heat.temperature, halves.heat.temperature));
+  if (knows_flows())
+    temperature =
+        std::max(temperature, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
+                                      rates.changed, change_of(old, halves)));
+  return {temperature,
           size_of_displacement(difference(whole.mechanics.displacement, halves.mechanics.displacement),
                                casting(coherency(old)))};
 }
 
 Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt) const {
-  return {difference(old.heat.temperature, now.heat.temperature, dt),
-          difference(old.mechanics.displacement, now.mechanics.displacement, dt), coherency(old)};
+  Rates rates;
+  if (knows_flows())
+    rates.heat_flow = phases_->heat->last_flow();
+  else
+    rates.temperature = difference(old.heat.temperature, now.heat.temperature, dt);
+  rates.displacement = difference(old.mechanics.displacement, now.mechanics.displacement, dt);
+  rates.coherency = coherency(old);
+  return rates;
 }
 
 }  // namespace solidus::coupling

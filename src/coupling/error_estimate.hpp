@@ -1,6 +1,17 @@
-/// The local error of a step in temperature and displacement, without knowing the exact solution.
+/// The error of a step in temperature and displacement, without knowing the exact solution.
 ///
-/// Backward Euler commits the local error ½ Δt² ÿ. Two ways to measure it:
+/// Temperature, where nodes hold the heat and the phase is solved once a step: heat::time_error() of the
+/// flows of heat, spread to temperatures (heat/heat_spread.hpp), for backward Euler and SDIRK2. Of this local
+/// error what shifts the mean of a body lasts, because conduction within the body does not level it: a
+/// casting that loses its heat too slowly is late until it has frozen. Steps are to commit it in proportion
+/// to the heat they move: with ε̄ the mean and s the change of heat in the step, S that of all steps so far,
+///
+///   ε = max( ‖δ‖, |ε̄| min(S/s, 50) )
+///
+/// so that the sum of all ε̄ stays about ε however many steps there are. What else there is of δ is levelled
+/// or dies away with the transient that made it.
+///
+/// Else, and for the displacement: backward Euler commits the local error ½ Δt² ÿ. Two ways to measure it:
 ///
 /// predictor   the solution less its extrapolation y_n + Δt ẏ_n, where ẏ_n = (y_n − y_{n−1})/Δt_n is what
 ///             backward Euler took for the rate at t_n. Their difference is Δt ẏ_{n+1} − Δt ẏ_n = Δt² ÿ
@@ -31,7 +42,7 @@
 namespace solidus::coupling {
 
 struct LocalError {
-  double temperature = 0;   ///< [K]
+  double temperature = 0;   ///< [K]; with what lasts, see above
   double displacement = 0;  ///< [m]
 };
 
@@ -48,14 +59,20 @@ class ErrorEstimate {
 
   /// Of the step from `old` to `now` by its extrapolation from `rates`, which must be known.
   LocalError predictor(const State& old, const State& now, double dt, const Rates& rates) const;
-  /// Of `halves`, by the `whole` step, both from `old`.
-  LocalError doubling(const State& old, const State& whole, const State& halves) const;
+  /// Of `halves`, by the `whole` step, both from `old`, the second half being the last step solved.
+  LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates) const;
+  /// How much heat a step has moved: its change in the nodes in kelvin of sensible heat, as the norm has it.
+  /// Zero where flows are not known.
+  double change_of(const State& old, const State& now) const;
   /// The rates of the step from `old` to `now`.
   Rates rates_of(const State& old, const State& now, double dt) const;
 
  private:
   std::vector<double> coherency(const State& state) const;
   double size_of_displacement(std::span<const double> error, std::span<const char> counts) const;
+  /// Whether the nodes hold the heat, and the step that was solved last tells how it flowed.
+  bool knows_flows() const;
+  double lasting(double mean, double before, double change) const;
 
   BodyNorm norm_;
   const Phases* phases_;

@@ -11,6 +11,7 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   if (control_ == ErrorControl::none) return taken;
   taken.error = estimate_->predictor(old, trial, dt, rates_);
   next_rates_ = estimate_->rates_of(old, trial, dt);
+  next_rates_.changed = rates_.changed + estimate_->change_of(old, trial);
   return taken;
 }
 
@@ -22,8 +23,9 @@ MeasuredStep::Taken MeasuredStep::doubled(const State& old, State& trial, double
   middle.time = time - dt / 2;
   Taken taken{scheme_.advance(old, middle, middle.time, dt / 2), {}};
   taken.effort += scheme_.advance(middle, trial, time, dt / 2);
-  taken.error = estimate_->doubling(old, whole, trial);
+  taken.error = estimate_->doubling(old, whole, trial, rates_);
   if (control_ == ErrorControl::predictor) next_rates_ = estimate_->rates_of(middle, trial, dt / 2);
+  next_rates_.changed = rates_.changed + estimate_->change_of(old, trial);
   return taken;
 }
 

@@ -38,6 +38,7 @@ StepEffort& StepEffort::operator+=(const StepEffort& next) {
   *this = next;
   const auto add = [](PhaseEffort& sum, const PhaseEffort& before) {
     sum.iterations = std::max(sum.iterations, before.iterations);
+    sum.hardest = std::max(sum.hardest, before.hardest);
     sum.linear_iterations += before.linear_iterations;
     sum.residual = std::max(sum.residual, before.residual);
     sum.seconds += before.seconds;

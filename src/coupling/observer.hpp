@@ -18,6 +18,9 @@ struct PhaseEffort {
   int linear_iterations = 0;  ///< iterations of the linear solver, summed
   double residual = 0;        ///< final relative residual
   double seconds = 0;
+  int hardest = 0;  ///< as `iterations`, of two stages of a pass only the harder one; zero: not counted apart
+  /// How hard the step was: what the size of the next one follows.
+  int hard() const { return hardest > 0 ? hardest : iterations; }
 };
 
 /// The first law over one step, in joules (whole body; axisymmetric: the full revolution), and where

@@ -11,8 +11,10 @@ namespace solidus::coupling {
 
 namespace {
 
-void add(const algebra::NewtonReport& newton, double seconds, PhaseEffort& effort) {
+/// @param hardest  iterations of the harder stage
+void add(const algebra::NewtonReport& newton, int hardest, double seconds, PhaseEffort& effort) {
   effort.iterations += newton.iterations;
+  effort.hardest += hardest;
   effort.linear_iterations += newton.linear_iterations;
   effort.residual = newton.residuals.empty() ? 0.0 : newton.residuals.back();
   effort.seconds += seconds;
@@ -35,7 +37,7 @@ bool mechanical_pass(const Phases& phases, const State& old, State& trial,
   for (int n_turns = 1;; ++n_turns) {
     try {
       const mechanics::PhaseReport of_turn = phases.mechanics->solve(old.mechanics, next, turn);
-      add(of_turn.newton, 0, effort.mechanics);
+      add(of_turn.newton, of_turn.newton.iterations, 0, effort.mechanics);
       report = of_turn;
     } catch (const StepRejected& rejected) {
       reject_with_contacts(phases, rejected);
@@ -87,7 +89,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   effort.energy.interface = {};
   settle_contacts(phases, trial.heat.temperature, report.balance.contributions, effort.energy);
   if (phases.mechanics != nullptr) trial.contacts = contact_states(phases);
-  add(report.newton, MPI_Wtime() - start, effort.heat);
+  add(report.newton, report.hardest, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;
 }
 

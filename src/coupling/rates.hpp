@@ -7,13 +7,21 @@ namespace solidus::coupling {
 
 /// Difference quotients of a step that was taken. Empty where none was, and where nothing asks for them.
 struct Rates {
-  std::vector<double> temperature;   ///< [local node] [K/s]
+  /// [local node] [K/s]; empty where `heat_flow` is known.
+  std::vector<double> temperature;
+  /// ThermalPhase::last_flow(): where nodes hold the heat, its rate at the end of the step, [local node] [W].
+  std::vector<double> heat_flow;
   std::vector<double> displacement;  ///< [local node][component] [m/s]
   /// Coherency::at of the state that the step set out from: rates of melt say nothing of the next step. Empty
   /// where nothing that deforms melts.
   std::vector<double> coherency;
 
-  bool known() const { return !temperature.empty() || !displacement.empty(); }
+  /// Sum of the changes of heat of all steps so far [K] (ErrorEstimate::change_of): since the run or its
+  /// stage began, or a jump.
+  double changed = 0;
+
+  /// Of the next step these are what is predicted from.
+  bool known() const { return !temperature.empty() || !heat_flow.empty() || !displacement.empty(); }
 };
 
 }  // namespace solidus::coupling

@@ -46,7 +46,8 @@ void SequentialSplit::forget() {
 StepEffort SequentialSplit::advance(const State& old, State& trial, double time, double dt) {
   StepEffort effort;
   if (phases_.mechanics != nullptr) mechanical_phase(old, trial, time, dt, effort);
-  if (phases_.heat != nullptr) thermal_pass(phases_, old, trial, {.time = time, .dt = dt}, effort);
+  if (phases_.heat != nullptr)
+    thermal_pass(phases_, old, trial, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   const profile::Part part("audit");
   effort.stability = stability_audit(phases_, old, trial, effort);

@@ -177,9 +177,8 @@ Simulation::Try Simulation::try_step(Progress& p) {
   StepMeasure measure;
   try {
     const MeasuredStep::Taken taken = p.step->take(p.committed, p.trial, step.time, step.dt);
-    measure = {std::max(taken.effort.heat.iterations, taken.effort.mechanics.iterations),
-               taken.error.temperature, taken.error.displacement,
-               std::abs(taken.effort.solid_fraction - p.solid_fraction)};
+    measure = {std::max(taken.effort.heat.hard(), taken.effort.mechanics.hard()), taken.error.temperature,
+               taken.error.displacement, std::abs(taken.effort.solid_fraction - p.solid_fraction)};
     require_numbers(measure);
     if (p.control->too_long(step, measure)) {
       ++p.record.rejected;

@@ -92,9 +92,10 @@ bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
   return state_.size >= options_.min_step * (1 - k_same_time);
 }
 
-// Errors at a kink of the solution fall as Δt, in a shock as √Δt; a jump stays.
+// Errors at a kink of the solution fall as Δt, in a shock as √Δt, its root mean square over a body, which
+// sees the layer of a width of √Δt, as Δt^¼; a jump stays.
 bool StepControl::is_jump(const PlannedStep& step, const Strictest& limit) const {
-  return state_.refused > 0 && limit.ratio > state_.refused_ratio * std::pow(step.dt / state_.refused, 0.25);
+  return state_.refused > 0 && limit.ratio > state_.refused_ratio * std::pow(step.dt / state_.refused, 0.125);
 }
 
 bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) const {

@@ -272,6 +272,19 @@ TemperatureRange HeatSystem::ambient_range() const {
   return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
 }
 
+std::pair<double, double> HeatSystem::surroundings() const {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  const auto look = [&](double temperature) {
+    low = std::min(low, temperature);
+    high = std::max(high, temperature);
+  };
+  for (const SurfaceHeat& surface : surfaces_)
+    if (const std::optional<double> ambient = surface.ambient()) look(*ambient);
+  for (const Prescribed& p : prescribed_)
+    if (!p.nodes.empty()) look(p.now);
+  return {algebra::global_min(low), algebra::global_max(high)};
+}
+
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
   double moved = 0;
   for (auto* heat : {&local_, &supplied_}) std::fill(heat->begin(), heat->end(), 0.0);
@@ -280,11 +293,16 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   if (exchange_) moved += add_flows(temperature);
   std::copy_n(local_.begin(), r.size(), r.begin());
   if (limiter_ && exchange_) limiter_->add_heat(temperature, r);
+  storing_.clear();
   for (std::size_t c = 0; c < contributions_.size(); ++c) {
     contribution_power_[c] = 0;
     if (!exchange_ && !contributions_[c]->stores()) continue;
     std::fill(contributed_.begin(), contributed_.end(), 0.0);
     contributions_[c]->add_residual(temperature, contributed_);
+    if (contributions_[c]->stores()) {
+      storing_.resize(r.size(), 0.0);
+      for (std::size_t i = 0; i < r.size(); ++i) storing_[i] += contributed_[i];
+    }
     for (std::size_t i = 0; i < r.size(); ++i) {
       r[i] += contributed_[i];
       contribution_power_[c] -= contributed_[i];

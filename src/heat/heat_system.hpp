@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algebra/contribution.hpp"
@@ -83,6 +84,12 @@ class HeatSystem {
   /// Gives the matrix another pattern where a contribution asks for it; then true. Collective.
   bool follow_graph();
 
+  /// What contributions that store took up at the last residual(), [owned node] [W]; empty: none stores.
+  std::span<const double> stored_by_contributions() const { return storing_; }
+  /// The least and the greatest temperature that is prescribed, or that surfaces exchange heat with, at the
+  /// time set [K]; +∞ and −∞ where there is none. Collective.
+  std::pair<double, double> surroundings() const;
+
   /// Heat into the bodies at the last residual() by every surface and source, over all processes [W].
   struct Power {
     std::string name;
@@ -148,7 +155,8 @@ class HeatSystem {
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::vector<double> local_, roots_;  ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]
-  std::vector<double> contributed_;                                        ///< work, [owned node]
+  std::vector<double> contributed_;  ///< work, [owned node]
+  std::vector<double> storing_;      ///< what of it contributions that store take up, last residual
   std::vector<double> surface_power_, source_power_, contribution_power_;  ///< of this process, last residual
 };
 

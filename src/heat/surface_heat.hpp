@@ -31,6 +31,10 @@ class SurfaceLaw {
   SurfaceFlux at(double temperature) const;
   /// Θ_a of a film or of radiation now [K]; none of a flux.
   std::optional<double> ambient() const;
+  /// The temperature that heat is exchanged with [K]; a flux has none.
+  std::optional<double> ambient() const {
+    return kind_ == Kind::flux ? std::nullopt : std::optional(driver_now_);
+  }
 
  private:
   enum class Kind { flux, film, radiation };
@@ -61,6 +65,7 @@ class SurfaceHeat {
   SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, std::string name,
               SurfaceLaw law, bool closed);
   const std::string& name() const { return name_; }
+  std::optional<double> ambient() const { return law_.ambient(); }  ///< as of its law
   void set_time(double time) { law_.set_time(time); }
   std::optional<double> ambient() const { return law_.ambient(); }
   double flux() const { return law_.at(0.0).q; }  ///< of a flux, into the body now [W/m²]

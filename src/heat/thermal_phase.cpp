@@ -8,8 +8,10 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/log.hpp"
 #include "heat/consistent_heat.hpp"
 #include "heat/heat_solver.hpp"
+#include "heat/heat_spread.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/point_storage.hpp"
@@ -17,12 +19,22 @@
 #include "heat/temperature_system.hpp"
 #include "heat/thermal_iteration.hpp"
 #include "heat/truncated_newton.hpp"
+#include "material/time_integration.hpp"
 
 namespace solidus::heat {
 
 namespace {
 
+using material::k_sdirk_carried;
+using material::k_sdirk_share;
+
 constexpr int k_one_component[] = {1};
+/// Share of the range of temperatures by which an extrapolated one may leave it: what the iteration leaves
+/// in the heats of nodes far from all that happens is no overshoot.
+constexpr double k_beyond = 1e-9;
+/// How much further than the first stage the extrapolation may go where that has left the range: by (1 − γ)/γ
+/// where the capacity is constant, and half as much again where it is not.
+constexpr double k_outside = 1.5 * k_sdirk_carried;
 
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
@@ -90,6 +102,7 @@ void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
     sum.contributions[i] += carried * first.contributions[i];
   last.newton.iterations += report.newton.iterations;
   last.newton.linear_iterations += report.newton.linear_iterations;
+  last.hardest = std::max(last.hardest, report.hardest);
   report = std::move(last);
 }
 
@@ -149,6 +162,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
     points_.back()->bind(system_->matrix());
   }
   temperature_system_ = std::make_unique<TemperatureSystem>(mesh, *system_, ghosts_, points_);
+  spread_ = std::make_unique<HeatSpread>(*system_, *storage_, ghosts_);
   reactions_.assign(at(mesh.n_owned_nodes), 0.0);
 }
 
@@ -264,20 +278,104 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
   system_->exchange(!pass.adiabatic);
   ThermalState next;
   PhaseReport report;
+  flows_ = {};
+  const bool flows = nodal() && !pass.adiabatic;
   if (pass.stepping == ThermalStepping::sdirk2) {
-    const double first_dt = k_sdirk_share * pass.dt, carried = (1 - k_sdirk_share) / k_sdirk_share;
+    const double first_dt = k_sdirk_share * pass.dt;
     ThermalState middle;
     const ThermalPass to_middle{pass.time - pass.dt + first_dt, pass.dt, pass.iterate, pass.newton_steps};
     report = solve_stage(old, old, {first_dt, 0}, to_middle, middle);
+    if (flows) flows_.first = flow(old, middle, {first_dt, 0});
+    const bool second_order =
+        !flows || options_.integration == Integration::open || !leaves_range(old, middle, pass.time);
+    if (!second_order)
+      logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
+    const algebra::Stage stage =
+        second_order ? algebra::Stage{first_dt, k_sdirk_carried} : algebra::Stage{pass.dt - first_dt, 1};
     const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
-    PhaseReport last = solve_stage(old, middle, {first_dt, carried}, to_end, next);
-    add_stage(report, carried, last);
+    PhaseReport last = solve_stage(old, middle, stage, to_end, next);
+    add_stage(report, stage.carried, last);
     set_latent(report.balance, old, next);
+    flows_.second_order = second_order;
+    flows_.share = k_sdirk_share;
+    if (flows) flows_.last = flow(stage_start(old, middle, stage), next, stage);
   } else {
     report = solve_stage(old, old, {pass.dt}, pass, next);
+    if (flows) flows_.last = flow(old, next, {pass.dt});
   }
+  flows_.dt = flows ? pass.dt : 0;
   trial = std::move(next);
   return report;
+}
+
+/// H* of a stage: H_n + carried (H − H_n) with the H of `before`.
+ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalState& before,
+                                       const algebra::Stage& stage) {
+  ThermalState from = old;
+  if (stage.carried != 0)
+    for (std::size_t i = 0; i < from.enthalpy.size(); ++i)
+      from.enthalpy[i] += stage.carried * (before.enthalpy[i] - old.enthalpy[i]);
+  return from;
+}
+
+// What the nodes have taken up, less what contributions that store have given them.
+std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalState& next,
+                                       const algebra::Stage& stage) const {
+  std::vector<double> flow(reactions_.size());
+  for (std::size_t i = 0; i < flow.size(); ++i) flow[i] = (next.enthalpy[i] - from.enthalpy[i]) / stage.dt;
+  const std::span<const double> stored = system_->stored_by_contributions();
+  for (std::size_t i = 0; i < stored.size(); ++i) flow[i] += stored[i];
+  return flow;
+}
+
+// The range may grow as fast as in the first stage: where a flux or a source cools or heats, nothing bounds
+// it.
+bool ThermalPhase::leaves_range(const ThermalState& old, const ThermalState& middle, double end) const {
+  auto [low, high] = system_->surroundings();
+  system_->set_time(end);
+  const auto [low_at_end, high_at_end] = system_->surroundings();
+  low = std::min(low, low_at_end);
+  high = std::max(high, high_at_end);
+  double old_low = HUGE_VAL, old_high = -HUGE_VAL, middle_low = HUGE_VAL, middle_high = -HUGE_VAL;
+  double ahead_low = HUGE_VAL, ahead_high = -HUGE_VAL;
+  const auto look = [](double temperature, double& least, double& greatest) {
+    least = std::min(least, temperature);
+    greatest = std::max(greatest, temperature);
+  };
+  for (std::size_t i = 0; i < reactions_.size(); ++i) {
+    if (!system_->presence().node(static_cast<Index>(i))) continue;
+    look(old.temperature[i], old_low, old_high);
+    look(middle.temperature[i], middle_low, middle_high);
+    if (system_->fixed()[i]) continue;
+    const double heat = old.enthalpy[i] + k_sdirk_carried * (middle.enthalpy[i] - old.enthalpy[i]);
+    look(storage_->temperature(static_cast<Index>(i), heat), ahead_low, ahead_high);
+  }
+  old_low = std::min(low, algebra::global_min(old_low));
+  old_high = std::max(high, algebra::global_max(old_high));
+  middle_low = std::min(low, algebra::global_min(middle_low));
+  middle_high = std::max(high, algebra::global_max(middle_high));
+  const double fall = std::max(0.0, old_low - middle_low), rise = std::max(0.0, middle_high - old_high);
+  const double beyond = k_beyond * (old_high - old_low);
+  return algebra::global_min(ahead_low) < old_low - k_outside * fall - beyond ||
+         algebra::global_max(ahead_high) > old_high + k_outside * rise + beyond;
+}
+
+std::vector<double> ThermalPhase::last_flow() const {
+  std::vector<double> flow = flows_.last;
+  flow.resize(mesh_.x.size());
+  ghosts_.update(flow, 1);
+  return flow;
+}
+
+std::vector<double> ThermalPhase::time_error(const ThermalState& now, std::span<const double> flow_before) {
+  const double last_stage = flows_.first.empty() ? 1.0 : flows_.share;
+  return (*spread_)(heat::time_error(flows_, flow_before), now.temperature, last_stage * flows_.dt);
+}
+
+std::vector<double> ThermalPhase::change_in_kelvin(const ThermalState& a, const ThermalState& b) const {
+  std::vector<double> heat(reactions_.size());
+  for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = b.enthalpy[i] - a.enthalpy[i];
+  return spread_->at_once(heat, b.temperature);
 }
 
 /// From H* = H_n + carried (H − H_n) with the H of `before`, which is the state at t_n in the first stage.
@@ -294,16 +392,16 @@ PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalStat
     }
     temperature_system_->use_storage(true);
     report.newton = solve_temperature(next.temperature, pass.newton_steps);
+    report.hardest = report.newton.iterations;
     report.balance = balance(old, next, reactions_, temperature_system_->moved(), stage.dt);
     return report;
   }
-  ThermalState from = old;
-  if (stage.carried != 0)
-    for (std::size_t i = 0; i < from.enthalpy.size(); ++i)
-      from.enthalpy[i] += stage.carried * (before.enthalpy[i] - old.enthalpy[i]);
+  const ThermalState from = stage_start(old, before, stage);
+  if (stage.carried != 0 && pass.iterate == nullptr) start_from(from.enthalpy, next);
   const TemperatureRange range = limit_conduction(before);
   report.newton = truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, range,
                                            pass.newton_steps);
+  report.hardest = report.newton.iterations;
   require_positive(next.temperature);
   if (!may_end(report.newton, pass.newton_steps))
     require(report.newton, truncated_newton_->residual(), next.temperature);
@@ -325,6 +423,17 @@ TemperatureRange ThermalPhase::limit_conduction(const ThermalState& before) {
     range.highest = std::max(range.highest, temperature[i]);
   }
   return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+}
+
+/// Starts the iteration from heats instead of temperatures, where it is free.
+void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) const {
+  for (std::size_t i = 0; i < reactions_.size(); ++i) {
+    if (system_->fixed()[i]) continue;
+    next.enthalpy[i] = heat[i];
+    next.temperature[i] = storage_->temperature(static_cast<Index>(i), heat[i]);
+  }
+  ghosts_.update(next.enthalpy, 1);
+  ghosts_.update(next.temperature, 1);
 }
 
 void ThermalPhase::book(std::span<const double> residual, double dt, std::span<double> heat) const {

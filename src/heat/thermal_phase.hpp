@@ -12,9 +12,14 @@
 ///
 /// so plateaus and both rules are as with backward Euler, and the heat of the step is
 /// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by algebra::Stage.
+///
+/// H* is an extrapolation. Where with the closed rule a node's Θ(H*) leaves the range of the temperatures at
+/// t_n and around, the second stage is backward Euler over (1 − γ) Δt from H¹ instead: the step is then of
+/// first order, balanced as exactly, and no temperature leaves that range (docs/decisions/0016).
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +30,7 @@
 #include "heat/conditions.hpp"
 #include "heat/sensible_form.hpp"
 #include "heat/thermal_state.hpp"
+#include "heat/time_error.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -32,6 +38,7 @@ namespace solidus::heat {
 
 class HeatSystem;
 class HeatSolver;
+class HeatSpread;
 class NodalEnthalpy;
 class TruncatedNewton;
 class TemperatureSystem;
@@ -48,9 +55,6 @@ enum class Integration {
 };
 
 enum class ThermalStepping { backward_euler, sdirk2 };
-
-/// γ of SDIRK2.
-inline constexpr double k_sdirk_share = 0.29289321881345248;
 
 /// Default tolerances. Nodes that hold heat take up what the iteration leaves (ThermalPhase::book), so that
 /// theirs is one of accuracy; in the open rule and in a steady state the residual is heat lost or gained
@@ -72,6 +76,8 @@ struct HeatOptions {
   bool symmetric = true;  ///< false when a contribution's tangent is not
   /// No scheme makes its tangent part of a larger, unsymmetric one: half of a symmetric matrix will do.
   bool alone = false;
+  /// Of schemes that solve the phase once a step; absent: backward Euler.
+  std::optional<ThermalStepping> stepping;
   /// Anything but enthalpy loses heat and needs backward Euler; what is lost is in the balance as its defect.
   SensibleForm sensible = SensibleForm::enthalpy;
 };
@@ -118,6 +124,20 @@ class ThermalPhase {
   /// the iteration fails; the place is the node of the largest residual. The same where a temperature is not
   /// above 0 K; the place is the coldest node.
   PhaseReport solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass);
+  /// HeatOptions::stepping.
+  ThermalStepping stepping() const { return options_.stepping.value_or(ThermalStepping::backward_euler); }
+  /// Whether the heat flows of the last solve() are known: nodes hold the heat, and it flowed.
+  bool knows_flows() const { return flows_.dt > 0; }
+  /// The flow into the nodes at the end of the last solve() whose flows are known, [local node], ghosts up to
+  /// date [W]: what time_error() of the next step asks for.
+  std::vector<double> last_flow() const;
+  /// The error in time of the last solve(), whose flows must be known: the heat of heat::time_error(), spread
+  /// for as long as its last stage is. [local node] [K]. Collective.
+  /// @param flow_before  last_flow() of the step before
+  std::vector<double> time_error(const ThermalState& now, std::span<const double> flow_before);
+  /// (H_b − H_a)/C, without latent heat in C: what the change of heat comes to in kelvin, [local node],
+  /// ghosts up to date. Where nodes hold the heat. Collective.
+  std::vector<double> change_in_kelvin(const ThermalState& a, const ThermalState& b) const;
   /// The first pass.
   PhaseReport solve(const ThermalState& old, ThermalState& trial, double time, double dt) {
     return solve(old, trial, {.time = time, .dt = dt});
@@ -168,6 +188,14 @@ class ThermalPhase {
   HeatBalance measure(std::span<const double> temperature, double dt) const;
   PhaseReport solve_stage(const ThermalState& old, const ThermalState& before, const algebra::Stage& stage,
                           const ThermalPass& pass, ThermalState& next);
+  /// Whether the extrapolated heats of the second stage leave the range of temperatures. Collective.
+  bool leaves_range(const ThermalState& old, const ThermalState& middle, double end) const;
+  void start_from(std::span<const double> heat, ThermalState& next) const;
+  static ThermalState stage_start(const ThermalState& old, const ThermalState& before,
+                                  const algebra::Stage& stage);
+  /// Into the nodes in a stage that has just been solved, from H* of `from`: for StageFlows.
+  std::vector<double> flow(const ThermalState& from, const ThermalState& next,
+                           const algebra::Stage& stage) const;
   /// Tells the contributions that store.
   void begin_stage(const algebra::Stage& stage, std::span<const double> before);
   TemperatureRange limit_conduction(const ThermalState& before);
@@ -210,7 +238,9 @@ class ThermalPhase {
   std::unique_ptr<HeatSolver> solver_;
   std::unique_ptr<TruncatedNewton> truncated_newton_;
   std::unique_ptr<TemperatureSystem> temperature_system_;
+  std::unique_ptr<HeatSpread> spread_;
   std::vector<double> reactions_;
+  StageFlows flows_;  ///< of the last solve()
 };
 
 }  // namespace solidus::heat

@@ -55,7 +55,8 @@ struct EntropyChange {
 };
 
 struct PhaseReport {
-  algebra::NewtonReport newton;
+  algebra::NewtonReport newton;  ///< sums over the stages of the step
+  int hardest = 0;               ///< the most iterations of one stage
   HeatBalance balance;
 };
 

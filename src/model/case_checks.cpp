@@ -10,6 +10,7 @@
 #include "model/case_file.hpp"
 #include "model/dynamics_input.hpp"
 #include "model/field_list.hpp"
+#include "model/heat_input.hpp"
 #include "model/rigid_surface_input.hpp"
 #include "model/run_input.hpp"
 #include "model/stage_input.hpp"
@@ -349,6 +350,12 @@ void check_coupling(const CaseSpec& spec) {
                      "scheme = \"isothermal\", or structural_heating \"entropy\" or \"energy\"");
   check_simultaneous(spec);
   check_iteration(c);
+  if (const std::string reason = against_two_stages(spec);
+      spec.heat.stepping == heat::ThermalStepping::sdirk2 && !reason.empty())
+    throw InputError(
+        c.where, "heat.stepping = \"sdirk2\": " + reason,
+        "no such key, or scheme \"isentropic\" or \"isothermal\" with structural_heating \"energy\" "
+        "or \"none\"");
   if (c.scheme == Scheme::double_pass && spec.dynamics)
     throw InputError(c.where, "the double pass is for quasi-statics",
                      "scheme = \"isentropic\", \"simultaneous\" or \"isothermal\"");

@@ -43,9 +43,25 @@ heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage)
   return conditions;
 }
 
+std::string against_two_stages(const CaseSpec& spec) {
+  using Scheme = CouplingSpec::Scheme;
+  using Heating = CouplingSpec::StructuralHeating;
+  if (!spec.coupled()) return {};
+  const CouplingSpec& c = spec.coupling;
+  if (c.scheme != Scheme::isentropic && c.scheme != Scheme::isothermal)
+    return "the scheme has an integration of its own";
+  if (c.structural_heating != Heating::energy && c.structural_heating != Heating::none)
+    return "this form of structural heat is of first order";
+  return {};
+}
+
 heat::HeatOptions heat_options(const CaseSpec& spec) {
   heat::HeatOptions options = spec.heat;
   options.alone = !spec.simultaneous();
+  if (!options.stepping)
+    options.stepping = !spec.dynamics && against_two_stages(spec).empty()
+                           ? heat::ThermalStepping::sdirk2
+                           : heat::ThermalStepping::backward_euler;
   if (!spec.coupled()) return options;
   if (spec.coupling.as_printed)
     options.sensible = spec.coupling.structural_heating == CouplingSpec::StructuralHeating::temperature

@@ -1,6 +1,8 @@
 /// From the case to the thermal phase's conditions and options.
 #pragma once
 
+#include <string>
+
 #include "heat/conditions.hpp"
 #include "model/case_spec.hpp"
 #include "model/stage_input.hpp"
@@ -9,7 +11,10 @@ namespace solidus::model {
 
 /// @param stage  whose conditions; null: those of all stages
 heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
-/// With what the coupling asks of the thermal phase: the form of sensible heat.
+/// Why the thermal phase cannot have two stages a step in this case; empty: it can.
+std::string against_two_stages(const CaseSpec& spec);
+/// With what the coupling asks of the thermal phase: the form of sensible heat, and the stepping where the
+/// case leaves it open.
 heat::HeatOptions heat_options(const CaseSpec& spec);
 
 }  // namespace solidus::model

@@ -29,6 +29,18 @@ Section<heat::HeatOptions> heat_keys() {
              "heat content at Gauss points, at the nodes of bodies whose material has an isothermal change"}})
       .initially("closed")
       .doc("Where heat content is integrated (monograph 6.3).");
+  using heat::ThermalStepping;
+  s.choice(
+       "stepping", &HeatOptions::stepping,
+       {{"automatic", std::nullopt,
+         "sdirk2, but backward_euler with inertia, with forms of structural heat of first order and in "
+         "schemes with an integration of their own"},
+        {"sdirk2", ThermalStepping::sdirk2,
+         "two implicit stages, second order, L-stable (Alexander 1977); a step that would overshoot is of "
+         "first order"},
+        {"backward_euler", ThermalStepping::backward_euler, "one stage, first order"}})
+      .initially("automatic")
+      .doc("Integration in time, of heat alone and in the isentropic and isothermal splits.");
   s.key("open_degree", &HeatOptions::open_degree)
       .initially(0)
       .range(0, 10)

@@ -23,7 +23,7 @@ Section<TimeSpec> time_keys() {
           "iteration.");
   s.choice("error_control", &TimeSpec::error_control,
            {{"predictor", ErrorControl::predictor,
-             "the step against its extrapolation from the one before; costs nothing"},
+             "the heat flows and displacements of a step against those of the one before; costs little"},
             {"doubling", ErrorControl::doubling,
              "the step against two of half its size, which are kept; sees the coupling scheme's error too, "
              "costs three steps for one"},
@@ -34,8 +34,9 @@ Section<TimeSpec> time_keys() {
       .positive()
       .difference()
       .doc(
-          "Local error of an adaptive step, root mean square over the body where it is largest; without it "
-          "1 K.");
+          "Error of a run with adaptive steps that is left to their size, root mean square over the body "
+          "where "
+          "it is largest; without it 1 K.");
   s.quantity("displacement_error", &TimeSpec::displacement_error, "m")
       .positive()
       .doc(

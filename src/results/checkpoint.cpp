@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 8";
+constexpr const char* k_format = "Solidus checkpoint 9";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -38,7 +38,7 @@ void each_number(C& c, const Visit& visit) {
   auto& l = c.stability;
   const auto all = [&visit](auto&... n) { (visit(n), ...); };
   all(c.state.time, k.steps, c.rejected, c.state.mechanics.dt_before, k.stage.number, k.stage.time);
-  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal);
+  all(k.control.size, k.control.refused, k.control.refused_ratio, k.control.before_refusal, k.rates.changed);
   all(o.step, o.adaptive, o.min_step, o.max_step, o.growth, o.cut, o.easy_iterations);
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction,
       o.limits.inertia);
@@ -154,9 +154,11 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   }
   if (in.text("rates") == k_known) {
     coupling::Rates& rates = c.continuation.rates;
-    rates.temperature.resize(c.state.heat.temperature.size());
+    const bool flows = in.text("flows") == k_known;
+    (flows ? rates.heat_flow : rates.temperature).resize(c.state.heat.temperature.size());
     rates.displacement.resize(c.state.mechanics.displacement.size());
-    take_nodes(in, "temperature_rate", nodes, rates.temperature);
+    take_nodes(in, flows ? "heat_flow" : "temperature_rate", nodes,
+               flows ? rates.heat_flow : rates.temperature);
     take_nodes(in, "displacement_rate", nodes, rates.displacement);
     if (in.text("rates_of_melt") == k_known) {
       rates.coherency.resize(mesh.x.size());
@@ -237,7 +239,9 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   const coupling::Rates& rates = c.continuation.rates;
   out.text("rates", rates.known() ? k_known : "unknown");
   if (rates.known()) {
-    nodal("temperature_rate", rates.temperature);
+    const bool flows = algebra::any_process(!rates.heat_flow.empty());
+    out.text("flows", flows ? k_known : "unknown");
+    nodal(flows ? "heat_flow" : "temperature_rate", flows ? rates.heat_flow : rates.temperature);
     nodal("displacement_rate", rates.displacement);
     const bool melts = algebra::any_process(!rates.coherency.empty());
     out.text("rates_of_melt", melts ? k_known : "unknown");

@@ -83,6 +83,74 @@ TEST(ThermalStepping, Sdirk2ClosesTheBalanceAcrossMeltingWithBothRules) {
     }
 }
 
+// Its second stage starts from an extrapolation, which in a step much longer than the film takes to cool a
+// cell lies beyond the ambient temperature.
+TEST(ThermalStepping, Sdirk2StaysWithinTheSurroundingsWhateverTheStepAndClosesTheBalance) {
+  Bar bar(1000, 1000);
+  for (const double ambient : {300.0, 1700.0}) {
+    bar.conditions.films = {{"film", "x_min", {Table(1e5)}, Table(ambient)}};
+    for (const int n : {1, 3, 10, 100}) {
+      heat::ThermalPhase phase(bar.mesh, AnalysisKind::plane_strain, bar.materials, bar.conditions);
+      heat::ThermalState state = phase.initial_state_at_nodes(std::vector<double>(bar.mesh.x.size(), 1000));
+      for (int i = 1; i <= n; ++i) {
+        const double dt = 100.0 / n;
+        const heat::HeatBalance b =
+            phase.solve(state, state, {.time = i * dt, .dt = dt, .stepping = ThermalStepping::sdirk2})
+                .balance;
+        EXPECT_NEAR(b.stored, b.heat_in(), 1e-11 * b.exchanged);
+        EXPECT_NEAR(b.latent + b.sensible, b.stored, 1e-12 * b.exchanged);
+        for (const double t : state.temperature) {
+          EXPECT_GE(t, std::min(ambient, 1000.0) - 1e-3);
+          EXPECT_LE(t, std::max(ambient, 1000.0) + 1e-3);
+        }
+      }
+    }
+  }
+}
+
+// A flux cools without a bound: no reason to do without the second order.
+TEST(ThermalStepping, Sdirk2StaysOfSecondOrderWhereAFluxCoolsBelowAllTemperatures) {
+  Bar bar(800, 800);
+  bar.conditions.films.clear();
+  bar.conditions.fluxes.push_back({"drain", "x_min", Table({0, 100}, {0, -3e5})});
+  const auto end = [&](int n) { return bar.run(Integration::closed, ThermalStepping::sdirk2, n); };
+  const Bar::Run coarse = end(32), middle = end(64), fine = end(128);
+  EXPECT_LT(*std::min_element(fine.end.temperature.begin(), fine.end.temperature.end()), 750);
+  EXPECT_NEAR(std::log2(difference(coarse, middle) / difference(middle, fine)), 2, 0.2);
+}
+
+// The error of one step, as the flows of heat tell it, against the same step in thirty-two.
+TEST(ThermalStepping, TheErrorOfAStepIsTheEstimated) {
+  Bar bar(800, 500);
+  bar.conditions.films = {{"film", "x_min", {Table(1000.0)}, Table(500.0)}};
+  for (const auto stepping : {ThermalStepping::backward_euler, ThermalStepping::sdirk2}) {
+    heat::HeatOptions options;
+    options.tolerance = 1e-12;
+    heat::ThermalPhase phase(bar.mesh, AnalysisKind::plane_strain, bar.materials, bar.conditions, options);
+    heat::ThermalState old = phase.initial_state_at_nodes(std::vector<double>(bar.mesh.x.size(), 800));
+    constexpr double k_dt = 2;
+    std::vector<double> flow;
+    for (int i = 1; i <= 10; ++i) {
+      phase.solve(old, old, {.time = i * k_dt, .dt = k_dt, .stepping = stepping});
+      flow = phase.last_flow();
+    }
+    heat::ThermalState now = old, fine = old;
+    phase.solve(old, now, {.time = 11 * k_dt, .dt = k_dt, .stepping = stepping});
+    const std::vector<double> estimate = phase.time_error(now, flow);
+    for (int i = 1; i <= 32; ++i)
+      phase.solve(fine, fine,
+                  {.time = 10 * k_dt + i * k_dt / 32, .dt = k_dt / 32, .stepping = ThermalStepping::sdirk2});
+    double difference = 0, size = 0;
+    for (std::size_t i = 0; i < estimate.size(); ++i) {
+      difference += std::pow(estimate[i] - (now.temperature[i] - fine.temperature[i]), 2);
+      size += std::pow(fine.temperature[i] - now.temperature[i], 2);
+    }
+    printf("estimate %d: off by %.3f of the error\n", static_cast<int>(stepping),
+           std::sqrt(difference / size));
+    EXPECT_LT(std::sqrt(difference / size), 0.5);
+  }
+}
+
 TEST(ThermalPhase, RejectsAStepThatEndsBelowZeroWithPlaceAndTemperature) {
   for (const auto rule : {Integration::closed, Integration::open}) {
     Bar bar(300, 300);

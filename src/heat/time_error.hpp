@@ -1,0 +1,33 @@
+/// The error that a step of the thermal phase commits in time, from how its heat flowed.
+///
+/// With f the heat that flows into a node [W], f_n at the end of the step before, f¹ and f² in the stages:
+///
+///   SDIRK2          e = K Δt f[0, γ, 1],   K = ((√2 − 1)/2 − 1/6)/γ
+///   backward Euler  e = ½ Δt (f² − f_n)
+///
+/// f[0, γ, 1] is the second divided difference over the parts of the step. For linear flows the first term
+/// of e is that of the method's own local error; in front of a kink of the enthalpy, where the flow bends,
+/// e is of second order, as the error is. Flows are continuous where temperatures bend, at plateaus too, so
+/// that e does not mistake the passing of a front for an error, as differences of temperatures do.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace solidus::heat {
+
+/// How heat flowed in a step that nodes hold the heat of.
+struct StageFlows {
+  double dt = 0;              ///< the step [s]; zero: nothing is known
+  double share = 1;           ///< of the step that lies before the end of the first stage; 1: the only one
+  bool second_order = false;  ///< the stages are those of SDIRK2; else backward Euler, one after the other
+  /// Into the nodes by conduction, surfaces, sources and contributions that do not store, [owned node] [W];
+  /// `first` is empty where there is one stage.
+  std::vector<double> first, last;
+};
+
+/// e, [owned node] [J].
+/// @param before  f_n, at least [owned node] [W]
+std::vector<double> time_error(const StageFlows& flows, std::span<const double> before);
+
+}  // namespace solidus::heat
