@@ -14,6 +14,7 @@
 /// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by algebra::Stage.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -106,6 +107,10 @@ class ThermalPhase {
   /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
   /// their heats add up. A body that starts at the temperature of an isothermal change is molten.
   ThermalState initial_state(std::span<const double> body_temperature) const;
+  /// Bodies with an enthalpy per volume of their own at each of their nodes; with the open rule of bodies
+  /// that store at Gauss points the temperature for it is interpolated from there.
+  /// @param enthalpy  h(node, body) [J/m³], by the curves of storage().body_enthalpy(), of owned nodes
+  ThermalState initial_state_of(const std::function<double(Index node, int body)>& enthalpy) const;
   /// From nodal temperatures [K], [local node], ghosts up to date.
   ThermalState initial_state_at_nodes(std::span<const double> temperature) const;
 
