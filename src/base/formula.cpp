@@ -33,11 +33,23 @@ std::string problem(const mu::ParserError& error, const std::vector<std::string>
   return error.GetMsg();
 }
 
+/// muParser would assign: "t = 3" for "t == 3".
+bool assigns(const std::string& text) {
+  for (std::size_t i = text.find('='); i != std::string::npos; i = text.find('=', i)) {
+    const bool compares = i > 0 && std::string("<>!").find(text[i - 1]) != std::string::npos;
+    const bool twice = i + 1 < text.size() && text[i + 1] == '=';
+    if (!compares && !twice) return true;
+    i += twice ? 2 : 1;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<std::string> Formula::functions() {
   std::vector<std::string> names;
-  for (const auto& function : mu::Parser().GetFunDef()) names.push_back(function.first);
+  const mu::Parser parser;
+  for (const auto& function : parser.GetFunDef()) names.push_back(function.first);
   return names;
 }
 
@@ -50,6 +62,8 @@ bool Formula::is_name(const std::string& text) {
 
 Formula::Formula(std::string text, const std::vector<std::string>& variables, const Constants& constants)
     : text_(std::move(text)), uses_(variables.size(), 0), parser_(std::make_unique<Parser>()) {
+  if (assigns(text_))
+    throw std::invalid_argument("the formula assigns a value by '='; to compare, write '=='");
   mu::Parser& parser = parser_->parser;
   std::vector<std::string> names = variables;
   for (const auto& constant : constants) names.push_back(constant.first);

@@ -21,6 +21,7 @@ double value(const std::string& text, double x = 0, double t = 0, const Formula:
 TEST(Formula, FollowsTheRulesOfArithmetic) {
   EXPECT_DOUBLE_EQ(value("2 + 3*x^2", 4), 50);
   EXPECT_DOUBLE_EQ(value("-x^2", 3), -9);
+  EXPECT_DOUBLE_EQ(value("log(e) + ln(e) + log10(100) + log2(8) + atan2(0, 1)"), 7);
   EXPECT_DOUBLE_EQ(value("sin(pi/2) + e^0 + sqrt(abs(-9))"), 5);
   EXPECT_DOUBLE_EQ(value("min(x, t, 7) + max(x, t)", 3, 5), 8);
 }
@@ -59,7 +60,8 @@ TEST(Formula, SaysWhatItDoesNotKnowAndWhatThereIs) {
   EXPECT_THAT([] { value("3*(x"); }, ThrowsMessage<std::invalid_argument>(HasSubstr("parenthesis")));
   EXPECT_THROW(value(""), std::invalid_argument);
   EXPECT_THAT([] { value("x, t"); }, ThrowsMessage<std::invalid_argument>(HasSubstr("2 values")));
-  EXPECT_THROW(value("x = 3"), std::invalid_argument);
+  EXPECT_THAT([] { value("x = 3"); }, ThrowsMessage<std::invalid_argument>(HasSubstr("'=='")));
+  EXPECT_EQ(value("(x == 3) + (x <= 3) + (x >= 3) + (x != 3)", 3), 3);
 }
 
 }  // namespace

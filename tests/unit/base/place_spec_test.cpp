@@ -42,13 +42,13 @@ auto message(const std::string& text) {
 }
 
 TEST(PlaceSpec, AFormulaHasConstantsWithUnitsAndAUnitOfItsValue) {
-  const Film film =
-      read(R"(h = { formula = "h0*(z - v*t < 0.1)", constants = { v = "2.5 mm/s", h0 = 3 }, unit = "kW/m2/K" })");
+  const Film film = read(
+      R"~(h = { formula = "h0*(z - v*t < 0.1)", constants = { v = "2.5 mm/s", h0 = 3 }, unit = "kW/m2/K" })~");
   ASSERT_NE(film.h.place, nullptr);
-EXPECT_EQ(film.h.place->kind, PlaceSpec::Kind::formula);
-EXPECT_EQ(film.h.place->unit(3), 3000);
-EXPECT_EQ(film.h.place->formula->value(std::array{0.0, 0.0, 0.11, 0.0, 3.0}), 0);
-EXPECT_EQ(film.h.place->formula->value(std::array{0.0, 0.0, 0.11, 0.0, 5.0}), 3);
+  EXPECT_EQ(film.h.place->kind, PlaceSpec::Kind::formula);
+  EXPECT_EQ(film.h.place->unit(3), 3000);
+  EXPECT_EQ(film.h.place->formula->value(std::array{0.0, 0.0, 0.11, 0.0, 3.0}), 0);
+  EXPECT_EQ(film.h.place->formula->value(std::array{0.0, 0.0, 0.11, 0.0, 5.0}), 3);
 }
 
 TEST(PlaceSpec, APlaceMovesWithAVelocity) {
