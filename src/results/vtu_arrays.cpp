@@ -167,7 +167,7 @@ std::string VtuFile::bytes(const pt::ptree& array, std::size_t n) const {
   for (std::size_t b = 0; b < n_blocks; ++b) {
     const std::size_t size = header_word(head, 3 + b, wide_header_);
     uLongf unpacked = b + 1 == n_blocks && last > 0 ? last : block_size;
-    if (out.size() + unpacked > n + block_size) fail("an array of the file is longer than its grid");
+    if (unpacked > n - out.size()) fail("an array of the file is longer than its grid");
     std::string block(unpacked, '\0');
     if (uncompress(reinterpret_cast<Bytef*>(block.data()), &unpacked,
                    reinterpret_cast<const Bytef*>(all.data() + at), size) != Z_OK)
