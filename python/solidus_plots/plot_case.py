@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 import sys
 
-from solidus_plots import curves, graphs, maps, point, sections, style, surfaces
+from solidus_plots import curves, graphs, maps, measured, point, sections, style, surfaces
 from solidus_plots.history import read_table
 from solidus_plots.moments import Moments
 from solidus_plots.plots_file import find_spec, read_spec, star
@@ -67,6 +67,8 @@ def draw(results, spec_file=None):
         attempt(curves.chosen, picture, history, histories(picture.get("compare", []), part, results))
     for picture in spec.get("graphs", []):
         attempt(graphs.draw, picture, results)
+    for picture in spec.get("measured", []):
+        attempt(measured.draw, picture, results, spec_file)
     tasks = [(kind, picture) for kind in FIELD_PICTURES for picture in spec.get(kind, [])]
     if tasks:
         times, moments = read_collection(results / "fields.pvd")

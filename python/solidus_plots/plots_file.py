@@ -13,13 +13,16 @@ KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "mome
                    "compare"},
         "graphs": {"file", "only", "title", "table", "x", "x_quantity", "part", "quantity", "lines", "each",
                    "values", "keep", "from_zero"},
+        "measured": {"file", "only", "title", "table", "each", "values", "x", "x_quantity", "quantity", "travel",
+                     "shift", "lines"},
         "maps": {"file", "only", "title", "quantity", "field", "component", "unit", "times", "mirror",
                  "magnification", "bodies", "contours", "range"},
         "deformed": {"file", "only", "title", "time", "mirror", "magnification", "bodies"},
         "sections": FIELD_KEYS | SHEET_KEYS | {"planes", "mesh"},
         "surfaces": FIELD_KEYS | SHEET_KEYS | {"plain", "ghost", "clip", "clip_bodies", "view", "up", "edges",
                                                "dimensions"}}
-REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"), "maps": ("file", "field"),
+REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"),
+            "measured": ("file", "table", "each", "x", "lines"), "maps": ("file", "field"),
             "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}
 # Keys of a picture that change nothing without another one.
 NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(FIELD_KEYS - {"field"}, "field")}}
@@ -52,13 +55,15 @@ VALUES = [
     (("times",), lambda v: _all(v, _moment) and v, 'a list of moments [s], "first", "last"'),
     (("time",), _moment, 'a moment [s], "first" or "last"'),
     (("component", "columns", "bands"), lambda v: _number(v) and v == int(v) and v >= 0, "a whole number"),
-    (("magnification", "above"), _number, "a number"),
+    (("magnification", "above", "shift"), _number, "a number"),
     (("range", "view"), lambda v: _all(v, _number) and len(v) == 2, "two numbers"),
     (("contours",), lambda v: _number(v) or _all(v, _number), "a number of lines, or a list of values"),
     (("planes",), lambda v: _all(v, _table) and v, "a list of planes"),
     (("levels", "moments"), lambda v: _all(v, lambda e: _table(e) and _number(e.get("value"))),
      'a list of { value = 1, label = "..." }'),
     (("clip", "keep"), _table, "a table"),
+    (("travel",), lambda v: _table(v) and _number(v.get("from")) and _number(v.get("speed")),
+     "{ from = 600, speed = -2.5 }"),
     (("smooth", "mesh", "mirror", "dimensions", "from_zero"), lambda v: isinstance(v, bool), "true or false"),
 ]
 

@@ -36,6 +36,12 @@ std::string choices_text(const Key& key) {
   return all.size() <= 60 ? all : "choice";
 }
 
+std::string place_text(const Key& key) {
+  if (key.place == Key::Place::none) return "";
+  return key.place == Key::Place::position ? "constant or function of position"
+                                           : "function of position and time";
+}
+
 std::string type_text(const Key& key) {
   const auto single = [&]() -> std::string {
     switch (key.kind) {
@@ -54,9 +60,11 @@ std::string type_text(const Key& key) {
       case Key::Kind::function: {
         std::vector<std::string> names;
         for (const Argument a : key.arguments) names.emplace_back(name(a));
-        return fmt::format(
-            "quantity [{}]{}", key.unit,
-            names.empty() ? "" : fmt::format(", constant or table of {}", fmt::join(names, " | ")));
+        const std::string tables =
+            names.empty() ? "" : fmt::format(", constant or table of {}", fmt::join(names, " | "));
+        const std::string places = place_text(key);
+        return fmt::format("quantity [{}]{}{}{}", key.unit, tables,
+                           places.empty() ? "" : (names.empty() ? ", " : ", or "), places);
       }
       case Key::Kind::section:
         return "section";
@@ -117,6 +125,12 @@ void explain_key(const Key& key, const std::string& path, std::string& out) {
         "  write:   \"{0}\", or {{ of = \"{1}\", argument_unit = \"{2}\", unit = \"{3}\", points = [[x, y], "
         "...] }}\n",
         units::example(key.unit), name(key.arguments.front()), si_unit(key.arguments.front()), key.unit);
+  if (key.place != Key::Place::none)
+    out += fmt::format(
+        "  place:   {{ formula = \"...\", unit = \"{0}\" }} of x, y, z, r [m]{1}, {{ file = \"points.csv\" "
+        "}}, "
+        "or {{ file = \"field.vtu\", field = \"...\" }}\n",
+        key.unit, key.place == Key::Place::position ? "" : " and t [s]");
 }
 
 void explain_section(const SectionInfo& info, const std::string& title, const std::string& path,
@@ -164,6 +178,17 @@ std::string json_limits(const Key& key) {
 
 std::string schema_of_section(const SectionInfo& info, int depth);
 
+/// The keys of a quantity that varies from place to place, to follow those of a table.
+std::string schema_of_place(const Key& key) {
+  if (key.place == Key::Place::none) return "";
+  std::string keys;
+  for (const char* name : {"formula", "file", "column", "field", "length_unit"})
+    keys += fmt::format(", \"{}\": {{\"type\": \"string\"}}", name);
+  return keys +
+         ", \"constants\": {\"type\": \"object\"}, \"moving\": {\"type\": \"array\"}, \"body\": "
+         "{\"type\": \"integer\"}, \"outside\": {\"enum\": [\"nearest\", \"error\"]}";
+}
+
 std::string schema_of_value(const Key& key, int depth) {
   switch (key.kind) {
     case Key::Kind::text:
@@ -190,8 +215,8 @@ std::string schema_of_value(const Key& key, int depth) {
           "\"unit\": {{\"type\": \"string\"}}, \"argument_unit\": {{\"type\": \"string\"}}, \"source\": "
           "{{\"type\": "
           "\"string\"}}, \"note\": {{\"type\": \"string\"}}, \"valid\": {{\"type\": \"array\"}}, "
-          "\"extrapolation\": {{\"enum\": [\"constant\", \"linear\", \"error\"]}}}}}}]",
-          simple, json_list(names));
+          "\"extrapolation\": {{\"enum\": [\"constant\", \"linear\", \"error\"]}}{}}}}}]",
+          simple, json_list(names), schema_of_place(key));
     }
     case Key::Kind::section:
       return schema_of_section(*key.section, depth + 1);

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "base/place_spec.hpp"
+
 namespace solidus {
 
 namespace {
@@ -142,6 +144,11 @@ Table points_of(const Value& table, const Key& key, Argument of) {
 }
 
 Function read_function_table(const Value& table, const Key& key) {
+  if (key.place != Key::Place::none && is_place(table)) {
+    Function result;
+    result.place = read_place(table, key, key.place == Key::Place::position_and_time);
+    return result;
+  }
   const std::vector<std::string> known = {"value",         "points", "unit",  "of",  "argument_unit",
                                           "extrapolation", "source", "valid", "note"};
   for (const auto& entry : table.entries())
@@ -153,7 +160,10 @@ Function read_function_table(const Value& table, const Key& key) {
   if ((value == nullptr) == (points == nullptr))
     throw InputError(
         table.where, fmt::format("'{}' has {}", key.name, value ? "both a value and points" : "no value"),
-        key.arguments.empty() ? "value = ..." : "either value = ... or points = [[argument, value], ...]");
+        fmt::format(
+            "{}{}",
+            key.arguments.empty() ? "value = ..." : "either value = ... or points = [[argument, value], ...]",
+            key.place == Key::Place::none ? "" : ", or a formula or a file"));
   Function result;
   result.source = text_of(table, "source", key);
   text_of(table, "note", key);
@@ -308,6 +318,7 @@ void read(const Value& value, const Key& key, Function& out) {
 }
 
 void read(const Value& value, const Key& key, Table& out) {
+  assert(key.place == Key::Place::none && "a place needs a Function");
   Function function;
   read(value, key, function);
   out = std::move(function.table);

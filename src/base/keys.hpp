@@ -38,6 +38,8 @@ enum class Argument { constant, time, temperature, gap, pressure, strain };
 std::string_view name(Argument argument);     ///< "time"
 std::string_view si_unit(Argument argument);  ///< "s"
 
+struct PlaceSpec;  // base/place_spec.hpp
+
 /// A table-valued quantity as the user gave it, in SI: a constant ("2.3 N/mm/s/K"), or a table
 /// { of = "time", argument_unit = "s", unit = "degC", points = [[0, 20], [10, 30]], extrapolation =
 /// "constant", source = "…",
@@ -47,6 +49,8 @@ struct Function {
   Argument of = Argument::constant;
   std::string source;                          ///< where the data come from; may be empty
   std::optional<std::array<double, 2>> valid;  ///< the range of the argument in which the source holds
+  /// A function of position, and of time where the key has it; then the table says nothing. Null: a table.
+  std::shared_ptr<const PlaceSpec> place;
   SourceLocation where;
 };
 
@@ -65,6 +69,8 @@ class Key {
     sections,
     named_sections
   };
+  /// What a quantity may be a function of beside one argument.
+  enum class Place { none, position, position_and_time };
 
   Key& doc(std::string text) { return doc_text = std::move(text), *this; }
   /// The value when the key is absent, as it would stand in the file.
@@ -78,6 +84,9 @@ class Key {
   Key& choices(std::vector<std::string> texts);
   /// The arguments allowed for a table (the first is meant when `of` is left out and it is the only one).
   Key& of(std::vector<Argument> which) { return arguments = std::move(which), *this; }
+  /// It may vary from place to place: a formula, a table of points, a field of a file (base/place_spec.hpp).
+  /// Only quantities read into a Function.
+  Key& anywhere(Place with = Place::position_and_time) { return place = with, *this; }
   /// The key belongs to the section only when another key of it, a text, has one of these values.
   Key& when(std::string key, std::vector<std::string> values);
   /// A list of one may be written as its item.
@@ -97,6 +106,7 @@ class Key {
   std::vector<std::string> allowed;  ///< texts, empty: any
   std::vector<std::string> allowed_docs;
   std::vector<Argument> arguments;
+  Place place = Place::none;
   std::string when_key;
   std::vector<std::string> when_values;
   units::Temperature temperature = units::Temperature::absolute;

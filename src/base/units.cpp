@@ -86,6 +86,9 @@ constexpr std::array k_dimensions{
     Dimension{"W/m2/K", "a heat transfer coefficient", "2.3 N/mm/s/K"},
     Dimension{"W/m2", "a heat flux", "10 kW/m2"},
     Dimension{"W/m3", "a heat source per volume", "1e6 W/m3"},
+    Dimension{"W/m", "a power per length", "2 kW/m"},
+    Dimension{"m2/s", "a diffusivity", "50 mm2/s"},
+    Dimension{"K/m", "a temperature gradient", "2 K/mm"},
     Dimension{"1/K", "an expansion coefficient", "1.2e-5 1/K"},
     Dimension{"1/s", "a rate", "0.01 1/s"},
     Dimension{"K/s", "a cooling rate", "2 K/s"},
@@ -167,6 +170,13 @@ double parse_quantity(std::string_view text, std::string_view expected_unit, Tem
   if (!std::isfinite(value))
     throw std::invalid_argument("'" + std::string(text) + "' is too large; " + expectation(expected_unit));
   return value;
+}
+
+double si_quantity(std::string_view text) {
+  const Quantity quantity = split_quantity(text);
+  for (const Dimension& dimension : k_dimensions)
+    if (compatible(quantity.unit, dimension.unit)) return parse_quantity(text, dimension.unit);
+  throw std::invalid_argument("'" + quantity.unit + "' is not a unit of a quantity that case files know");
 }
 
 double to_display(double value, std::string_view internal_unit, std::string_view display_unit,

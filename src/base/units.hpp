@@ -31,6 +31,10 @@ Quantity split_quantity(std::string_view text);
 double parse_quantity(std::string_view text, std::string_view expected_unit,
                       Temperature kind = Temperature::absolute);
 
+/// Reads a quantity of any dimension that the program knows, in the SI unit of that dimension: "2.5 mm/s" is
+/// 0.0025, "600 degC" 873.15, "3" 3. Throws std::invalid_argument as parse_quantity does.
+double si_quantity(std::string_view text);
+
 /// The same for a number whose unit stands elsewhere (tables with one unit).
 double convert(double value, std::string_view unit, std::string_view expected_unit,
                Temperature kind = Temperature::absolute);

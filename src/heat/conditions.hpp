@@ -1,16 +1,18 @@
-/// Heat at the boundary and in the volume, as tables of time or temperature.
+/// Heat at the boundary and in the volume, as functions of position and time or tables of temperature.
+///
+/// Positions are those of the mesh, which deformation does not move.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "base/time_function.hpp"
+#include "base/place_function.hpp"
 
 namespace solidus::heat {
 
-/// A coefficient that is a table of time [s] or of the surface's own temperature [K].
+/// A coefficient that is a function of position and time [s] or a table of the surface's own temperature [K].
 struct Coefficient {
-  TimeFunction table;
+  PlaceFunction table;
   bool of_temperature = false;
 };
 
@@ -19,41 +21,45 @@ struct Coefficient {
 struct PrescribedTemperature {
   std::string name;
   std::string node_set;  ///< a key of Mesh::node_sets
-  TimeFunction value;    ///< [K] over time [s]
+  PlaceFunction value;   ///< [K]
 };
 
-/// Heat per area into the body.
+/// Heat per area into the body, value × factor.
 struct Flux {
   std::string name;
   std::string surface;  ///< a key of Mesh::surfaces
-  TimeFunction value;   ///< [W/m²] over time [s]
+  PlaceFunction value;  ///< [W/m²]
+  PlaceFunction factor = 1.0;
 };
 
-/// q = h (Θ_a − Θ) into the body.
+/// q = factor × h (Θ_a − Θ) into the body.
 struct Film {
   std::string name;
   std::string surface;      ///< a key of Mesh::surfaces
   Coefficient coefficient;  ///< h [W/(m² K)], not negative
-  TimeFunction ambient;     ///< Θ_a [K] over time [s]
+  PlaceFunction ambient;    ///< Θ_a [K]
+  PlaceFunction factor = 1.0;
 };
 
-/// Grey body in large surroundings: q = ε σ (Θ_a⁴ − Θ⁴) into the body.
+/// Grey body in large surroundings: q = factor × ε σ (Θ_a⁴ − Θ⁴) into the body.
 struct Radiation {
   std::string name;
   std::string surface;     ///< a key of Mesh::surfaces
   Coefficient emissivity;  ///< ε, 0 to 1
-  TimeFunction ambient;    ///< Θ_a [K] over time [s]
+  PlaceFunction ambient;   ///< Θ_a [K]
+  PlaceFunction factor = 1.0;
 };
 
-/// Heat released in the volume of a body.
+/// Heat released in the volume of a body, power × factor.
 struct Source {
   std::string name;
-  std::string body;    ///< name of a body of the mesh
-  TimeFunction power;  ///< [W/m³] over time [s]
+  std::string body;     ///< name of a body of the mesh
+  PlaceFunction power;  ///< [W/m³]
+  PlaceFunction factor = 1.0;
 };
 
-/// Where nothing is said, a surface is insulated. Tables of time are taken at the end of the step (backward
-/// Euler). `name` is for messages and history columns.
+/// Where nothing is said, a surface is insulated. Functions of time are taken at the end of the step
+/// (backward Euler). `name` is for messages and history columns.
 struct Conditions {
   std::vector<PrescribedTemperature> temperatures;
   std::vector<Flux> fluxes;

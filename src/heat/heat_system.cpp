@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "algebra/parallel.hpp"
+#include "base/common_failure.hpp"
 #include "base/errors.hpp"
 #include "mesh/block_geometry.hpp"
 
@@ -86,6 +87,11 @@ void HeatSystem::add_conditions(const Conditions& conditions) {
   add_prescribed(conditions.temperatures);
   surface_power_.resize(surfaces_.size());
   source_power_.resize(sources_.size());
+  placed_ =
+      std::any_of(surfaces_.begin(), surfaces_.end(), [](const SurfaceHeat& s) { return s.placed(); }) ||
+      std::any_of(sources_.begin(), sources_.end(), [](const Volume& v) { return v.placed(); }) ||
+      std::any_of(prescribed_.begin(), prescribed_.end(),
+                  [](const Prescribed& p) { return !p.value.uniform(); });
 }
 
 // Without a body that leaves the graph need not change: the nodes of a face are nodes of one element.
@@ -141,22 +147,71 @@ void HeatSystem::add_sources(const std::vector<Source>& sources) {
     std::map<std::string, int> bodies;
     for (std::size_t i = 0; i < mesh_.bodies.size(); ++i) bodies[mesh_.bodies[i].name] = static_cast<int>(i);
     const int body = find(bodies, source.body, "body");
-    std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
-    for (const mesh::Block& block : mesh_.blocks) {
-      if (block.body != body || !presence_.body(body)) continue;
-      const PackVector<Lane> weights = at_nodes_[static_cast<std::size_t>(body)] != 0
-                                           ? mesh::nodal_weights(mesh_, block, kind_)
-                                           : mesh::basis_integrals(mesh_, block, kind_);
-      const int n = mesh::node_count(block.shape);
-      for (Index e = 0; e < block.size(); ++e)
-        for (int a = 0; a < n; ++a) {
+    Volume volume{.name = source.name, .power = source.power, .factor = source.factor};
+    if (volume.placed() && at_nodes_[static_cast<std::size_t>(body)] == 0)
+      add_gauss_shares(body, volume);
+    else
+      add_nodal_shares(body, volume);
+    volume.heat.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
+    sources_.push_back(std::move(volume));
+  }
+}
+
+void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
+  std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
+  for (const mesh::Block& block : mesh_.blocks) {
+    if (block.body != body || !presence_.body(body)) continue;
+    const PackVector<Lane> weights = at_nodes_[static_cast<std::size_t>(body)] != 0
+                                         ? mesh::nodal_weights(mesh_, block, kind_)
+                                         : mesh::basis_integrals(mesh_, block, kind_);
+    const int n = mesh::node_count(block.shape);
+    for (Index e = 0; e < block.size(); ++e)
+      for (int a = 0; a < n; ++a) {
+        const Index node = block.element(e)[a];
+        if (node < mesh_.n_owned_nodes)
+          weight[static_cast<std::size_t>(node)] +=
+              weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+      }
+  }
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    if (weight[i] == 0) continue;
+    volume.shares.push_back(
+        {static_cast<Index>(i), static_cast<Index>(volume.placed() ? volume.x.size() : 0), weight[i]});
+    if (volume.placed()) volume.x.push_back(mesh_.x[i]);
+  }
+}
+
+/// Σ_q N_i(x_q) R(x_q) w_q over the elements around the owned nodes.
+void HeatSystem::add_gauss_shares(int body, Volume& volume) const {
+  for (const mesh::Block& block : mesh_.blocks) {
+    if (block.body != body || !presence_.body(body)) continue;
+    const mesh::BlockGeometry g(mesh_, block, kind_,
+                                mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1));
+    for (Index e = 0; e < block.size(); ++e)
+      for (int q = 0; q < g.n_points; ++q) {
+        const double weight = g.weight_at(e / k_lanes, q)[e % k_lanes];
+        const auto point = static_cast<Index>(volume.x.size());
+        Position& x = volume.x.emplace_back();
+        for (int a = 0; a < g.n_nodes; ++a) {
           const Index node = block.element(e)[a];
-          if (node < mesh_.n_owned_nodes)
-            weight[static_cast<std::size_t>(node)] +=
-                weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+          const double n = g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+          for (std::size_t i = 0; i < 3; ++i) x[i] += n * mesh_.x[static_cast<std::size_t>(node)][i];
+          if (node < mesh_.n_owned_nodes) volume.shares.push_back({node, point, n * weight});
         }
-    }
-    sources_.push_back({source.name, source.power, std::move(weight)});
+      }
+  }
+}
+
+void HeatSystem::Volume::set_time(double time) {
+  const std::size_t n_points = placed() ? x.size() : 1;
+  now.resize(n_points);
+  factor_now.resize(n_points);
+  power.values(x, time, now);
+  factor.values(x, time, factor_now);
+  std::fill(heat.begin(), heat.end(), 0.0);
+  for (const Share& share : shares) {
+    const auto point = static_cast<std::size_t>(share.point);
+    heat[static_cast<std::size_t>(share.node)] += now[point] * factor_now[point] * share.weight;
   }
 }
 
@@ -165,7 +220,7 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (Index node : find(mesh_.node_sets, conditions[i].node_set, "group"))
       holder[static_cast<std::size_t>(node)] = static_cast<int>(i);
-  for (const PrescribedTemperature& c : conditions) prescribed_.push_back({c.name, c.value, {}});
+  for (const PrescribedTemperature& c : conditions) prescribed_.push_back({c.name, c.value, {}, {}, {}});
   fixed_.assign(mesh_.x.size(), 0);
   for (std::size_t node = 0; node < holder.size(); ++node) {
     if (!presence_.node(static_cast<Index>(node))) {
@@ -174,19 +229,30 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
     }
     if (holder[node] < 0) continue;
     fixed_[node] = 1;
-    prescribed_[static_cast<std::size_t>(holder[node])].nodes.push_back(static_cast<Index>(node));
+    Prescribed& p = prescribed_[static_cast<std::size_t>(holder[node])];
+    p.nodes.push_back(static_cast<Index>(node));
+    if (!p.value.uniform()) p.x.push_back(mesh_.x[node]);
   }
+  for (Prescribed& p : prescribed_) p.now.resize(p.nodes.size());
 }
 
 void HeatSystem::set_time(double time) {
+  if (placed_)
+    together([&] { evaluate(time); });
+  else
+    evaluate(time);
+}
+
+void HeatSystem::evaluate(double time) {
   for (SurfaceHeat& surface : surfaces_) surface.set_time(time);
-  for (Volume& source : sources_) source.now = source.power.value(time);
-  for (Prescribed& p : prescribed_) p.now = p.value.value(time);
+  for (Volume& source : sources_) source.set_time(time);
+  for (Prescribed& p : prescribed_) p.value.values(p.x, time, p.now);
 }
 
 void HeatSystem::prescribe(std::span<double> temperature) const {
   for (const Prescribed& p : prescribed_)
-    for (Index node : p.nodes) temperature[static_cast<std::size_t>(node)] = p.now;
+    for (std::size_t k = 0; k < p.nodes.size(); ++k)
+      temperature[static_cast<std::size_t>(p.nodes[k])] = p.now[k];
 }
 
 void HeatSystem::limit(bool on) {
@@ -213,8 +279,8 @@ bool HeatSystem::find_limits(std::span<const double> temperature, double negligi
     for (LimitedFlow& flow : surface.flows()) flows.push_back(&flow);
   }
   for (const Volume& source : sources_)
-    for (std::size_t i = 0; i < source.weight.size(); ++i)
-      (source.now > 0 ? gain : loss)[i] += std::abs(source.now * source.weight[i]);
+    for (std::size_t i = 0; i < source.heat.size(); ++i)
+      (source.heat[i] > 0 ? gain : loss)[i] += std::abs(source.heat[i]);
   contributions_heat_ = false;
   for (algebra::Contribution* contribution : contributions_) {
     if (contribution->stores()) continue;
@@ -249,40 +315,36 @@ void HeatSystem::release_nodes() {
   if (limiter_) limiter_->release();
 }
 
-TemperatureRange HeatSystem::ambient_range() const {
+TemperatureRange HeatSystem::surroundings() const {
   TemperatureRange range;
-  const auto include = [&range](double temperature) {
-    range.lowest = std::min(range.lowest, temperature);
-    range.highest = std::max(range.highest, temperature);
+  const auto include = [&range](const TemperatureRange& other) {
+    range.lowest = std::min(range.lowest, other.lowest);
+    range.highest = std::max(range.highest, other.highest);
   };
+  for (const SurfaceHeat& surface : surfaces_)
+    if (const std::optional<TemperatureRange> ambient = surface.ambient()) include(*ambient);
   for (const Prescribed& p : prescribed_)
-    if (!p.nodes.empty()) include(p.now);
-  const auto heats = [&include](double power) {
-    if (power != 0) include(power > 0 ? HUGE_VAL : -HUGE_VAL);
-  };
-  for (const SurfaceHeat& surface : surfaces_) {
-    const std::optional<double> ambient = surface.ambient();
-    if (ambient)
-      include(*ambient);
-    else
-      heats(surface.flux());
-  }
-  for (const Volume& source : sources_) heats(source.now);
-  if (contributions_heat_) range = {-HUGE_VAL, HUGE_VAL};
+    for (const double temperature : p.now) include({temperature, temperature});
   return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
 }
 
-std::pair<double, double> HeatSystem::surroundings() const {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  const auto look = [&](double temperature) {
-    low = std::min(low, temperature);
-    high = std::max(high, temperature);
-  };
-  for (const SurfaceHeat& surface : surfaces_)
-    if (const std::optional<double> ambient = surface.ambient()) look(*ambient);
-  for (const Prescribed& p : prescribed_)
-    if (!p.nodes.empty()) look(p.now);
-  return {algebra::global_min(low), algebra::global_max(high)};
+TemperatureRange HeatSystem::ambient_range() const {
+  double cooling = 0, heating = 0;
+  for (const SurfaceHeat& surface : surfaces_) {
+    if (surface.ambient()) continue;
+    const auto [least, greatest] = surface.flux_range();
+    cooling = std::min(cooling, least);
+    heating = std::max(heating, greatest);
+  }
+  for (const Volume& source : sources_)
+    for (const double heat : source.heat) {
+      cooling = std::min(cooling, heat);
+      heating = std::max(heating, heat);
+    }
+  TemperatureRange range = surroundings();
+  if (contributions_heat_ || algebra::global_min(cooling) < 0) range.lowest = -HUGE_VAL;
+  if (contributions_heat_ || algebra::global_max(heating) > 0) range.highest = HUGE_VAL;
+  return range;
 }
 
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
@@ -335,16 +397,15 @@ double HeatSystem::add_flows(std::span<const double> temperature) {
   conduct(temperature);
   double moved = 0;
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-    surface_power_[s] = surfaces_[s].add_residual(temperature, supplied_);
-    moved += std::abs(surface_power_[s]);
+    surface_power_[s] = surfaces_[s].add_residual(temperature, supplied_, moved);
   }
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const Volume& source = sources_[s];
-    for (std::size_t i = 0; i < source.weight.size(); ++i) {
-      supplied_[i] -= source.now * source.weight[i];
-      source_power_[s] += source.now * source.weight[i];
+    for (std::size_t i = 0; i < source.heat.size(); ++i) {
+      supplied_[i] -= source.heat[i];
+      source_power_[s] += source.heat[i];
+      moved += std::abs(source.heat[i]);
     }
-    moved += std::abs(source_power_[s]);
   }
   for (std::size_t i = 0; i < local_.size(); ++i) local_[i] += supplied_[i];
   return moved;

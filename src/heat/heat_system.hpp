@@ -40,6 +40,8 @@ class HeatSystem {
   /// Throws InputError as the constructor does, std::invalid_argument for a body that comes back. Collective.
   bool set_conditions(const Conditions& conditions);
   const algebra::Presence& presence() const { return presence_; }
+  /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
+  /// value that is allowed.
   void set_time(double time);
   /// Off: nothing flows, only the contributions that store are terms.
   void exchange(bool on) { exchange_ = on; }
@@ -88,7 +90,7 @@ class HeatSystem {
   std::span<const double> stored_by_contributions() const { return storing_; }
   /// The least and the greatest temperature that is prescribed, or that surfaces exchange heat with, at the
   /// time set [K]; +∞ and −∞ where there is none. Collective.
-  std::pair<double, double> surroundings() const;
+  TemperatureRange surroundings() const;
 
   /// Heat into the bodies at the last residual() by every surface and source, over all processes [W].
   struct Power {
@@ -107,15 +109,28 @@ class HeatSystem {
  private:
   struct Prescribed {
     std::string name;
-    TimeFunction value;
+    PlaceFunction value;
     std::vector<Index> nodes;  ///< local; of the condition that holds
-    double now = 0;
+    std::vector<Position> x;   ///< of the nodes, where the value varies with position
+    std::vector<double> now;   ///< [K], one a node
   };
+  /// The source of a body as heat into its nodes.
   struct Volume {
     std::string name;
-    TimeFunction power;
-    std::vector<double> weight;  ///< ∫ N_i dV of the body [m³], [owned node]
-    double now = 0;
+    PlaceFunction power, factor;
+    /// What a point of integration gives to the nodes [m³]: at the nodes themselves, or at Gauss points where
+    /// the body stores its heat there and its source varies with position.
+    struct Share {
+      Index node;
+      Index point;
+      double weight;
+    };
+    std::vector<Share> shares = {};
+    std::vector<Position> x = {};   ///< of the points; empty where power and factor are the same everywhere
+    std::vector<double> heat = {};  ///< into the owned nodes at the time set [W]
+    std::vector<double> now = {}, factor_now = {};  ///< work, [point]
+    bool placed() const { return !power.uniform() || !factor.uniform(); }
+    void set_time(double time);
   };
   /// Kirchhoff's potential at the nodes of one body whose conductivity varies.
   struct Field {
@@ -124,6 +139,9 @@ class HeatSystem {
   };
   void add_prescribed(const std::vector<PrescribedTemperature>& conditions);
   void add_sources(const std::vector<Source>& sources);
+  void add_nodal_shares(int body, Volume& volume) const;
+  void add_gauss_shares(int body, Volume& volume) const;
+  void evaluate(double time);
   algebra::NodeGraph graph() const;
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);
@@ -150,6 +168,7 @@ class HeatSystem {
   std::vector<Volume> sources_;
   std::vector<Prescribed> prescribed_;
   std::vector<char> fixed_;
+  bool placed_ = false;  ///< some condition varies with position
   bool exchange_ = true;
   bool contributions_heat_ = false;  ///< whether they brought or took heat at the last find_limits()
   std::unique_ptr<algebra::BlockMatrix> matrix_;

@@ -242,13 +242,6 @@ double NodalEnthalpy::latent_capacity(Index node) const {
   return heat;
 }
 
-double NodalEnthalpy::mixed_heat(Index node, std::span<const double> body_temperature) const {
-  double heat = 0;
-  for (const Share& s : shares(node))
-    heat += s.weight * curve(s).upper(body_temperature[static_cast<std::size_t>(s.body)]);
-  return heat;
-}
-
 std::size_t NodalEnthalpy::bytes() const {
   return start_.capacity() * sizeof start_[0] + shares_.capacity() * sizeof shares_[0];
 }

@@ -53,8 +53,17 @@ class NodalEnthalpy {
   double latent_capacity(Index node) const;
   /// The part of the heat that is latent [J].
   double latent(Index node, double heat, double temperature) const;
-  /// Σ_m w_im h_m(Θ_m) of bodies at different temperatures [J]; molten at the temperature of a change.
-  double mixed_heat(Index node, std::span<const double> body_temperature) const;
+  /// Σ_m w_im h_m of what `per_volume(body)` says each body holds at the node [J/m³] [J].
+  template <class PerVolume>
+  double sum_of_bodies(Index node, const PerVolume& per_volume) const {
+    double total = 0;
+    for (const Share& s : shares(node)) total += s.weight * per_volume(s.body);
+    return total;
+  }
+  /// h(Θ) of the material of a body; molten at the temperature of a change [J/m³].
+  double body_enthalpy(int body, double temperature) const {
+    return curves_[static_cast<std::size_t>(body)].upper(temperature);
+  }
   /// Volume [m³] that the node holds of a body.
   double volume(Index node, int body) const;
   /// Solid volume [m³] that the node holds of a body.

@@ -23,30 +23,48 @@ double integral(const mesh::FaceGeometry& g, Index face, std::initializer_list<i
 
 }  // namespace
 
-SurfaceLaw::SurfaceLaw(const Flux& flux) : kind_(Kind::flux), driver_(flux.value) {}
+SurfaceLaw::SurfaceLaw(const Flux& flux) : kind_(Kind::flux), driver_(flux.value), factor_(flux.factor) {}
 SurfaceLaw::SurfaceLaw(const Film& film)
-    : kind_(Kind::film), coefficient_(film.coefficient), driver_(film.ambient) {}
+    : kind_(Kind::film), coefficient_(film.coefficient), driver_(film.ambient), factor_(film.factor) {}
 SurfaceLaw::SurfaceLaw(const Radiation& radiation)
-    : kind_(Kind::radiation), coefficient_(radiation.emissivity), driver_(radiation.ambient) {}
+    : kind_(Kind::radiation),
+      coefficient_(radiation.emissivity),
+      driver_(radiation.ambient),
+      factor_(radiation.factor) {}
 
-void SurfaceLaw::set_time(double time) {
-  driver_now_ = driver_.value(time);
-  if (!coefficient_.of_temperature) coefficient_now_ = coefficient_.table.value(time);
+bool SurfaceLaw::placed() const {
+  return !driver_.uniform() || !factor_.uniform() || !coefficient_.table.uniform();
 }
 
-SurfaceFlux SurfaceLaw::at(double temperature) const {
-  if (kind_ == Kind::flux) return {driver_now_, 0.0};
+void SurfaceLaw::Now::set(const PlaceFunction& function, std::span<const Position> points, double time) {
+  if (function.uniform()) {
+    uniform_ = function.value(time);
+    return;
+  }
+  values_.resize(points.size());
+  function.values(points, time, values_);
+}
+
+void SurfaceLaw::set_time(double time) {
+  driver_now_.set(driver_, points_, time);
+  factor_now_.set(factor_, points_, time);
+  if (!coefficient_.of_temperature) coefficient_now_.set(coefficient_.table, points_, time);
+}
+
+SurfaceFlux SurfaceLaw::at(double temperature, std::size_t point) const {
+  const double factor = factor_now_.at(point), driver = driver_now_.at(point);
+  if (kind_ == Kind::flux) return {factor * driver, 0.0};
   const bool varies = coefficient_.of_temperature;
-  const double c = varies ? coefficient_.table.value(temperature) : coefficient_now_;
-  const double c_slope = varies ? coefficient_.table.derivative(temperature) : 0.0;
+  const double c = factor * (varies ? coefficient_.table.value(temperature) : coefficient_now_.at(point));
+  const double c_slope = varies ? factor * coefficient_.table.derivative(temperature) : 0.0;
   double drive = 0, drive_slope = 0;
   if (kind_ == Kind::film) {
-    drive = driver_now_ - temperature;
+    drive = driver - temperature;
     drive_slope = -1.0;
   } else {
     // Θ|Θ|³ instead of Θ⁴: the same above absolute zero, and rising everywhere an iterate may stray.
     const double cube = k_stefan_boltzmann * std::abs(temperature * temperature * temperature);
-    const double ambient = driver_now_ * driver_now_;
+    const double ambient = driver * driver;
     drive = k_stefan_boltzmann * ambient * ambient - cube * temperature;
     drive_slope = -4.0 * cube;
   }
@@ -54,9 +72,18 @@ SurfaceFlux SurfaceLaw::at(double temperature) const {
   return {c * drive, slope <= 0 ? slope : c * drive_slope};
 }
 
-std::optional<double> SurfaceLaw::ambient() const {
+std::optional<TemperatureRange> SurfaceLaw::ambient() const {
   if (kind_ == Kind::flux) return std::nullopt;
-  return driver_now_;
+  TemperatureRange range;
+  const auto include = [&range](double temperature) {
+    range.lowest = std::min(range.lowest, temperature);
+    range.highest = std::max(range.highest, temperature);
+  };
+  if (driver_.uniform())
+    include(driver_now_.at(0));
+  else
+    for (std::size_t point = 0; point < points_.size(); ++point) include(driver_now_.at(point));
+  return range;
 }
 
 double SurfaceHeat::Patch::temperature(std::span<const double> t, Index face, int point) const {
@@ -90,10 +117,17 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
           positive[static_cast<std::size_t>(node)] += area / squares * integral(g, face, {a, a});
         }
       }
-      if (order == 2 && mesh.dimension == 3 && law_.ambient()) add_corners(faces, g);
+      if (order == 2 && mesh.dimension == 3 && law_.exchanges()) add_corners(faces, g);
       continue;
     }
-    patches_.push_back({g.n_nodes, g.n_points, g.n_faces, g.n_counted, faces.nodes, g.values, g.weight, {}});
+    patches_.push_back({.n_nodes = g.n_nodes,
+                        .n_points = g.n_points,
+                        .n_faces = g.n_faces,
+                        .n_counted = g.n_counted,
+                        .nodes = faces.nodes,
+                        .values = g.values,
+                        .weight = g.weight,
+                        .slots = {}});
   }
   for (std::size_t i = 0; i < positive.size(); ++i) {
     if (positive[i] == 0.0) continue;
@@ -109,6 +143,54 @@ SurfaceHeat::SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::
   }
   nodes.n_faces = nodes.n_counted = static_cast<Index>(nodes.nodes.size());
   patches_.push_back(std::move(nodes));
+  if (law_.placed()) place_points(mesh);
+}
+
+void SurfaceHeat::place_points(const mesh::Mesh& mesh) {
+  std::vector<Position> points;
+  for (Patch& patch : patches_) {
+    patch.first_point = points.size();
+    for (Index face = 0; face < patch.n_faces; ++face)
+      for (int q = 0; q < patch.n_points; ++q) {
+        Position& x = points.emplace_back();
+        for (int a = 0; a < patch.n_nodes; ++a) {
+          const Index node = patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)];
+          const double n = patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
+          for (std::size_t i = 0; i < 3; ++i) x[i] += n * mesh.x[static_cast<std::size_t>(node)][i];
+        }
+      }
+  }
+  // The nodes at which the law is taken beside the points of integration.
+  point_of_node_.assign(mesh.x.size(), 0);
+  const auto place = [&](Index node) {
+    std::size_t& point = point_of_node_[static_cast<std::size_t>(node)];
+    if (point != 0) return;
+    point = points.size();
+    points.push_back(mesh.x[static_cast<std::size_t>(node)]);
+  };
+  for (const Index node : supplied_nodes_) place(node);
+  for (const Pair& p : pairs_) {
+    place(p.i);
+    place(p.j);
+  }
+  for (const LimitedFlow& flow : flows_) place(flow.from);
+  law_.set_points(std::move(points));
+}
+
+SurfaceFlux SurfaceHeat::at_node(std::span<const double> temperature, Index node) const {
+  const auto i = static_cast<std::size_t>(node);
+  return law_.at(temperature[i], point_of_node_.empty() ? 0 : point_of_node_[i]);
+}
+
+std::pair<double, double> SurfaceHeat::flux_range() const {
+  double least = 0, greatest = 0;
+  for (const Patch& patch : patches_)
+    for (std::size_t point = 0; point < patch.weight.size(); ++point) {
+      const double q = law_.at(0.0, law_.placed() ? patch.first_point + point : 0).q;
+      least = std::min(least, q);
+      greatest = std::max(greatest, q);
+    }
+  return {least, greatest};
 }
 
 void SurfaceHeat::add_corners(const mesh::Block& faces, const mesh::FaceGeometry& g) {
@@ -140,21 +222,26 @@ void SurfaceHeat::bind(const algebra::BlockMatrix& matrix) {
   for (Patch& patch : patches_) patch.slots = matrix.clique_slots(patch.nodes, patch.n_nodes);
 }
 
-double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<double> r) const {
+double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<double> r,
+                                 double& moved) const {
   double counted = 0;
   for (const Patch& patch : patches_)
     for (Index face = 0; face < patch.n_faces; ++face)
       for (int q = 0; q < patch.n_points; ++q) {
-        const double power = law_.at(patch.temperature(temperature, face, q)).q *
-                             patch.weight[static_cast<std::size_t>(face * patch.n_points + q)];
-        if (face < patch.n_counted) counted += power;
+        const std::size_t point = patch.number(face, q);
+        const double power = law_.at(patch.temperature(temperature, face, q), patch.first_point + point).q *
+                             patch.weight[point];
+        if (face < patch.n_counted) {
+          counted += power;
+          moved += std::abs(power);
+        }
         for (int a = 0; a < patch.n_nodes; ++a)
           r[static_cast<std::size_t>(patch.nodes[static_cast<std::size_t>(face * patch.n_nodes + a)])] -=
               power * patch.values[static_cast<std::size_t>(q * patch.n_nodes + a)];
       }
   for (const Pair& p : pairs_) {
     const auto i = static_cast<std::size_t>(p.i), j = static_cast<std::size_t>(p.j);
-    const double heat = p.weight * (law_.at(temperature[i]).q - law_.at(temperature[j]).q);  // into i
+    const double heat = p.weight * (at_node(temperature, p.i).q - at_node(temperature, p.j).q);  // into i
     r[i] -= heat;
     r[j] += heat;
   }
@@ -168,14 +255,14 @@ double SurfaceHeat::add_residual(std::span<const double> temperature, std::span<
 }
 
 double SurfaceHeat::flow(std::span<const double> temperature, std::size_t i) const {
-  return flow_weight_[i] * law_.at(temperature[static_cast<std::size_t>(flows_[i].from)]).q;
+  return flow_weight_[i] * at_node(temperature, flows_[i].from).q;
 }
 
 void SurfaceHeat::add_supply(std::span<const double> temperature, std::span<double> gain,
                              std::span<double> loss) const {
   for (std::size_t s = 0; s < supplied_nodes_.size(); ++s) {
     const auto i = static_cast<std::size_t>(supplied_nodes_[s]);
-    const double heat = supply_weight_[s] * law_.at(temperature[i]).q;
+    const double heat = supply_weight_[s] * at_node(temperature, supplied_nodes_[s]).q;
     (heat > 0 ? gain : loss)[i] += std::abs(heat);
   }
 }
@@ -189,8 +276,10 @@ void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::Bloc
     const algebra::BlockMatrix::Slot* slot = patch.slots.data();
     for (Index face = 0; face < patch.n_faces; ++face, slot += patch.n_nodes * patch.n_nodes)
       for (int q = 0; q < patch.n_points; ++q) {
-        const double slope = law_.at(patch.temperature(temperature, face, q)).slope *
-                             patch.weight[static_cast<std::size_t>(face * patch.n_points + q)];
+        const std::size_t point = patch.number(face, q);
+        const double slope =
+            law_.at(patch.temperature(temperature, face, q), patch.first_point + point).slope *
+            patch.weight[point];
         const double* n = patch.values.data() + static_cast<std::ptrdiff_t>(q) * patch.n_nodes;
         for (int a = 0; a < patch.n_nodes; ++a)
           for (int b = 0; b < patch.n_nodes; ++b)
@@ -198,8 +287,8 @@ void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::Bloc
       }
   }
   for (const Pair& p : pairs_) {
-    const double of_i = p.weight * law_.at(temperature[static_cast<std::size_t>(p.i)]).slope,
-                 of_j = p.weight * law_.at(temperature[static_cast<std::size_t>(p.j)]).slope;
+    const double of_i = p.weight * at_node(temperature, p.i).slope,
+                 of_j = p.weight * at_node(temperature, p.j).slope;
     *matrix.block(p.ii) -= of_i;
     *matrix.block(p.jj) -= of_j;
     *matrix.block(p.ij) += of_j;
@@ -209,7 +298,7 @@ void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::Bloc
   for (std::size_t i = 0; i < flows_.size(); ++i) {
     const Index from = flows_[i].from;
     *matrix.block(matrix.slot(from, from)) -=
-        flows_[i].left * flow_weight_[i] * law_.at(temperature[static_cast<std::size_t>(from)]).slope;
+        flows_[i].left * flow_weight_[i] * at_node(temperature, from).slope;
   }
 }
 

@@ -4,10 +4,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algebra/block_matrix.hpp"
 #include "heat/conditions.hpp"
+#include "heat/thermal_state.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/mesh.hpp"
 
@@ -19,29 +21,45 @@ struct SurfaceFlux {
   double slope = 0;  ///< dq/dΘ [W/(m² K)]
 };
 
-/// The law of one surface at one time.
+/// The law of one surface at one time, at points of the surface.
 class SurfaceLaw {
  public:
   explicit SurfaceLaw(const Flux& flux);
   explicit SurfaceLaw(const Film& film);
   explicit SurfaceLaw(const Radiation& radiation);
+  /// Whether it differs from point to point.
+  bool placed() const;
+  /// The points that at() will be asked for; needed where it is placed.
+  void set_points(std::vector<Position> points) { points_ = std::move(points); }
+  /// Throws InputError where a function of position has no value that is allowed. Not collective.
   void set_time(double time);
   /// Where the derivative would make heat run away (a film coefficient that falls steeply with temperature),
   /// the slope is that of the frozen coefficient.
-  SurfaceFlux at(double temperature) const;
-  /// Θ_a of a film or of radiation now [K]; none of a flux.
-  std::optional<double> ambient() const;
-  /// The temperature that heat is exchanged with [K]; a flux has none.
-  std::optional<double> ambient() const {
-    return kind_ == Kind::flux ? std::nullopt : std::optional(driver_now_);
-  }
+  /// @param point  number in set_points(); without meaning where the law is the same everywhere
+  SurfaceFlux at(double temperature, std::size_t point = 0) const;
+  /// Whether heat is exchanged with surroundings, by a film or by radiation.
+  bool exchanges() const { return kind_ != Kind::flux; }
+  /// The least and the greatest Θ_a of a film or of radiation at the time set [K]; none of a flux.
+  std::optional<TemperatureRange> ambient() const;
 
  private:
+  /// A function at the time set: one value, or one a point.
+  class Now {
+   public:
+    void set(const PlaceFunction& function, std::span<const Position> points, double time);
+    double at(std::size_t point) const { return values_.empty() ? uniform_ : values_[point]; }
+
+   private:
+    double uniform_ = 0;
+    std::vector<double> values_;
+  };
   enum class Kind { flux, film, radiation };
   Kind kind_;
   Coefficient coefficient_;
-  TimeFunction driver_;  ///< flux or ambient over time
-  double driver_now_ = 0, coefficient_now_ = 0;
+  PlaceFunction driver_;  ///< flux or ambient
+  PlaceFunction factor_;
+  std::vector<Position> points_;
+  Now driver_now_, coefficient_now_, factor_now_;
 };
 
 /// A flow between two nodes that a limit may hold back (conduction_limiter.hpp).
@@ -65,15 +83,17 @@ class SurfaceHeat {
   SurfaceHeat(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Surface& surface, std::string name,
               SurfaceLaw law, bool closed);
   const std::string& name() const { return name_; }
-  std::optional<double> ambient() const { return law_.ambient(); }  ///< as of its law
+  bool placed() const { return law_.placed(); }
+  /// Throws as SurfaceLaw::set_time does.
   void set_time(double time) { law_.set_time(time); }
-  std::optional<double> ambient() const { return law_.ambient(); }
-  double flux() const { return law_.at(0.0).q; }  ///< of a flux, into the body now [W/m²]
+  std::optional<TemperatureRange> ambient() const { return law_.ambient(); }  ///< as of its law
+  /// The least and the greatest flux into the body at the time set, at a temperature of zero [W/m²].
+  std::pair<double, double> flux_range() const;
   /// The nodes of a face are nodes of one element: its graph holds them.
   void bind(const algebra::BlockMatrix& matrix);
   /// r −= heat into the nodes [W], [local node]; ghost rows are scrap. Returns the sum over the counted
-  /// points.
-  double add_residual(std::span<const double> temperature, std::span<double> r) const;
+  /// points; adds its magnitude, before heat into the body cancels heat out of it, to `moved`.
+  double add_residual(std::span<const double> temperature, std::span<double> r, double& moved) const;
   void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const;
   /// The flows from corners with negative weights; `left` is for whoever limits them. Not of a flux, which
   /// has no ambient temperature to stay within.
@@ -87,15 +107,21 @@ class SurfaceHeat {
   /// Quadratic faces with negative weights.
   void add_corners(const mesh::Block& faces, const mesh::FaceGeometry& g);
   double flow(std::span<const double> temperature, std::size_t i) const;
+  SurfaceFlux at_node(std::span<const double> temperature, Index node) const;
 
   /// Points with the values of the nodes they see; a lumped node is a face of one node and one point.
   struct Patch {
     int n_nodes = 1, n_points = 1;
     Index n_faces = 0, n_counted = 0;
-    std::vector<Index> nodes;    ///< [face][node]
-    std::vector<double> values;  ///< [point][node]
-    std::vector<double> weight;  ///< [face][point] [m²]
+    std::vector<Index> nodes;     ///< [face][node]
+    std::vector<double> values;   ///< [point][node]
+    std::vector<double> weight;   ///< [face][point] [m²]
+    std::size_t first_point = 0;  ///< number of its first point among those of the surface
     std::vector<algebra::BlockMatrix::Slot> slots;
+    std::size_t number(Index face, int point) const {
+      return static_cast<std::size_t>(face) * static_cast<std::size_t>(n_points) +
+             static_cast<std::size_t>(point);
+    }
     double temperature(std::span<const double> t, Index face, int point) const;
   };
   /// Draws the nodes of a face together.
@@ -104,9 +130,13 @@ class SurfaceHeat {
     double weight;  ///< −∫ N_i N_j dA > 0 [m²]
     algebra::BlockMatrix::Slot ij = 0, ji = 0, ii = 0, jj = 0;
   };
+  /// Numbers the points of the patches and tells the law where they are.
+  void place_points(const mesh::Mesh& mesh);
   std::string name_;
   SurfaceLaw law_;
   std::vector<Patch> patches_;
+  /// Numbers in the points of the law, [local node]; empty where the law is the same everywhere.
+  std::vector<std::size_t> point_of_node_;
   std::vector<Pair> pairs_;
   std::vector<Index> supplied_nodes_;  ///< of add_supply()
   std::vector<double> supply_weight_;  ///< area of their faces by ∫ N_i² dA [m²]

@@ -237,11 +237,18 @@ void ThermalPhase::forget() {
 
 ThermalState ThermalPhase::initial_state(std::span<const double> body_temperature) const {
   assert(body_temperature.size() == mesh_.bodies.size());
+  std::vector<double> enthalpy;
+  for (std::size_t b = 0; b < body_temperature.size(); ++b)
+    enthalpy.push_back(storage_->body_enthalpy(static_cast<int>(b), body_temperature[b]));
+  return initial_state_of([&](Index, int body) { return enthalpy[at(body)]; });
+}
+
+ThermalState ThermalPhase::initial_state_of(const std::function<double(Index, int)>& enthalpy) const {
   ThermalState state;
   state.temperature.resize(mesh_.x.size());
   state.enthalpy.resize(mesh_.x.size());
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
-    state.enthalpy[at(i)] = storage_->mixed_heat(i, body_temperature);
+    state.enthalpy[at(i)] = storage_->sum_of_bodies(i, [&](int body) { return enthalpy(i, body); });
     state.temperature[at(i)] = storage_->temperature(i, state.enthalpy[at(i)]);
   }
   ghosts_.update(state.temperature, 1);

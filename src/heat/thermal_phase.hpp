@@ -18,6 +18,7 @@
 /// first order, balanced as exactly, and no temperature leaves that range (docs/decisions/0016).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -115,6 +116,10 @@ class ThermalPhase {
   /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
   /// their heats add up. A body that starts at the temperature of an isothermal change is molten.
   ThermalState initial_state(std::span<const double> body_temperature) const;
+  /// Bodies with an enthalpy per volume of their own at each of their nodes; with the open rule of bodies
+  /// that store at Gauss points the temperature for it is interpolated from there.
+  /// @param enthalpy  h(node, body) [J/m³], by the curves of storage().body_enthalpy(), of owned nodes
+  ThermalState initial_state_of(const std::function<double(Index node, int body)>& enthalpy) const;
   /// From nodal temperatures [K], [local node], ghosts up to date.
   ThermalState initial_state_at_nodes(std::span<const double> temperature) const;
 

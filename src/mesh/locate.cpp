@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "mesh/block_geometry.hpp"
+#include "mesh/nearest_place.hpp"
 
 namespace solidus::mesh {
 
@@ -22,148 +23,6 @@ bool on_any_process(bool value) {
   int n = value ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
   return n > 0;
-}
-
-// Inside up to this much of the reference shape: points on edges count for every element that has the edge.
-constexpr double k_inside = 1e-9;
-
-bool inside(Shape shape, const Point& xi) {
-  const int dim = dimension(shape);
-  const bool simplex = dim > 1 && vertex_count(shape) == dim + 1;
-  double sum = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(dim); ++i) {
-    sum += xi[i];
-    if (simplex ? xi[i] < -k_inside : std::abs(xi[i]) > 1 + k_inside) return false;
-  }
-  return !simplex || sum <= 1 + k_inside;
-}
-
-Point centre(Shape shape) {
-  const int dim = dimension(shape);
-  const bool simplex = dim > 1 && vertex_count(shape) == dim + 1;
-  const double c = simplex ? 1.0 / (dim + 1) : 0.0;
-  return {dim > 0 ? c : 0, dim > 1 ? c : 0, dim > 2 ? c : 0};
-}
-
-// Solves the symmetric positive system a y = b of up to three unknowns by elimination; false if singular.
-bool solve(std::array<std::array<double, 3>, 3> a, Point b, std::size_t n, Point& y) {
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!(a[k][k] > 0)) return false;
-    for (std::size_t i = k + 1; i < n; ++i) {
-      const double f = a[i][k] / a[k][k];
-      for (std::size_t j = k; j < n; ++j) a[i][j] -= f * a[k][j];
-      b[i] -= f * b[k];
-    }
-  }
-  y = {};
-  for (std::size_t k = n; k-- > 0;) {
-    y[k] = b[k];
-    for (std::size_t j = k + 1; j < n; ++j) y[k] -= a[k][j] * y[j];
-    y[k] /= a[k][k];
-  }
-  return true;
-}
-
-struct Nearest {
-  double distance = std::numeric_limits<double>::infinity();
-  Shape shape = Shape::point1;  // the element itself, or the face, edge or vertex that holds the place
-  std::vector<int> local;       // its nodes among the element's
-  Point xi{};                   // in `shape`
-};
-
-class Search {
- public:
-  Search(const Mesh& mesh, const Point& target) : mesh_(mesh), target_(target) {}
-
-  // The place of the element nearest to the target: in its interior, or, where that has no stationary point,
-  // on one of its faces, and so on down to the vertices.
-  Nearest element(Shape shape, const Index* nodes) {
-    std::vector<int> all(static_cast<std::size_t>(node_count(shape)));
-    for (std::size_t a = 0; a < all.size(); ++a) all[a] = static_cast<int>(a);
-    Nearest best;
-    descend(shape, nodes, all, best);
-    return best;
-  }
-
- private:
-  // Gauss–Newton on |x(ξ) − target|².
-  bool stationary(Shape shape, const Index* nodes, const std::vector<int>& local, Point& xi,
-                  double& distance) {
-    const auto dim = static_cast<std::size_t>(dimension(shape));
-    std::array<double, 20> value{};
-    std::array<double, 60> slope{};
-    xi = centre(shape);
-    for (int iteration = 0;; ++iteration) {
-      basis_values(shape, xi, value);
-      basis_gradients(shape, xi, slope);
-      Point r = target_;
-      std::array<Point, 3> tangent{};
-      for (std::size_t a = 0; a < local.size(); ++a) {
-        const Point& x = mesh_.x[static_cast<std::size_t>(nodes[local[a]])];
-        for (std::size_t i = 0; i < 3; ++i) {
-          r[i] -= value[a] * x[i];
-          for (std::size_t k = 0; k < dim; ++k) tangent[k][i] += slope[a * dim + k] * x[i];
-        }
-      }
-      distance = std::hypot(r[0], r[1], r[2]);
-      std::array<std::array<double, 3>, 3> metric{};
-      Point rhs{}, step{};
-      for (std::size_t k = 0; k < dim; ++k) {
-        for (std::size_t i = 0; i < 3; ++i) rhs[k] += tangent[k][i] * r[i];
-        for (std::size_t l = 0; l < dim; ++l)
-          for (std::size_t i = 0; i < 3; ++i) metric[k][l] += tangent[k][i] * tangent[l][i];
-      }
-      if (!solve(metric, rhs, dim, step)) return false;
-      double size = 0;
-      for (std::size_t k = 0; k < dim; ++k) size = std::max(size, std::abs(step[k]));
-      if (size < 1e-12) return true;
-      if (iteration == 50 || !(size < 1e3)) return false;
-      for (std::size_t k = 0; k < dim; ++k) xi[k] += step[k] * std::min(1.0, 2.0 / size);
-    }
-  }
-
-  void descend(Shape shape, const Index* nodes, const std::vector<int>& local, Nearest& best) {
-    Point xi{};
-    double distance = 0;
-    if (dimension(shape) == 0) {
-      const Point& x = mesh_.x[static_cast<std::size_t>(nodes[local[0]])];
-      distance = std::hypot(x[0] - target_[0], x[1] - target_[1], x[2] - target_[2]);
-      if (distance < best.distance) best = {distance, shape, local, xi};
-      return;
-    }
-    if (stationary(shape, nodes, local, xi, distance) && inside(shape, xi)) {
-      // An interior stationary point of full dimension is the target itself.
-      if (dimension(shape) == mesh_.dimension) distance = 0;
-      if (distance < best.distance) best = {distance, shape, local, xi};
-      return;
-    }
-    for (int f = 0; f < face_count(shape); ++f) {
-      std::vector<int> face;
-      for (const int a : face_nodes(shape, f)) face.push_back(local[static_cast<std::size_t>(a)]);
-      descend(face_shape(shape), nodes, face, best);
-    }
-  }
-
-  const Mesh& mesh_;
-  Point target_;
-};
-
-// A lower bound of the distance to an element: to the box around its nodes, widened for curved edges.
-double distance_to_box(const Mesh& mesh, const Block& block, Index e, const Point& p) {
-  const Index* nodes = block.element(e);
-  double squared = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int a = 0; a < node_count(block.shape); ++a) {
-      const double c = mesh.x[static_cast<std::size_t>(nodes[a])][i];
-      low = std::min(low, c);
-      high = std::max(high, c);
-    }
-    const double margin = (order(block.shape) == 2 ? 0.25 : 1e-6) * (high - low);
-    const double outside = std::max({low - margin - p[i], p[i] - high - margin, 0.0});
-    squared += outside * outside;
-  }
-  return std::sqrt(squared);
 }
 
 struct Candidate {
@@ -187,17 +46,16 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
 
-  Search search(mesh, point);
   LocatedPoint located;
-  Nearest nearest;
+  NearestPlace nearest;
   Candidate best;
   best.process = rank;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
     if (body >= 0 && block.body != body) continue;
     for (Index e = 0; e < block.n_counted; ++e) {
-      if (distance_to_box(mesh, block, e, point) > best.distance) continue;
-      Nearest here = search.element(block.shape, block.element(e));
+      if (distance_to_box(element_box(mesh, block, e), point) > best.distance) continue;
+      NearestPlace here = nearest_place(mesh, block.shape, block.element(e), point);
       const Candidate candidate{here.distance, static_cast<double>(block.body),
                                 static_cast<double>(block.input_element[static_cast<std::size_t>(e)]),
                                 static_cast<double>(rank)};

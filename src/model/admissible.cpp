@@ -18,7 +18,7 @@ namespace solidus::model {
 namespace {
 
 bool steady(const Function& f) {
-  return f.table.min_value() == f.table.max_value();
+  return f.place == nullptr && f.table.min_value() == f.table.max_value();
 }
 bool zero(const Function& f) {
   return steady(f) && f.table.min_value() == 0;
@@ -65,9 +65,10 @@ std::optional<double> common_ambient(const CaseSpec& spec) {
   return common;
 }
 
-double coldest(const CaseSpec& spec) {
-  double low = spec.bodies.front().initial_temperature;
-  for (const BodySpec& body : spec.bodies) low = std::min(low, body.initial_temperature);
+double coldest_body(const CaseSpec& spec, double low) {
+  for (const BodySpec& body : spec.bodies)
+    if (body.initial_temperature.place == nullptr)
+      low = std::min(low, body.initial_temperature.table.value(0));
   return low;
 }
 
@@ -132,12 +133,12 @@ void check_integration(const CaseSpec& spec, Admissibility& a) {
 
 }  // namespace
 
-Admissibility admissibility(const CaseSpec& spec) {
+Admissibility admissibility(const CaseSpec& spec, double coldest) {
   Admissibility a;
   if (spec.coupling.ambient_temperature)
     a.ambient_temperature = *spec.coupling.ambient_temperature;
   else
-    a.ambient_temperature = common_ambient(spec).value_or(coldest(spec));
+    a.ambient_temperature = common_ambient(spec).value_or(coldest_body(spec, coldest));
   check_heat(spec, a);
   check_mechanics(spec, a);
   check_integration(spec, a);

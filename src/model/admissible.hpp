@@ -2,6 +2,7 @@
 /// 2.24 cannot grow (monograph 2.26; docs/theory/coupling_stability.md, 2).
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Admissibility {
 
 /// Of a thermo-mechanical case. Admissible: dead loads, supports that do not move, no source and no flux,
 /// surroundings at Θ_a, and a time integration for which the decay is proved (backward Euler).
-Admissibility admissibility(const CaseSpec& spec);
+/// @param coldest  the lowest initial temperature of bodies that have several [K]
+Admissibility admissibility(const CaseSpec& spec, double coldest = std::numeric_limits<double>::infinity());
 
 }  // namespace solidus::model

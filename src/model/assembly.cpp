@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "algebra/parallel.hpp"
@@ -21,42 +20,21 @@ namespace solidus::model {
 
 namespace {
 
-/// Temperatures this close to that of an isothermal change, as a share of it, are that temperature: degrees
-/// Celsius and kelvin round differently.
-constexpr double k_same_temperature = 1e-12;
-
-/// Initial temperatures of the bodies [K]. At the very temperature of an isothermal change there is melt.
-std::vector<double> body_temperatures(const CaseSpec& spec,
-                                      const std::vector<material::Material>& materials) {
-  std::vector<double> temperatures;
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    double& t = temperatures.emplace_back(spec.bodies[b].initial_temperature);
-    for (const material::PhaseChange& change : materials[b].phase_changes) {
-      const auto& points = change.fraction.points();
-      for (std::size_t i = 1; i < points.size(); ++i)
-        if (points[i].first == points[i - 1].first &&
-            std::abs(t - points[i].first) <= k_same_temperature * points[i].first)
-          t = points[i].first;
-    }
-  }
-  return temperatures;
-}
-
 /// At which nodes are free of thermal strain, and what they have in mechanics alone: every body at its
 /// temperature. A node of several bodies takes that of one that deforms, of these the hottest: the casting's.
-std::vector<double> nodal_temperature(const CaseSpec& spec, const std::vector<double>& body_temperature,
+std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTemperatures& start,
                                       const mesh::Mesh& mesh) {
-  std::vector<std::size_t> order(mesh.blocks.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto rank = [&](std::size_t block) {
-    const auto body = static_cast<std::size_t>(mesh.blocks[block].body);
-    return std::pair(!only_conducts(spec.bodies[body]), body_temperature[body]);
-  };
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank(a) < rank(b); });
-  std::vector<double> temperature(static_cast<std::size_t>(mesh.n_nodes()), body_temperature.front());
-  for (const std::size_t block : order)
-    for (const Index i : mesh.blocks[block].nodes)
-      temperature[static_cast<std::size_t>(i)] = rank(block).second;
+  using Rank = std::pair<bool, double>;
+  std::vector<Rank> best(mesh.x.size(), {false, -1.0});
+  for (const mesh::Block& block : mesh.blocks) {
+    const bool deforms = !only_conducts(spec.bodies[static_cast<std::size_t>(block.body)]);
+    for (const Index i : block.nodes) {
+      Rank& here = best[static_cast<std::size_t>(i)];
+      here = std::max(here, Rank(deforms, start.temperature(i, block.body)));
+    }
+  }
+  std::vector<double> temperature(mesh.x.size());
+  for (std::size_t i = 0; i < best.size(); ++i) temperature[i] = best[i].second;  // ghosts may have no body
   algebra::GhostExchange(mesh).update(temperature, 1);  // an owner sees every body at its node
   return temperature;
 }
@@ -96,7 +74,7 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
   a.initial.mechanics = a.mechanics->initial_state();
 }
 
-void build_heat(const CaseSpec& spec, const std::vector<double>& body_temperature, Assembly& a) {
+void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly& a) {
   std::vector<algebra::Contribution*> contributions;
   for (const auto& pair : a.contacts)
     if (pair->heat() != nullptr) contributions.push_back(pair->heat());
@@ -107,7 +85,7 @@ void build_heat(const CaseSpec& spec, const std::vector<double>& body_temperatur
       std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
                                            thermal_conditions(spec, a.first_stage()), options, contributions);
   a.phases.heat = a.heat.get();
-  a.initial.heat = a.heat->initial_state(body_temperature);
+  a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -130,6 +108,12 @@ void announce_departure(const CaseSpec& spec, const StageRun& stage, const Stage
 }
 
 }  // namespace
+
+double Assembly::coldest_start() const {
+  double low = start.front().low;
+  for (const TemperatureRange& range : start) low = std::min(low, range.low);
+  return low;
+}
 
 void apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
            coupling::State* begins, Assembly& a) {
@@ -155,9 +139,10 @@ void build(const CaseSpec& spec, Assembly& a) {
     logging::warn("these act on bodies that only conduct heat, and do nothing: {}", listed(idle));
   for (const StageRun& stage : a.stages)
     if (stage.cycle <= 1) without_body(spec, a.mesh, &stage);  // complains early
-  const std::vector<double> body_temperature = body_temperatures(spec, a.materials);
+  const InitialTemperatures start(spec, a.materials, a.mesh);
+  a.start = start.ranges();
   build_contacts(spec, a);
-  a.phases.temperature = nodal_temperature(spec, body_temperature, a.mesh);
+  a.phases.temperature = nodal_temperature(spec, start, a.mesh);
   if (spec.has_mechanics()) {
     build_mechanics(spec, a.phases.temperature, a);
     if (spec.has_heat() && spec.coupling.structural_heating != CouplingSpec::StructuralHeating::none) {
@@ -166,8 +151,9 @@ void build(const CaseSpec& spec, Assembly& a) {
       a.phases.structural = a.structural.get();
     }
   }
-  if (spec.has_heat()) build_heat(spec, body_temperature, a);
-  if (spec.coupled()) a.phases.ambient_temperature = admissibility(spec).ambient_temperature;
+  if (spec.has_heat()) build_heat(spec, start, a);
+  if (spec.coupled())
+    a.phases.ambient_temperature = admissibility(spec, a.coldest_start()).ambient_temperature;
   a.criteria = make_criteria(spec, a.mesh, a.materials, a.phases);
   if (a.criteria == nullptr) return;
   a.phases.criteria = a.criteria.get();

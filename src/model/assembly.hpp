@@ -8,6 +8,7 @@
 #include "coupling/phases.hpp"
 #include "coupling/state.hpp"
 #include "model/case_spec.hpp"
+#include "model/initial_temperature.hpp"
 #include "model/stage_input.hpp"
 
 namespace solidus::model {
@@ -24,10 +25,12 @@ struct Assembly {
   std::unique_ptr<criteria::Criteria> criteria;    ///< null: nothing is followed
   coupling::Phases phases;
   coupling::State initial;
-  std::vector<StageRun> stages;  ///< empty: the case has none
+  std::vector<TemperatureRange> start;  ///< initial temperatures, [body]
+  std::vector<StageRun> stages;         ///< empty: the case has none
   Assembly() = default;
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
+  double coldest_start() const;  ///< [K]
   const StageRun* first_stage() const { return stages.empty() ? nullptr : &stages.front(); }
 };
 

@@ -10,8 +10,10 @@ namespace solidus::model {
 /// although the conditions are admissible.
 class StabilityWatch : public coupling::Observer {
  public:
-  /// @param spec kept by reference; thermo-mechanical
-  explicit StabilityWatch(const CaseSpec& spec) : spec_(spec), admissibility_(admissibility(spec)) {}
+  /// @param spec     kept by reference; thermo-mechanical
+  /// @param coldest  as of admissibility()
+  explicit StabilityWatch(const CaseSpec& spec, double coldest = std::numeric_limits<double>::infinity())
+      : spec_(spec), admissibility_(admissibility(spec, coldest)) {}
   void begin(const coupling::State&) override {}
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void stopped(const coupling::Stop&, const coupling::State&) override {}

@@ -58,21 +58,31 @@ bool names_a_file(const std::string& material) {
   return material.ends_with(".toml") || material.find('/') != std::string::npos;
 }
 
+void resolve(Value& path) {
+  const SourceLocation where = path.where;
+  path = Value(resolved_path(path));
+  path.where = where;
+}
+
+/// Files of quantities that vary from place to place: { file = "points.csv" }.
+void resolve_places(Value& section) {
+  if (!section.is_table()) return;
+  for (auto& entry : section.entries())
+    if (entry.value.is_table())
+      if (Value* file = entry.value.find("file"); file && file->is_text()) resolve(*file);
+}
+
 void resolve_paths(Value& document) {
   if (Value* mesh = document.find("mesh"); mesh && mesh->is_table())
-    if (Value* file = mesh->find("file"); file && file->is_text()) {
-      const SourceLocation where = file->where;
-      *file = Value(resolved_path(*file));
-      file->where = where;
-    }
+    if (Value* file = mesh->find("file"); file && file->is_text()) resolve(*file);
+  if (Value* conditions = document.find("thermal_condition"); conditions && conditions->is_list())
+    for (Value& condition : conditions->items()) resolve_places(condition);
   Value* bodies = document.find("body");
   if (!bodies || !bodies->is_list()) return;
   for (Value& body : bodies->items()) {
+    resolve_places(body);
     Value* material = body.find("material");
-    if (!material || !material->is_text() || !names_a_file(material->text())) continue;
-    const SourceLocation where = material->where;
-    *material = Value(resolved_path(*material));
-    material->where = where;
+    if (material && material->is_text() && names_a_file(material->text())) resolve(*material);
   }
 }
 

@@ -33,9 +33,10 @@ Section<BodySpec> body_keys() {
       .doc("Group of the mesh that holds its elements; without it the group called `name`.");
   s.key("material", &BodySpec::material)
       .doc("Name in the material library (`solidus materials`), or a material file (relative to this file).");
-  s.quantity("initial_temperature", &BodySpec::initial_temperature, "K")
+  s.function("initial_temperature", &BodySpec::initial_temperature, "K")
+      .anywhere(Key::Place::position)
       .positive()
-      .doc("Uniform at the start; the body is free of thermal strain there.");
+      .doc("At the start; the body is free of thermal strain there.");
   s.choice("physics", &BodySpec::physics,
            {{"all", BodySpec::Physics::all, "those of the analysis"},
             {"heat", BodySpec::Physics::heat,

@@ -124,7 +124,7 @@ struct BodySpec {
   std::string name;
   std::optional<std::string> group;  ///< of the mesh; absent: as `name`
   std::string material;              ///< name in the library, or a file
-  double initial_temperature = 0;    ///< [K]
+  Function initial_temperature;      ///< [K], of position
   enum class Physics { all, heat };
   Physics physics = Physics::all;
   std::vector<std::string> stages;       ///< in which it is there; empty: all
@@ -137,12 +137,14 @@ struct ThermalConditionSpec {
   enum class Kind { temperature, flux, film, radiation, source };
   std::string name, group;
   Kind kind = Kind::temperature;
-  Function temperature;             ///< [K] of time
-  Function flux;                    ///< into the body [W/m²] of time or temperature
-  Function coefficient;             ///< film [W/(m² K)] of time or of the surface's temperature
-  Function emissivity;              ///< [1] of time or of the surface's temperature
-  Function ambient;                 ///< [K] of time
-  Function power;                   ///< [W/m³] of time or temperature
+  // Of time, or of position and time.
+  Function temperature;             ///< [K]
+  Function flux;                    ///< into the body [W/m²]
+  Function coefficient;             ///< film [W/(m² K)]; or of the surface's temperature
+  Function emissivity;              ///< [1]; or of the surface's temperature
+  Function ambient;                 ///< [K]
+  Function power;                   ///< [W/m³]
+  Function factor;                  ///< of flux, coefficient, emissivity or power [1]
   std::vector<std::string> stages;  ///< in which it holds; empty: all
   Clock clock = Clock::run;
   SourceLocation where;

@@ -34,32 +34,47 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
       .doc("What acts there.");
   s.function("temperature", &C::temperature, "K")
       .of({Argument::time})
+      .anywhere()
       .positive()
       .when("kind", {"temperature"})
       .doc("The temperature.");
   s.function("flux", &C::flux, "W/m2")
       .of({Argument::time})
+      .anywhere()
       .when("kind", {"flux"})
       .doc("Heat into the body per area.");
   s.function("coefficient", &C::coefficient, "W/m2/K")
       .of({Argument::time, Argument::temperature})
+      .anywhere()
       .at_least(0)
       .when("kind", {"film"})
       .doc("Film coefficient h; a table of temperature takes that of the surface.");
   s.function("emissivity", &C::emissivity, "1")
       .of({Argument::time, Argument::temperature})
+      .anywhere()
       .range(0, 1)
       .when("kind", {"radiation"})
       .doc("Grey emissivity of the surface.");
   s.function("ambient", &C::ambient, "K")
       .of({Argument::time})
+      .anywhere()
       .positive()
       .when("kind", {"film", "radiation"})
       .doc("Temperature of the surroundings.");
   s.function("power", &C::power, "W/m3")
       .of({Argument::time})
+      .anywhere()
       .when("kind", {"source"})
       .doc("Heat released per volume and time.");
+  s.function("factor", &C::factor, "1")
+      .of({Argument::time})
+      .anywhere()
+      .initially(1)
+      .at_least(0)
+      .when("kind", {"flux", "film", "radiation", "source"})
+      .doc(
+          "The flux, coefficient, emissivity or power is multiplied by it: where and when a condition acts "
+          "whose coefficient is a table of temperature.");
   add_stage_keys(s);
   s.place(&C::where);
   return s;

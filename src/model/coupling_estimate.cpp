@@ -13,19 +13,17 @@ namespace solidus::model {
 
 namespace {
 
-struct Range {
-  double low, high;  ///< [K]
-};
-
-Range temperatures(const CaseSpec& spec) {
-  Range r{spec.bodies.front().initial_temperature, spec.bodies.front().initial_temperature};
+TemperatureRange temperatures(const CaseSpec& spec, const std::vector<TemperatureRange>& start) {
+  TemperatureRange r = start.front();
   const auto add = [&r](double low, double high) { r = {std::min(r.low, low), std::max(r.high, high)}; };
-  for (const BodySpec& body : spec.bodies) add(body.initial_temperature, body.initial_temperature);
+  for (const TemperatureRange& body : start) add(body.low, body.high);
+  const auto add_table = [&](const Function& f) {
+    if (f.place == nullptr) add(f.table.min_value(), f.table.max_value());
+  };
   using Kind = ThermalConditionSpec::Kind;
   for (const auto& c : spec.thermal_conditions) {
-    if (c.kind == Kind::temperature) add(c.temperature.table.min_value(), c.temperature.table.max_value());
-    if (c.kind == Kind::film || c.kind == Kind::radiation)
-      add(c.ambient.table.min_value(), c.ambient.table.max_value());
+    if (c.kind == Kind::temperature) add_table(c.temperature);
+    if (c.kind == Kind::film || c.kind == Kind::radiation) add_table(c.ambient);
   }
   return r;
 }
@@ -53,8 +51,9 @@ bool takes_isothermal_passes(const CouplingSpec& c) {
 
 std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,
-                                                 const mesh::Mesh& mesh) {
-  const auto [low, high] = temperatures(spec);
+                                                 const mesh::Mesh& mesh,
+                                                 const std::vector<TemperatureRange>& start) {
+  const auto [low, high] = temperatures(spec, start);
   const bool plane = spec.analysis.kind == AnalysisKind::plane_strain ||
                      (spec.analysis.kind == AnalysisKind::axisymmetric && axially_held(spec, mesh));
   std::vector<CouplingEstimate> estimates;
@@ -63,7 +62,7 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
     CouplingEstimate e;
     e.body = spec.bodies[b].name;
     e.plane = plane;
-    e.initial = spec.bodies[b].initial_temperature;
+    e.initial = start[b].high;
     e.worst = material::strongest_coupling(materials[b], low, high);
     e.at_initial = material::coupling_number(materials[b], e.initial);
     e.at_worst = material::coupling_number(materials[b], e.worst);

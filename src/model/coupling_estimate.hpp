@@ -8,6 +8,7 @@
 #include "material/coupling_number.hpp"
 #include "mesh/mesh.hpp"
 #include "model/case_spec.hpp"
+#include "model/initial_temperature.hpp"
 
 namespace solidus::model {
 
@@ -22,10 +23,12 @@ struct CouplingEstimate {
 };
 
 /// Of a thermo-mechanical case, one per body. The range of temperatures is that of all initial, ambient and
-/// prescribed ones. Collective.
+/// prescribed ones but those of conditions that vary with position. Collective.
+/// @param start  of each body; `initial` is the highest
 std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,
-                                                 const mesh::Mesh& mesh);
+                                                 const mesh::Mesh& mesh,
+                                                 const std::vector<TemperatureRange>& start);
 
 /// "casting: delta = 0.0400 at 319.85 degC, ...".
 std::string text(const CouplingEstimate& estimate);

@@ -1,14 +1,15 @@
 #include "model/heat_input.hpp"
 
 #include "model/body_input.hpp"
+#include "model/place_input.hpp"
 
 namespace solidus::model {
 
 namespace {
 
-heat::Coefficient coefficient(const Function& f, Clock clock, const StageRun* stage) {
+heat::Coefficient coefficient(const Function& f, Clock clock, const StageRun* stage, AnalysisKind kind) {
   if (f.of == Argument::temperature) return {f.table, true};
-  return {on_clock(f, clock, stage), false};
+  return {place_function(f, clock, stage, kind), false};
 }
 
 }  // namespace
@@ -19,24 +20,25 @@ heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage)
   conditions.absent_bodies = gone_bodies(spec, stage);
   for (const auto& c : spec.thermal_conditions) {
     if (!holds(c.stages, stage)) continue;
-    const auto of_time = [&](const Function& f) { return on_clock(f, c.clock, stage); };
+    const AnalysisKind kind = spec.analysis.kind;
+    const auto placed = [&](const Function& f) { return place_function(f, c.clock, stage, kind); };
     switch (c.kind) {
       case Kind::temperature:
-        conditions.temperatures.push_back({c.name, c.group, of_time(c.temperature)});
+        conditions.temperatures.push_back({c.name, c.group, placed(c.temperature)});
         break;
       case Kind::flux:
-        conditions.fluxes.push_back({c.name, c.group, of_time(c.flux)});
+        conditions.fluxes.push_back({c.name, c.group, placed(c.flux), placed(c.factor)});
         break;
       case Kind::film:
-        conditions.films.push_back(
-            {c.name, c.group, coefficient(c.coefficient, c.clock, stage), of_time(c.ambient)});
+        conditions.films.push_back({c.name, c.group, coefficient(c.coefficient, c.clock, stage, kind),
+                                    placed(c.ambient), placed(c.factor)});
         break;
       case Kind::radiation:
-        conditions.radiations.push_back(
-            {c.name, c.group, coefficient(c.emissivity, c.clock, stage), of_time(c.ambient)});
+        conditions.radiations.push_back({c.name, c.group, coefficient(c.emissivity, c.clock, stage, kind),
+                                         placed(c.ambient), placed(c.factor)});
         break;
       case Kind::source:
-        conditions.sources.push_back({c.name, c.group, of_time(c.power)});
+        conditions.sources.push_back({c.name, c.group, placed(c.power), placed(c.factor)});
         break;
     }
   }

@@ -205,7 +205,7 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   coupling::Simulation simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
   RangeWatch watch(spec, a);
   DissipationWatch dissipation;
-  StabilityWatch stability(spec);
+  StabilityWatch stability(spec, a.coldest_start());
   FirstLawWatch first_law(spec);
   WallWatch walls(a.phases.contacts);
   StopReason why;
@@ -231,7 +231,7 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   if (outcome == coupling::Outcome::finished) return {};
   std::vector<CouplingEstimate> couplings;
   if (spec.coupled() && spec.coupling.scheme == CouplingSpec::Scheme::isothermal)
-    couplings = coupling_estimates(spec, a.materials, a.mesh);
+    couplings = coupling_estimates(spec, a.materials, a.mesh, a.start);
   return {false, stop_text(why.stop, spec, why.time,
                            results::CheckpointFolder(options.folder).latest().lexically_normal().string(),
                            couplings)};
@@ -270,8 +270,9 @@ CheckedRun check_run(const Case& c) {
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
-  CheckedRun checked{counts(c.spec, a.mesh), {}};
-  if (a.phases.audits_stability()) checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh);
+  CheckedRun checked{counts(c.spec, a.mesh), a.start, {}};
+  if (a.phases.audits_stability())
+    checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh, a.start);
   return checked;
 }
 
@@ -289,7 +290,7 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   build(c.spec, a);
   return_free_memory();
   if (a.phases.audits_stability())
-    announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh));
+    announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
   results::RecorderOptions r = recorder_options(c, options, a);
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials);

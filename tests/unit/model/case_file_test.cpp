@@ -87,7 +87,7 @@ TEST_F(CaseFile, AVariantIsLaidOverTheCaseItIncludes) {
   EXPECT_DOUBLE_EQ(*c.spec.time.step, 2);
   EXPECT_DOUBLE_EQ(*c.spec.time.end, 10);
   ASSERT_EQ(c.spec.bodies.size(), 1u);
-  EXPECT_DOUBLE_EQ(c.spec.bodies[0].initial_temperature, 573.15);
+  EXPECT_DOUBLE_EQ(c.spec.bodies[0].initial_temperature.table.value(0), 573.15);
   EXPECT_EQ(c.spec.thermal_conditions.size(), 2u);
 }
 

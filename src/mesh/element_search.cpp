@@ -1,0 +1,65 @@
+#include "mesh/element_search.hpp"
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <utility>
+#include <vector>
+
+#include "mesh/nearest_place.hpp"
+
+namespace solidus::mesh {
+
+namespace bg = boost::geometry;
+using TreePoint = bg::model::point<double, 3, bg::cs::cartesian>;
+using TreeBox = bg::model::box<TreePoint>;
+
+struct ElementSearch::Tree {
+  struct Element {
+    std::size_t block;
+    Index element;
+    auto operator<=>(const Element&) const = default;
+  };
+  using Entry = std::pair<TreeBox, Element>;
+  bg::index::rtree<Entry, bg::index::quadratic<16>> boxes;
+};
+
+ElementSearch::ElementSearch(const Mesh& mesh) : mesh_(mesh), tree_(std::make_unique<Tree>()) {
+  std::vector<Tree::Entry> entries;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    for (Index e = 0; e < mesh.blocks[b].size(); ++e) {
+      const Box box = element_box(mesh, mesh.blocks[b], e);
+      entries.push_back({TreeBox(TreePoint(box.low[0], box.low[1], box.low[2]),
+                                 TreePoint(box.high[0], box.high[1], box.high[2])),
+                         {b, e}});
+    }
+  tree_->boxes = {entries.begin(), entries.end()};
+}
+
+ElementSearch::~ElementSearch() = default;
+
+ElementSearch::Found ElementSearch::find(const Point& point) const {
+  NearestPlace best;
+  Tree::Element answers{};
+  const TreePoint at(point[0], point[1], point[2]);
+  // Boxes come by rising distance, a lower bound of that to their elements.
+  const auto& boxes = tree_->boxes;
+  for (auto entry = boxes.qbegin(bg::index::nearest(at, static_cast<unsigned>(boxes.size())));
+       entry != boxes.qend(); ++entry) {
+    if (bg::distance(at, entry->first) > best.distance) break;
+    const Tree::Element element = entry->second;
+    const Block& block = mesh_.blocks[element.block];
+    NearestPlace here = nearest_place(mesh_, block.shape, block.element(element.element), point);
+    if (here.distance > best.distance || (here.distance == best.distance && answers < element)) continue;
+    best = std::move(here);
+    answers = element;
+  }
+  Found found;
+  found.distance = best.distance;
+  found.weights.resize(best.local.size());
+  basis_values(best.shape, best.xi, found.weights);
+  const Block& block = mesh_.blocks[answers.block];
+  for (const int a : best.local) found.nodes.push_back(block.element(answers.element)[a]);
+  return found;
+}
+
+}  // namespace solidus::mesh

@@ -1,0 +1,30 @@
+/// Finds the elements that points lie in, for many points of one process's mesh.
+#pragma once
+
+#include <memory>
+
+#include "mesh/locate.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::mesh {
+
+/// Keeps a reference to the mesh. Not collective: it sees the elements of this process alone.
+class ElementSearch {
+ public:
+  explicit ElementSearch(const Mesh& mesh);
+  ~ElementSearch();
+
+  struct Found : NodalFunctional {
+    double distance = 0;  ///< from the point to the mesh [m], zero inside (to rounding)
+  };
+  /// The nodes and weights N_a(ξ) of the place nearest to a point; where several elements have it, of the
+  /// lowest one. The mesh has an element.
+  Found find(const Point& point) const;
+
+ private:
+  struct Tree;
+  const Mesh& mesh_;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace solidus::mesh

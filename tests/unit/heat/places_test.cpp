@@ -1,0 +1,125 @@
+/// Conditions that vary with position.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/errors.hpp"
+#include "block.hpp"
+
+namespace solidus {
+namespace {
+
+using mesh::Shape;
+
+class Law : public PlaceLaw {
+ public:
+  using Value = std::function<double(const Position&, double)>;
+  explicit Law(Value value) : value_(std::move(value)) {}
+  void values(std::span<const Position> x, double time, std::span<double> values) const override {
+    for (std::size_t i = 0; i < x.size(); ++i) values[i] = value_(x[i], time);
+  }
+
+ private:
+  Value value_;
+};
+
+PlaceFunction placed(Law::Value value) {
+  return PlaceFunction(std::make_shared<Law>(std::move(value)));
+}
+
+material::Material solid_metal() {
+  material::Material m = test::metal(10);
+  m.phase_changes.clear();
+  return m;
+}
+
+class Places : public ::testing::TestWithParam<std::tuple<Shape, bool>> {
+ protected:
+  mesh::Mesh mesh(int n = 4) const {
+    const bool solid = test::is_3d(shape());
+    return test::block_mesh(shape(), solid ? std::vector{0.2, 0.1, 0.1} : std::vector{0.2, 0.1},
+                            solid ? std::vector{n, 2, 2} : std::vector{n, 2});
+  }
+  Shape shape() const { return std::get<0>(GetParam()); }
+  AnalysisKind kind() const {
+    return test::is_3d(shape()) ? AnalysisKind::solid : AnalysisKind::plane_strain;
+  }
+  double depth() const { return test::is_3d(shape()) ? 0.1 : 1.0; }
+  heat::HeatOptions options() const {
+    heat::HeatOptions o;
+    o.integration = std::get<1>(GetParam()) ? heat::Integration::closed : heat::Integration::open;
+    return o;
+  }
+};
+
+TEST_P(Places, ALinearSourceAndALinearFluxGiveTheirIntegral) {
+  const mesh::Mesh mesh = this->mesh();
+  heat::Conditions conditions;
+  conditions.sources = {{"source", "block", placed([](const Position& x, double) { return 1e6 * x[0]; })}};
+  conditions.fluxes = {
+      {"flux", "y_max", placed([](const Position& x, double t) { return 1e5 * x[0] * t; }), 2.0}};
+  heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
+  const heat::ThermalState start = phase.initial_state(std::array{400.0});
+  heat::ThermalState end;
+  const heat::PhaseReport report = phase.solve(start, end, 3, 0.5);
+  ASSERT_EQ(report.balance.conditions.size(), 2U);
+  EXPECT_NEAR(report.balance.conditions[0].heat, 2 * 1e5 * 0.02 * depth() * 3 * 0.5, 1e-9);
+  EXPECT_NEAR(report.balance.conditions[1].heat, 1e6 * 0.02 * 0.1 * depth() * 0.5, 1e-9);
+  EXPECT_NEAR(report.balance.defect(), 0, 1e-7 * report.balance.exchanged);
+}
+
+TEST_P(Places, APrescribedLinearTemperatureIsTheSteadyState) {
+  const mesh::Mesh mesh = this->mesh();
+  const auto linear = [](const Position& x, double) { return 400 + 1000 * x[0] + 500 * x[1] + 200 * x[2]; };
+  heat::Conditions conditions;
+  for (const char* face : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
+    if (test::is_3d(shape()) || face[0] != 'z')
+      conditions.temperatures.push_back({face, face, placed(linear)});
+  heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
+  heat::ThermalState end;
+  phase.solve_steady(phase.initial_state(std::array{400.0}), end, 0);
+  double worst = 0;
+  for (std::size_t i = 0; i < mesh.x.size(); ++i)
+    worst = std::max(worst, std::abs(end.temperature[i] - linear(mesh.x[i], 0)));
+  EXPECT_LT(worst, 1e-6);
+}
+
+TEST_P(Places, AFactorRestrictsAFilmWhoseCoefficientIsATableOfTemperature) {
+  const mesh::Mesh mesh = this->mesh();
+  const auto heat_in = [&](PlaceFunction factor) {
+    heat::Conditions conditions;
+    conditions.films = {{"film", "y_max", {Table({300, 500}, {100, 300}), true}, 300.0, std::move(factor)}};
+    heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
+    heat::ThermalState end;
+    return phase.solve(phase.initial_state(std::array{400.0}), end, 1, 1e-4).balance.conditions[0].heat;
+  };
+  const double whole = heat_in(1.0);
+  EXPECT_NEAR(whole, -200 * 100 * 0.2 * depth() * 1e-4, 1e-3 * std::abs(whole));
+  EXPECT_NEAR(heat_in(placed([](const Position& x, double) { return x[0] / 0.2; })), whole / 2,
+              1e-3 * std::abs(whole));
+  EXPECT_EQ(heat_in(placed([](const Position&, double t) { return t > 2 ? 1.0 : 0.0; })), 0);
+}
+
+TEST_P(Places, WhatOneProcessCannotEvaluateEveryProcessReports) {
+  const mesh::Mesh mesh = this->mesh();
+  heat::Conditions conditions;
+  conditions.sources = {{"source", "block", placed([](const Position& x, double) {
+                           if (x[0] > 0.17) throw InputError({"case.toml", 3, 0}, "no value");
+                           return 1.0;
+                         })}};
+  heat::ThermalPhase phase(mesh, kind(), {solid_metal()}, conditions, options());
+  heat::ThermalState end;
+  const heat::ThermalState start = phase.initial_state(std::array{400.0});
+  EXPECT_THROW(phase.solve(start, end, 1, 1), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Places,
+                         ::testing::Combine(::testing::Values(Shape::tri3, Shape::tri6, Shape::quad4,
+                                                              Shape::quad8, Shape::tet4, Shape::hex8),
+                                            ::testing::Bool()),
+                         [](const auto& each) {
+                           return std::string(mesh::name(std::get<0>(each.param))) +
+                                  (std::get<1>(each.param) ? "_closed" : "_open");
+                         });
+
+}  // namespace
+}  // namespace solidus
