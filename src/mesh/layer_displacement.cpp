@@ -39,6 +39,22 @@ void add(Point& p, double factor, const Point& q) {
   for (std::size_t i = 0; i < 3; ++i) p[i] += factor * q[i];
 }
 
+/// The shape with the vertices alone: mid nodes follow later.
+Shape linear(Shape shape) {
+  switch (shape) {
+    case Shape::tri6:
+      return Shape::tri3;
+    case Shape::quad8:
+      return Shape::quad4;
+    case Shape::tet10:
+      return Shape::tet4;
+    case Shape::hex20:
+      return Shape::hex8;
+    default:
+      return shape;
+  }
+}
+
 double normalise(Point& p) {
   const double length = std::sqrt(dot(p, p));
   if (length > 0)
@@ -59,7 +75,7 @@ double orientation(const RawMesh& mesh, const RawGroup& body, const FaceOwner& o
   const RawBlock& block = body.blocks[static_cast<std::size_t>(owner.block)];
   const Index* nodes =
       block.nodes.data() + static_cast<std::ptrdiff_t>(owner.element) * node_count(block.shape);
-  return element_quality(mesh, block.shape, nodes) < 0 ? -1 : 1;
+  return element_quality(mesh, linear(block.shape), nodes) < 0 ? -1 : 1;
 }
 
 void add_corners(const RawMesh& mesh, const WallFace& face, double sign, std::vector<Corner>& corners) {
@@ -203,7 +219,7 @@ class Room {
     moved_.x = mesh.x;
     for (const RawBlock& block : body.blocks)
       for (std::size_t e = 0; e < block.nodes.size(); e += static_cast<std::size_t>(node_count(block.shape)))
-        quality_.push_back(element_quality(mesh, block.shape, block.nodes.data() + e));
+        quality_.push_back(element_quality(mesh, linear(block.shape), block.nodes.data() + e));
   }
 
   /// In the end displacements that are still too large are taken away.
@@ -251,7 +267,7 @@ class Room {
         const Index* element = block.nodes.data() + e;
         if (!has_changed(element, n_vertices)) continue;
         const double before = quality_[number], sign = before < 0 ? -1 : 1;
-        const double now = sign * element_quality(moved_, block.shape, element);
+        const double now = sign * element_quality(moved_, linear(block.shape), element);
         if (now < std::min(k_flatter * std::abs(before), k_good_enough)) mark(element, n_vertices);
       }
     }

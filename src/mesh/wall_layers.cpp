@@ -143,7 +143,10 @@ class Builder {
     for (std::size_t i = 0; i < n; ++i) {
       if (wall_.on_wall[i] == 0 || length(u_[i]) == 0) continue;
       first_[i] = static_cast<Index>(mesh_.x.size());
-      for (const double share : levels_) add_node(displaced(static_cast<Index>(i), share));
+      for (const double share : levels_) {
+        add_node(displaced(static_cast<Index>(i), share));
+        column_.push_back(static_cast<Index>(i));
+      }
     }
     for (std::size_t i = 0; i < n; ++i)
       if (wall_.on_wall[i] == 0) mesh_.x[i] = displaced(static_cast<Index>(i), 1);
@@ -166,6 +169,9 @@ class Builder {
     if (middle_.contains(behind)) return;
     Point x = mesh_.x[at(middle)];
     for (std::size_t i = 0; i < 3; ++i) x[i] += 0.5 * (u_[at(a)][i] + u_[at(b)][i]);
+    if (is_wall_edge(a, b))
+      for (std::size_t i = 0; i < 3; ++i)
+        bulge_[edge_key(a, b)][i] = mesh_.x[at(middle)][i] - 0.5 * (mesh_.x[at(a)][i] + mesh_.x[at(b)][i]);
     const bool stays_on_wall = is_wall_edge(a, b) && behind != edge_key(a, b);
     if (stays_on_wall) middle_[edge_key(a, b)] = middle;
     if (stays_on_wall)
@@ -204,11 +210,18 @@ class Builder {
         move_nodes(block.shape, block.nodes.data() + e);
   }
 
+  /// The wall's vertex that a column begins at.
+  Index wall_of(Index vertex) const {
+    return at(vertex) < first_.size() ? vertex : column_[at(vertex) - first_.size()];
+  }
   Index middle_of(Index a, Index b) {
     const auto [found, is_new] = middle_.try_emplace(edge_key(a, b), -1);
     if (!is_new) return found->second;
     Point x{};
     for (std::size_t i = 0; i < 3; ++i) x[i] = 0.5 * (mesh_.x[at(a)][i] + mesh_.x[at(b)][i]);
+    // Layers on a curved wall are curved as it is: they may be thinner than it bulges.
+    if (const auto bulge = bulge_.find(edge_key(wall_of(a), wall_of(b))); bulge != bulge_.end())
+      for (std::size_t i = 0; i < 3; ++i) x[i] += bulge->second[i];
     return found->second = add_node(x);
   }
   void append(RawGroup& group, Shape shape, std::vector<Index> nodes) {
@@ -253,8 +266,10 @@ class Builder {
   std::vector<Point> u_;
   const std::vector<double>& levels_;
   RawGroup& body_;
-  std::vector<Shape> face_shape_;  ///< of the element of each face of the wall
-  std::vector<Index> first_;       ///< [old node]: the first node of its column; −1: none
+  std::vector<Shape> face_shape_;                    ///< of the element of each face of the wall
+  std::vector<Index> column_;                        ///< [new vertex]: the wall's vertex below it
+  std::unordered_map<Edge, Point, EdgeHash> bulge_;  ///< of the wall's edges: mid node off the chord
+  std::vector<Index> first_;                         ///< [old node]: the first node of its column; −1: none
   std::map<Edge, std::vector<std::string>> rim_;
   std::unordered_map<Edge, Index, EdgeHash> middle_;
   GlobalIndex last_node_ = 0, last_element_ = 0;
