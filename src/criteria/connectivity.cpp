@@ -14,22 +14,24 @@ namespace {
 /// Sets of numbers that are joined; each is told by its least number.
 class Joined {
  public:
-  explicit Joined(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit Joined(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
   std::size_t root(std::size_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
+    auto k = static_cast<Index>(i);
+    while (parent(k) != k) {
+      parent(k) = parent(parent(k));
+      k = parent(k);
     }
-    return i;
+    return static_cast<std::size_t>(k);
   }
   void join(std::size_t a, std::size_t b) {
     a = root(a);
     b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    if (a != b) parent_[std::max(a, b)] = static_cast<Index>(std::min(a, b));
   }
 
  private:
-  std::vector<std::size_t> parent_;
+  Index& parent(Index i) { return parent_[static_cast<std::size_t>(i)]; }
+  std::vector<Index> parent_;
 };
 
 /// What labels become when pairs of them mean the same part: the least of all that hang together.
@@ -56,7 +58,7 @@ Connectivity::Connectivity(const mesh::Mesh& mesh, const algebra::GhostExchange&
 Parts Connectivity::parts(std::span<const char> inside) const {
   const std::size_t n = inside.size();
   Joined joined(n);
-  std::vector<Index> whole;  // a node of each whole element
+  std::vector<char> whole(n, 0);  // a node of each whole element
   for (const mesh::Block& block : mesh_.blocks) {
     if (chosen_[static_cast<std::size_t>(block.body)] == 0) continue;
     const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
@@ -71,21 +73,20 @@ Parts Connectivity::parts(std::span<const char> inside) const {
           joined.join(static_cast<std::size_t>(*first), static_cast<std::size_t>(*node));
           ++found;
         }
-      if (found == n_nodes) whole.push_back(*first);
+      if (found == n_nodes) whole[static_cast<std::size_t>(*first)] = 1;
     }
   }
 
   Parts parts;
   parts.label.assign(n, Parts::k_none);
-  std::vector<double> least(n, 0);
   for (std::size_t i = 0; i < n; ++i)
     if (inside[i] != 0) {
       const std::size_t root = joined.root(i);  // of all its nodes the least local number: it comes first
       const auto number = static_cast<double>(mesh_.input_node[i]);
-      least[root] = root == i ? number : std::min(least[root], number);
+      parts.label[root] = root == i ? number : std::min(parts.label[root], number);
     }
   for (std::size_t i = 0; i < n; ++i)
-    if (inside[i] != 0) parts.label[i] = least[joined.root(i)];
+    if (inside[i] != 0) parts.label[i] = parts.label[joined.root(i)];
 
   // A ghost's owner may call its part by another number: then both are one part.
   std::vector<double> of_owner = parts.label;
@@ -103,7 +104,8 @@ Parts Connectivity::parts(std::span<const char> inside) const {
       if (const auto found = common.find(label); found != common.end()) label = found->second;
 
   std::vector<double> own;
-  for (const Index node : whole) own.push_back(parts.label[static_cast<std::size_t>(node)]);
+  for (std::size_t i = 0; i < n; ++i)
+    if (whole[i] != 0 && (own.empty() || own.back() != parts.label[i])) own.push_back(parts.label[i]);
   std::sort(own.begin(), own.end());
   own.erase(std::unique(own.begin(), own.end()), own.end());
   parts.whole = gathered(own);

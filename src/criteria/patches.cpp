@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 #include "mesh/quadrature.hpp"
 
@@ -34,22 +36,31 @@ Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<ch
     mesh::basis_gradients(block.shape, centre_of(block.shape), centre.gradients);
     for (const mesh::QuadraturePoint& point : mesh::gauss_rule(block.shape, 1)) centre.weight += point.weight;
   }
+  first_.push_back(0);
+  for (const mesh::Block& block : mesh.blocks)
+    first_.push_back(first_.back() + static_cast<std::uint32_t>(block.size()));
   const auto each = [&](const auto& visit) {
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
       const mesh::Block& block = mesh.blocks[b];
       if (chosen[static_cast<std::size_t>(block.body)] == 0) continue;
       for (Index e = 0; e < block.size(); ++e) {
-        const Element element{static_cast<Index>(b), e};
-        for (const Index node : nodes(element))
-          if (node < mesh.n_owned_nodes) visit(static_cast<std::size_t>(node), element);
+        const std::uint32_t number = first_[b] + static_cast<std::uint32_t>(e);
+        for (const Index node : nodes({static_cast<Index>(b), e}))
+          if (node < mesh.n_owned_nodes) visit(static_cast<std::size_t>(node), number);
       }
     }
   };
-  each([&](std::size_t node, const Element&) { ++start_[node + 1]; });
+  std::size_t places = 0;
+  each([&](std::size_t node, std::uint32_t) {
+    ++start_[node + 1];
+    ++places;
+  });
+  if (places > std::numeric_limits<std::uint32_t>::max())
+    throw std::length_error("more than 4e9 pairs of a node and an element on one process");
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   elements_.resize(start_.back());
-  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-  each([&](std::size_t node, const Element& element) { elements_[next[node]++] = element; });
+  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+  each([&](std::size_t node, std::uint32_t number) { elements_[next[node]++] = number; });
 }
 
 Patches::Gradient Patches::gradient(const Element& e, std::span<const double> values) const {
@@ -84,7 +95,7 @@ Patches::Gradient Patches::gradient(const Element& e, std::span<const double> va
 }
 
 std::size_t Patches::bytes() const {
-  return start_.capacity() * sizeof start_[0] + elements_.capacity() * sizeof elements_[0];
+  return (first_.capacity() + start_.capacity() + elements_.capacity()) * sizeof(std::uint32_t);
 }
 
 }  // namespace solidus::criteria

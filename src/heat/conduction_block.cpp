@@ -1,6 +1,8 @@
 #include "heat/conduction_block.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -69,10 +71,13 @@ template <int n_nodes, int dim>
 class Conduction final : public ConductionBlock {
  public:
   Conduction(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind, bool closed)
-      : geometry_(geometry_of(mesh, block, kind, closed)) {}
+      : geometry_(geometry_of(mesh, block, kind, closed)) {
+    geometry_.counted = {};  // nothing is summed over elements here
+  }
 
   void bind(const algebra::BlockMatrix& matrix) override {
-    slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
+    matrix_ = &matrix;
+    slots_.reset();
   }
 
   void add_heat(std::span<const double> potential, double factor, std::span<double> heat) const override {
@@ -92,33 +97,52 @@ class Conduction final : public ConductionBlock {
 
   void add_tangent(double factor, std::span<const double> columns,
                    algebra::BlockMatrix& matrix) const override {
-    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-      ElementMatrix<n_nodes> m{};
-      for (int q = 0; q < geometry_.n_points; ++q) {
-        const Lane* g = geometry_.gradients_at(batch, q);
-        const Lane w = geometry_.weight_at(batch, q) * Lane(factor);
-        for (std::size_t a = 0; a < n_nodes; ++a)
-          for (std::size_t b = a; b < n_nodes; ++b) {
-            Lane dot = g[a * dim] * g[b * dim];
-            for (std::size_t i = 1; i < dim; ++i) dot += g[a * dim + i] * g[b * dim + i];
-            m[a][b] += w * dot;
-          }
-      }
-      for (std::size_t a = 0; a < n_nodes; ++a)
-        for (std::size_t b = 0; b < a; ++b) m[a][b] = m[b][a];
-      if (!columns.empty()) {
-        const Nodal column = gather<n_nodes>(geometry_, batch, columns);
-        for (std::size_t a = 0; a < n_nodes; ++a)
-          for (std::size_t b = 0; b < n_nodes; ++b) m[a][b] *= column[b];
-      }
-      scatter_matrix<n_nodes>(slots_.of(batch), m, matrix);
+    assert(&matrix == matrix_);
+    if (!slots_) slots_.emplace(matrix, geometry_.nodes, n_nodes, geometry_.n_elements);
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch)
+      add_batch(batch, factor, columns, slots_->of(batch), matrix);
+  }
+
+  void add_tangent_once(double factor, algebra::BlockMatrix& matrix) const override {
+    constexpr Index k_together = 1024;  // batches
+    constexpr std::size_t k_nodes = static_cast<std::size_t>(n_nodes) * k_lanes;
+    for (Index first = 0; first < geometry_.n_batches; first += k_together) {
+      const Index n = std::min(k_together, geometry_.n_batches - first);
+      const std::span<const Index> nodes =
+          std::span(geometry_.nodes)
+              .subspan(static_cast<std::size_t>(first) * k_nodes, static_cast<std::size_t>(n) * k_nodes);
+      const algebra::LaneSlots slots(matrix, nodes, n_nodes, geometry_.n_elements - first * k_lanes);
+      for (Index batch = 0; batch < n; ++batch) add_batch(first + batch, factor, {}, slots.of(batch), matrix);
     }
   }
 
-  std::size_t bytes() const override { return geometry_.bytes() + slots_.bytes(); }
+  std::size_t bytes() const override { return geometry_.bytes() + (slots_ ? slots_->bytes() : 0); }
 
  private:
   using Nodal = std::array<Lane, n_nodes>;
+
+  void add_batch(Index batch, double factor, std::span<const double> columns,
+                 const algebra::LaneSlots::Slot* slots, algebra::BlockMatrix& matrix) const {
+    ElementMatrix<n_nodes> m{};
+    for (int q = 0; q < geometry_.n_points; ++q) {
+      const Lane* g = geometry_.gradients_at(batch, q);
+      const Lane w = geometry_.weight_at(batch, q) * Lane(factor);
+      for (std::size_t a = 0; a < n_nodes; ++a)
+        for (std::size_t b = a; b < n_nodes; ++b) {
+          Lane dot = g[a * dim] * g[b * dim];
+          for (std::size_t i = 1; i < dim; ++i) dot += g[a * dim + i] * g[b * dim + i];
+          m[a][b] += w * dot;
+        }
+    }
+    for (std::size_t a = 0; a < n_nodes; ++a)
+      for (std::size_t b = 0; b < a; ++b) m[a][b] = m[b][a];
+    if (!columns.empty()) {
+      const Nodal column = gather<n_nodes>(geometry_, batch, columns);
+      for (std::size_t a = 0; a < n_nodes; ++a)
+        for (std::size_t b = 0; b < n_nodes; ++b) m[a][b] *= column[b];
+    }
+    scatter_matrix<n_nodes>(slots, m, matrix);
+  }
 
   /// Differences to the first node: a uniform temperature has no gradient, to the last bit.
   static std::array<Lane, dim> gradient(const Nodal& u, const Lane* g) {
@@ -131,7 +155,8 @@ class Conduction final : public ConductionBlock {
   }
 
   mesh::BlockGeometry geometry_;
-  algebra::LaneSlots slots_;
+  const algebra::BlockMatrix* matrix_ = nullptr;
+  mutable std::optional<algebra::LaneSlots> slots_;  ///< from the first tangent on
 };
 
 }  // namespace

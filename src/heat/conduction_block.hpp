@@ -23,6 +23,7 @@ namespace solidus::heat {
 class ConductionBlock {
  public:
   virtual ~ConductionBlock() = default;
+  /// The matrix has a new graph: places in it are found anew.
   virtual void bind(const algebra::BlockMatrix& matrix) = 0;
   /// heat_a += factor ∫ ∇N_a · ∇u dV: heat flow out of the nodes into the element [W], [local node]; ghost
   /// rows are scrap.
@@ -32,6 +33,9 @@ class ConductionBlock {
   /// @param columns  [local node]; empty: one
   virtual void add_tangent(double factor, std::span<const double> columns,
                            algebra::BlockMatrix& matrix) const = 0;
+  /// The same with one for all columns, slower: nothing is remembered for the next time, which saves 180
+  /// bytes a node of tetrahedra.
+  virtual void add_tangent_once(double factor, algebra::BlockMatrix& matrix) const = 0;
   virtual std::size_t bytes() const = 0;
 };
 

@@ -128,15 +128,19 @@ void HeatSystem::remove_bodies(const algebra::Presence& presence) {
 void HeatSystem::add_conduction(const std::vector<material::Material>& materials) {
   for (const material::Material& m : materials) potentials_.emplace_back(m.conductivity);
   fields_.resize(materials.size());
-  for (const mesh::Block& block : mesh_.blocks) {
-    const auto body = static_cast<std::size_t>(block.body);
+  for (const mesh::Block& block : mesh_.blocks)
     conduction_.push_back(make_conduction_block(mesh_, block, kind_, closed_));
-    auto& nodes = fields_[body].nodes;
-    if (!potentials_[body].constant()) nodes.insert(nodes.end(), block.nodes.begin(), block.nodes.end());
-  }
-  for (Field& u : fields_) {
-    std::sort(u.nodes.begin(), u.nodes.end());
-    u.nodes.erase(std::unique(u.nodes.begin(), u.nodes.end()), u.nodes.end());
+  std::vector<char> of_body;
+  for (std::size_t body = 0; body < fields_.size(); ++body) {
+    if (potentials_[body].constant()) continue;
+    of_body.assign(mesh_.x.size(), 0);
+    for (const mesh::Block& block : mesh_.blocks)
+      if (static_cast<std::size_t>(block.body) == body)
+        for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
+    Field& u = fields_[body];
+    u.nodes.reserve(static_cast<std::size_t>(std::count(of_body.begin(), of_body.end(), 1)));
+    for (std::size_t i = 0; i < of_body.size(); ++i)
+      if (of_body[i] != 0) u.nodes.push_back(static_cast<Index>(i));
     if (!u.nodes.empty()) u.value.resize(mesh_.x.size());
   }
 }
@@ -450,7 +454,7 @@ void HeatSystem::keep_conduction() {
     matrix_->set_zero();
     for (std::size_t b = 0; b < conduction_.size(); ++b)
       if (conduction_[b] && mesh_.blocks[b].body == static_cast<int>(body))
-        conduction_[b]->add_tangent(1.0, {}, *matrix_);
+        conduction_[b]->add_tangent_once(1.0, *matrix_);
     if (limiter_) limiter_->add_body(static_cast<int>(body), *matrix_);
     const double* values = matrix_->block(0);
     for (std::size_t s = 0; s < n; ++s) kept_conduction_[s] += potentials_[body].reference() * values[s];

@@ -78,6 +78,7 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
     throw InputError(m.where, fmt::format("'{}' is no unit of length", m.unit),
                      "\"mm\", \"m\", \"inch\", ...");
   check_names(m.groups, "[[mesh.group]]");
+  check_names(m.layers, "[[mesh.layers]]");
   for (const MeshGroupSpec& g : m.groups) {
     const bool box = !g.lowest.empty() || !g.highest.empty();
     if ((g.numbers.empty() ? 0 : 1) + (g.label.empty() ? 0 : 1) + (box ? 1 : 0) != 1)

@@ -71,6 +71,16 @@ struct MeshGroupSpec {
   SourceLocation where;
 };
 
+/// Layers of a body's elements on one of its surfaces (mesh/wall_layers.hpp).
+struct MeshLayersSpec {
+  std::string name;
+  std::string surface, body;  ///< groups of the mesh
+  int number = 0;
+  double growth = 0;            ///< thickness of a layer over that of the one before it
+  std::optional<double> first;  ///< thickness of the one on the surface [m]
+  SourceLocation where;
+};
+
 struct MeshSpec {
   std::optional<std::string> shape, file;   ///< exactly one of them
   std::string unit;                         ///< length unit of the file, "mm"
@@ -78,8 +88,9 @@ struct MeshSpec {
   int order = 1;                            ///< of the elements, for files that are meshed here
   std::vector<MeshConstantSpec> constants;  ///< for .geo scripts
   std::vector<MeshGroupSpec> groups;        ///< of files that are meshed here
-  bool conforming = false;                  ///< bodies that touch share nodes, of STEP, BREP, IGES
-  std::string element;                      ///< of the built-in shapes: "tri3", ...
+  std::vector<MeshLayersSpec> layers;
+  bool conforming = false;  ///< bodies that touch share nodes, of STEP, BREP, IGES
+  std::string element;      ///< of the built-in shapes: "tri3", ...
   std::optional<CylinderInMouldSpec> cylinder_in_mould;
   std::optional<BlockSpec> block;
   std::optional<TwoBlocksSpec> two_blocks;

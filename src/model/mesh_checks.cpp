@@ -127,6 +127,10 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
       throw InputError(body.where, fmt::format("the group '{}' belongs to two bodies", body.mesh_group()));
     bodies.push_back(body.mesh_group());
   }
+  for (const auto& l : spec.mesh.layers) {
+    require(mesh, l.surface, surface, l.where, "layers of the mesh");
+    require(mesh, l.body, dimension, l.where, "layers of the mesh");
+  }
   for (const auto& c : spec.thermal_conditions) {
     const std::string user = "thermal condition '" + c.name + "'";
     if (c.kind == ThermalConditionSpec::Kind::source)

@@ -5,10 +5,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "base/log.hpp"
 #include "base/profile.hpp"
 #include "base/units.hpp"
 #include "mesh/distribute.hpp"
 #include "mesh/shapes.hpp"
+#include "mesh/wall_layers.hpp"
 #include "model/mesh_checks.hpp"
 #include "results/output_error.hpp"
 
@@ -54,6 +56,18 @@ mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
   return choice;
 }
 
+void add_layers(const MeshLayersSpec& l, const std::string& source, mesh::RawMesh& mesh) {
+  const mesh::WallLayerReport report =
+      mesh::add_wall_layers(mesh, {l.surface, l.body, l.number, l.growth, l.first}, source);
+  logging::info("layers of '{}' on '{}': {} of {:.3g} mm, the first {:.3g} mm", l.body, l.surface, l.number,
+                1e3 * report.whole, 1e3 * report.first);
+  if (report.mean < 0.7 * report.whole)
+    logging::warn(
+        "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have none",
+        l.body, l.surface, 1e3 * report.mean, 1e3 * report.whole, report.n_bare,
+        report.n_bare + report.n_columns);
+}
+
 }  // namespace
 
 mesh::RawMesh raw_mesh(const CaseSpec& spec) {
@@ -72,6 +86,8 @@ mesh::RawMesh raw_mesh(const CaseSpec& spec) {
     }
   }
   check_groups(spec, result);
+  for (const MeshLayersSpec& layers : m.layers)
+    if (layers.number > 0) add_layers(layers, m.file ? *m.file : *m.shape, result);
   mesh::validate_and_orient(result, m.file ? *m.file : *m.shape);
   return result;
 }

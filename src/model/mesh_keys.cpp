@@ -104,6 +104,31 @@ Section<MeshGroupSpec> group_keys() {
   return s;
 }
 
+Section<MeshLayersSpec> layers_keys() {
+  using L = MeshLayersSpec;
+  Section<L> s(
+      "layers",
+      "Thin layers of a body's elements on one of its surfaces, for a mould whose elements are thicker "
+      "than the sand that is warm in the first minutes: a coarse mesh freezes too soon without them. "
+      "The body's own elements make room for them. Each costs about one node per node of the surface.");
+  s.key("name", &L::name).doc("The name of the layers, for `include` and `--set`.");
+  s.key("surface", &L::surface).doc("The surface, on the body's own side.");
+  s.key("body", &L::body).doc("The group of the mesh in which the layers lie: the mould.");
+  s.key("number", &L::number).initially(2).range(0, 20).doc("How many; 0: none.");
+  s.key("growth", &L::growth)
+      .initially(2.0)
+      .range(1, 10)
+      .doc("Thickness of a layer over that of the one before it, which is nearer to the surface.");
+  s.quantity("first", &L::first, "m")
+      .positive()
+      .doc(
+          "Thickness of the layer on the surface; without it all layers together are half as thick as an "
+          "edge "
+          "of the surface is long. Thinner where there is no room.");
+  s.place(&L::where);
+  return s;
+}
+
 }  // namespace
 
 Section<MeshSpec> mesh_keys() {
@@ -128,6 +153,7 @@ Section<MeshSpec> mesh_keys() {
       .doc("Element of the built-in shapes.");
   s.sections("constant", &MeshSpec::constants, constant_keys());
   s.sections("group", &MeshSpec::groups, group_keys());
+  s.sections("layers", &MeshSpec::layers, layers_keys());
   s.key("conforming", &MeshSpec::conforming)
       .initially(false)
       .doc(
