@@ -12,7 +12,7 @@
 ///   r_i += (1 − α_ij) a_ij,   r_j −= (1 − α_ij) a_ij,   α_ij = min(R_i⁺, R_j⁻)
 ///
 ///   R_i⁺ = min(1, Q_i⁺/P_i⁺),   P_i⁺ = Σ_j a_ij over the colder partners j,
-///   Q_i⁺ = γ_i Σ_m K_ii [u(max_j Θ_j) − u(Θ_i)] + c × (heat from surfaces and sources)
+///   Q_i⁺ = γ_i Σ_m K_ii [u(max_j Θ_j) − u(Θ_i)] + c × (free conduction, surfaces, sources)
 ///
 /// and R_j⁻ likewise with the least Θ around it and the heat that it loses. So a node that is hotter than all
 /// around it gets nothing from colder ones unless its film or a source warms it. The flows are exchanged

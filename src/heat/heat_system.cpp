@@ -34,6 +34,8 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        bool closed, std::vector<algebra::Contribution*> contributions,
                        algebra::BlockMatrix::Storage storage)
     : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), presence_(mesh) {
+  contributions_heat_ = std::any_of(contributions_.begin(), contributions_.end(),
+                                    [](const algebra::Contribution* c) { return !c->stores(); });
   for (const material::Material& m : materials) at_nodes_.push_back(closed || m.changes_isothermally());
   add_conduction(materials);
   if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
@@ -269,7 +271,6 @@ void HeatSystem::limit(bool on) {
 }
 
 bool HeatSystem::find_limits(std::span<const double> temperature, double negligible) {
-  contributions_heat_ = !contributions_.empty();
   if (!limiter_ || !exchange_) return false;
   if (kept_conduction_.empty()) keep_conduction();
   if (!limiter_->needed()) return false;
@@ -285,7 +286,7 @@ bool HeatSystem::find_limits(std::span<const double> temperature, double negligi
   for (const Volume& source : sources_)
     for (std::size_t i = 0; i < source.heat.size(); ++i)
       (source.heat[i] > 0 ? gain : loss)[i] += std::abs(source.heat[i]);
-  contributions_heat_ = false;
+  contributions_heat_ = false;  // all are looked at
   for (algebra::Contribution* contribution : contributions_) {
     if (contribution->stores()) continue;
     std::fill(contributed_.begin(), contributed_.end(), 0.0);

@@ -170,7 +170,7 @@ class HeatSystem {
   std::vector<char> fixed_;
   bool placed_ = false;  ///< some condition varies with position
   bool exchange_ = true;
-  bool contributions_heat_ = false;  ///< whether they brought or took heat at the last find_limits()
+  bool contributions_heat_ = false;  ///< whether they bring or take heat, as far as find_limits() has seen
   std::unique_ptr<algebra::BlockMatrix> matrix_;
   std::vector<double> local_, roots_;  ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]

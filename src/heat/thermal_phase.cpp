@@ -1,7 +1,6 @@
 #include "heat/thermal_phase.hpp"
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <cassert>
@@ -20,6 +19,7 @@
 #include "heat/thermal_iteration.hpp"
 #include "heat/truncated_newton.hpp"
 #include "material/time_integration.hpp"
+#include "heat/worst_node.hpp"
 
 namespace solidus::heat {
 
@@ -44,39 +44,6 @@ std::size_t at(Index i) {
 bool may_end(const algebra::NewtonReport& report, int newton_steps) {
   return newton_steps > 0 && report.out_of_iterations;
 }
-
-/// The node where something is largest or not a number, over all processes.
-struct WorstNode {
-  double size = -HUGE_VAL;
-  std::size_t node = 0;
-
-  void look(std::size_t i, double value) {
-    if (std::isnan(value)) value = HUGE_VAL;
-    if (value <= size) return;
-    size = value;
-    node = i;
-  }
-  /// Its place and values, for a message; collective.
-  std::string text(const mesh::Mesh& mesh, std::span<const double> temperature,
-                   std::span<const double> residual) const {
-    struct {
-      double value;
-      int rank;
-    } mine{size, 0}, winner{};
-    MPI_Comm_rank(PETSC_COMM_WORLD, &mine.rank);
-    MPI_Allreduce(&mine, &winner, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
-    char words[200] = {};
-    if (winner.rank == mine.rank && mesh.n_owned_nodes > 0) {
-      const mesh::Point& p = mesh.x[node];
-      std::string place = fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: {:.6g} K",
-                                      mesh.input_node[node], p[0], p[1], p[2], temperature[node]);
-      if (!residual.empty()) place += fmt::format(", unbalanced heat {:.4g} W", residual[node]);
-      place.copy(words, sizeof words - 1);
-    }
-    MPI_Bcast(words, sizeof words, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
-    return words;
-  }
-};
 
 /// Of the steady state: how often the limits of conduction are found anew, and the change of flows by them,
 /// over the heat moved, that stays out.
@@ -441,6 +408,10 @@ void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) 
   }
   ghosts_.update(next.enthalpy, 1);
   ghosts_.update(next.temperature, 1);
+}
+
+TemperatureRange ThermalPhase::ambient_range() const {
+  return system_->ambient_range();
 }
 
 void ThermalPhase::book(std::span<const double> residual, double dt, std::span<double> heat) const {

@@ -154,6 +154,11 @@ class ThermalPhase {
   /// The step piece by piece, for an iteration that has further unknowns; refers to this phase.
   std::unique_ptr<ThermalIteration> iteration();
 
+  /// The temperatures around the bodies at the time of the last solve, prescribed, of films and of radiation,
+  /// beyond which nothing is heated or cooled; without end where fluxes, sources or contributions can.
+  /// Collective.
+  TemperatureRange ambient_range() const;
+
   /// Heat needed to hold prescribed temperatures in the last solve, [owned node] [W], zero elsewhere.
   std::span<const double> reactions() const { return reactions_; }
 

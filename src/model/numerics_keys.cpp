@@ -61,8 +61,9 @@ Section<heat::HeatOptions> heat_keys() {
       .initially(true)
       .doc(
           "Closed rule: limits conduction where obtuse, bent or quadratic elements would let temperatures "
-          "leave the range of those around them; linear fields and the order of the elements stay. Not in "
-          "the simultaneous scheme.");
+          "leave the range of the initial and boundary ones (docs/theory/thermal.md); linear fields and "
+          "smooth temperatures stay as they are. The simultaneous scheme limits by the start of the step "
+          "alone, which need not be enough.");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
   return s;
 }

@@ -19,6 +19,7 @@
 #include "model/advice.hpp"
 #include "model/assembly.hpp"
 #include "model/audit_watch.hpp"
+#include "model/bounds_watch.hpp"
 #include "model/case_materials.hpp"
 #include "model/coupling_estimate.hpp"
 #include "model/fingerprint.hpp"
@@ -210,6 +211,8 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   WallWatch walls(a.phases.contacts);
   StopReason why;
   simulation.add(watch);
+  std::optional<BoundsWatch> bounds;
+  if (a.heat) simulation.add(bounds.emplace(spec, *a.heat));
   if (a.phases.coherency != nullptr) simulation.add(walls);
   simulation.add(dissipation);
   if (a.phases.audits_stability()) simulation.add(stability);

@@ -24,13 +24,17 @@ inline material::Material metal(double range, double latent_over_capacity = 280)
   return m;
 }
 
+inline int rank() {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+
 /// A rectangle or box of one body "block" on all processes.
 inline mesh::Mesh block_mesh(mesh::Shape shape, std::vector<double> size, std::vector<int> divisions,
                              const std::function<mesh::Point(mesh::Point)>& map = {}) {
   mesh::RawMesh raw;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) {
+  if (rank() == 0) {
     raw = mesh::make_block({std::move(size), {}, std::move(divisions), "block"}, shape);
     if (map)
       for (mesh::Point& x : raw.x) x = map(x);

@@ -1,5 +1,5 @@
-/// Without sources no temperature leaves the range of the initial and boundary ones: every element, obtuse and
-/// bent meshes, one or two materials, sudden chills and long steps.
+/// Without sources no temperature leaves the range of the initial and boundary ones: every element, obtuse
+/// and bent meshes, one or two materials, sudden chills and long steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <random>
 
 #include "algebra/parallel.hpp"
+#include "base/errors.hpp"
 #include "block.hpp"
 
 namespace solidus {
@@ -67,8 +68,8 @@ material::Material draw_material(Draw& draw) {
       m.phase_changes = {{"solidification", material::PhaseFraction::linear(900, 900), 3e5, 0.0, true}};
       break;
     case 2:
-      m.phase_changes = {{"solidification",
-                          material::PhaseFraction::linear(900 - draw.between(1, 80), 900), 3e5, 0.0, true}};
+      m.phase_changes = {{"solidification", material::PhaseFraction::linear(900 - draw.between(1, 80), 900),
+                          3e5, 0.0, true}};
       break;
     default:
       m.phase_changes = {
@@ -88,8 +89,9 @@ mesh::Mesh draw_mesh(Draw& draw, Shape shape, AnalysisKind kind, bool two_bodies
     size.push_back(0.02 * std::pow(10.0, draw.between(0, 0.7)));
     divisions.push_back(draw.integer(2, most));
   }
-  const double shear = draw.between(-1.5, 1.5), lean = draw.between(-1, 1), bend = draw.between(0, mesh::order(shape) == 1 ? 0.12 : 0.03),
-               waves = draw.between(3, 12), inside = draw.between(0, 0.05);
+  const double shear = draw.between(-1.5, 1.5), lean = draw.between(-1, 1),
+               bend = draw.between(0, mesh::order(shape) == 1 ? 0.12 : 0.03), waves = draw.between(3, 12),
+               inside = draw.between(0, 0.05);
   const auto map = [=](mesh::Point x) {
     const double a = size[0], s = std::sin(waves * x[0] / a + 2 * x[1] / size[1]),
                  c = std::cos(waves * x[1] / size[1] + 3 * x[0] / a);
@@ -104,9 +106,7 @@ mesh::Mesh draw_mesh(Draw& draw, Shape shape, AnalysisKind kind, bool two_bodies
     return y;
   };
   mesh::RawMesh raw;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) {
+  if (test::rank() == 0) {
     raw = mesh::make_block({size, {}, divisions, "block"}, shape);
     if (two_bodies) {
       const int n = mesh::node_count(shape);
@@ -196,7 +196,6 @@ struct Excursion {
 Excursion run(const Problem& p, bool bounds, int steps) {
   heat::HeatOptions options;
   options.bounds = bounds;
-  if (std::getenv("MAXIT")) options.max_iterations = std::atoi(std::getenv("MAXIT"));
   options.alone = true;
   heat::ThermalPhase phase(p.mesh, p.kind, p.materials, p.conditions, options);
   heat::ThermalState state = phase.initial_state(p.start);
@@ -205,15 +204,9 @@ Excursion run(const Problem& p, bool bounds, int steps) {
     try {
       const heat::PhaseReport report = phase.solve(state, state, i * p.dt, p.dt);
       out.iterations = std::max(out.iterations, report.newton.iterations);
-      if (std::getenv("SOLIDUS_TALK") && std::atoi(std::getenv("SOLIDUS_TALK")) > 1) {
-        std::printf("  step %d:", i);
-        for (const double r : report.newton.residuals) std::printf(" %.1e", r);
-        std::printf("\n");
-      }
       if (report.balance.exchanged > 0)
         out.defect = std::max(out.defect, std::abs(report.balance.defect()) / report.balance.exchanged);
-    } catch (const std::exception& e) {
-      if (std::getenv("SOLIDUS_TALK")) std::printf("  %s\n", e.what());
+    } catch (const StepRejected&) {
       out.failed = i;
       break;
     }
@@ -224,23 +217,24 @@ Excursion run(const Problem& p, bool bounds, int steps) {
 }
 
 TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
-  const char* cases = std::getenv("SOLIDUS_BOUNDS_CASES");
-  const char* first = std::getenv("SOLIDUS_BOUNDS_FIRST");
-  const int n = cases != nullptr ? std::atoi(cases) : 48, from = first != nullptr ? std::atoi(first) : 0;
-  for (int number = from; number < from + n; ++number) {
+  // SOLIDUS_BOUNDS_CASES=300 draws more of them, and tells of each.
+  const char* more = std::getenv("SOLIDUS_BOUNDS_CASES");
+  const int n = more != nullptr ? std::atoi(more) : 48;
+  double worst_without = 0;
+  for (int number = 0; number < n; ++number) {
     const Problem p = draw_problem(static_cast<unsigned>(number));
-    const Excursion kept = run(p, true, 5);
+    const Excursion kept = run(p, true, 5), free = run(p, false, 5);
     EXPECT_LE(kept.kelvins, 1e-6) << "problem " << number << ", " << mesh::name(p.shape);
     EXPECT_LT(kept.failed, 0) << "problem " << number << ", " << mesh::name(p.shape);
-    EXPECT_LE(kept.defect, 1e-10);
-    if (std::getenv("SOLIDUS_TALK")) {
-      const Excursion free = run(p, false, 5);
+    EXPECT_LE(kept.defect, 1e-10) << "problem " << number << ", " << mesh::name(p.shape);
+    worst_without = std::max(worst_without, free.kelvins);
+    if (more != nullptr && test::rank() == 0)
       std::printf("%3d %-5s %d nodes, dt %.3g: %.2e K in %d iterations%s, without %.2e K in %d%s\n", number,
                   std::string(mesh::name(p.shape)).c_str(), p.mesh.n_owned_nodes, p.dt, kept.kelvins,
                   kept.iterations, kept.failed >= 0 ? " FAILED" : "", free.kelvins, free.iterations,
                   free.failed >= 0 ? " FAILED" : "");
-    }
   }
+  EXPECT_GT(worst_without, 10.0);  // kelvins: the problems are hard enough
 }
 
 /// A block of unit length along x and height `height`, bent inside so that elements are obtuse or warped.
@@ -327,11 +321,9 @@ TEST(Bounds, KeepTheSecondOrderOfSmoothTransients) {
       with.push_back(cosine_error(shape, cells, true));
       without.push_back(cosine_error(shape, cells, false));
     }
-    if (std::getenv("SOLIDUS_TALK"))
-      std::printf("%s: with %.3e %.3e (%.2f), without %.3e %.3e (%.2f)\n",
-                  std::string(mesh::name(shape)).c_str(), with[0], with[1], std::log2(with[0] / with[1]),
-                  without[0], without[1], std::log2(without[0] / without[1]));
     EXPECT_GE(std::log2(with[0] / with[1]), 1.7) << mesh::name(shape);
+    for (std::size_t i = 0; i < with.size(); ++i)
+      EXPECT_NEAR(with[i], without[i], 1e-3 * without[i]) << mesh::name(shape);
   }
 }
 

@@ -1,0 +1,28 @@
+/// The place where something is worst, for messages.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "mesh/mesh.hpp"
+
+namespace solidus::heat {
+
+/// The node where something is largest or not a number, over all processes.
+struct WorstNode {
+  double size = -HUGE_VAL;
+  std::size_t node = 0;
+
+  void look(std::size_t i, double value) {
+    if (std::isnan(value)) value = HUGE_VAL;
+    if (value <= size) return;
+    size = value;
+    node = i;
+  }
+  /// Its number, place and values, for a message; collective.
+  std::string text(const mesh::Mesh& mesh, std::span<const double> temperature,
+                   std::span<const double> residual) const;
+};
+
+}  // namespace solidus::heat
