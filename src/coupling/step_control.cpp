@@ -14,6 +14,9 @@ constexpr double k_same_time = 1e-9;
 // their number: 1e-8 of a step after 30 000 of them. A step as short as what is left would be no step that a
 // method in time stands.
 constexpr double k_stretch = 1e-3;
+// A jump is called one after a cut to this share of the step that was refused first: an error that nodes
+// commit as they pass a kink need not fall with every cut.
+constexpr double k_tells = 0.3;
 // An estimate that is far off must not cost more than this at once.
 constexpr double k_deepest_cut = 0.1;
 
@@ -95,7 +98,8 @@ bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
 // Errors at a kink of the solution fall as Δt, in a shock as √Δt, its root mean square over a body, which
 // sees the layer of a width of √Δt, as Δt^¼; a jump stays.
 bool StepControl::is_jump(const PlannedStep& step, const Strictest& limit) const {
-  return state_.refused > 0 && limit.ratio > state_.refused_ratio * std::pow(step.dt / state_.refused, 0.125);
+  return state_.refused > 0 && step.dt <= k_tells * state_.refused &&
+         limit.ratio > state_.refused_ratio * std::pow(step.dt / state_.refused, 0.125);
 }
 
 bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) const {
@@ -106,9 +110,11 @@ bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) 
 
 void StepControl::shortened(const PlannedStep& step, const StepMeasure& measure) {
   const Strictest limit = strictest(options_.limits, measure);
-  if (state_.refused == 0) state_.before_refusal = state_.size;
-  state_.refused = step.dt;
-  state_.refused_ratio = limit.ratio;
+  if (state_.refused == 0) {
+    state_.before_refusal = state_.size;
+    state_.refused = step.dt;
+    state_.refused_ratio = limit.ratio;
+  }
   resize(step.dt * std::max(limit.factor, k_deepest_cut), "rejected: " + limit.name);
 }
 

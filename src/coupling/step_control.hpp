@@ -34,7 +34,7 @@ struct PlannedStep {
 struct ControlState {
   double size = 0;                  ///< the step wanted next, before landing [s]
   std::string reason = "as asked";  ///< why
-  /// Of the last step from here that exceeded a limit, and the size wanted before the first; zero: none did.
+  /// Of the first step from here that exceeded a limit, and the size wanted before it; zero: none did.
   double refused = 0, refused_ratio = 0, before_refusal = 0;
 };
 

@@ -264,8 +264,10 @@ TEST(HeatInTime, AdaptiveStepsKeepTheirWord) {
             << error << ',' << of_equal << '\n';
       printf("%s %s: %d steps, %d rejected, %.3f K; twice as many equal ones %.3f K\n", name.c_str(),
              second ? "sdirk2" : "backward_euler", n, rejected, error, of_equal);
-      if (second && name != "nafems_t3")
-        EXPECT_LT(error, of_equal) << name;  // T3 has no shock: equal steps suit it
+      // The others go on at one pace until they end: equal steps suit them.
+      if (second && name.starts_with("stefan")) {
+        EXPECT_LT(error, 0.5 * of_equal) << name;
+      }
       EXPECT_LE(error, second ? 2 : 3.5) << name;
     }
 }
