@@ -158,6 +158,32 @@ power = { formula = "10*z", unit = "MW/m3" }
   EXPECT_NEAR(testing::at(run.history, "heat_in[J]", 10), 10e6 * 0.05 * pi * 0.02 * 0.02 * 0.1 * 10, 1e-3);
 }
 
+TEST_F(Places, ABodyIsFreeOfThermalStrainAtTheTemperaturesItStartsWith) {
+  std::string text = k_block;
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("physics = \"heat\"", "physics = \"mechanics\"");
+  replace("aluminium_alsi7mg", "steel_mould");
+  replace("650 + 300*z", "100 + 3000*z");
+  text.erase(text.find("[[probe]]"), text.find("[output]") - text.find("[[probe]]"));
+  text += R"([[mechanical_condition]]
+name = "foot"
+group = "y_min"
+kind = "displacement"
+uz = "0 mm"
+[[probe]]
+name = "stress"
+kind = "maximum"
+field = "von_mises"
+group = "block"
+unit = "MPa"
+)";
+  const CaseRun run = folder_.run("strain", text);
+  ASSERT_TRUE(run.finished) << run.reason;
+  EXPECT_LT(run.history.at("stress[MPa]").back(), 1e-9);
+}
+
 TEST_F(Places, WhatIsWrongIsSaidWithItsLine) {
   const auto source = [](const std::string& power) {
     return k_block +
