@@ -109,7 +109,8 @@ void closed_storage(benchmark::State& state, mesh::Shape shape, int cells) {
 /// Residual and tangent of the heat content at Gauss points.
 void open_storage(benchmark::State& state, mesh::Shape shape, int cells) {
   Conduction b(shape, cells);
-  const auto points = heat::make_point_storage(b.mesh, b.block(), b.kind, b.material, 0);
+  const auto points =
+      heat::make_point_storage(b.mesh, b.block(), b.kind, b.material, heat::SensibleForm::enthalpy, 0);
   points->bind(*b.matrix);
   points->start(b.temperature, 1.0);
   for (double& t : b.temperature) t -= 5;

@@ -20,6 +20,8 @@ PROGRAMS = Path(os.environ.get("SOLIDUS_BUILD", "build/release"))
 WORK = Path("build/bench")
 REPEAT = int(os.environ.get("REPEAT", "3"))
 CUBE = (30, 60, 100)                            # divisions: 29 791, 226 981 and 1 030 301 nodes
+OTHERS = {12: ("FreeFEM", "CalculiX"), 30: ("FreeFEM",)}  # divisions; CalculiX takes hours on 30
+FREEFEM = Path("/usr/lib/freefem++")            # where Debian has the modules that its FreeFEM does not find
 SCHEMES = ("isothermal", "isentropic", "simultaneous")
 NODES = {"20k": 26, "100k": 45, "300k": 66}    # divisions: 19 683, 97 336 and 300 763 nodes
 MIXED = (20, 26, 33, 46)                       # divisions: 9 261, 19 683, 39 304 and 103 823 nodes
@@ -196,18 +198,66 @@ def cylinder():
     return [median([solidus("cylinder 100 x 100, quad4", "bench/cylinder", {}) for _ in range(REPEAT)])]
 
 
+def freezing_cube(n, variant="case", processes=1):
+    """Solidus on the freezing cube, heat alone: processor time, iterations of the nonlinear and the linear solver, memory."""
+    name = f"freezing cube {(n + 1) ** 3} nodes" + ("" if variant == "case" else f", {variant}")
+    row = solidus(name, f"bench/freezing_cube/{variant}.toml", {"mesh.block.divisions": f"[{n},{n},{n}]"}, processes)
+    with open(WORK / re.sub(r"\W+", "_", f"{name}_{processes}") / "steps.csv") as file:
+        steps = list(csv.DictReader(file))
+    iterations = [int(step["heat_iterations[1]"]) for step in steps]
+    return median([row]) | {"iterations": sum(iterations) / len(steps), "worst": max(iterations),
+                            "rejected": sum(int(step["rejected[1]"]) for step in steps),
+                            "linear": sum(int(step["heat_linear_iterations[1]"]) for step in steps) / len(steps)}
+
+
+def cube_of_freefem(n):
+    """The same with FreeFEM: Newton's method with a line search."""
+    if not shutil.which("FreeFem++"):
+        print("FreeFem++ is not there (Debian: freefem++, libfreefem++): left out", file=sys.stderr)
+        return []
+    before, log = load(), WORK / "freefem.txt"
+    wall, memory, processor = run(["FreeFem++", "-nw", "-v", "0", "bench/freezing_cube/freezing_cube.edp", str(n), "20"], log,
+                                  FF_LOADPATH=f"{FREEFEM};;")
+    words = next(line for line in log.read_text().split("\n") if line.startswith("RESULT")).split()
+    found = dict(zip(words[1::2], map(float, words[2::2])))
+    return [median([{"name": f"freezing cube {(n + 1) ** 3} nodes, linear", "program": "FreeFEM", "processes": 1, "total": wall,
+                     "load": before, "processor": processor, "memory": memory, "nodes": (n + 1) ** 3, "steps": 20,
+                     "iterations": found["iterations"] / 20, "worst": int(found["worst"]), "rejected": 0,
+                     "final": {"T_far[degC]": found["far"], "T_edge[degC]": found["edge"]}}])]
+
+
+def cube_of_calculix(n):
+    """The same with CalculiX: specific heat with the latent heat in it, increments of its own choice."""
+    if not shutil.which("ccx"):
+        print("ccx is not there (Debian: calculix-ccx): left out", file=sys.stderr)
+        return []
+    folder = WORK / "calculix_freezing_cube"
+    subprocess.run([sys.executable, "bench/freezing_cube/calculix_input.py", str(n), folder], check=True)
+    before = load()
+    wall, memory, processor = run(["ccx", "heat"], folder / "log.txt", folder, OMP_NUM_THREADS="1")
+    increments = [line.split() for line in (folder / "heat.sta").read_text().split("\n")[2:] if line.strip()]
+    iterations = [int(words[3]) for words in increments]
+    accepted = sum(not words[2].endswith("U") for words in increments)
+    last = [line.split() for line in (folder / "heat.dat").read_text().split("\n") if line.strip()][-2:]
+    row = median([{"name": f"freezing cube {(n + 1) ** 3} nodes, linear", "program": "CalculiX", "processes": 1, "total": wall,
+                   "load": before, "processor": processor, "memory": memory, "nodes": (n + 1) ** 3, "steps": accepted,
+                   "iterations": sum(iterations) / accepted, "worst": max(iterations), "rejected": len(increments) - accepted,
+                   "final": {"T_far[degC]": float(last[0][1]), "T_edge[degC]": float(last[1][1])}}])
+    for file in ("heat.inp", "heat.frd"):
+        (folder / file).unlink(missing_ok=True)
+    return [row]
+
+
 def heat():
-    """The freezing cube, heat alone: processor time, iterations of the nonlinear and the linear solver, memory."""
-    rows = []
-    for n in CUBE:
-        name = f"freezing cube {(n + 1) ** 3} nodes"
-        row = solidus(name, "bench/freezing_cube", {"mesh.block.divisions": f"[{n},{n},{n}]"})
-        with open(WORK / re.sub(r"\W+", "_", f"{name}_1") / "steps.csv") as file:
-            steps = list(csv.DictReader(file))
-        iterations = [int(step["heat_iterations[1]"]) for step in steps]
-        rows.append(median([row]) | {"iterations": sum(iterations) / len(steps), "worst": max(iterations),
-                                     "rejected": sum(int(step["rejected[1]"]) for step in steps),
-                                     "linear": sum(int(step["heat_linear_iterations[1]"]) for step in steps) / len(steps)})
+    """The freezing cube of three sizes, on two processes too, and beside other programs with a linear freezing range."""
+    rows = [freezing_cube(n) for n in CUBE]
+    rows += [freezing_cube(CUBE[1], processes=2)]
+    for n, programs in OTHERS.items():
+        rows.append(freezing_cube(n, "linear"))
+        if "FreeFEM" in programs:
+            rows += cube_of_freefem(n)
+        if "CalculiX" in programs:
+            rows += cube_of_calculix(n)
     return rows
 
 
@@ -250,10 +300,17 @@ def report(parts):
         text.append(table(["", "processes", *names], [[r["name"], str(r["processes"]), *(f"{r['profile'].get(name, 0):.2f}" for name in names)]
                                                       for r in profiles]))
     if "heat" in parts:
-        text.append(table(["", "processor [s]", "exponent", "iterations a step", "worst", "rejected", "linear iterations a step", "memory [kB a node]"],
-                          [[r["name"], f"{r['processor']:.1f}", exponent(before, r) if before else "", f"{r['iterations']:.2f}", str(r["worst"]),
-                            str(r["rejected"]), f"{r['linear']:.0f}", f"{r['memory'] * 2**20 / 1000 / r['nodes']:.2f}"]
-                           for before, r in zip([None, *parts["heat"]], parts["heat"])]))
+        before = None
+        lines = []
+        for r in parts["heat"]:
+            grows = before is not None and "linear" in r and before["name"].count(",") == r["name"].count(",") and r["nodes"] > before["nodes"]
+            lines.append([r["name"], r["program"], str(r["processes"]), f"{r['processor']:.1f}", f"{r['total']:.1f}",
+                          exponent(before, r) if grows else "", str(r["steps"]), f"{r['iterations']:.2f}", str(r["worst"]), str(r["rejected"]),
+                          f"{r['linear']:.0f}" if "linear" in r else "", f"{r['memory'] * 2**20 / 1000 / r['nodes']:.2f}",
+                          f"{r['final']['T_edge[degC]']:.1f}"])
+            before = r if r["program"] == "Solidus" else before
+        text.append(table(["", "program", "processes", "processor [s]", "wall [s]", "exponent", "steps", "iterations a step", "worst", "rejected",
+                           "linear iterations a step", "memory [kB a node]", "T_edge [degC]"], lines))
     if "scaling" in parts:
         text.append(cost(parts["scaling"]))
     return "\n".join(text)

@@ -126,8 +126,10 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
                         const std::optional<Continuation>& from) {
   Progress p;
   if (criteria_ != nullptr) criteria_->forget();
+  criteria::State records = std::move(initial.criteria);  // there is one of them, which commit() hands on
   p.trial = initial;
   p.committed = std::move(initial);
+  p.committed.criteria = std::move(records);
   p.saved = from ? from->steps : -1;
   p.record.number = from ? from->steps : 0;
   const auto ahead = std::find_if(options_.stages.begin(), options_.stages.end(),

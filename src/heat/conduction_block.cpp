@@ -72,7 +72,7 @@ class Conduction final : public ConductionBlock {
  public:
   Conduction(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind, bool closed)
       : geometry_(geometry_of(mesh, block, kind, closed)) {
-    geometry_.counted = {};  // nothing is summed over elements here
+    PackVector<Lane>().swap(geometry_.counted);  // nothing is summed over elements here
   }
 
   void bind(const algebra::BlockMatrix& matrix) override {

@@ -48,7 +48,7 @@ void each_number(C& c, const Visit& visit) {
   all(l.mechanical, l.thermal, l.entropy, l.frictional_entropy);
 }
 
-std::vector<double> numbers_of(const Checkpoint& c) {
+std::vector<double> numbers_of(const auto& c) {
   std::vector<double> numbers;
   each_number(c, [&](const auto& n) { numbers.push_back(static_cast<double>(n)); });
   return numbers;
@@ -204,7 +204,7 @@ void CheckpointFolder::require() const {
 }
 
 void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerprint,
-                             const Checkpoint& c) const {
+                             const CheckpointView& c) const {
   const fs::path part = latest().string() + ".part";
   on_first_process([&] {
     std::error_code error;

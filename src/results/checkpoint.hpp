@@ -26,6 +26,15 @@ struct Checkpoint {
   coupling::StabilityAudit stability = {};  ///< summed likewise
 };
 
+/// What is written, without a copy of the state.
+struct CheckpointView {
+  const coupling::State& state;
+  const coupling::Continuation& continuation;
+  const coupling::EnergyAudit& energy;
+  int rejected;
+  const coupling::StabilityAudit& stability;
+};
+
 /// The two latest checkpoints of a run: checkpoint/state.h5 and checkpoint/previous.h5.
 class CheckpointFolder {
  public:
@@ -39,7 +48,7 @@ class CheckpointFolder {
 
   /// Writes whole or not at all; the latest one becomes the previous one. Collective. Throws OutputError on
   /// every process.
-  void write(const mesh::Mesh& mesh, const Fingerprint& fingerprint, const Checkpoint& checkpoint) const;
+  void write(const mesh::Mesh& mesh, const Fingerprint& fingerprint, const CheckpointView& checkpoint) const;
   /// The latest one, or with a warning the previous one where the latest cannot be read. Collective.
   /// @param layout a state of this case, of which sizes and padding are taken
   /// Throws InputError on every process: there is none, or it is of another case. The checkpoint's numbers

@@ -241,6 +241,7 @@ void Recorder::write_fields(const coupling::State& state) {
   fields_.update_criteria(state);
   output_.write(state.time, fields_.bodies().select(options_.fields), fields_.surfaces());
   for (const ProfileTable& profile : profiles_) profile.write(folder_.root(), fields_.bodies());
+  if (!criteria_probed_) fields_.release_criteria();
 }
 
 void Recorder::write_summary_file(const std::string& outcome, const coupling::State& state) {

@@ -175,16 +175,33 @@ void StateFields::add_elements() {
 
 void StateFields::add_criteria() {
   if (phases_.criteria == nullptr) return;
+  for (const criteria::FieldInfo& field : phases_.criteria->fields()) {
+    const Place place = field.place == criteria::Place::node ? Place::node : Place::cell;
+    values_.push_back(
+        std::make_unique<Values>(Values{field.name, field.unit, field.components, place, {}, false, {}}));
+    Values* v = values_.back().get();
+    by_name_[v->name] = &v->values;
+    v->compute = [v, n = value_count(mesh_, place, field.components)] {
+      return v->values.empty() ? std::vector<double>(n, 0.0) : v->values;
+    };
+  }
+}
+
+void StateFields::release_criteria() {
+  if (phases_.criteria == nullptr) return;
   for (const criteria::FieldInfo& field : phases_.criteria->fields())
-    add(field.name, field.unit, field.components,
-        field.place == criteria::Place::node ? Place::node : Place::cell);
+    std::vector<double>().swap(*by_name_.at(field.name));
 }
 
 void StateFields::update_criteria(const coupling::State& state) {
   if (phases_.criteria == nullptr) return;
   std::vector<std::span<double>> values;
-  for (const criteria::FieldInfo& field : phases_.criteria->fields())
-    values.emplace_back(*by_name_.at(field.name));
+  for (const criteria::FieldInfo& field : phases_.criteria->fields()) {
+    std::vector<double>& of_field = *by_name_.at(field.name);
+    of_field.resize(value_count(mesh_, field.place == criteria::Place::node ? Place::node : Place::cell,
+                                field.components));
+    values.emplace_back(of_field);
+  }
   phases_.criteria->fill({state.time, state.heat, state.mechanics}, state.criteria, values);
 }
 

@@ -3,6 +3,8 @@
 /// in the mean, and the first law is closed to 1e-8.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <numeric>
 
 #include "case_run.hpp"
@@ -38,6 +40,48 @@ TEST(Bracket, FreezesWithFewIterationsAStepAndLeavesItsWallOnlyWithAShell) {
     moved += std::abs(exchanged[i]);
   }
   EXPECT_LT(left_over, 1e-8 * moved);
+}
+
+/// Heat alone, nothing set but the data of the case. Returns when 99 % of the part are solid [s].
+double freezing_time(int layers) {
+  namespace fs = std::filesystem;
+  const fs::path root = fs::path(SOLIDUS_BINARY_DIR) / "case_runs" / "bracket_heat";
+  fs::create_directories(root);
+  const fs::path file = root / ("layers_" + std::to_string(layers) + ".toml");
+  std::ofstream(file) << "title = \"Bracket, heat alone\"\n[analysis]\nkind = \"solid\"\nphysics = \"heat\"\n"
+                         "[mesh]\nfile = \"" SOLIDUS_SOURCE_DIR
+                         "/cases/bracket/bracket.geo\"\nunit = \"mm\"\n"
+                         "[[mesh.layers]]\nname = \"sand\"\nsurface = \"mould_surface\"\nbody = "
+                         "\"mould\"\nnumber = "
+                      << layers
+                      << "\n[time]\nend = \"200 s\"\nstep = \"1 s\"\nadaptive = true\n"
+                         "temperature_error = \"3 K\"\n"
+                         "[[body]]\nname = \"part\"\nmaterial = \"aluminium_alsi7mg\"\n"
+                         "initial_temperature = \"700 degC\"\n"
+                         "[[body]]\nname = \"mould\"\nmaterial = \"green_sand\"\n"
+                         "initial_temperature = \"20 degC\"\n"
+                         "[[thermal_condition]]\nname = \"air\"\ngroup = \"mould_outside\"\n"
+                         "kind = \"film\"\ncoefficient = \"10 W/m2/K\"\nambient = \"20 degC\"\n"
+                         "[[contact]]\nname = \"interface\"\nslave = \"part_surface\"\n"
+                         "master = \"mould_surface\"\n[contact.heat]\nconductance = \"1000 W/m2/K\"\n"
+                         "gap_law = \"gas\"\ngas_conductivity = \"0.05 W/m/K\"\n"
+                         "[output]\nevery = \"1000 s\"\n"
+                         "[[probe]]\nname = \"solid\"\nkind = \"mean\"\nfield = \"solid_fraction\"\n"
+                         "group = \"part\"\nunit = \"1\"\n";
+  const auto run = solidus::testing::run(file.string(), "bracket/layers_" + std::to_string(layers));
+  EXPECT_TRUE(run.finished) << run.reason;
+  const std::vector<double>&t = run.history.at("time[s]"), &solid = run.history.at("solid[1]");
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (solid[i] >= 0.99)
+      return t[i - 1] + (t[i] - t[i - 1]) * (0.99 - solid[i - 1]) / (solid[i] - solid[i - 1]);
+  return 0;
+}
+
+TEST(Bracket, FreezesOnACoarseMeshAsOnAFineOneIfItsSandHasLayers) {
+  constexpr double k_fine =
+      157.7;  // elements of 3 mm in part and cavity (six times the nodes), without layers
+  EXPECT_NEAR(freezing_time(2), k_fine, 0.05 * k_fine);
+  EXPECT_LT(freezing_time(0), 0.75 * k_fine) << "the coarse sand alone";
 }
 
 }  // namespace

@@ -188,6 +188,24 @@ TEST(ModelInput, TheBuiltInShapeHasTheGroupsTheGuideNames) {
     EXPECT_TRUE(mesh.groups.contains(group)) << group;
 }
 
+TEST(ModelInput, LayersOnTheMouldAreMadeAndTheirMistakesAreNamed) {
+  const auto layers = [](const std::string& surface, const std::string& body, int number) {
+    return "[[mesh.layers]]\nname = \"sand\"\nsurface = \"" + surface + "\"\nbody = \"" + body +
+           "\"\nnumber = " + std::to_string(number) + "\nfirst = \"0.2 mm\"\n";
+  };
+  const std::size_t plain = raw_mesh(read()).x.size();
+  EXPECT_EQ(raw_mesh(read(layers("mould_surface", "mould", 0))).x.size(), plain);
+  const std::size_t one = raw_mesh(read(layers("mould_surface", "mould", 1))).x.size();
+  EXPECT_GT(one, plain);
+  EXPECT_EQ(raw_mesh(read(layers("mould_surface", "mould", 3))).x.size() - plain, 3 * (one - plain));
+  EXPECT_THAT(error([&] { raw_mesh(read(layers("mold_surface", "mould", 1))); }),
+              HasSubstr("did you mean 'mould_surface'?"));
+  EXPECT_THAT(error([&] { raw_mesh(read(layers("part_surface", "mould", 1))); }),
+              HasSubstr("are not faces of the body 'mould'"));
+  EXPECT_THAT(error([&] { read(layers("mould_surface", "mould", 1) + layers("mould_surface", "mould", 2)); }),
+              HasSubstr("the name 'sand' is used by two [[mesh.layers]] sections"));
+}
+
 TEST(ModelInput, GroupsOfTheWrongDimensionAreRefused) {
   const auto with_group = [](const std::string& group) {
     return error([&] {
