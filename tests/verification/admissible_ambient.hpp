@@ -21,7 +21,8 @@ inline std::optional<double> admissible_ambient(const heat::Conditions& thermal,
                                                 const std::optional<contact::ContactSpec>& contact,
                                                 const std::vector<double>& start, double end) {
   constexpr int k_times = 1000;
-  const auto stays = [&](const TimeFunction& f, double value) {
+  const auto stays = [&](const PlaceFunction& f, double value) {
+    if (!f.uniform()) return false;
     for (int i = 0; i <= k_times; ++i)
       if (f.value(end * i / k_times) != value) return false;
     return true;
@@ -31,7 +32,7 @@ inline std::optional<double> admissible_ambient(const heat::Conditions& thermal,
   };
   const auto steady = [&](const TimeFunction& f) { return stays(f, f.value(0)); };
 
-  std::vector<TimeFunction> surroundings;
+  std::vector<PlaceFunction> surroundings;
   for (const auto& c : thermal.temperatures) surroundings.push_back(c.value);
   for (const auto& c : thermal.films) surroundings.push_back(c.ambient);
   for (const auto& c : thermal.radiations) surroundings.push_back(c.ambient);
@@ -39,7 +40,7 @@ inline std::optional<double> admissible_ambient(const heat::Conditions& thermal,
       surroundings.empty() ? *std::min_element(start.begin(), start.end()) : surroundings.front().value(0);
 
   const bool holds =
-      all(surroundings, [&](const TimeFunction& f) { return stays(f, ambient); }) &&
+      all(surroundings, [&](const PlaceFunction& f) { return stays(f, ambient); }) &&
       all(thermal.fluxes, [&](const heat::Flux& c) { return stays(c.value, 0); }) &&
       all(thermal.sources, [&](const heat::Source& c) { return stays(c.power, 0); }) &&
       all(mechanical.displacements, [&](const auto& c) { return stays(c.value, 0); }) &&
