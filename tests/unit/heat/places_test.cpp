@@ -114,7 +114,8 @@ TEST_P(Places, WhatOneProcessCannotEvaluateEveryProcessReports) {
 
 INSTANTIATE_TEST_SUITE_P(, Places,
                          ::testing::Combine(::testing::Values(Shape::tri3, Shape::tri6, Shape::quad4,
-                                                              Shape::quad8, Shape::tet4, Shape::hex8),
+                                                              Shape::quad8, Shape::tet4, Shape::tet10,
+                                                              Shape::hex8, Shape::hex20),
                                             ::testing::Bool()),
                          [](const auto& each) {
                            return std::string(mesh::name(std::get<0>(each.param))) +
