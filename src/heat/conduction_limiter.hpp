@@ -54,10 +54,12 @@ class ConductionLimiter {
   /// Whether there are pairs with K_ij > 0, on any process.
   bool needed() const { return needed_; }
 
-  /// Finds the shares α at these temperatures. Returns Σ|Δα a_ij|, by how much this changes the flows there,
-  /// of all processes [W]. Collective.
+  /// Finds the shares α at these temperatures. Returns whether they are taken: where Σ|Δα a_ij| of all
+  /// processes, by how much they change the flows there, is not above `negligible` [W], the old ones stay.
+  /// Collective.
   /// @param temperature  [K], [local node], ghosts up to date
-  /// @param gain, loss   heat that owned nodes receive and lose other than by conduction [W], both positive
+  /// @param gain, loss   heat that owned nodes receive and lose by free conduction, surfaces and sources [W],
+  /// both positive
   /// @param fixed        [local node]: nodes whose temperature is prescribed need no limit
   /// @param flows        further flows to limit: all that concern owned nodes; gets `left` where they are
   /// taken
@@ -67,7 +69,7 @@ class ConductionLimiter {
   /// All α = 1.
   void clear_shares() { std::fill(left_.begin(), left_.end(), 0.0); }
   /// From here on α = 0 for flows into owned nodes above `highest` and out of those below `lowest`, until
-  /// release(). Collective.
+  /// release(); find_shares() makes it so. Collective.
   enum class Held { none, as_before, further };  ///< no node is there, the same ones as before, others too
   Held hold(std::span<const double> temperature, double lowest, double highest);
   void release() { held_nodes_.clear(); }

@@ -38,7 +38,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
     if (factor != 0) phase_.consistent_->begin_stage({dt, factor}, stage.temperature);
   }
   now_ = phase_.start(stage, time);
-  phase_.limit_conduction(stage);
+  phase_.limit_conduction(stage, old);
   if (nodal()) {
     stored_from_ = old.enthalpy;
     for (std::size_t i = 0; i < stored_from_.size(); ++i)

@@ -372,7 +372,7 @@ PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalStat
   }
   const ThermalState from = stage_start(old, before, stage);
   if (stage.carried != 0 && pass.iterate == nullptr) start_from(from.enthalpy, next);
-  const TemperatureRange range = limit_conduction(before);
+  const TemperatureRange range = limit_conduction(before, old);
   report.newton = truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, range,
                                            pass.newton_steps);
   report.hardest = report.newton.iterations;
@@ -384,17 +384,18 @@ PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalStat
   return report;
 }
 
-/// Limits conduction for a step from `before`, with the prescribed temperatures of the time set; returns the
-/// range of its temperatures and those around.
-TemperatureRange ThermalPhase::limit_conduction(const ThermalState& before) {
+/// Limits conduction for a stage from `before`, with the prescribed temperatures of the time set; returns the
+/// range of its temperatures, of those at t_n and of those around.
+TemperatureRange ThermalPhase::limit_conduction(const ThermalState& before, const ThermalState& old) {
   system_->limit(options_.bounds);
+  system_->release_nodes();  // the limits follow from the state alone
   std::vector<double> temperature = before.temperature;
   system_->prescribe(temperature);
   system_->find_limits(temperature);
   TemperatureRange range = system_->ambient_range();
   for (std::size_t i = 0; i < reactions_.size(); ++i) {
-    range.lowest = std::min(range.lowest, temperature[i]);
-    range.highest = std::max(range.highest, temperature[i]);
+    range.lowest = std::min({range.lowest, temperature[i], old.temperature[i]});
+    range.highest = std::max({range.highest, temperature[i], old.temperature[i]});
   }
   return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
 }
@@ -467,7 +468,7 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   temperature_system_->use_storage(false);
   if (consistent_) consistent_->use(false);
   PhaseReport report;
-  const TemperatureRange range = limit_conduction({temperature, {}});
+  const TemperatureRange range = limit_conduction({temperature, {}}, start);
   system_->clear_limits();  // a linear field, say, needs none
   report.newton = solve_temperature(temperature);
   const double moved = temperature_system_->moved();

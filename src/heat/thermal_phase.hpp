@@ -208,7 +208,7 @@ class ThermalPhase {
                            const algebra::Stage& stage) const;
   /// Tells the contributions that store.
   void begin_stage(const algebra::Stage& stage, std::span<const double> before);
-  TemperatureRange limit_conduction(const ThermalState& before);
+  TemperatureRange limit_conduction(const ThermalState& before, const ThermalState& old);
   void set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const;
   /// Keeps the reactions and measures a solved step.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,

@@ -343,7 +343,6 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
   dt_ = dt;
   conductance_ = 0;
   revisions_ = idle_ = 0;
-  system_.release_nodes();
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
   algebra::Forcing forcing(true);
   algebra::NewtonReport report;
