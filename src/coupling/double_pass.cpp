@@ -57,7 +57,10 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   contact.add();
   contact.book(effort.energy);
   for (contact::ContactPair* pair : phases_.contacts) pair->heat_ahead();
-  thermal_pass(phases_, old, half, {.time = time, .dt = dt, .stepping = heat::ThermalStepping::sdirk2},
+  // The deformation of the whole step acts at once before it: temperatures that leave their range by it come
+  // back in step 4.
+  thermal_pass(phases_, old, half,
+               {.time = time, .dt = dt, .stepping = heat::ThermalStepping::sdirk2, .within_range = false},
                effort);
   book_interface(effort.energy, true);
   effort.stability = stability_audit(phases_, old, half, effort);

@@ -14,8 +14,8 @@ constexpr double k_same_time = 1e-9;
 // their number: 1e-8 of a step after 30 000 of them. A step as short as what is left would be no step that a
 // method in time stands.
 constexpr double k_stretch = 1e-3;
-// A jump is called one after a cut to this share of the step that was refused first: an error that nodes
-// commit as they pass a kink need not fall with every cut.
+// A jump of temperature is called one after a cut to this share of the step that was refused first: an error
+// that nodes commit as they pass a kink need not fall with every cut.
 constexpr double k_tells = 0.3;
 // An estimate that is far off must not cost more than this at once.
 constexpr double k_deepest_cut = 0.1;
@@ -98,8 +98,11 @@ bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
 // Errors at a kink of the solution fall as Δt, in a shock as √Δt, its root mean square over a body, which
 // sees the layer of a width of √Δt, as Δt^¼; a jump stays.
 bool StepControl::is_jump(const PlannedStep& step, const Strictest& limit) const {
-  return state_.refused > 0 && step.dt <= k_tells * state_.refused &&
-         limit.ratio > state_.refused_ratio * std::pow(step.dt / state_.refused, 0.125);
+  if (state_.refused == 0) return false;
+  const bool of_temperature = limit.name == "temperature error";
+  if (of_temperature && step.dt > k_tells * state_.refused) return false;
+  const double shock = of_temperature ? 0.125 : 0.25;
+  return limit.ratio > state_.refused_ratio * std::pow(step.dt / state_.refused, shock);
 }
 
 bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) const {

@@ -260,8 +260,8 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
     const ThermalPass to_middle{pass.time - pass.dt + first_dt, pass.dt, pass.iterate, pass.newton_steps};
     report = solve_stage(old, old, {first_dt, 0}, to_middle, middle);
     if (flows) flows_.first = flow(old, middle, {first_dt, 0});
-    const bool second_order =
-        !flows || options_.integration == Integration::open || !leaves_range(old, middle, pass.time);
+    const bool bounded = flows && pass.within_range && options_.integration == Integration::closed;
+    const bool second_order = !bounded || !leaves_range(old, middle, pass.time);
     if (!second_order)
       logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
     const algebra::Stage stage =

@@ -92,6 +92,9 @@ struct ThermalPass {
   ThermalStepping stepping = ThermalStepping::backward_euler;
   /// Nothing flows: temperatures follow what the contributions that store take up (coupling/double_pass.hpp).
   bool adiabatic = false;
+  /// With two stages: where the extrapolation between them leaves the range of temperatures, the step is of
+  /// first order and stays within it (closed rule).
+  bool within_range = true;
 };
 
 class ThermalPhase {

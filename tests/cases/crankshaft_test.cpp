@@ -37,7 +37,7 @@ std::string short_case(const std::string& variant = "case", const std::string& i
                            "[mesh]\nfile = \"" SOLIDUS_SOURCE_DIR
                            "/cases/crankshaft/crankshaft.geo\"\n"
                            "[[mesh.constant]]\nname = \"size\"\nvalue = 24\n"
-                           "[time]\ntemperature_error = \"40 K\"\nsolid_fraction_change = 0.2\n"
+                           "[time]\ntemperature_error = \"10 K\"\nsolid_fraction_change = 0.2\n"
                            "[[stage]]\nname = \"mould\"\nduration = \"" +
                            in_sand +
                            "\"\nmax_step = \"60 s\"\n"
