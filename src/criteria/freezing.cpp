@@ -80,7 +80,7 @@ Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalE
   for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
     int body = -1;
     double most = 0;
-    for (const Patches::Element& e : patches_.around(i)) {
+    for (const Patches::Element e : patches_.around(i)) {
       const double volume = storage.volume(i, patches_.body(e));
       if (volume > most || (volume == most && patches_.body(e) < body)) {
         most = volume;
@@ -154,7 +154,7 @@ Freezing::PatchGradient Freezing::recover(const FreezingNode& who, const Step& s
   PatchGradient result;
   mesh::Point all{}, behind{};
   double volume = 0, volume_behind = 0;
-  for (const Patches::Element& e : patches_.around(who.node)) {
+  for (const Patches::Element e : patches_.around(who.node)) {
     if (patches_.body(e) != who.body) continue;
     std::array<double, k_most_nodes> values{};
     const std::span<const Index> nodes = patches_.nodes(e);
@@ -226,7 +226,7 @@ void Freezing::accumulate(const FreezingNode& who, const Step& step, std::span<d
 // The first element around a node that waited is passed.
 void Freezing::complete(const FreezingNode& who, const Step& step, std::span<double> history) const {
   double passed_at = step.next.time + step.dt();
-  for (const Patches::Element& e : patches_.around(who.node)) {
+  for (const Patches::Element e : patches_.around(who.node)) {
     if (patches_.body(e) != who.body) continue;
     double last = 0;
     for (const Index node : patches_.nodes(e)) {
@@ -271,7 +271,7 @@ void Freezing::step(const Moment& old, const Moment& next, Record& record) {
 double Freezing::front_speed(const FreezingNode& who, std::span<const double> history) const {
   double slope = 0,
          volume = 0;  // the mean of |∇t_e|: where fronts meet, slopes of opposite sense do not cancel
-  for (const Patches::Element& e : patches_.around(who.node)) {
+  for (const Patches::Element e : patches_.around(who.node)) {
     if (patches_.body(e) != who.body) continue;
     std::array<double, k_most_nodes> times{};
     const std::span<const Index> nodes = patches_.nodes(e);

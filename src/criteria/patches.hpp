@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -20,11 +19,35 @@ class Patches {
   /// @param chosen  one per body: its elements take part
   Patches(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<char>& chosen);
 
+  /// Elements around a node, one after the other.
+  class Around {
+   public:
+    class Iterator {
+     public:
+      Iterator(const Patches& patches, const std::uint32_t* at) : patches_(&patches), at_(at) {}
+      Element operator*() const { return patches_->element(*at_); }
+      Iterator& operator++() {
+        ++at_;
+        return *this;
+      }
+      bool operator==(const Iterator& other) const { return at_ == other.at_; }
+
+     private:
+      const Patches* patches_;
+      const std::uint32_t* at_;
+    };
+    Around(const Patches& patches, const std::uint32_t* first, const std::uint32_t* last)
+        : begin_(patches, first), end_(patches, last) {}
+    Iterator begin() const { return begin_; }
+    Iterator end() const { return end_; }
+
+   private:
+    Iterator begin_, end_;
+  };
   /// Elements of the chosen bodies around an owned node.
-  auto around(Index node) const {
+  Around around(Index node) const {
     const auto i = static_cast<std::size_t>(node);
-    return std::span(elements_).subspan(start_[i], start_[i + 1] - start_[i]) |
-           std::views::transform([this](std::uint32_t number) { return element(number); });
+    return {*this, elements_.data() + start_[i], elements_.data() + start_[i + 1]};
   }
   std::span<const Index> nodes(const Element& e) const {
     const mesh::Block& block = mesh_.blocks[static_cast<std::size_t>(e.block)];

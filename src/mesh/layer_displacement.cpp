@@ -305,7 +305,7 @@ class Room {
         columns.clear();
         for (std::size_t a = 0; a < n; ++a) {
           const bool none = dot(u_[at(face.nodes[a])], u_[at(face.nodes[a])]) == 0;
-          const auto lower = static_cast<Index>(level * n + a), upper = static_cast<Index>(lower + n);
+          const auto lower = static_cast<Index>(level * n + a), upper = lower + static_cast<Index>(n);
           columns.push_back(
               {face.nodes[a], none ? static_cast<Index>(a) : lower, none ? static_cast<Index>(a) : upper});
         }

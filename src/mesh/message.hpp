@@ -13,6 +13,8 @@ namespace solidus::mesh {
 
 class Packer {
  public:
+  /// Room for what is to come, so that the buffer does not grow by doubling.
+  void reserve(std::size_t bytes) { buffer_.reserve(bytes); }
   template <class T>
   void put(const std::vector<T>& v) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -1,6 +1,7 @@
 #include "mesh/parts.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesh/message.hpp"
 
@@ -11,6 +12,8 @@ namespace {
 std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
+
+constexpr std::size_t k_for_names = 65536;  // bytes of names and headers, about
 
 struct BlockHeader {
   Shape shape;
@@ -78,20 +81,22 @@ void Parts::find_sets() {
 
 /// Raw nodes in local order: owned ones in the order of their numbers, then the ghosts likewise.
 std::vector<Index> Parts::nodes_of(int process) const {
-  std::vector<Index> nodes;
+  std::vector<char> is_here(raw_.x.size(), 0);
   const auto visit = [&](const RawBlock& block, const std::vector<Elements>& of_process) {
     const int nn = node_count(block.shape);
     for (const auto* list : {&of_process[at(process)].counted, &of_process[at(process)].others})
       for (const Index e : *list) {
-        const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(e) * nn;
-        nodes.insert(nodes.end(), first, first + nn);
+        const Index* element = block.nodes.data() + at(e) * at(nn);
+        for (int a = 0; a < nn; ++a) is_here[at(element[a])] = 1;
       }
   };
   for (std::size_t b = 0; b < volumes_.size(); ++b) visit(*whole_.blocks[b], volumes_[b]);
   for (std::size_t s = 0; s < faces_.size(); ++s)
     for (std::size_t b = 0; b < faces_[s].size(); ++b) visit(whole_.surfaces[s].blocks[b], faces_[s][b]);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<Index> nodes;
+  nodes.reserve(static_cast<std::size_t>(std::count(is_here.begin(), is_here.end(), 1)));
+  for (std::size_t i = 0; i < is_here.size(); ++i)
+    if (is_here[i] != 0) nodes.push_back(static_cast<Index>(i));
   std::sort(nodes.begin(), nodes.end(), [&](Index a, Index b) {
     const bool ghost_a = whole_.owner[at(a)] != process, ghost_b = whole_.owner[at(b)] != process;
     return ghost_a != ghost_b ? ghost_b : whole_.number[at(a)] < whole_.number[at(b)];
@@ -99,10 +104,27 @@ std::vector<Index> Parts::nodes_of(int process) const {
   return nodes;
 }
 
+/// Of the elements and faces of a process in the message.
+std::size_t Parts::element_bytes(int process) const {
+  std::size_t bytes = 0;
+  const auto add = [&](const RawBlock& block, const std::vector<Elements>& of_process) {
+    const Elements& elements = of_process[at(process)];
+    bytes += (elements.counted.size() + elements.others.size()) *
+             (at(node_count(block.shape)) * sizeof(Index) + sizeof(GlobalIndex));
+  };
+  for (std::size_t b = 0; b < volumes_.size(); ++b) add(*whole_.blocks[b], volumes_[b]);
+  for (std::size_t s = 0; s < faces_.size(); ++s)
+    for (std::size_t b = 0; b < faces_[s].size(); ++b) add(whole_.surfaces[s].blocks[b], faces_[s][b]);
+  return bytes;
+}
+
 std::vector<char> Parts::pack(int process) {
   const std::vector<Index> nodes = nodes_of(process);
   std::vector<Point> x;
   std::vector<GlobalIndex> number, input;
+  x.reserve(nodes.size());
+  number.reserve(nodes.size());
+  input.reserve(nodes.size());
   std::vector<std::vector<Index>> sets(whole_.node_sets.size());
   for (const Index i : nodes) {
     const auto here = static_cast<Index>(x.size());
@@ -114,17 +136,22 @@ std::vector<char> Parts::pack(int process) {
   }
 
   Packer p;
+  p.reserve(nodes.size() * (sizeof(Point) + 2 * sizeof(GlobalIndex)) + element_bytes(process) +
+            sets_.size() * sizeof(Index) + k_for_names);
   const GlobalIndex first = whole_.first[at(process)], n_owned = whole_.first[at(process) + 1] - first;
   p.put(std::vector<GlobalIndex>{raw_.dimension, n_owned, whole_.first.back(), first});
-  p.put(x);
-  p.put(number);
-  p.put(input);
+  p.put(std::exchange(x, {}));
+  p.put(std::exchange(number, {}));
+  p.put(std::exchange(input, {}));
   p.put_size(bodies_.size());
   for (const std::string& name : bodies_) p.put(name);
   const auto put_block = [&](const RawBlock& block, int body, Elements& elements) {
     const int nn = node_count(block.shape);
+    const std::size_t n_elements = elements.counted.size() + elements.others.size();
     std::vector<Index> local;
     std::vector<GlobalIndex> input_element;
+    local.reserve(n_elements * at(nn));
+    input_element.reserve(n_elements);
     for (const auto* list : {&elements.counted, &elements.others})
       for (const Index e : *list) {
         for (int a = 0; a < nn; ++a) local.push_back(local_[at(block.nodes[at(e) * at(nn) + at(a)])]);

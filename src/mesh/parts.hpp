@@ -27,6 +27,7 @@ class Parts {
 
   std::vector<Elements> sort_out(const RawBlock& block, bool for_all) const;
   std::vector<Index> nodes_of(int process) const;
+  std::size_t element_bytes(int process) const;
   void find_sets();
 
   const RawMesh& raw_;

@@ -43,7 +43,9 @@ std::unordered_set<FaceKey, FaceKeyHash> boundary_of(const RawGroup& body) {
 /// Nodes on faces that elements of another body have too.
 void hold_at_other_bodies(const RawMesh& mesh, const std::string& body, const std::string& source,
                           const std::unordered_set<FaceKey, FaceKeyHash>& boundary, WallTopology& wall) {
-  for (const auto& [name, group] : mesh.groups) {
+  for (const auto& entry : mesh.groups) {
+    const std::string& name = entry.first;
+    const RawGroup& group = entry.second;
     if (name == body || group.dimension != mesh.dimension) continue;
     for_each_face(group, [&](int k, Index, int, const std::vector<Index>& nodes) {
       const int n = vertex_count(face_shape(group.blocks[static_cast<std::size_t>(k)].shape));
