@@ -13,7 +13,7 @@ namespace {
 // Steps are planned this much shorter than the limit allows, so that few of them have to be repeated.
 constexpr double k_safety = 0.8;
 // Estimates are no sharper than this: a step is repeated only where it is above its limit by this factor.
-constexpr double k_tolerated = 2;
+constexpr double k_tolerated = 1.5;
 // Without inertia a displacement is not integrated in time, it is what equilibrium asks for at t_{n+1}: its
 // error is not carried on, and that of one point of contact that opens is not worth a second try.
 constexpr double k_tolerated_displacement = 3;
