@@ -73,8 +73,9 @@ TEST(PlaceInput, AValueThatIsNotAllowedIsNamedWithPlaceAndTime) {
       ThrowsMessage<InputError>(AllOf(HasSubstr("case.toml:22"),
                                       HasSubstr("'coefficient' is not finite at (0, 2) m, t = 3 s"),
                                       HasSubstr("division by zero"))));
-  EXPECT_THAT([] { value(R"~({ formula = "10*(1 - t)" })~", {}, 2); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("'coefficient' is -10 W/m2/K"), HasSubstr("at least 0"))));
+  EXPECT_THAT(
+      [] { value(R"~({ formula = "10*(1 - t)" })~", {}, 2); },
+      ThrowsMessage<InputError>(AllOf(HasSubstr("'coefficient' is -10 W/m2/K"), HasSubstr("at least 0"))));
 }
 
 TEST(PlaceInput, PointsOfAFileOutsideOfWhichIsTheNearestOrAnError) {
