@@ -17,7 +17,8 @@ constexpr GlobalIndex k_direct_limit_3d = 3000;
 constexpr GlobalIndex k_rescue_limit = 200000;
 /// With a factorisation, whatever the forcing term: a step of flexible GMRES costs a hundredth of it.
 constexpr double k_direct_tolerance = 1e-8;
-/// The relative residual of solves with K_ΘΘ in the preconditioner: an iteration of them costs a hundredth of the cycle on the displacements.
+/// The relative residual of solves with K_ΘΘ in the preconditioner: an iteration of them costs a hundredth of
+/// the cycle on the displacements.
 constexpr double k_temperature_tolerance = 1e-2;
 
 }  // namespace

@@ -18,8 +18,8 @@
 #include "heat/temperature_system.hpp"
 #include "heat/thermal_iteration.hpp"
 #include "heat/truncated_newton.hpp"
-#include "material/time_integration.hpp"
 #include "heat/worst_node.hpp"
+#include "material/time_integration.hpp"
 
 namespace solidus::heat {
 
