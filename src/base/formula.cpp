@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* k_symbols = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
-/// What muParser found wrong, in the words of this program.
+/// Describes an error of muParser in the words of this program.
 std::string problem(const mu::ParserError& error, const std::vector<std::string>& names) {
   if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN || error.GetCode() == mu::ecINVALID_NAME) {
     const std::string found = error.GetToken();

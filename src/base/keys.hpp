@@ -69,7 +69,7 @@ class Key {
     sections,
     named_sections
   };
-  /// What a quantity may be a function of beside one argument.
+  /// Whether a quantity may also be a function of position, or of position and time.
   enum class Place { none, position, position_and_time };
 
   Key& doc(std::string text) { return doc_text = std::move(text), *this; }

@@ -54,7 +54,8 @@ double ErrorEstimate::change_of(const State& old, const State& now) const {
   return knows_flows() ? norm_(phases_->heat->change_in_kelvin(old.heat, now.heat)) : 0.0;
 }
 
-/// What lasts of an error in a step that changes heat by so much [K], after `before`.
+/// The part of the error `mean` of a step that is not forgotten [K]: it may be committed once for every
+/// `change` of the heat, of which `before` has gone before (docs/theory/thermal.md).
 double ErrorEstimate::lasting(double mean, double before, double change) const {
   return mean * std::min(k_steps, change > 0 ? 1 + before / change : k_steps);
 }

@@ -46,7 +46,7 @@ struct LocalError {
   double displacement = 0;  ///< [m]
 };
 
-/// What of a displacement counts.
+/// Whether the error of a displacement is that of the distortion of bodies, or of their whole motion.
 enum class Displacement { distortion, motion };
 
 /// Sizes are those of BodyNorm. All calls are collective.
@@ -59,7 +59,8 @@ class ErrorEstimate {
 
   /// Of the step from `old` to `now` by its extrapolation from `rates`, which must be known.
   LocalError predictor(const State& old, const State& now, double dt, const Rates& rates) const;
-  /// Of `halves`, by the `whole` step, both from `old`, the second half being the last step solved.
+  /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old`; the
+  /// second half must be the step solved last.
   LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates) const;
   /// How much heat a step has moved: its change in the nodes in kelvin of sensible heat, as the norm has it.
   /// Zero where flows are not known.

@@ -20,7 +20,7 @@ struct Rates {
   /// stage began, or a jump.
   double changed = 0;
 
-  /// Of the next step these are what is predicted from.
+  /// The next step is predicted from these.
   bool known() const { return !temperature.empty() || !heat_flow.empty() || !displacement.empty(); }
 };
 

@@ -139,7 +139,7 @@ TEST(TwoProcesses, CoolTwoBlocksInThreeDimensionsAsOneDoes) {
 }
 
 TEST(TwoProcesses, SolveTheCasesAsTheyAreAsOneDoes) {
-  // The thermal phase ends at 1e-5 of the heat that moves in a step.
+  // The thermal phase ends at 1e-5 of the heat that moves in each of the two stages of a step.
   compare("aluminium_cylinder_default", "cases/aluminium_cylinder", k_cylinder, 2e-5);
   compare("two_blocks_default", "cases/two_blocks", k_blocks, 2e-5);
 }
