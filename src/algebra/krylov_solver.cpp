@@ -20,55 +20,30 @@ struct KrylovSolver::Implementation {
   KrylovOptions options;
   KspHandle ksp;
   VecHandle b, x;
-  Cycle cycle;  ///< of Preconditioner::given
   Mat op = nullptr, preconditioner = nullptr;
   bool stale = true;  ///< the preconditioner is set up at the next solve
   Factorisation factorisation{k_first_workspace};
   double seconds_setup = 0, seconds_solve = 0;
 
   void create();
-  void apply_given(PC pc);
   KSPConvergedReason run(int& iterations);
   bool try_again();
 };
-
-void KrylovSolver::Implementation::apply_given(PC pc) {
-  check(PCSetType(pc, PCSHELL), "PCSetType");
-  check(PCShellSetContext(pc, &cycle), "PCShellSetContext");
-  const auto apply = [](PC of, Vec in, Vec out) -> PetscErrorCode {
-    Cycle* given = nullptr;
-    check(PCShellGetContext(of, static_cast<void*>(&given)), "PCShellGetContext");
-    with_values(in, out, *given);
-    return 0;
-  };
-  check(PCShellSetApply(pc, apply), "PCShellSetApply");
-}
 
 void KrylovSolver::Implementation::create() {
   check(KSPCreate(PETSC_COMM_WORLD, ksp.out()), "KSPCreate");
   check(KSPSetOptionsPrefix(ksp, options.prefix.c_str()), "KSPSetOptionsPrefix");
   check(KSPSetErrorIfNotConverged(ksp, PETSC_FALSE), "KSPSetErrorIfNotConverged");
-  check(KSPSetType(ksp, options.definite ? KSPCG : KSPFGMRES), "KSPSetType");
-  if (!options.definite) {
-    check(KSPGMRESSetRestart(ksp, k_restart), "KSPGMRESSetRestart");
-    check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
-    // A block triangular preconditioner is far from normal where a stiff shell holds a melt: directions that
-    // are made orthogonal only once lose it, and the true residual stays at 1e-2 for ever.
-    check(KSPGMRESSetCGSRefinementType(ksp, KSP_GMRES_CGS_REFINE_IFNEEDED), "KSPGMRESSetCGSRefinementType");
-  }
+  check(KSPSetType(ksp, KSPFGMRES), "KSPSetType");
+  check(KSPGMRESSetRestart(ksp, k_restart), "KSPGMRESSetRestart");
+  check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
+  check(KSPGMRESSetCGSRefinementType(ksp, KSP_GMRES_CGS_REFINE_IFNEEDED), "KSPGMRESSetCGSRefinementType");
   check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
   PC pc = nullptr;
   check(KSPGetPC(ksp, &pc), "KSPGetPC");
   PetscInt n_unknowns = 0;
-  switch (options.preconditioner) {
-    case Preconditioner::factorisation:
-      check(MatGetSize(preconditioner, &n_unknowns, nullptr), "MatGetSize");
-      factorisation.set_type(pc, options.prefix, options.symmetric, n_unknowns);
-      break;
-    case Preconditioner::given:
-      apply_given(pc);
-      break;
-  }
+  check(MatGetSize(preconditioner, &n_unknowns, nullptr), "MatGetSize");
+  factorisation.set_type(pc, options.prefix, options.symmetric, n_unknowns);
   check(KSPSetFromOptions(ksp), "KSPSetFromOptions");
   check(MatCreateVecs(preconditioner, x.out(), b.out()), "MatCreateVecs");
 }
@@ -98,7 +73,6 @@ KSPConvergedReason KrylovSolver::Implementation::run(int& iterations) {
 }
 
 bool KrylovSolver::Implementation::try_again() {
-  if (options.preconditioner != Preconditioner::factorisation) return false;
   PC pc = nullptr;
   check(KSPGetPC(ksp, &pc), "KSPGetPC");
   return factorisation.try_again(pc, preconditioner);
@@ -109,10 +83,6 @@ KrylovSolver::KrylovSolver(KrylovOptions options) : implementation_(std::make_un
 }
 
 KrylovSolver::~KrylovSolver() = default;
-
-void KrylovSolver::use(Cycle cycle) {
-  implementation_->cycle = std::move(cycle);
-}
 
 void KrylovSolver::set(Mat op, Mat preconditioner) {
   Implementation& my = *implementation_;

@@ -1,10 +1,9 @@
-/// Krylov's methods on an operator that is preconditioned by another, assembled matrix
-/// (function_matrix.hpp): conjugate gradients where both are positive definite, else flexible GMRES.
+/// Flexible GMRES on an operator that is preconditioned by the factors (MUMPS) of another, assembled matrix
+/// (function_matrix.hpp): the same one, or one that lacks a part which couples too many unknowns.
 #pragma once
 
 #include <petscksp.h>
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,16 +12,8 @@
 
 namespace solidus::algebra {
 
-/// What is done with the assembled matrix.
-enum class Preconditioner {
-  factorisation,  ///< MUMPS
-  given           ///< that of use()
-};
-
 struct KrylovOptions {
   std::string prefix;  ///< of PETSc's options
-  Preconditioner preconditioner = Preconditioner::factorisation;
-  bool definite = true;   ///< positive
   bool symmetric = true;  ///< the preconditioning matrix
   int max_iterations = 500;
 };
@@ -31,9 +22,6 @@ class KrylovSolver {
  public:
   explicit KrylovSolver(KrylovOptions options);
   ~KrylovSolver();
-  /// Of Preconditioner::given: z ≈ A⁻¹ r on owned degrees of freedom. Collective.
-  using Cycle = std::function<void(std::span<const double> r, std::span<double> z)>;
-  void use(Cycle cycle);
 
   /// From here on the operator and what preconditions it, set up at the next solve.
   void set(Mat op, Mat preconditioner);

@@ -14,7 +14,8 @@ struct Sizes {
   constexpr int fields() const { return n_fields > 0 ? n_fields : any_fields; }
 };
 
-/// Adds the borders' part of a product to y_u, and to y_p unless it is null.
+/// Adds the borders' part of a product to y_u unless p is null, and to y_p unless that is null. Without p it
+/// is Bᵀ u alone.
 /// @param half  whether the borders above the diagonal also stand for those below
 template <class AnySizes>
 void add_borders(const BlockMatrix& pattern, const double* border, bool half, AnySizes sizes, const double* u,
@@ -33,10 +34,12 @@ void add_borders(const BlockMatrix& pattern, const double* border, bool half, An
       const double *const gradient = e, *const divergence = e + dim * fields,
                           *const compliance = e + 2 * dim * fields;
       for (int f = 0; f < fields; ++f) {
-        const double p_column = p[column * of_p + f], p_row = p[row * of_p + f];
-        for (int i = 0; i < dim; ++i) {
-          y_u[row * of_u + i] += gradient[i * fields + f] * p_column;
-          if (mirrored) y_u[column * of_u + i] += divergence[f * dim + i] * p_row;
+        if (p != nullptr) {
+          const double p_column = p[column * of_p + f], p_row = p[row * of_p + f];
+          for (int i = 0; i < dim; ++i) {
+            y_u[row * of_u + i] += gradient[i * fields + f] * p_column;
+            if (mirrored) y_u[column * of_u + i] += divergence[f * dim + i] * p_row;
+          }
         }
         if (y_p == nullptr) continue;
         double at_row = 0, at_column = 0;
@@ -44,7 +47,7 @@ void add_borders(const BlockMatrix& pattern, const double* border, bool half, An
           at_row += divergence[f * dim + i] * u[column * of_u + i];
           at_column += gradient[i * fields + f] * u[row * of_u + i];
         }
-        for (int g = 0; g < fields; ++g) {
+        for (int g = 0; p != nullptr && g < fields; ++g) {
           at_row += compliance[f * fields + g] * p[column * of_p + g];
           at_column += compliance[g * fields + f] * p[row * of_p + g];
         }
@@ -92,6 +95,11 @@ void SaddleMatrix::multiply(std::span<const double> u, std::span<const double> p
 void SaddleMatrix::multiply_gradient(std::span<const double> p, std::span<double> y_u) const {
   std::fill(y_u.begin(), y_u.end(), 0.0);
   add_borders_of(displacement_, border(0), components(), fields_, nullptr, p.data(), y_u.data(), nullptr);
+}
+
+void SaddleMatrix::multiply_divergence(std::span<const double> u, std::span<double> y_p) const {
+  std::fill(y_p.begin(), y_p.end(), 0.0);
+  add_borders_of(displacement_, border(0), components(), fields_, u.data(), nullptr, nullptr, y_p.data());
 }
 
 }  // namespace solidus::algebra

@@ -42,6 +42,8 @@ class SaddleMatrix {
                 std::span<double> y_p) const;
   /// y_u = B p, likewise.
   void multiply_gradient(std::span<const double> p, std::span<double> y_u) const;
+  /// y_p = Bᵀ u, likewise.
+  void multiply_divergence(std::span<const double> u, std::span<double> y_p) const;
   std::size_t bytes() const { return border_.capacity() * sizeof(double); }
 
  private:

@@ -72,37 +72,42 @@ void CoupledSaddleSolver::make_solver(bool direct) {
   direct_ = direct;
   hierarchy_.renew();
   copy_.reset();
-  solver_.emplace(algebra::KrylovOptions{
-      .prefix = "coupled_",
-      .preconditioner = direct ? algebra::Preconditioner::factorisation : algebra::Preconditioner::given,
-      .definite = false,
-      .symmetric = false});
-  operator_ = std::make_unique<algebra::FunctionMatrix>(
-      static_cast<std::int64_t>(unknowns_->size()),
-      [this](std::span<const double> x, std::span<double> y) { multiply(x, y); });
+  const auto product = [this](std::span<const double> x, std::span<double> y) { multiply(x, y); };
   saddle_.reset();
   temperatures_.reset();
-  if (direct) return;
+  if (direct) {
+    iterative_.reset();
+    factorised_.emplace(algebra::KrylovOptions{.prefix = "coupled_", .symmetric = false});
+    operator_ =
+        std::make_unique<algebra::FunctionMatrix>(static_cast<std::int64_t>(unknowns_->size()), product);
+    return;
+  }
+  factorised_.reset();
+  operator_.reset();
   // The matrix of displacements is whole, symmetric or not.
   saddle_.emplace(mesh_, *matrix_.saddle(), pressure_, ghosts_, false);
   temperatures_.emplace(mesh_, algebra::LinearSolverOptions{.prefix = "coupled_temperature_",
                                                             .kind = algebra::SolverKind::incomplete,
                                                             .symmetric = false,
                                                             .relative_tolerance = k_temperature_tolerance});
-  solver_->use([this](std::span<const double> r, std::span<double> z) { precondition(r, z); });
+  iterative_.emplace();
+  iterative_->set(product, [this](std::span<const double> r, std::span<double> z) { precondition(r, z); });
 }
 
 void CoupledSaddleSolver::set_up() {
   const profile::Part part("solver set-up");
   if (direct_) {
     Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_, weights_.force, weights_.heat);
-    solver_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
+    factorised_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
     return;
   }
   saddle_->set_up_schur();
-  if (hierarchy_.stale()) saddle_->set_up_displacement();
+  if (hierarchy_.stale_for(matrix_.displacement())) {
+    saddle_->set_up_displacement();
+    hierarchy_.made_for(matrix_.displacement());
+  }
   new_temperatures_ = true;
-  solver_->set(operator_->matrix(), operator_->matrix());
+  iterative_->operator_changed();
 }
 
 void CoupledSaddleSolver::weight(std::span<double> whole, bool divide) const {
@@ -188,7 +193,8 @@ algebra::LinearReport CoupledSaddleSolver::solve([[maybe_unused]] algebra::Coupl
     again = false;
     const double relative = direct_ ? std::min(k_direct_tolerance, tightest_) : std::max(forcing, tightest_);
     const int spent = report.iterations;
-    report = solver_->solve(right_, solution_, relative);
+    report = direct_ ? factorised_->solve(right_, solution_, relative)
+                     : iterative_->solve(right_, solution_, relative);
     if (!direct_) {
       const bool was_new = hierarchy_.stale();
       hierarchy_.judge(report, relative);

@@ -26,6 +26,7 @@
 #include "algebra/function_matrix.hpp"
 #include "algebra/hierarchy_age.hpp"
 #include "algebra/krylov_solver.hpp"
+#include "algebra/recycling_gmres.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_preconditioner.hpp"
 
@@ -73,7 +74,8 @@ class CoupledSaddleSolver final : public algebra::CoupledTangentSolver {
   algebra::CoupledCopy copy_;
   bool direct_ = true;
   std::unique_ptr<algebra::FunctionMatrix> operator_;
-  std::optional<algebra::KrylovSolver> solver_;
+  std::optional<algebra::KrylovSolver> factorised_;   ///< where few are unknown
+  std::optional<algebra::RecyclingGmres> iterative_;  ///< where many are
   std::optional<mechanics::SaddlePreconditioner> saddle_;
   std::optional<algebra::LinearSolver> temperatures_;
   bool new_temperatures_ = true;  ///< K_ΘΘ has changed since the last solve with it

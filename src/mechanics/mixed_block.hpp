@@ -185,13 +185,16 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
            tangent_.capacity() * sizeof(VolumeTangent) + kept_variation_.capacity() * sizeof(Nodal);
   }
 
-  void add_augmentation(double part, algebra::BlockMatrix& displacement) const override {
+  void add_augmentation(double factor, std::span<const double> stiffness,
+                        algebra::BlockMatrix& displacement) const override {
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
       Matrix symmetric;
       Vectors divergence{};
       b.add_force(Sym<Lane>::identity(), divergence);
-      add_product(divergence, Lane(part) * weight(batch) * this->tangent_shear_[at(batch)], symmetric);
+      Lane total(0.0);
+      for (const Lane& value : this->gather_pressure(stiffness, batch)) total += value;
+      add_product(divergence, Lane(factor / n_nodes) * weight(batch) * total, symmetric);
       scatter<1>(symmetric, this->slots_of(batch), displacement);
     }
   }

@@ -106,6 +106,16 @@ class PressureNodes : public MixedKernel {
     }
   }
 
+  void add_softness(std::span<double> softness, std::span<double> volume) const override {
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Nodal mass = masses(batch);
+      Nodal soft = mass;
+      for (Lane& value : soft) value = value / tangent_shear_[at(batch)];
+      scatter_pressure(mass, batch, volume);
+      scatter_pressure(soft, batch, softness);
+    }
+  }
+
  protected:
   using Slot = algebra::BlockMatrix::Slot;
   static constexpr bool hoop = kind == AnalysisKind::axisymmetric;

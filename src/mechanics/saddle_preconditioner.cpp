@@ -8,7 +8,7 @@ namespace {
 /// over coarser levels are no match for a factorisation: 870 linear iterations of a step of the fine
 /// crankshaft become 280.
 constexpr GlobalIndex k_coarsest = 150;
-/// Stiffness against the divergence in parts of 2Ĝ.
+/// γ, the stiffness against the divergence in parts of 2Ĝ: it makes Poisson's ratio 1/4 of A.
 constexpr double k_augmentation = 1.0 / 3.0 + 0.5;
 
 }  // namespace
@@ -47,13 +47,29 @@ void SaddlePreconditioner::set_up_schur() {
   for (const MixedKernel* kernel : pressure_.kernels())
     kernel->add_schur(scale, *schur_[static_cast<std::size_t>(kernel->field())]);
   for (std::size_t field = 0; field < schur_.size(); ++field) factors_[field].set_up(*schur_[field]);
+  find_softness();
+}
+
+void SaddlePreconditioner::find_softness() {
+  const std::size_t fields = schur_.size(), n = mesh_.x.size() * fields;
+  const double scale = pressure_.unit() * pressure_.unit();
+  std::vector<double> softness(n, 0.0), volume(n, 0.0);
+  for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_softness(softness, volume);
+  inverse_softness_.assign(static_cast<std::size_t>(mesh_.n_owned_nodes) * fields, 0.0);
+  stiffness_.assign(n, 0.0);
+  for (std::size_t i = 0; i < inverse_softness_.size(); ++i) {
+    if (!(softness[i] > 0)) continue;
+    inverse_softness_[i] = k_augmentation / (scale * softness[i]);
+    stiffness_[i] = k_augmentation * volume[i] / softness[i];
+  }
+  ghosts_.update(stiffness_, pressure_.fields());
 }
 
 void SaddlePreconditioner::set_up_displacement() {
   algebra::BlockMatrix& a = matrix_.displacement();
-  for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_augmentation(k_augmentation, a);
+  for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_augmentation(1.0, stiffness_, a);
   multigrid_.set_up(a);
-  for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_augmentation(-k_augmentation, a);
+  for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_augmentation(-1.0, stiffness_, a);
 }
 
 void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z) {
@@ -61,10 +77,10 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
   const auto n_p = static_cast<std::size_t>(mesh_.n_owned_nodes) * fields;
   const std::size_t n_u = r.size() - n_p;
   right_.resize(n_p / fields);
-  result_.resize(n_p / fields);
+  result_.resize(n_p);
   for (std::size_t field = 0; field < fields; ++field) {
     for (std::size_t node = 0; node < right_.size(); ++node) right_[node] = -r[n_u + node * fields + field];
-    factors_[field].apply(right_, result_);
+    factors_[field].apply(right_, std::span(result_).first(right_.size()));
     for (std::size_t node = 0; node < right_.size(); ++node) z[n_u + node * fields + field] = result_[node];
   }
   local_.resize(mesh_.x.size() * fields);
@@ -72,8 +88,16 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
   ghosts_.update(local_, pressure_.fields());
   part_.resize(n_u);
   matrix_.multiply_gradient(local_, part_);
-  for (std::size_t i = 0; i < n_u; ++i) part_[i] = r[i] - part_[i];
+  const std::vector<char>& prescribed = matrix_.displacement().fixed();
+  for (std::size_t i = 0; i < n_u; ++i) part_[i] = prescribed[i] ? 0.0 : r[i] - part_[i];
   multigrid_.apply(part_, z.first(n_u));
+
+  local_u_.resize(mesh_.x.size() * static_cast<std::size_t>(matrix_.components()));
+  std::copy_n(z.begin(), n_u, local_u_.begin());
+  ghosts_.update(local_u_, matrix_.components());
+  result_.resize(n_p);
+  matrix_.multiply_divergence(local_u_, result_);
+  for (std::size_t i = 0; i < n_p; ++i) z[n_u + i] += inverse_softness_[i] * result_[i];
 }
 
 std::size_t SaddlePreconditioner::bytes() const {

@@ -51,20 +51,21 @@ void SaddleSolver::make_solver(bool direct) {
   direct_ = direct;
   hierarchy_.renew();
   copy_.reset();
-  solver_.emplace(algebra::KrylovOptions{
-      .prefix = "mechanics_mixed_",
-      .preconditioner = direct ? algebra::Preconditioner::factorisation : algebra::Preconditioner::given,
-      .definite = false,
-      .symmetric = options_.symmetric});
-  operator_ = std::make_unique<algebra::FunctionMatrix>(
-      static_cast<std::int64_t>(unknowns_->size()),
-      [this](std::span<const double> x, std::span<double> y) { multiply(x, y); });
+  const auto product = [this](std::span<const double> x, std::span<double> y) { multiply(x, y); };
   if (direct) {
     preconditioner_.reset();  // the factors need its memory
+    iterative_.reset();
+    factorised_.emplace(algebra::KrylovOptions{
+        .prefix = "mechanics_mixed_", .symmetric = options_.symmetric});
+    operator_ =
+        std::make_unique<algebra::FunctionMatrix>(static_cast<std::int64_t>(unknowns_->size()), product);
     return;
   }
+  factorised_.reset();
+  operator_.reset();
   preconditioner_.emplace(mesh_, matrix_, pressure_, ghosts_, options_.symmetric);
-  solver_->use([this](std::span<const double> r, std::span<double> z) { precondition(r, z); });
+  iterative_.emplace();
+  iterative_->set(product, [this](std::span<const double> r, std::span<double> z) { precondition(r, z); });
 }
 
 void SaddleSolver::assemble() {
@@ -112,12 +113,15 @@ void SaddleSolver::set_up() {
   const Stopwatch watch(seconds_setup_);
   if (direct_) {
     Mat assembled = copy_.copy(mesh_, matrix_, *unknowns_);
-    solver_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
+    factorised_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
     return;
   }
   preconditioner_->set_up_schur();
-  if (hierarchy_.stale()) preconditioner_->set_up_displacement();
-  solver_->set(operator_->matrix(), operator_->matrix());
+  if (hierarchy_.stale_for(displacement_)) {
+    preconditioner_->set_up_displacement();
+    hierarchy_.made_for(displacement_);
+  }
+  iterative_->operator_changed();
 }
 
 algebra::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::span<double> x,
@@ -135,7 +139,8 @@ algebra::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::
     const int spent = report.iterations;
     {
       const Stopwatch watch(seconds_solve_);
-      report = solver_->solve(right_, solution_, relative);
+      report = direct_ ? factorised_->solve(right_, solution_, relative)
+                       : iterative_->solve(right_, solution_, relative);
     }
     if (!direct_) {
       const bool was_new = hierarchy_.stale();
@@ -169,6 +174,7 @@ void SaddleSolver::reset() {
 
 std::size_t SaddleSolver::bytes() const {
   return matrix_.bytes() + (preconditioner_ ? preconditioner_->bytes() : 0) +
+         (iterative_ ? iterative_->bytes() : 0) +
          (right_.capacity() + solution_.capacity() + whole_.capacity() + product_.capacity() +
           local_u_.capacity() + local_p_.capacity()) *
              sizeof(double);

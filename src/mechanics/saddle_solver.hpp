@@ -4,13 +4,13 @@
 ///   ⎣ Bᵀ −(C+S) ⎦ ⎩δp⎭ = ⎩−r_p⎭
 ///
 /// one linear solve an iteration, on the degrees of freedom that are unknown: nodes of bodies that only
-/// conduct heat have no rows. Few unknowns are factorised, LDLᵀ by MUMPS; many take flexible GMRES with the
-/// block triangular preconditioner of saddle_preconditioner.hpp. Where that does not converge and a
+/// conduct heat have no rows. Few unknowns are factorised, LDLᵀ by MUMPS; many take GMRES that recycles its
+/// slow directions (recycling_gmres.hpp), with the preconditioner of saddle_preconditioner.hpp. Where that does not converge and a
 /// factorisation is possible, it takes over until forget().
 ///
 /// Orthogonal sub-scales couple neighbours of neighbours. That part of S is applied and never assembled:
 /// GMRES has it in its operator and goes without it in what preconditions it, the factors included.
-/// PETSc options: mechanics_mixed_.
+/// PETSc options of the factorisation: mechanics_mixed_.
 #pragma once
 
 #include <memory>
@@ -21,6 +21,7 @@
 #include "algebra/function_matrix.hpp"
 #include "algebra/hierarchy_age.hpp"
 #include "algebra/krylov_solver.hpp"
+#include "algebra/recycling_gmres.hpp"
 #include "algebra/saddle_matrix.hpp"
 #include "algebra/saddle_unknowns.hpp"
 #include "mechanics/nodal_pressure.hpp"
@@ -77,7 +78,8 @@ class SaddleSolver final : public algebra::TangentSolver {
   algebra::SaddleCopy copy_;
   bool direct_ = true;
   std::unique_ptr<algebra::FunctionMatrix> operator_;
-  std::optional<algebra::KrylovSolver> solver_;
+  std::optional<algebra::KrylovSolver> factorised_;    ///< where few are unknown
+  std::optional<algebra::RecyclingGmres> iterative_;  ///< where many are
   std::optional<SaddlePreconditioner> preconditioner_;
   algebra::HierarchyAge hierarchy_;
   double seconds_setup_ = 0, seconds_solve_ = 0;
