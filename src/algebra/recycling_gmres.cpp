@@ -293,7 +293,7 @@ LinearReport RecyclingGmres::solve(std::span<const double> b, std::span<double> 
   };
   project();
   LinearReport report;
-  while (norm(r) > accepted) {
+  while (!(norm(r) <= accepted)) {  // not a number is no solution
     const int left = my.options.max_iterations - report.iterations;
     if (left <= 0 || !std::isfinite(norm(r))) {
       report.converged = false;

@@ -20,8 +20,8 @@
 namespace solidus::algebra {
 
 struct RecyclingOptions {
-  int directions = 80;       ///< of a cycle, besides those that are kept
-  int kept = 20;             ///< at most, from one system to the next
+  int directions = 60;       ///< of a cycle, besides those that are kept
+  int kept = 40;             ///< at most, from one system to the next
   int worthwhile = 25;       ///< iterations of a cycle from which on a new choice is made of what is kept
   int max_iterations = 500;  ///< of a solve
 };
