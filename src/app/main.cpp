@@ -65,6 +65,11 @@ void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
       ->allow_extra_args(false);
 }
 
+void add_trust(CLI::App& verb, bool& trust) {
+  verb.add_flag("--trust-geo", trust,
+                "Run .geo scripts whatever they say: they can start programs and write files as you can");
+}
+
 void set_log_level(const std::string& wanted) {
   using logging::Level;
   const std::map<std::string, Level> levels = {
@@ -97,6 +102,8 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Continue a run that was stopped, from its checkpoint in the folder of the results");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
+  add_trust(*run_verb, arguments.trust_script);
+  add_trust(*check_verb, arguments.trust_script);
   CLI::App* explain_verb = program.add_subcommand("explain", "Explain a key of the case file, or list all");
   explain_verb->add_option("KEY", key, "For example time.step");
   explain_verb->add_flag("--manual", manual, "The reference manual of all keys, in Markdown");
@@ -121,6 +128,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   mesh_verb->add_option("--set", arguments.set, "Change a key of the case, PATH=VALUE")
       ->allow_extra_args(false);
   mesh_verb->add_option("--unit", unit, "Unit of length of a mesh file, for example mm");
+  add_trust(*mesh_verb, arguments.trust_script);
   CLI::App* materials_verb =
       program.add_subcommand("materials", "List the material library, or print one material");
   materials_verb->add_option("NAME", name, "A material of the library, or a material file");
@@ -133,6 +141,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   export_verb->add_option("--calculix", exported.calculix, "File for CalculiX: stress at every point");
   export_verb->add_option("--abaqus", exported.abaqus, "File for Abaqus: stress of the elements");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
+  add_trust(*export_verb, exported.trust_script);
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
   for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
 

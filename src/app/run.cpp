@@ -29,7 +29,7 @@ fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
 }  // namespace
 
 ExitCode run(const CaseArguments& arguments) {
-  const model::Case c = model::load_case(arguments.path, arguments.set);
+  const model::Case c = load_case(arguments);
   model::RunOptions options;
   options.folder = results_folder(arguments, c);
   int rank = 0;
