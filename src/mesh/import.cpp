@@ -19,6 +19,7 @@
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_script.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "mesh/reader_process.hpp"
 
 namespace solidus::mesh {
 
@@ -288,7 +289,7 @@ void name_groups(const std::string& path, const GeometryChoice& geometry, double
 
 }  // namespace
 
-RawMesh read_mesh(const MeshSource& source) {
+RawMesh read_mesh_here(const MeshSource& source) {
   const std::string& path = source.path;
   check_readable(path);
   const FileFormat format = file_format(path);
