@@ -29,6 +29,7 @@
 #include "model/stage_input.hpp"
 #include "model/time_input.hpp"
 #include "results/recorder.hpp"
+#include "results/run_lock.hpp"
 
 namespace solidus::model {
 
@@ -247,6 +248,12 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   const results::CheckpointFolder folder(options.folder);
   results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
   check_stage_of_checkpoint(spec, found.continuation.stage, found.state.time);
+  // A run that was killed behind its last checkpoint has but its summary to write.
+  const bool reached = found.state.time == *spec.time.end;
+  if (reached && !results::is_finished(options.folder)) {
+    logging::info("the run has reached t = {:g} s already; its results are completed", found.state.time);
+    return found;
+  }
   if (found.state.time >= *spec.time.end)
     throw InputError(spec.time.where,
                      fmt::format("the run has reached t = {:g} s already; the end is at {:g} s",
@@ -296,7 +303,8 @@ RunResult run_case(const Case& c, const RunOptions& options) {
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
   results::RecorderOptions r = recorder_options(c, options, a);
-  r.fingerprint = fingerprint(c.spec, a.mesh, a.materials);
+  r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
+  const results::RunLock lock(options.folder);
   std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);
   if (from) {
     r.progress_options.start = from->state.time;
