@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "algebra/interruption.hpp"
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
@@ -200,6 +201,8 @@ Simulation::Try Simulation::try_step(Progress& p) {
       return Try::repeat;
     }
     static_cast<StepEffort&>(p.record) = taken.effort;
+  } catch (const algebra::Interrupted&) {
+    return Try::repeat;  // before which stop_asked() ends the run
   } catch (const StepRejected& rejection) {
     ++p.record.rejected;
     p.record.rejection = rejection.reason();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "algebra/interruption.hpp"
 #include "algebra/parallel.hpp"
 #include "base/free_memory.hpp"
 #include "base/log.hpp"
@@ -286,6 +287,18 @@ CheckedRun check_run(const Case& c) {
   return checked;
 }
 
+namespace {
+
+/// Solvers ask as long as this lives.
+struct InterruptibleSolvers {
+  explicit InterruptibleSolvers(const std::function<bool()>& asked) { algebra::interrupt_when(asked); }
+  ~InterruptibleSolvers() { algebra::interrupt_when({}); }
+  InterruptibleSolvers(const InterruptibleSolvers&) = delete;
+  InterruptibleSolvers& operator=(const InterruptibleSolvers&) = delete;
+};
+
+}  // namespace
+
 RunResult run_case(const Case& c, const RunOptions& options) {
   const double start = MPI_Wtime();
   check_restart(c.spec, options);
@@ -324,8 +337,13 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
   results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));
   part.reset();
-  return c.spec.time.steady ? run_steady(c.spec, a, recorder)
-                            : run_transient(c.spec, options, a, std::move(from), recorder);
+  const InterruptibleSolvers interruptible(options.stop_asked);
+  try {
+    return c.spec.time.steady ? run_steady(c.spec, a, recorder)
+                              : run_transient(c.spec, options, a, std::move(from), recorder);
+  } catch (const algebra::Interrupted&) {  // outside of a step: there is no new state to keep
+    return {false, "stopped as asked before the first step"};
+  }
 }
 
 }  // namespace solidus::model
