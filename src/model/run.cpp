@@ -23,6 +23,7 @@
 #include "model/bounds_watch.hpp"
 #include "model/case_materials.hpp"
 #include "model/coupling_estimate.hpp"
+#include "model/findings.hpp"
 #include "model/fingerprint.hpp"
 #include "model/mesh_input.hpp"
 #include "model/run_input.hpp"
@@ -278,6 +279,7 @@ CheckedRun check_run(const Case& c) {
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
   build(c.spec, a);
+  report(findings(c.spec, a));
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
@@ -312,6 +314,7 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   part.emplace("set-up");
   build(c.spec, a);
   return_free_memory();
+  report(findings(c.spec, a));
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
