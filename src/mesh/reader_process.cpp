@@ -39,6 +39,13 @@ constexpr int k_request = 3, k_answer = 4;  ///< descriptors of the reader
 enum class Answer : int { mesh, input_error, memory, internal };
 
 #if defined(__SANITIZE_ADDRESS__)
+#define SOLIDUS_SHADOW_MEMORY
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SOLIDUS_SHADOW_MEMORY
+#endif
+#endif
+#ifdef SOLIDUS_SHADOW_MEMORY
 constexpr bool k_limits_memory = false;  // AddressSanitizer reserves terabytes
 #else
 constexpr bool k_limits_memory = true;
