@@ -15,7 +15,8 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "stopped as asked within a step"; }
 };
 
-/// What is asked from now on, by every process alike; an empty function: nothing.
+/// What is asked from now on, by every process alike; an empty function: nothing. Once true it stays true,
+/// and the loop over the steps asks the same.
 void interrupt_when(std::function<bool()> asked);
 
 /// Throws Interrupted on every process where one of them is asked to stop. Collective.

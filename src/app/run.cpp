@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "algebra/interruption.hpp"
 #include "app/places.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
@@ -38,6 +39,7 @@ ExitCode run(const CaseArguments& arguments) {
   options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
   options.restart = arguments.restart;
   options.stop_asked = stop_asked;
+  algebra::interrupt_when(stop_asked);
   const model::RunResult result = model::run_case(c, options);
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
   if (!result.finished) {

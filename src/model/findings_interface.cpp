@@ -93,12 +93,13 @@ void bodies_without_a_way_for_heat(const CaseSpec& spec, const Assembly& a, Find
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     for (std::size_t other = 0; other < b; ++other) {
       const int one = by_heat.root(static_cast<int>(b)), two = by_heat.root(static_cast<int>(other));
-      if (one == two || std::abs(a.start[b].high - a.start[other].low) < k_same_temperature) continue;
+      if (one == two || std::abs(a.start[other].high - a.start[b].low) < k_same_temperature) continue;
       const bool touch = by_anything.root(static_cast<int>(b)) == by_anything.root(static_cast<int>(other));
       findings.push_back(
           {false, spec.bodies[b].where,
            fmt::format("no heat passes between the bodies '{}' and '{}', which start {:.0f} K apart: {}",
-                       spec.bodies[other].name, spec.bodies[b].name, a.start[other].high - a.start[b].low,
+                       spec.bodies[other].name, spec.bodies[b].name,
+                       std::abs(a.start[other].high - a.start[b].low),
                        touch ? "their contact has no [contact.heat]" : "no contact joins them, and no node"),
            touch ? "a [contact.heat] with a conductance" : "a [[contact]] between their surfaces"});
       return;  // one is enough: the others follow from it

@@ -289,18 +289,6 @@ CheckedRun check_run(const Case& c) {
   return checked;
 }
 
-namespace {
-
-/// Solvers ask as long as this lives.
-struct InterruptibleSolvers {
-  explicit InterruptibleSolvers(const std::function<bool()>& asked) { algebra::interrupt_when(asked); }
-  ~InterruptibleSolvers() { algebra::interrupt_when({}); }
-  InterruptibleSolvers(const InterruptibleSolvers&) = delete;
-  InterruptibleSolvers& operator=(const InterruptibleSolvers&) = delete;
-};
-
-}  // namespace
-
 RunResult run_case(const Case& c, const RunOptions& options) {
   const double start = MPI_Wtime();
   check_restart(c.spec, options);
@@ -340,7 +328,6 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
   results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));
   part.reset();
-  const InterruptibleSolvers interruptible(options.stop_asked);
   try {
     return c.spec.time.steady ? run_steady(c.spec, a, recorder)
                               : run_transient(c.spec, options, a, std::move(from), recorder);

@@ -197,7 +197,7 @@ TEST_F(Restart, ASignalWhileTheMeshIsReadEndsTheRunInGoodOrder) {
   std::ofstream(root() / "case.toml") << "include = '" SOLIDUS_SOURCE_DIR "/cases/bracket/case.toml'\n"
                                       << "[mesh]\nfile = 'endless.geo'\n";
   const Outcome stopped =
-      shell("(timeout --foreground --preserve-status -s USR1 3 '" SOLIDUS_BINARY_DIR "/solidus' run '" +
+      shell("(timeout --foreground --preserve-status -s USR1 10 '" SOLIDUS_BINARY_DIR "/solidus' run '" +
             (root() / "case.toml").string() + "' -o '" + (root() / "early").string() + "')");
   EXPECT_EQ(stopped.code, 2) << stopped.output;
   EXPECT_THAT(stopped.output, HasSubstr("stopped by a signal while the mesh was read"));
