@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "algebra/factorisation.hpp"
+#include "algebra/interruption.hpp"
 #include "algebra/petsc_vectors.hpp"
 #include "base/profile.hpp"
 
@@ -39,6 +40,7 @@ void KrylovSolver::Implementation::create() {
   check(KSPSetPCSide(ksp, PC_RIGHT), "KSPSetPCSide");
   check(KSPGMRESSetCGSRefinementType(ksp, KSP_GMRES_CGS_REFINE_IFNEEDED), "KSPGMRESSetCGSRefinementType");
   check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
+  watch_for_interruption(ksp);
   PC pc = nullptr;
   check(KSPGetPC(ksp, &pc), "KSPGetPC");
   PetscInt n_unknowns = 0;
@@ -49,6 +51,7 @@ void KrylovSolver::Implementation::create() {
 }
 
 KSPConvergedReason KrylovSolver::Implementation::run(int& iterations) {
+  check_interruption();
   PetscLogDouble t0 = 0, t1 = 0, t2 = 0;
   PetscTime(&t0);
   {
@@ -61,6 +64,7 @@ KSPConvergedReason KrylovSolver::Implementation::run(int& iterations) {
     const profile::Part solving("solve");
     check(KSPSolve(ksp, b, x), "KSPSolve");
   }
+  check_interruption();
   PetscTime(&t2);
   seconds_setup += t1 - t0;
   seconds_solve += t2 - t1;

@@ -9,6 +9,7 @@
 
 #include "algebra/factorisation.hpp"
 #include "algebra/incomplete_cholesky.hpp"
+#include "algebra/interruption.hpp"
 #include "algebra/multigrid.hpp"
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
@@ -270,7 +271,10 @@ void LinearSolver::Implementation::create(Mat a) {
   check(
       KSPSetTolerances(ksp, options.relative_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, options.max_iterations),
       "KSPSetTolerances");
-  if (kind != SolverKind::direct) check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
+  if (kind != SolverKind::direct) {
+    check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
+    watch_for_interruption(ksp);
+  }
   PC pc = nullptr;
   check(KSPGetPC(ksp, &pc), "KSPGetPC");
   const KSPType krylov = options.symmetric ? KSPCG : KSPGMRES;
@@ -388,6 +392,7 @@ void LinearSolver::Implementation::set_tolerance(double forcing) {
 }
 
 KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int& iterations) {
+  check_interruption();
   PetscLogDouble t0 = 0, t1 = 0, t2 = 0;
   PetscTime(&t0);
   {
@@ -404,6 +409,7 @@ KSPConvergedReason LinearSolver::Implementation::run(Vec rhs, Vec solution, int&
     const profile::Part solving("solve");
     check(KSPSolve(ksp, rhs, solution), "KSPSolve");
   }
+  check_interruption();
   PetscTime(&t2);
   seconds_setup += t1 - t0;
   seconds_solve += t2 - t1;

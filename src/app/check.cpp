@@ -60,7 +60,7 @@ std::string stage_lines(const model::CaseSpec& spec) {
 }  // namespace
 
 ExitCode check(const CaseArguments& arguments) {
-  const model::Case c = model::load_case(arguments.path, arguments.set);
+  const model::Case c = load_case(arguments);
   const model::CaseSpec& spec = c.spec;
   const model::CheckedRun checked = model::check_run(c);
   const results::MeshCounts& counts = checked.mesh;

@@ -9,6 +9,7 @@
 
 #include "app/verbs.hpp"
 #include "base/errors.hpp"
+#include "base/input_file.hpp"
 #include "base/key_docs.hpp"
 #include "material/library.hpp"
 #include "model/case_keys.hpp"
@@ -16,12 +17,16 @@
 
 namespace solidus::app {
 
-void print(const std::string& text) {
+void print(const std::string& given) {
+  const std::string text = printable(given);
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank != 0) return;
   const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!whole || std::fflush(stdout) != 0) throw InputError({"standard output", 0, 0}, std::strerror(errno));
+  if (!whole || std::fflush(stdout) != 0) {
+    if (errno == EPIPE) return;  // nobody reads on, as with `| head`
+    throw InputError({"standard output", 0, 0}, std::strerror(errno));
+  }
 }
 
 namespace {

@@ -16,7 +16,9 @@ ExitCode export_state(const ExportArguments& arguments) {
   options.file = abaqus ? arguments.abaqus : arguments.calculix;
   options.dialect = abaqus ? results::Dialect::abaqus : results::Dialect::calculix;
   options.deformed = arguments.deformed;
-  const model::ExportReport report = model::export_state(model::load_case(arguments.folder), options);
+  model::Case c = model::load_case(arguments.folder);
+  c.spec.mesh.trust_script = arguments.trust_script;
+  const model::ExportReport report = model::export_state(c, options);
   print(fmt::format(
       "{}: {} elements at t = {:g} s; equilibrium at the final temperature moved nodes by up to {:.3g} m\n",
       options.file.string(), report.elements, report.time, report.adjusted));

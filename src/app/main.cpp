@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <optional>
@@ -14,9 +15,11 @@
 #include "app/verbs.hpp"
 #include "base/errors.hpp"
 #include "base/free_memory.hpp"
+#include "base/input_file.hpp"
 #include "base/keys.hpp"
 #include "base/log.hpp"
 #include "base/profile.hpp"
+#include "mesh/reader_process.hpp"
 
 namespace {
 
@@ -35,7 +38,7 @@ ExitCode fail(ExitCode code, const std::string& message) {
     MPI_Test(&everybody, &alike, MPI_STATUS_IGNORE);
     if (!alike) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  if (rank == 0 || !alike) std::fputs(("solidus: " + message + "\n").c_str(), stderr);
+  if (rank == 0 || !alike) std::fputs(printable("solidus: " + message + "\n").c_str(), stderr);
   if (!alike) MPI_Abort(PETSC_COMM_WORLD, code);
   return code;
 }
@@ -63,6 +66,11 @@ void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
   verb.add_option("CASE", arguments.path, "A case file, or a folder with a case.toml")->required();
   verb.add_option("--set", arguments.set, "Change a key, PATH=VALUE, for example --set time.step=\"0.5 s\"")
       ->allow_extra_args(false);
+}
+
+void add_trust(CLI::App& verb, bool& trust) {
+  verb.add_flag("--trust-geo", trust,
+                "Run .geo scripts whatever they say: they can start programs and write files as you can");
 }
 
 void set_log_level(const std::string& wanted) {
@@ -97,6 +105,8 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Continue a run that was stopped, from its checkpoint in the folder of the results");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
+  add_trust(*run_verb, arguments.trust_script);
+  add_trust(*check_verb, arguments.trust_script);
   CLI::App* explain_verb = program.add_subcommand("explain", "Explain a key of the case file, or list all");
   explain_verb->add_option("KEY", key, "For example time.step");
   explain_verb->add_flag("--manual", manual, "The reference manual of all keys, in Markdown");
@@ -121,6 +131,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   mesh_verb->add_option("--set", arguments.set, "Change a key of the case, PATH=VALUE")
       ->allow_extra_args(false);
   mesh_verb->add_option("--unit", unit, "Unit of length of a mesh file, for example mm");
+  add_trust(*mesh_verb, arguments.trust_script);
   CLI::App* materials_verb =
       program.add_subcommand("materials", "List the material library, or print one material");
   materials_verb->add_option("NAME", name, "A material of the library, or a material file");
@@ -133,6 +144,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   export_verb->add_option("--calculix", exported.calculix, "File for CalculiX: stress at every point");
   export_verb->add_option("--abaqus", exported.abaqus, "File for Abaqus: stress of the elements");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
+  add_trust(*export_verb, exported.trust_script);
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
   for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
 
@@ -171,16 +183,24 @@ ExitCode parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (const std::optional<int> code = mesh::serve_as_reader(argc, argv)) return *code;
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
-  if (run_wanted) listen_to_signals();
+  // A reader downstream that has gone is no failure: what is printed to it is lost.
+  std::signal(SIGPIPE, SIG_IGN);
+  if (run_wanted) {
+    listen_to_signals();
+    mesh::give_up_reading_when(stop_asked);
+  }
   profile::begin();
   give_large_arrays_back();
   // What stands behind "--" is PETSc's; its first argument is the program's name.
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
   std::vector<char*> for_petsc(separator == end ? end : separator + 1, end);
-  for_petsc.insert(for_petsc.begin(), argv[0]);
+  // A .petscrc of the present folder or the home would change answers in silence; signals are ours.
+  static char no_files[] = "-skip_petscrc", no_handler[] = "-no_signal_handler";
+  for_petsc.insert(for_petsc.begin(), {argv[0], no_files, no_handler});
   int petsc_argc = static_cast<int>(for_petsc.size());
   for_petsc.push_back(nullptr);
   char** petsc_argv = for_petsc.data();

@@ -23,11 +23,13 @@ bool is_case(const std::filesystem::path& path) {
 }
 
 RawMesh read(const CaseArguments& arguments, const std::string& unit) {
-  if (is_case(arguments.path)) return model::raw_mesh(model::load_case(arguments.path, arguments.set).spec);
+  if (is_case(arguments.path)) return model::raw_mesh(load_case(arguments).spec);
   if (!units::compatible(unit, "m"))
     throw InputError({"--unit", 0, 0}, fmt::format("'{}' is no unit of length", unit),
                      "\"mm\", \"m\", \"inch\", ...");
-  RawMesh mesh = mesh::read_mesh(arguments.path, units::convert(1, unit, "m"));
+  mesh::MeshSource source{arguments.path, units::convert(1, unit, "m")};
+  source.trust_script = arguments.trust_script;
+  RawMesh mesh = mesh::read_mesh(source);
   mesh::validate_and_orient(mesh, arguments.path);
   return mesh;
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "algebra/interruption.hpp"
 #include "app/places.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
@@ -29,7 +30,7 @@ fs::path results_folder(const CaseArguments& arguments, const model::Case& c) {
 }  // namespace
 
 ExitCode run(const CaseArguments& arguments) {
-  const model::Case c = model::load_case(arguments.path, arguments.set);
+  const model::Case c = load_case(arguments);
   model::RunOptions options;
   options.folder = results_folder(arguments, c);
   int rank = 0;
@@ -38,6 +39,7 @@ ExitCode run(const CaseArguments& arguments) {
   options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
   options.restart = arguments.restart;
   options.stop_asked = stop_asked;
+  algebra::interrupt_when(stop_asked);
   const model::RunResult result = model::run_case(c, options);
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
   if (!result.finished) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "model/case_file.hpp"
+
 namespace solidus::app {
 
 /// What a shell sees (design.md section 6).
@@ -16,6 +18,7 @@ struct CaseArguments {
   std::string output;            ///< results folder; empty: by the case
   bool progress_bar = true;      ///< on a terminal
   bool restart = false;          ///< go on from the checkpoint
+  bool trust_script = false;     ///< run a .geo script whatever it says
 };
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).
@@ -36,10 +39,13 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit);
 /// @param name   a material of the library or a file; empty: the list
 /// @param output a folder for its tables (CSV); empty: none
 ExitCode materials(const std::string& name, const std::string& output);
+/// A case as the command line changes it. Throws InputError.
+model::Case load_case(const CaseArguments& arguments);
 struct ExportArguments {
   std::string folder;            ///< of a run
   std::string calculix, abaqus;  ///< file to write, exactly one of them
   bool deformed = false;         ///< coordinates with the displacement
+  bool trust_script = false;     ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);
 ExitCode version();

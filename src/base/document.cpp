@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+
+#include "base/input_file.hpp"
+#include "base/toml_limits.hpp"
 
 namespace solidus {
 
@@ -16,14 +17,22 @@ SourceLocation location(const toml::source_region& region, const std::string& fi
   return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
+void check_text(const std::string& text, const SourceLocation& where) {
+  if (printable(text) != text)
+    throw InputError(where, "the text holds a control character", "letters, line ends and tabs");
+}
+
 /// A copy of a TOML node with its places.
-Value convert(const toml::node& node, const std::string& file) {
+Value convert(const toml::node& node, const std::string& file, int depth = 0) {
   const SourceLocation where = location(node.source(), file);
+  if (depth > 2 * k_most_key_parts) throw InputError(where, "tables stand too deep in tables");
   Value result;
   if (const auto* table = node.as_table()) {
-    for (const auto& [key, child] : *table)
+    for (const auto& [key, child] : *table) {
+      check_text(std::string(key.str()), location(key.source(), file));
       result.entries().push_back(
-          {std::string(key.str()), location(key.source(), file), convert(child, file)});
+          {std::string(key.str()), location(key.source(), file), convert(child, file, depth + 1)});
+    }
     // toml++ sorts by name; the user's order reads better in messages and in the resolved case.
     std::stable_sort(result.entries().begin(), result.entries().end(), [](const auto& a, const auto& b) {
       return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);
@@ -31,8 +40,9 @@ Value convert(const toml::node& node, const std::string& file) {
     result.written_inline = table->is_inline();
   } else if (const auto* list = node.as_array()) {
     result = Value::list();
-    for (const auto& child : *list) result.items().push_back(convert(child, file));
+    for (const auto& child : *list) result.items().push_back(convert(child, file, depth + 1));
   } else if (const auto* text = node.as_string()) {
+    check_text(text->get(), where);
     result = Value(text->get());
   } else if (const auto* integer = node.as_integer()) {
     result = Value(std::int64_t{integer->get()});
@@ -47,22 +57,6 @@ Value convert(const toml::node& node, const std::string& file) {
   }
   result.where = where;
   return result;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  const SourceLocation where{path.string(), 0, 0};
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(where, "there is no such file");
-  if (std::filesystem::is_directory(status)) throw InputError(where, "this is a folder, not a file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (!file) {
-    if (std::filesystem::is_empty(path, error)) return {};
-    throw InputError(where, "the file cannot be read", "a readable file; check its permissions");
-  }
-  return content.str();
 }
 
 std::string quoted(const std::string& text) {
@@ -180,6 +174,7 @@ Value parse_document(std::string_view text, const std::string& name) {
     throw InputError({name, 0, 0}, "this is not a text file", "a TOML text file in UTF-8");
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw InputError({name, 0, 0}, "the file is empty", "a TOML text file");
+  check_key_lengths(text, name);
   try {
     return convert(toml::parse(text, name), name);
   } catch (const toml::parse_error& error) {
@@ -188,12 +183,13 @@ Value parse_document(std::string_view text, const std::string& name) {
 }
 
 Value load_document(const std::filesystem::path& path) {
-  return parse_document(read_file(path), path.string());
+  return parse_document(read_text_file(path, {path.string(), 0, 0}), path.string());
 }
 
 Value parse_value(std::string_view text, const std::string& name) {
   const std::string line = fmt::format("value = {}", text);
   Value result(std::string{text});
+  check_key_lengths(line, name);
   try {
     const toml::table table = toml::parse(line, name);
     if (table.size() == 1) result = convert(*table.get("value"), name);

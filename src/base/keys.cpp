@@ -53,6 +53,18 @@ std::string range_text(const Key& key) {
   return fmt::format("at most {}{}", key.upper, unit);
 }
 
+/// Beyond this no quantity is physical, and products of a few such numbers overflow.
+double largest_magnitude(std::string_view unit) {
+  return unit == "K" ? 1e6 : 1e25;
+}
+
+double checked_magnitude(double number, const Value& value, const Key& key, std::string_view unit) {
+  if (std::abs(number) <= largest_magnitude(unit)) return number;
+  throw InputError(value.where,
+                   fmt::format("'{}' is {}, which is beyond all physics", key.name, value.describe()),
+                   fmt::format("at most {:g} {}", largest_magnitude(unit), unit));
+}
+
 double checked_range(double number, const Value& value, const Key& key) {
   if (!std::isfinite(number))
     throw InputError(value.where, fmt::format("'{}' is {}", key.name, value.describe()), "a finite number");
@@ -68,10 +80,13 @@ double checked_range(double number, const Value& value, const Key& key) {
 double read_quantity(const Value& value, const Key& key, std::string_view unit,
                      std::string_view unit_beside) {
   try {
-    if (value.is_text()) return units::parse_quantity(value.text(), unit, key.temperature);
+    if (value.is_text())
+      return checked_magnitude(units::parse_quantity(value.text(), unit, key.temperature), value, key, unit);
     if (!value.is_number()) wrong_type(value, key, quantity_example(key));
-    if (!unit_beside.empty()) return units::convert(value.number(), unit_beside, unit, key.temperature);
-    if (unit == "1") return value.number();
+    if (!unit_beside.empty())
+      return checked_magnitude(units::convert(value.number(), unit_beside, unit, key.temperature), value, key,
+                               unit);
+    if (unit == "1") return checked_magnitude(value.number(), value, key, unit);
   } catch (const std::invalid_argument& error) {
     throw InputError(value.where, fmt::format("'{}': {}", key.name, error.what()));
   }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/input_file.hpp"
+
 namespace solidus::logging {
 namespace {
 
@@ -70,7 +72,7 @@ void message(Level level, std::string_view text) {
   const auto severity = level == Level::debug  ? spdlog::level::debug
                         : level == Level::info ? spdlog::level::info
                                                : spdlog::level::warn;
-  log.terminal->log(severity, "{}", text);
+  log.terminal->log(severity, "{}", printable(std::string(text)));
 }
 
 }  // namespace solidus::logging

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/input_file.hpp"
 #include "base/keys.hpp"
 
 namespace solidus {
@@ -109,6 +110,7 @@ Layout layout(const std::vector<std::string_view>& row, const std::string& colum
 
 PointTable::PointTable(const std::filesystem::path& file, const std::string& column, std::string_view unit,
                        const SourceLocation& where) {
+  require_readable(file, where);
   std::ifstream in(file);
   if (!in) throw InputError(where, fmt::format("the table of points '{}' cannot be read", file.string()));
   Layout columns;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "algebra/interruption.hpp"
 #include "algebra/parallel.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
@@ -134,6 +135,7 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
   p.record.number = from ? from->steps : 0;
   const auto ahead = std::find_if(options_.stages.begin(), options_.stages.end(),
                                   [&](const Stage& s) { return s.end > p.committed.time; });
+  if (ahead == options_.stages.end() && from) return end_at_once(p, from->stage);
   if (ahead == options_.stages.end()) throw std::invalid_argument("the end time must lie after the start");
   p.stage = static_cast<std::size_t>(ahead - options_.stages.begin());
   enter_stage(p, solid_fraction, from);
@@ -144,6 +146,16 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
     ++p.stage;
     enter_stage(p, solid_fraction, {});
   }
+  for (Observer* o : observers_) o->end(p.committed);
+  return Outcome::finished;
+}
+
+// A run that goes on from its end has nothing left but to end.
+Outcome Simulation::end_at_once(Progress& p, const StageStart& stage_start) {
+  p.stage = options_.stages.size() - 1;
+  if (options_.stages[p.stage].of_case > 0) stage_begins_(p.stage, stage_start, nullptr);
+  scheme_->synchronise(p.committed);
+  for (Observer* o : observers_) o->begin(p.committed);
   for (Observer* o : observers_) o->end(p.committed);
   return Outcome::finished;
 }
@@ -189,6 +201,8 @@ Simulation::Try Simulation::try_step(Progress& p) {
       return Try::repeat;
     }
     static_cast<StepEffort&>(p.record) = taken.effort;
+  } catch (const algebra::Interrupted&) {
+    return Try::repeat;  // before which stop_asked() ends the run
   } catch (const StepRejected& rejection) {
     ++p.record.rejected;
     p.record.rejection = rejection.reason();

@@ -65,7 +65,8 @@ class Simulation {
   /// Gives the solid fraction of a committed state, of the bodies that are active in the present stage, as
   /// StepEffort gives it of the states that follow. Collective.
   using SolidFraction = std::function<double(const State&)>;
-  /// Runs from `initial` to the end time, which must lie ahead. Collective.
+  /// Runs from `initial` to the end time, which must lie ahead; a run that goes on from its end only tells
+  /// its observers of the end. Collective.
   /// @param solid_fraction  asked at the start and whenever a stage begins, because bodies may have left
   /// @param from where the run that `initial` comes from stood; without it a new run begins. Its step size
   /// counts only if the step options are still the same; it must have stood in the stage of this time.
@@ -80,6 +81,7 @@ class Simulation {
   void enter_stage(Progress& p, const SolidFraction& solid_fraction, const std::optional<Continuation>& from);
   /// As run(), within the stage; nothing where its end is reached.
   std::optional<Outcome> run_stage(Progress& p);
+  Outcome end_at_once(Progress& p, const StageStart& stage_start);
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);

@@ -96,9 +96,13 @@ class Reader {
   explicit Reader(double unit) : unit_(unit) {}
 
   void read(const std::string& path, int depth = 0) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+      throw InputError({path}, "there is no such file of a mesh");
     std::ifstream file(path);
     if (!file) throw InputError({path}, "the mesh file cannot be read");
     if (depth > 20) throw InputError({path}, "*INCLUDE goes around in circles");
+    if (++n_files_ > 1000) throw InputError({path}, "*INCLUDE asks for more than 1 000 files");
     const SourceLocation outer = at_;
     at_ = {path, 0, 0};
     std::string line;
@@ -172,6 +176,7 @@ class Reader {
   void set_line(const std::vector<std::string>& parts, Sets<Index>& sets, NamedSet<Index>& set, Find find);
 
   double unit_;
+  int n_files_ = 0;
   SourceLocation at_;
   Keyword keyword_;
   Shape shape_ = Shape::point1;       // of the *ELEMENT being read

@@ -1,5 +1,7 @@
 // The only file that knows Gmsh.
 #include <gmsh.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +16,10 @@
 #include "base/errors.hpp"
 #include "base/keys.hpp"
 #include "mesh/abaqus_input.hpp"
+#include "mesh/file_format.hpp"
+#include "mesh/gmsh_script.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "mesh/reader_process.hpp"
 
 namespace solidus::mesh {
 
@@ -77,23 +82,6 @@ class Session {
   Silence silence_;
 };
 
-std::string extension(const std::string& path) {
-  std::string e = std::filesystem::path(path).extension().string();
-  std::transform(e.begin(), e.end(), e.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e;
-}
-
-/// A file of a CAD program: shapes without groups.
-bool is_cad(const std::string& path) {
-  const std::string e = extension(path);
-  return e == ".step" || e == ".stp" || e == ".brep" || e == ".iges" || e == ".igs";
-}
-
-bool is_geometry(const std::string& path) {
-  return extension(path) == ".geo" || is_cad(path);
-}
-
 void check_readable(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError({path}, "the mesh file does not exist");
@@ -102,10 +90,44 @@ void check_readable(const std::string& path) {
   if (!std::ifstream(path)) throw InputError({path}, "the mesh file cannot be read");
 }
 
-void open(const std::string& path) {
-  const std::string advice = ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .unv, .med, .bdf, …";
+constexpr const char* k_formats = ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .unv, .med, .bdf, …";
+
+/// A file in memory, with a name that Gmsh can open as long as this lives.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& text) : descriptor_(memfd_create("script", 0)) {
+    if (descriptor_ < 0 ||
+        ::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      throw std::bad_alloc();
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+/// Whether a file is one line without a line end, which Gmsh 4.8 takes for an empty script.
+bool is_one_open_line(const std::string& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str().find('\n') == std::string::npos;
+}
+
+void open_in_gmsh(const std::string& path, FileFormat format) {
+  if (format != FileFormat::gmsh_script || !is_one_open_line(path)) return gmsh::open(path);
+  const std::string whole = std::filesystem::absolute(path).string();
+  const char quote = whole.find('"') == std::string::npos ? '"' : '\'';
+  const MemoryFile around("Include " + (quote + whole) + quote + ";\n");
+  gmsh::open(around.path());
+}
+
+void open(const std::string& path, FileFormat format) {
+  const std::string advice = k_formats;
   try {
-    gmsh::open(path);
+    open_in_gmsh(path, format);
   } catch (const std::string& complaint) {
     throw InputError({path}, "the mesh cannot be read: " + complaint, advice);
   } catch (const std::bad_alloc&) {
@@ -123,7 +145,7 @@ void open(const std::string& path) {
 /// The constants that a .geo script declares: DefineConstant[ size = {8, Name "size"} ].
 std::vector<std::string> declared_constants(const std::string& path) {
   const Session session;
-  open(path);
+  open(path, FileFormat::gmsh_script);
   std::vector<std::string> names;
   gmsh::onelab::getNames(names);
   std::erase_if(names, [](const std::string& name) {
@@ -133,9 +155,10 @@ std::vector<std::string> declared_constants(const std::string& path) {
 }
 
 /// Gmsh sets any name without a word: a misspelt one would change nothing.
-void check_constants(const std::string& path, const std::map<std::string, double>& constants) {
+void check_constants(const std::string& path, FileFormat format,
+                     const std::map<std::string, double>& constants) {
   if (constants.empty()) return;
-  if (extension(path) != ".geo")
+  if (format != FileFormat::gmsh_script)
     throw InputError({path}, "the mesh file is no .geo script and has no constants");
   const std::vector<std::string> declared = declared_constants(path);
   for (const auto& [name, value] : constants)
@@ -251,9 +274,10 @@ int mesh_dimension() {
   return 0;
 }
 
-void name_groups(const std::string& path, const GeometryChoice& geometry, double unit_in_metres) {
+void name_groups(const std::string& path, const GeometryChoice& geometry, double unit_in_metres,
+                 FileFormat format) {
   try {
-    make_geometry_groups(path, geometry, unit_in_metres, is_cad(path));
+    make_geometry_groups(path, geometry, unit_in_metres, is_cad(format));
   } catch (const std::exception&) {
     throw;
   } catch (const std::string& complaint) {
@@ -265,30 +289,42 @@ void name_groups(const std::string& path, const GeometryChoice& geometry, double
 
 }  // namespace
 
-RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order,
-                  const std::map<std::string, double>& constants, const GeometryChoice& geometry) {
+RawMesh read_mesh_here(const MeshSource& source) {
+  const std::string& path = source.path;
   check_readable(path);
-  if (!geometry.groups.empty() && !is_geometry(path))
+  const FileFormat format = file_format(path);
+  if (!source.geometry.groups.empty() && !is_geometry(format))
     throw InputError({path}, "the file holds a mesh, whose groups are its own",
                      "a STEP, BREP, IGES or .geo file");
-  if (geometry.conforming && !is_cad(path))
+  if (source.geometry.conforming && !is_cad(format))
     throw InputError({path}, "'conforming' is for geometries of CAD programs", "a STEP, BREP or IGES file");
-  check_constants(path, constants);
-  if (extension(path) == ".inp") return read_abaqus_input(path, unit_in_metres);
-  const Session session(constants);
-  open(path);
-  if (is_geometry(path)) name_groups(path, geometry, unit_in_metres);
-  if (is_geometry(path)) generate(path, element_size / unit_in_metres, element_order);
+  if (!source.trust_script) {
+    refuse_options_file(path);
+    if (format == FileFormat::gmsh_script) check_gmsh_script(path);
+  }
+  check_constants(path, format, source.constants);
+  if (format == FileFormat::abaqus) return read_abaqus_input(path, source.unit_in_metres);
+  const Session session(source.constants);
+  open(path, format);
+  if (is_geometry(format)) {
+    name_groups(path, source.geometry, source.unit_in_metres, format);
+    generate(path, source.element_size / source.unit_in_metres, source.element_order);
+  }
 
   RawMesh mesh;
   mesh.dimension = mesh_dimension();
   if (mesh.dimension == 0)
     throw InputError(
         {path}, "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
-        ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .unv, .med, .bdf, …");
-  const auto index = read_nodes(unit_in_metres, mesh);
+        k_formats);
+  const auto index = read_nodes(source.unit_in_metres, mesh);
   read_groups(path, index, mesh);
   return mesh;
+}
+
+RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order,
+                  const std::map<std::string, double>& constants, const GeometryChoice& geometry) {
+  return read_mesh(MeshSource{path, unit_in_metres, element_size, element_order, constants, geometry});
 }
 
 }  // namespace solidus::mesh

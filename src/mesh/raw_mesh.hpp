@@ -26,15 +26,27 @@ struct RawMesh {
   std::map<std::string, RawGroup> groups;  ///< named groups of every dimension, as in the input
 };
 
-/// Reads any format Gmsh reads (.msh 2.2/4.1, .geo, STEP meshed in process, .inp, .unv). Rank 0 only.
-/// Throws InputError naming the file for a missing, empty, truncated or meaningless mesh.
-/// @param unit_in_metres length of one unit of the file in metres (0.001 for millimetres)
-/// @param element_size   target size [m] for files that Gmsh meshes itself (.geo, STEP); 0: as the file says
-/// @param element_order  1 or 2, for files that Gmsh meshes itself
-/// @param constants      values for the constants that a .geo script declares with DefineConstant,
-///                       by name and in the script's units; InputError for one that it does not
-///                       declare
-/// @param geometry       groups of files that Gmsh meshes itself
+/// A mesh file and how it is to be read.
+struct MeshSource {
+  std::string path;
+  double unit_in_metres = 1;  ///< length of one unit of the file (0.001 for millimetres)
+  double element_size = 0;  ///< target size [m] for files that Gmsh meshes (.geo, STEP); 0: as the file says
+  int element_order = 1;    ///< 1 or 2, for files that Gmsh meshes
+  /// Values for the constants that a .geo script declares with DefineConstant, by name and in the script's
+  /// units.
+  std::map<std::string, double> constants = {};
+  GeometryChoice geometry = {};  ///< groups of files that Gmsh meshes
+  /// Run a script whatever it says, and the options file beside a mesh: it can do what a program can do. Else
+  /// a script may only make geometry (mesh/gmsh_script.hpp).
+  bool trust_script = false;
+};
+
+/// Reads a mesh, or makes one of a geometry (mesh/file_format.hpp lists the formats). Rank 0 only.
+/// Throws InputError naming the file for a missing, empty, truncated or meaningless mesh, for one that is not
+/// what its name says, for a script that does more than geometry, and for a constant that a script does not
+/// declare.
+RawMesh read_mesh(const MeshSource& source);
+/// The same, without the further choices.
 RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size = 0,
                   int element_order = 1, const std::map<std::string, double>& constants = {},
                   const GeometryChoice& geometry = {});

@@ -22,31 +22,43 @@ std::string resolved_path(const Value& value) {
   return fs::absolute(path.is_absolute() ? path : folder / path).lexically_normal().string();
 }
 
-Value load_with_includes(const fs::path& path, std::vector<fs::path>& chain);
+/// The files on the way to the one that is read, each included by the one before, and how many there were.
+struct Includes {
+  static constexpr std::size_t k_deepest = 16;
+  static constexpr int k_most = 200;
+  std::vector<fs::path> chain;
+  int n_files = 0;
+};
+
+Value load_with_includes(const fs::path& path, Includes& includes);
 
 /// @param include one path of the key `include`
-/// @param chain the files that led here, each included by the one before
-Value load_included(const Value& include, std::vector<fs::path>& chain) {
+Value load_included(const Value& include, Includes& includes) {
   if (!include.is_text())
     throw InputError(include.where, "'include' is " + include.describe(),
                      "the path of a case file, in quotes, or a list of such paths");
   const fs::path other = resolved_path(include);
+  const std::vector<fs::path>& chain = includes.chain;
   if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(other)) != chain.end())
     throw InputError(include.where, fmt::format("'{}' is included by itself", include.text()));
   if (!fs::exists(other))
     throw InputError(include.where, fmt::format("the included file '{}' does not exist", other.string()));
-  return load_with_includes(other, chain);
+  if (chain.size() >= Includes::k_deepest || ++includes.n_files > Includes::k_most)
+    throw InputError(
+        include.where, "too many files include each other",
+        fmt::format("at most {} in a chain and {} in all", Includes::k_deepest, Includes::k_most));
+  return load_with_includes(other, includes);
 }
 
-Value load_with_includes(const fs::path& path, std::vector<fs::path>& chain) {
+Value load_with_includes(const fs::path& path, Includes& includes) {
   Value document = load_document(path);
   const Value* include = document.find("include");
   if (!include) return document;
-  chain.push_back(fs::weakly_canonical(path));
+  includes.chain.push_back(fs::weakly_canonical(path));
   Value base;
   for (const Value& item : include->is_list() ? include->items() : Value::List{*include})
-    lay_over(base, load_included(item, chain));
-  chain.pop_back();
+    lay_over(base, load_included(item, includes));
+  includes.chain.pop_back();
   std::erase_if(document.entries(), [](const Value::Entry& e) { return e.key == "include"; });
   lay_over(base, document);
   base.where = document.where;
@@ -96,8 +108,8 @@ std::string Case::toml() const {
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   Case result;
   result.file = fs::is_directory(path) ? path / "case.toml" : path;
-  std::vector<fs::path> chain;
-  Value document = load_with_includes(result.file, chain);
+  Includes includes;
+  Value document = load_with_includes(result.file, includes);
   for (const std::string& assignment : overrides) apply_override(document, assignment);
   resolve_paths(document);
   result.document = case_keys().info().completed(document, "");

@@ -90,7 +90,9 @@ struct MeshSpec {
   std::vector<MeshGroupSpec> groups;        ///< of files that are meshed here
   std::vector<MeshLayersSpec> layers;
   bool conforming = false;  ///< bodies that touch share nodes, of STEP, BREP, IGES
-  std::string element;      ///< of the built-in shapes: "tri3", ...
+  /// Run a .geo script whatever it says. Never a key: who runs a case trusts its scripts, not who wrote it.
+  bool trust_script = false;
+  std::string element;  ///< of the built-in shapes: "tri3", ...
   std::optional<CylinderInMouldSpec> cylinder_in_mould;
   std::optional<BlockSpec> block;
   std::optional<TwoBlocksSpec> two_blocks;

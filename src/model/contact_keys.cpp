@@ -166,7 +166,7 @@ Section<ContactSpec> contact_keys() {
       .doc("How pressure follows penetration.");
   s.key("penetration_tolerance", &C::penetration_tolerance)
       .initially(1e-6)
-      .positive()
+      .range(1e-12, 0.1)
       .when("normal", {"augmented_lagrangian"})
       .doc(
           "Penetration that the augmented Lagrangian leaves, as a share of the mean size of the slave's "

@@ -119,8 +119,9 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   a.materials = load_materials(spec);
   a.mesh = load_mesh(spec);
   build(spec, a);
-  results::Checkpoint from = results::CheckpointFolder(options.folder)
-                                 .read(a.mesh, fingerprint(spec, a.mesh, a.materials), a.initial);
+  results::Checkpoint from =
+      results::CheckpointFolder(options.folder)
+          .read(a.mesh, fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
   const coupling::StageStart& stage = from.continuation.stage;
   check_stage_of_checkpoint(spec, stage, from.state.time);
   if (stage.number > 0)

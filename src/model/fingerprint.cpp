@@ -1,10 +1,12 @@
 #include "model/fingerprint.hpp"
 
 #include <fmt/format.h>
+#include <mpi.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 
@@ -42,6 +44,81 @@ std::string body_text(const BodySpec& body) {
   return text;
 }
 
+// FNV-1a over the texts of numbers.
+class Hash {
+ public:
+  void add(std::string_view text) {
+    for (const char c : text) value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  }
+  void add(double number) { add(fmt::format("{} ", number)); }
+  /// Bit by bit, which is much faster.
+  template <class T>
+  void add_bits(T number) {
+    std::array<char, sizeof(T)> bytes{};
+    std::memcpy(bytes.data(), &number, sizeof(T));
+    add(std::string_view(bytes.data(), bytes.size()));
+  }
+  void add(const Table& table) {
+    for (const double x : table.x()) add(x);
+    for (const double y : table.y()) add(y);
+    add(static_cast<double>(table.extrapolation()));
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+/// The sum over all processes, which hold parts in any order.
+std::uint64_t sum_of(std::uint64_t own) {
+  MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  return own;
+}
+
+/// Of every node with its place, and every element with its nodes, by their numbers in the input.
+std::uint64_t mesh_hash(const mesh::Mesh& mesh) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i) {
+    Hash node;
+    node.add_bits(mesh.input_node[i]);
+    for (const double x : mesh.x[i]) node.add_bits(x);
+    sum += node.value();
+  }
+  for (const mesh::Block& block : mesh.blocks)
+    for (Index e = 0; e < block.n_counted; ++e) {
+      Hash element;
+      element.add_bits(block.input_element[static_cast<std::size_t>(e)]);
+      element.add_bits(block.body);
+      for (int k = 0; k < mesh::node_count(block.shape); ++k)
+        element.add_bits(mesh.input_node[static_cast<std::size_t>(block.element(e)[k])]);
+      sum += element.value();
+    }
+  return sum_of(sum);
+}
+
+/// Range and a mean over the nodes, each with a weight of its own by its number: to nine digits, because the
+/// last ones depend on the number of processes.
+std::string initial_text(const mesh::Mesh& mesh, const std::vector<double>& temperature) {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < std::min(temperature.size(), static_cast<std::size_t>(mesh.n_owned_nodes));
+       ++i) {
+    Hash number;
+    number.add_bits(mesh.input_node[i]);
+    const double weight = 1 + static_cast<double>(number.value() >> 11) * 0x1p-53;
+    sum += weight * temperature[i];
+    weights += weight;
+    low = std::min(low, temperature[i]);
+    high = std::max(high, temperature[i]);
+  }
+  sum = algebra::global_sum(sum);
+  weights = algebra::global_sum(weights);
+  low = algebra::global_min(low);
+  high = algebra::global_max(high);
+  return weights > 0 ? fmt::format("{:.9g} to {:.9g} K, weighted mean {:.9g} K", low, high, sum / weights)
+                     : "none";
+}
+
 std::string mesh_text(const mesh::Mesh& mesh) {
   const results::MeshCounts counts = results::count(mesh);
   std::string text = fmt::format("{} nodes", counts.nodes);
@@ -58,27 +135,9 @@ std::string mesh_text(const mesh::Mesh& mesh) {
     low[i] = algebra::global_min(low[i]);
     high[i] = algebra::global_max(high[i]);
   }
-  return text + fmt::format("{:.9g}, {:.9g}, {:.9g}) to ({:.9g}, {:.9g}, {:.9g}) m", low[0], low[1], low[2],
-                            high[0], high[1], high[2]);
+  return text + fmt::format("{:.9g}, {:.9g}, {:.9g}) to ({:.9g}, {:.9g}, {:.9g}) m ({:016x})", low[0], low[1],
+                            low[2], high[0], high[1], high[2], mesh_hash(mesh));
 }
-
-// FNV-1a over the texts of numbers.
-class Hash {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
-  void add(double number) { add(fmt::format("{} ", number)); }
-  void add(const Table& table) {
-    for (const double x : table.x()) add(x);
-    for (const double y : table.y()) add(y);
-    add(static_cast<double>(table.extrapolation()));
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
 
 std::string material_text(const material::Material& m) {
   Hash hash;
@@ -116,7 +175,8 @@ std::string material_text(const material::Material& m) {
 }  // namespace
 
 results::Fingerprint fingerprint(const CaseSpec& spec, const mesh::Mesh& mesh,
-                                 const std::vector<material::Material>& materials) {
+                                 const std::vector<material::Material>& materials,
+                                 const std::vector<double>& initial) {
   results::Fingerprint result = {{"analysis", analysis_text(spec)}, {"mesh", mesh_text(mesh)}};
   std::string bodies, data;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
@@ -125,6 +185,7 @@ results::Fingerprint fingerprint(const CaseSpec& spec, const mesh::Mesh& mesh,
   }
   result.emplace_back("list of bodies", bodies);
   result.emplace_back("material data", data);
+  result.emplace_back("initial temperature", initial_text(mesh, initial));
   return result;
 }
 

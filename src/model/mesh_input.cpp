@@ -74,10 +74,11 @@ mesh::RawMesh raw_mesh(const CaseSpec& spec) {
   const MeshSpec& m = spec.mesh;
   mesh::RawMesh result;
   if (m.file) {
-    std::map<std::string, double> constants;
-    for (const MeshConstantSpec& constant : m.constants) constants[constant.name] = constant.value;
-    result = mesh::read_mesh(*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order,
-                             constants, geometry_choice(m));
+    mesh::MeshSource source{*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order};
+    for (const MeshConstantSpec& constant : m.constants) source.constants[constant.name] = constant.value;
+    source.geometry = geometry_choice(m);
+    source.trust_script = m.trust_script;
+    result = mesh::read_mesh(source);
   } else {
     try {
       result = built_in_shape(m);

@@ -138,7 +138,10 @@ Section<MeshSpec> mesh_keys() {
       .choices({"cylinder_in_mould", "block", "two_blocks"})
       .doc("A built-in shape; give this or `file`.");
   s.key("file", &MeshSpec::file)
-      .doc("A file that Gmsh reads: .msh, .geo, STEP, Abaqus .inp, .unv, ...; relative to the case file.");
+      .doc(
+          "A file that Gmsh reads: .msh, .geo, STEP, Abaqus .inp, .unv, ...; relative to the case file. A "
+          ".geo "
+          "script may only make geometry (SECURITY.md), unless the program is started with --trust-geo.");
   s.key("unit", &MeshSpec::unit).initially("m").doc("Unit of length of the file, for example \"mm\".");
   s.quantity("element_size", &MeshSpec::element_size, "m")
       .positive()

@@ -47,7 +47,7 @@ Section<heat::HeatOptions> heat_keys() {
       .doc("Polynomial degree that the open rule integrates exactly; 0: by element.");
   s.key("tolerance", &HeatOptions::tolerance)
       .initially(0.0)
-      .range(0, 1)
+      .range(0, 0.1)
       .doc(
           "Newton stops when the residual falls below this share of the heat moved in the step. 0: 1e-5 "
           "where "
@@ -72,7 +72,7 @@ Section<MechanicsSpec> mechanics_keys() {
   Section<MechanicsSpec> s("mechanics", "Numerics of the mechanical phase.");
   s.key("tolerance", &MechanicsSpec::tolerance)
       .initially(1e-3)
-      .positive()
+      .range(1e-14, 0.1)
       .doc("Newton stops when the residual falls below this share of the forces.");
   s.key("displacement_tolerance", &MechanicsSpec::displacement_tolerance)
       .initially(1e-2)
@@ -96,7 +96,7 @@ Section<MechanicsSpec> mechanics_keys() {
           "simultaneous scheme.");
   s.key("linear_tolerance", &MechanicsSpec::linear_tolerance)
       .initially(1e-8)
-      .positive()
+      .range(1e-15, 0.1)
       .doc(
           "Residual of a linear system over its right-hand side below which no iterative solver goes. Also "
           "of the simultaneous scheme.");
@@ -167,7 +167,7 @@ Section<IterationSpec> iteration_keys() {
           "isentropic, below 2/(1 + delta) where they are isothermal, delta being the coupling number.");
   s.key("tolerance", &I::tolerance)
       .initially(1e-8)
-      .positive()
+      .range(1e-14, 0.1)
       .doc(
           "The iteration ends when temperature and displacement change by less than this share of what the "
           "step changed. The first law closes to the tolerances of the phases, whatever this one.");

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "base/keys.hpp"
+#include "base/toml_limits.hpp"
 
 namespace solidus::model {
 
@@ -70,7 +71,9 @@ void lay_over(Value& base, const Value& over) {
 }
 
 void apply_override(Value& base, const std::string& assignment) {
-  const SourceLocation where{"--set " + assignment, 0, 0};
+  constexpr std::size_t k_shown = 200;
+  const std::string shown = assignment.size() > k_shown ? assignment.substr(0, k_shown) + "..." : assignment;
+  const SourceLocation where{"--set " + shown, 0, 0};
   const std::size_t equals = assignment.find('=');
   const auto trimmed = [](std::string text) {
     text.erase(0, text.find_first_not_of(" \t"));
@@ -82,6 +85,10 @@ void apply_override(Value& base, const std::string& assignment) {
     throw InputError(where, "this is no assignment",
                      "--set path=value, for example --set time.step=\"0.5 s\"");
 
+  if (path == "include")
+    throw InputError(where, "'include' holds in a case file only", "a case file that includes both");
+  if (std::count(path.begin(), path.end(), '.') >= k_most_key_parts)
+    throw InputError(where, "the path has too many parts", fmt::format("at most {}", k_most_key_parts));
   Value* place = &base;
   std::string walked;
   for (std::size_t begin = 0;;) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "algebra/interruption.hpp"
 #include "algebra/parallel.hpp"
 #include "base/free_memory.hpp"
 #include "base/log.hpp"
@@ -22,6 +23,7 @@
 #include "model/bounds_watch.hpp"
 #include "model/case_materials.hpp"
 #include "model/coupling_estimate.hpp"
+#include "model/findings.hpp"
 #include "model/fingerprint.hpp"
 #include "model/mesh_input.hpp"
 #include "model/run_input.hpp"
@@ -29,6 +31,7 @@
 #include "model/stage_input.hpp"
 #include "model/time_input.hpp"
 #include "results/recorder.hpp"
+#include "results/run_lock.hpp"
 
 namespace solidus::model {
 
@@ -247,6 +250,12 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   const results::CheckpointFolder folder(options.folder);
   results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
   check_stage_of_checkpoint(spec, found.continuation.stage, found.state.time);
+  // A run that was killed behind its last checkpoint has but its summary to write.
+  const bool reached = found.state.time == *spec.time.end;
+  if (reached && !results::is_finished(options.folder)) {
+    logging::info("the run has reached t = {:g} s already; its results are completed", found.state.time);
+    return found;
+  }
   if (found.state.time >= *spec.time.end)
     throw InputError(spec.time.where,
                      fmt::format("the run has reached t = {:g} s already; the end is at {:g} s",
@@ -270,6 +279,7 @@ CheckedRun check_run(const Case& c) {
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
   build(c.spec, a);
+  report(findings(c.spec, a));
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
@@ -292,11 +302,13 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   part.emplace("set-up");
   build(c.spec, a);
   return_free_memory();
+  report(findings(c.spec, a));
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
   results::RecorderOptions r = recorder_options(c, options, a);
-  r.fingerprint = fingerprint(c.spec, a.mesh, a.materials);
+  r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
+  const results::RunLock lock(options.folder);
   std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);
   if (from) {
     r.progress_options.start = from->state.time;
@@ -316,8 +328,12 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
   results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));
   part.reset();
-  return c.spec.time.steady ? run_steady(c.spec, a, recorder)
-                            : run_transient(c.spec, options, a, std::move(from), recorder);
+  try {
+    return c.spec.time.steady ? run_steady(c.spec, a, recorder)
+                              : run_transient(c.spec, options, a, std::move(from), recorder);
+  } catch (const algebra::Interrupted&) {  // outside of a step: there is no new state to keep
+    return {false, "stopped as asked before the first step"};
+  }
 }
 
 }  // namespace solidus::model

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/input_file.hpp"
 #include "base/keys.hpp"
 #include "base/units.hpp"
 
@@ -91,6 +92,7 @@ bool one_way(const Column& x, const std::vector<Record>& history) {
 }  // namespace
 
 Measured read_measured(const std::filesystem::path& file, const SourceLocation& where) {
+  require_readable(file, where);
   std::ifstream in(file);
   if (!in) throw InputError(where, fmt::format("the measured points '{}' cannot be read", file.string()));
   Measured measured;

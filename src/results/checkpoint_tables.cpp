@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "algebra/parallel.hpp"
+#include "results/file_checksum.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::results {
@@ -15,6 +16,7 @@ namespace solidus::results {
 namespace {
 
 constexpr std::int64_t k_rows_at_once = 1 << 16;
+constexpr std::size_t k_widest = 1 << 14;  ///< numbers in a row: of the points of one element
 
 std::string from_first(std::string text) {
   int length = static_cast<int>(text.size());
@@ -81,11 +83,13 @@ void TableWriter::finish(const std::function<void()>& last) {
   together([&] {
     if (error_) std::rethrow_exception(error_);
   });
+  on_first_process([&] { write_checksum(path_); });
   on_first_process(last);
   finished_ = true;
 }
 
 TableReader::TableReader(std::filesystem::path path) : path_(std::move(path)) {
+  on_first_process([&] { check_checksum(path_); });
   together([&] { file_.emplace(path_, Hdf5File::Mode::read); });
 }
 
@@ -97,7 +101,11 @@ std::string TableReader::text(const std::string& name) {
 
 std::vector<double> TableReader::numbers(const std::string& name, std::size_t n) {
   std::vector<double> values(n);
-  together([&] { file_->read_rows<double>(name, 0, values); });
+  together([&] {
+    if (file_->rows(name) != static_cast<std::int64_t>(n) || file_->width(name) != 1)
+      throw OutputError(path_.string(), "its '" + name + "' are not as many as they should be");
+    file_->read_rows<double>(name, 0, values);
+  });
   return values;
 }
 
@@ -106,6 +114,8 @@ void TableReader::each(const std::string& keys, const std::string& values,
   together([&] {
     const std::int64_t n_rows = file_->rows(values);
     const auto width = static_cast<std::size_t>(file_->width(values));
+    if (file_->rows(keys) != n_rows || file_->width(keys) != 1 || width > k_widest)
+      throw OutputError(path_.string(), "its '" + values + "' does not fit its '" + keys + "'");
     std::vector<std::int64_t> number;
     std::vector<double> row;
     for (std::int64_t first = 0; first < n_rows; first += k_rows_at_once) {

@@ -1,12 +1,14 @@
 #include "results/hdf5_file.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <array>
 #include <type_traits>
 #include <utility>
 
+#include "results/file_checksum.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::results {
@@ -31,15 +33,45 @@ hid_t open_file(const std::filesystem::path& path, Hdf5File::Mode mode, MPI_Comm
   // Failures are ours to report; HDF5 would print its own account.
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   if (mode == Hdf5File::Mode::read) return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
+      creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation, k_user_block);
   if (several(writers)) H5Pset_fapl_mpio(access, writers, MPI_INFO_NULL);
-  return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access);
 }
 
 Hdf5Handle make_groups() {
   Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(properties, 1);
   return properties;
+}
+
+/// Equal runs leave equal files: without the time at which a table was made.
+Hdf5Handle table_properties() {
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(properties, false);
+  return properties;
+}
+
+/// Whether the file holds numbers of the kind that is asked for: another size would not fit the memory.
+template <class T>
+bool holds(hid_t dataset) {
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  return H5Tget_class(type) == (std::is_same_v<T, double> ? H5T_FLOAT : H5T_INTEGER) &&
+         H5Tget_size(type) == sizeof(T);
+}
+
+/// What HDF5 has not written and never will stays in its caches, and it tries once more when the program
+/// ends, which crashes. Its descriptor leads to memory from now on, where there is room.
+void let_writing_end(hid_t file) {
+  void* handle = nullptr;
+  const Hdf5Handle access(H5Fget_access_plist(file), H5Pclose);
+  if (access < 0 || H5Pget_driver(access) != H5FD_SEC2) return;
+  if (H5Fget_vfd_handle(file, access, &handle) < 0 || handle == nullptr) return;
+  const int memory = memfd_create("discarded", MFD_CLOEXEC);
+  if (memory < 0) return;
+  dup2(memory, *static_cast<int*>(handle));
+  ::close(memory);
 }
 
 std::array<hsize_t, 2> extent(hid_t dataset) {
@@ -78,6 +110,10 @@ Hdf5File::Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm writers)
   if (file_ < 0) fail(mode == Mode::create ? "cannot be written" : "is not a whole HDF5 file");
 }
 
+Hdf5File::~Hdf5File() {
+  if (mode_ == Mode::create && file_ >= 0) let_writing_end(file_);
+}
+
 void Hdf5File::fail(const std::string& what) const {
   throw OutputError(path_.string(), what, mode_ == Mode::create ? "is there room on the disk?" : "");
 }
@@ -92,7 +128,7 @@ void Hdf5File::write_text(const std::string& name, const std::string& text) {
   const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose),
       groups = make_groups();
   H5Tset_size(type, text.size() + 1);
-  const Hdf5Handle set(H5Dcreate2(file_, name.c_str(), type, space, groups, H5P_DEFAULT, H5P_DEFAULT),
+  const Hdf5Handle set(H5Dcreate2(file_, name.c_str(), type, space, groups, table_properties(), H5P_DEFAULT),
                        H5Dclose);
   if (set < 0 || (first_ && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0))
     fail("cannot write '" + name + "'");
@@ -100,7 +136,11 @@ void Hdf5File::write_text(const std::string& name, const std::string& text) {
 
 std::string Hdf5File::read_text(const std::string& name) const {
   const Hdf5Handle set = dataset(name), type(H5Dget_type(set), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING) fail("holds no text '" + name + "'");
+  const Hdf5Handle space(H5Dget_space(set), H5Sclose);
+  constexpr std::size_t k_longest = 1 << 20;
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Tget_size(type) > k_longest ||
+      H5Sget_simple_extent_npoints(space) != 1)
+    fail("holds no text '" + name + "'");
   std::string text(H5Tget_size(type), '\0');
   if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) fail("cannot read '" + name + "'");
   text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
@@ -112,7 +152,7 @@ void Hdf5File::create_table(const std::string& name, std::int64_t rows, std::int
   const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows), static_cast<hsize_t>(width)};
   const Hdf5Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose), groups = make_groups();
   // Every row is written: several writers would fill the table with zeros first.
-  const Hdf5Handle values(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Hdf5Handle values = table_properties();
   H5Pset_fill_time(values, H5D_FILL_TIME_NEVER);
   const Hdf5Handle set(H5Dcreate2(file_, name.c_str(), number_type<T>(), space, groups, values, H5P_DEFAULT),
                        H5Dclose);
@@ -134,6 +174,7 @@ template <class T>
 void Hdf5File::read_rows(const std::string& name, std::int64_t first, std::span<T> values) const {
   if (values.empty()) return;
   const Hdf5Handle set = dataset(name);
+  if (!holds<T>(set)) fail("holds other numbers in '" + name + "'");
   std::array<hsize_t, 2> count{};
   const Hdf5Handle where(select_rows(set, first, values.size(), count), H5Sclose),
       memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
@@ -150,7 +191,10 @@ std::int64_t Hdf5File::width(const std::string& name) const {
 }
 
 void Hdf5File::close() {
-  if (mode_ == Mode::create && H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("cannot be written");
+  if (mode_ == Mode::create && H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) {
+    let_writing_end(file_);
+    fail("cannot be written");
+  }
   if (!file_.close()) fail("cannot be closed");
   if (mode_ != Mode::create) return;
   const int descriptor = ::open(path_.c_str(), O_RDONLY);

@@ -42,6 +42,10 @@ class Hdf5File {
   /// and
   ///                 each writes rows of its own
   Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm writers = MPI_COMM_SELF);
+  /// A file that was not closed is given up: what could not be written to it is forgotten.
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
 
   void write_text(const std::string& name, const std::string& text);
   std::string read_text(const std::string& name) const;

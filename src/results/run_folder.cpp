@@ -1,5 +1,7 @@
 #include "results/run_folder.hpp"
 
+#include <petscsys.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -114,6 +116,17 @@ fs::path default_run_folder(const fs::path& case_file) {
   return fs::path("results") / full.parent_path().filename() / (variant == "case" ? "default" : variant);
 }
 
+bool is_finished(const fs::path& folder) {
+  int finished = 0;
+  on_first_process([&] {
+    std::ifstream file(folder / "summary.json");
+    for (std::string line; std::getline(file, line);)
+      if (line.find("\"outcome\": \"finished\"") != std::string::npos) finished = 1;
+  });
+  MPI_Bcast(&finished, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  return finished != 0;
+}
+
 bool RunFolder::is_taken(std::string_view file) {
   return std::find(k_files.begin(), k_files.end(), file) != k_files.end();
 }
@@ -127,6 +140,8 @@ RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool go_on,
       check_owner(root_, ours, tables);
       fs::create_directories(fields());
       if (!go_on) remove_old(root_, ours);
+      // It is that of a finished run until this one has finished too.
+      if (go_on && !fs::is_symlink(summary())) fs::remove(summary());
     } catch (const fs::filesystem_error& error) {
       throw OutputError(root_.string(), "cannot make the results folder: " + error.code().message(),
                         "choose another folder with -o");

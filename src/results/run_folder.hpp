@@ -12,6 +12,10 @@ namespace solidus::results {
 /// present folder.
 std::filesystem::path default_run_folder(const std::filesystem::path& case_file);
 
+/// Whether the run of this folder has come to its end: its summary says so, which is written last.
+/// Collective.
+bool is_finished(const std::filesystem::path& folder);
+
 /// ```
 /// case.toml     the case, fully resolved; its first line says that Solidus wrote it
 /// history.csv   probes and globals     steps.csv  every step     summary.json  how it went

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/input_file.hpp"
 
 namespace solidus::results {
 
@@ -94,6 +95,7 @@ void VtuFile::fail(const std::string& what, const std::string& allowed) const {
 }
 
 VtuFile::VtuFile(const std::filesystem::path& file) : file_(file) {
+  require_readable(file, {file.string(), 0, 0}, k_most_field);
   std::ifstream in(file, std::ios::binary);
   if (!in) fail("the file cannot be read");
   content_.assign(std::istreambuf_iterator<char>(in), {});

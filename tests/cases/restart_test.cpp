@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -189,16 +190,158 @@ TEST_F(Restart, APhysicsThatCannotGoOnLeavesACheckpointAndAdvice) {
   EXPECT_EQ(rest.code, 0) << rest.output;
 }
 
-// The case comes through a pipe that nobody has filled yet: the program has started, but not read its case.
-TEST_F(Restart, ASignalBeforeTheFirstStepEndsTheRunInGoodOrder) {
+// A script that takes for ever to mesh.
+TEST_F(Restart, ASignalWhileTheMeshIsReadEndsTheRunInGoodOrder) {
   fs::create_directories(root());
-  const std::string pipe = "'" + (root() / "case.toml").string() + "'";
-  const Outcome stopped = shell("(mkfifo " + pipe + "; '" SOLIDUS_BINARY_DIR "/solidus' run " + pipe +
-                                " -o '" + (root() / "early").string() + "' & p=$!; exec 9>" + pipe +
-                                "; kill -USR1 $p; echo 'include = \"" SOLIDUS_SOURCE_DIR
-                                "/cases/aluminium_cylinder/case.toml\"' >&9; exec 9>&-; wait $p)");
+  std::ofstream(root() / "endless.geo") << "For i In {1:1e12}\n  a = i;\nEndFor\n";
+  std::ofstream(root() / "case.toml") << "include = '" SOLIDUS_SOURCE_DIR "/cases/bracket/case.toml'\n"
+                                      << "[mesh]\nfile = 'endless.geo'\n";
+  const Outcome stopped =
+      shell("(timeout --foreground --preserve-status -s USR1 10 '" SOLIDUS_BINARY_DIR "/solidus' run '" +
+            (root() / "case.toml").string() + "' -o '" + (root() / "early").string() + "')");
   EXPECT_EQ(stopped.code, 2) << stopped.output;
-  EXPECT_THAT(stopped.output, HasSubstr("stopped as asked at t = 0 s"));
+  EXPECT_THAT(stopped.output, HasSubstr("stopped by a signal while the mesh was read"));
+  EXPECT_FALSE(fs::exists(root() / "early"));
+}
+
+// A slender beam and Jacobi's preconditioner: thousands of iterations in one solve.
+TEST_F(Restart, ASignalIsHeededWithinALinearSolve) {
+  fs::create_directories(root());
+  std::ofstream(root() / "beam.toml") << R"(title = "A long beam bends"
+[analysis]
+kind = "solid"
+physics = "mechanics"
+gravity = "9.81 m/s2"
+[mesh]
+shape = "block"
+element = "hex8"
+[mesh.block]
+size = ["4 m", "40 mm", "40 mm"]
+divisions = [400, 5, 5]
+[time]
+end = "100 s"
+step = "1 s"
+[mechanics]
+solver = "jacobi"
+inexact_newton = false
+[[body]]
+name = "block"
+material = "steel_mould"
+initial_temperature = "20 degC"
+[[mechanical_condition]]
+name = "wall"
+group = "x_min"
+kind = "displacement"
+ux = "0 m"
+uy = "0 m"
+uz = "0 m"
+)";
+  for (const char* launcher : {"", "mpirun -n 2 --bind-to none --oversubscribe "}) {
+    fs::remove_all(root() / "beam");
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome stopped = shell(
+        "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "timeout --foreground --preserve-status -s USR1 8 " +
+        std::string(launcher) + "'" SOLIDUS_BINARY_DIR "/solidus' run '" + (root() / "beam.toml").string() +
+        "' -o '" + (root() / "beam").string() + "' -- -mechanics_ksp_max_it 10000000");
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(stopped.code, 2) << stopped.output;
+    EXPECT_THAT(stopped.output, HasSubstr("stopped as asked at t = 0 s"));
+    EXPECT_LT(took.count(), 8 + 7) << "2 s on a machine that is free; the whole solve takes minutes";
+    EXPECT_TRUE(fs::exists(root() / "beam/checkpoint/state.h5"));
+  }
+}
+
+TEST_F(Restart, OnlyOneRunAtATimeWritesIntoAFolder) {
+  ASSERT_EQ(run("whole").code, 0);
+  const std::string both = "--set time.step='\"0.01 s\"' --set output.checkpoint_every=5";
+  const std::string history = "'" + (root() / "shared/history.csv").string() + "'";
+  for (const char* how : {"", "--restart"}) {
+    fs::remove_all(root() / "shared");
+    const Outcome outcome =
+        shell("(" + command("shared", both) + " > /dev/null & p=$!; while ! [ -s " + history +
+              " ]; do sleep 0.05; done; while [ ! -e '" + (root() / "shared/checkpoint/state.h5").string() +
+              "' ] && [ -n '" + how + "' ]; do sleep 0.05; done; " + command("shared", how) +
+              "; code=$?; kill -KILL $p; wait $p; exit $code)");
+    EXPECT_EQ(outcome.code, 1) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("a run is under way in this folder: process ")) << how;
+  }
+  EXPECT_TRUE(fs::exists(root() / "shared/lock")) << "what was killed leaves its lock";
+  const Outcome after = run("shared");
+  EXPECT_EQ(after.code, 0) << after.output;
+  EXPECT_THAT(after.output, HasSubstr("left its lock behind"));
+  EXPECT_FALSE(fs::exists(root() / "shared/lock"));
+  EXPECT_EQ(text(root() / "shared/history.csv"), text(root() / "whole/history.csv"));
+}
+
+TEST_F(Restart, RefusesTheCheckpointOfOtherTemperaturesOrAnotherMeshOfTheSameSize) {
+  ASSERT_EQ(run("other", "--set time.end='\"5 s\"'").code, 0);
+  const Outcome hotter = run("other", "--restart --set body.part.initial_temperature='\"690 degC\"'");
+  EXPECT_EQ(hotter.code, 1);
+  EXPECT_THAT(hotter.output, HasSubstr("its initial temperature is"));
+  const Outcome taller = run("other", "--restart --set mesh.cylinder_in_mould.interface_ratio=1.2");
+  EXPECT_EQ(taller.code, 1);
+  EXPECT_THAT(taller.output, HasSubstr("its mesh is"));
+}
+
+TEST_F(Restart, ARunThatWasKilledBeforeItsSummaryIsCompleted) {
+  ASSERT_EQ(run("whole").code, 0);
+  const std::string history = text(root() / "whole/history.csv"), fields = text(root() / "whole/fields.pvd");
+  fs::remove(root() / "whole/summary.json");
+  const Outcome completed = run("whole", "--restart");
+  EXPECT_EQ(completed.code, 0) << completed.output;
+  EXPECT_THAT(text(root() / "whole/summary.json"), HasSubstr("\"outcome\": \"finished\""));
+  EXPECT_EQ(text(root() / "whole/history.csv"), history);
+  EXPECT_EQ(text(root() / "whole/fields.pvd"), fields);
+  const Outcome again = run("whole", "--restart");
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.output, HasSubstr("has reached"));
+}
+
+TEST_F(Restart, EqualRunsLeaveEqualCheckpoints) {
+  ASSERT_EQ(run("one").code, 0);
+  ASSERT_EQ(run("two").code, 0);
+  EXPECT_TRUE(text(root() / "one/checkpoint/state.h5") == text(root() / "two/checkpoint/state.h5"));
+}
+
+// One flipped bit anywhere: the file is not taken, the one before is.
+TEST_F(Restart, NoFlippedBitOfACheckpointIsAccepted) {
+  ASSERT_EQ(run("whole").code, 0);
+  ASSERT_EQ(run("longer", "--set time.end='\"11 s\"'").code, 0);
+  const fs::path state = root() / "whole/checkpoint/state.h5",
+                 previous = root() / "whole/checkpoint/previous.h5";
+  const std::string good = text(state), before = text(previous);
+  unsigned place = 12345;
+  for (int i = 0; i < 6; ++i) {
+    place = place * 1664525u + 1013904223u;
+    std::string bad = good;
+    const std::size_t at = place % bad.size();
+    bad[at] = static_cast<char>(bad[at] ^ (1 << (i % 8)));
+    std::ofstream(state, std::ios::binary) << bad;
+    std::ofstream(previous, std::ios::binary) << before;
+    const Outcome outcome = run("whole", "--restart --set time.end='\"11 s\"'");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("is damaged")) << at;
+    EXPECT_THAT(outcome.output, HasSubstr("continuing from")) << at;
+    EXPECT_EQ(text(root() / "whole/history.csv"), text(root() / "longer/history.csv")) << at;
+  }
+}
+
+// /dev/full takes no byte, like a full disk.
+TEST_F(Restart, AFullDiskAtACheckpointIsSaidAndTheRunCanGoOn) {
+  for (const int processes : {1}) {
+    ASSERT_EQ(run("whole").code, 0);
+    ASSERT_EQ(run("full", "--set time.end='\"5 s\"'", processes).code, 0);
+    fs::create_symlink("/dev/full", root() / "full/checkpoint/state.h5.part");
+    const Outcome outcome = run("full", "--restart", processes);
+    EXPECT_EQ(outcome.code, 1) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("is there room on the disk?"));
+    fs::remove(root() / "full/checkpoint/state.h5.part");
+    const Outcome rest = run("full", "--restart", processes);
+    EXPECT_EQ(rest.code, 0) << rest.output;
+    EXPECT_EQ(text(root() / "full/history.csv"), text(root() / "whole/history.csv"));
+  }
 }
 
 TEST_F(Restart, ASignalEndsTheRunAfterItsStepAndTheRestGivesTheSameBits) {

@@ -177,7 +177,7 @@ TEST_F(MeshFiles, ConstantsOfAScriptTakeTheValuesOfTheCase) {
               }),
               HasSubstr("DefineConstant"));
   EXPECT_THAT(complaint_of([&] {
-                read_mesh(write("a.msh", "no script\n"), 1, 0, 1, {{"size", 1}});
+                read_mesh(write("a.msh", "$MeshFormat\n"), 1, 0, 1, {{"size", 1}});
               }),
               HasSubstr("no .geo script"));
 }

@@ -1,0 +1,161 @@
+#include "mesh/reader_message.hpp"
+
+#include <cstdint>
+#include <stdexcept>
+
+#include "mesh/shapes.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+template <class T>
+void put_number(T value, const PutBytes& put) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  put(&value, sizeof value);
+}
+
+template <class T>
+T take_number(const TakeBytes& take) {
+  T value{};
+  take(&value, sizeof value);
+  return value;
+}
+
+template <class T>
+void put_list(const std::vector<T>& list, const PutBytes& put) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  put_number<std::uint64_t>(list.size(), put);
+  put(list.data(), list.size() * sizeof(T));
+}
+
+/// @param left  bytes that may still come; what is taken is subtracted
+template <class T>
+std::vector<T> take_list(const TakeBytes& take, double& left) {
+  const auto n = take_number<std::uint64_t>(take);
+  left -= static_cast<double>(n) * sizeof(T);
+  if (left < 0) throw std::runtime_error("the mesh is larger than its limit");
+  std::vector<T> list(n);
+  take(list.data(), list.size() * sizeof(T));
+  return list;
+}
+
+void put_group_choice(const GeometryGroup& group, const PutBytes& put) {
+  put_text(group.name, put);
+  put_number(group.bodies, put);
+  put_list(group.numbers, put);
+  put_text(group.label, put);
+  put_number(group.box.has_value(), put);
+  if (group.box) put_number(*group.box, put);
+}
+
+GeometryGroup take_group_choice(const TakeBytes& take) {
+  double enough = 1e9;
+  GeometryGroup group;
+  group.name = take_text(take);
+  group.bodies = take_number<bool>(take);
+  group.numbers = take_list<int>(take, enough);
+  group.label = take_text(take);
+  if (take_number<bool>(take)) group.box = take_number<std::array<Point, 2>>(take);
+  return group;
+}
+
+RawBlock take_block(const TakeBytes& take, double& left, std::size_t n_nodes) {
+  const auto shape = take_number<int>(take);
+  if (shape < 0 || shape > static_cast<int>(Shape::hex20)) throw std::runtime_error("an element of no shape");
+  RawBlock block{static_cast<Shape>(shape), take_list<Index>(take, left), {}};
+  block.input_element = take_list<GlobalIndex>(take, left);
+  const auto per_element = static_cast<std::size_t>(node_count(block.shape));
+  if (block.nodes.size() != per_element * block.input_element.size())
+    throw std::runtime_error("elements without their nodes");
+  for (const Index node : block.nodes)
+    if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
+      throw std::runtime_error("an element with a node that the mesh does not have");
+  return block;
+}
+
+}  // namespace
+
+void put_text(const std::string& text, const PutBytes& put) {
+  put_number<std::uint64_t>(text.size(), put);
+  put(text.data(), text.size());
+}
+
+std::string take_text(const TakeBytes& take, std::size_t longest) {
+  const auto n = take_number<std::uint64_t>(take);
+  if (n > longest) throw std::runtime_error("a text is longer than its limit");
+  std::string text(n, '\0');
+  take(text.data(), n);
+  return text;
+}
+
+void put_source(const MeshSource& source, const PutBytes& put) {
+  put_text(source.path, put);
+  put_number(source.unit_in_metres, put);
+  put_number(source.element_size, put);
+  put_number(source.element_order, put);
+  put_number(source.constants.size(), put);
+  for (const auto& [name, value] : source.constants) {
+    put_text(name, put);
+    put_number(value, put);
+  }
+  put_number(source.geometry.conforming, put);
+  put_number(source.geometry.groups.size(), put);
+  for (const GeometryGroup& group : source.geometry.groups) put_group_choice(group, put);
+  put_number(source.trust_script, put);
+}
+
+MeshSource take_source(const TakeBytes& take) {
+  MeshSource source;
+  source.path = take_text(take);
+  source.unit_in_metres = take_number<double>(take);
+  source.element_size = take_number<double>(take);
+  source.element_order = take_number<int>(take);
+  for (auto n = take_number<std::size_t>(take); n > 0; --n) {
+    const std::string name = take_text(take);
+    source.constants[name] = take_number<double>(take);
+  }
+  source.geometry.conforming = take_number<bool>(take);
+  for (auto n = take_number<std::size_t>(take); n > 0; --n)
+    source.geometry.groups.push_back(take_group_choice(take));
+  source.trust_script = take_number<bool>(take);
+  return source;
+}
+
+void put_mesh(const RawMesh& mesh, const PutBytes& put) {
+  put_number(mesh.dimension, put);
+  put_list(mesh.x, put);
+  put_list(mesh.input_node, put);
+  put_number(mesh.groups.size(), put);
+  for (const auto& [name, group] : mesh.groups) {
+    put_text(name, put);
+    put_number(group.dimension, put);
+    put_number(group.blocks.size(), put);
+    for (const RawBlock& block : group.blocks) {
+      put_number(static_cast<int>(block.shape), put);
+      put_list(block.nodes, put);
+      put_list(block.input_element, put);
+    }
+  }
+}
+
+RawMesh take_mesh(const TakeBytes& take, double most_bytes) {
+  RawMesh mesh;
+  double left = most_bytes;
+  mesh.dimension = take_number<int>(take);
+  mesh.x = take_list<Point>(take, left);
+  mesh.input_node = take_list<GlobalIndex>(take, left);
+  if (mesh.dimension < 2 || mesh.dimension > 3 || mesh.input_node.size() != mesh.x.size())
+    throw std::runtime_error("nodes without their numbers");
+  for (auto n = take_number<std::size_t>(take); n > 0; --n) {
+    const std::string name = take_text(take);
+    RawGroup group{take_number<int>(take), {}};
+    if (group.dimension < 0 || group.dimension > 3) throw std::runtime_error("a group of no dimension");
+    for (auto blocks = take_number<std::size_t>(take); blocks > 0; --blocks)
+      group.blocks.push_back(take_block(take, left, mesh.x.size()));
+    mesh.groups.emplace(name, std::move(group));
+  }
+  return mesh;
+}
+
+}  // namespace solidus::mesh

@@ -1,0 +1,35 @@
+/// Foreign meshes are read, and geometries meshed, in a process of its own: what crashes, hangs or eats
+/// memory there takes nothing with it.
+///
+/// The reader is the program itself, started with a verb that no user types. It reads a request, hands the
+/// mesh back through a pipe and ends. It may start no program, write no file and open no connection, unless
+/// the script is trusted. Programs that do not serve as a reader (tests) read meshes in their own process.
+#pragma once
+
+#include <optional>
+
+#include "mesh/raw_mesh.hpp"
+
+namespace solidus::mesh {
+
+/// Call this first in main(), before MPI starts: where the program was started as the reader it does the
+/// reader's work and returns the exit code; else read_mesh() starts readers from now on.
+std::optional<int> serve_as_reader(int argc, char** argv);
+
+/// Tells read_mesh() when to give up waiting for a reader: it ends it then and throws StepRejected.
+/// @param asked  called about ten times a second; nullptr: wait on
+void give_up_reading_when(bool (*asked)());
+
+/// What a reader may use. The environment sets both: SOLIDUS_MESH_MEMORY="8 GB", SOLIDUS_MESH_TIME="2 h".
+struct ReaderLimits {
+  double memory = 0;  ///< [byte]
+  double time = 0;    ///< [s]
+};
+/// Without a word of the environment: geometries half of the machine's memory and half an hour, meshes what
+/// their size makes likely. Throws InputError for a limit that cannot be read.
+ReaderLimits reader_limits(const MeshSource& source);
+
+/// Reads in this process, whatever happens.
+RawMesh read_mesh_here(const MeshSource& source);
+
+}  // namespace solidus::mesh

@@ -1,0 +1,15 @@
+/// What the reader of foreign files gives up before it opens one (mesh/reader_process.hpp).
+#pragma once
+
+namespace solidus::mesh {
+
+/// Limits this process for good.
+/// @param memory  bytes of its own that it may hold; 0: no limit
+void limit_memory(double memory);
+
+/// Takes from this process the right to start programs, to write, make, rename or remove files, and to open
+/// connections: whatever library fails to hold, the system refuses. A kernel or a processor without system
+/// call filters leaves it as it is.
+void forbid_all_but_reading();
+
+}  // namespace solidus::mesh

@@ -1,0 +1,26 @@
+#include "model/findings.hpp"
+
+#include "base/errors.hpp"
+#include "base/log.hpp"
+
+namespace solidus::model {
+
+Findings findings(const CaseSpec& spec, const Assembly& a) {
+  Findings found;
+  find_in_interfaces(spec, a, found);
+  find_in_materials(spec, a, found);
+  find_in_pour(spec, a, found);
+  find_in_conditions(spec, a, found);
+  return found;
+}
+
+void report(const Findings& findings) {
+  for (const Finding& finding : findings)
+    if (finding.is_error) throw InputError(finding.where, finding.what, finding.usual);
+  for (const Finding& finding : findings) {
+    const std::string place = finding.where.text();
+    logging::warn("{}{}{}; {}", place, place.empty() ? "" : ": ", finding.what, finding.usual);
+  }
+}
+
+}  // namespace solidus::model

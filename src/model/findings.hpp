@@ -1,0 +1,41 @@
+/// What is possible but not sensible in a case: slips that no check of a key finds. One file per family.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/assembly.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+struct Finding {
+  bool is_error = false;  ///< no sensible case looks so; else a warning
+  SourceLocation where;
+  std::string what;   ///< what was found, with its number
+  std::string usual;  ///< the usual range, or what was perhaps meant
+};
+using Findings = std::vector<Finding>;
+
+/// Whether a quantity is one number, everywhere and always.
+inline bool is_number(const Function& f) {
+  return f.place == nullptr && f.of == Argument::constant;
+}
+
+/// Contacts that are given twice, that no heat passes, or that are missing; films on surfaces in contact and
+/// several films on one surface; conductances. Collective.
+void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// Properties that no metal, mould or gas has.
+void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// What is poured, at what temperature.
+void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// Surroundings, coefficients and gravity; the length of the run in steps. Collective: size of the mesh.
+void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings);
+
+/// All of them, of a case that is built. Collective.
+Findings findings(const CaseSpec& spec, const Assembly& a);
+
+/// Warns of each finding; throws InputError for the first error.
+void report(const Findings& findings);
+
+}  // namespace solidus::model

@@ -1,0 +1,165 @@
+// Findings on what joins the bodies: contacts, and films beside them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "algebra/parallel.hpp"
+#include "model/findings.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Bodies whose temperatures differ by less need no way for heat [K].
+constexpr double k_same_temperature = 50;
+
+bool at_the_same_time(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return a.empty() || b.empty() || std::any_of(a.begin(), a.end(), [&](const std::string& stage) {
+           return std::find(b.begin(), b.end(), stage) != b.end();
+         });
+}
+
+std::set<std::string> sides(const ContactSpec& contact) {
+  const auto pair = contact.sides();
+  return {pair.begin(), pair.end()};
+}
+
+void contacts_given_twice(const CaseSpec& spec, Findings& findings) {
+  for (std::size_t i = 0; i < spec.contacts.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (sides(spec.contacts[i]) == sides(spec.contacts[k]) &&
+          at_the_same_time(spec.contacts[i].stages, spec.contacts[k].stages))
+        findings.push_back({true, spec.contacts[i].where,
+                            fmt::format("the contacts '{}' and '{}' join the same two surfaces",
+                                        spec.contacts[k].name, spec.contacts[i].name),
+                            "one contact for a pair of surfaces, whichever is named first"});
+}
+
+/// Which bodies hang together, by shared nodes and by contacts: the number of the first body of each group.
+class Groups {
+ public:
+  explicit Groups(std::size_t n_bodies) : first_(n_bodies) { std::iota(first_.begin(), first_.end(), 0); }
+  void join(int a, int b) {
+    const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
+    first_[static_cast<std::size_t>(high)] = low;
+  }
+  int root(int body) const {
+    while (first_[static_cast<std::size_t>(body)] != body) body = first_[static_cast<std::size_t>(body)];
+    return body;
+  }
+
+ private:
+  std::vector<int> first_;
+};
+
+/// The bodies that meet in a node or an end of a contact, as seen from all processes.
+std::vector<std::vector<int>> meetings(const CaseSpec& spec, const mesh::Mesh& mesh, bool with_heat_only) {
+  const std::size_t n = spec.bodies.size();
+  std::vector<double> meet(n * n, 0.0);
+  const auto note = [&](const std::set<int>& bodies) {
+    for (const int a : bodies)
+      for (const int b : bodies) meet[static_cast<std::size_t>(a) * n + static_cast<std::size_t>(b)] = 1;
+  };
+  std::vector<std::set<int>> of_node(mesh.x.size());
+  for (const mesh::Block& block : mesh.blocks)
+    for (const Index node : block.nodes) of_node[static_cast<std::size_t>(node)].insert(block.body);
+  for (const std::set<int>& bodies : of_node)
+    if (bodies.size() > 1) note(bodies);
+  for (const ContactSpec& contact : spec.contacts) {
+    if (with_heat_only && !contact.heat) continue;
+    std::set<int> bodies;
+    for (const std::string& side : contact.sides())
+      if (const auto surface = mesh.surfaces.find(side); surface != mesh.surfaces.end())
+        for (const mesh::Block& faces : surface->second.faces)
+          if (faces.body >= 0) bodies.insert(faces.body);
+    note(bodies);
+  }
+  std::vector<std::vector<int>> pairs;
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (algebra::global_max(meet[a * n + b]) > 0)
+        pairs.push_back({static_cast<int>(a), static_cast<int>(b)});
+  return pairs;
+}
+
+/// A hot body that no heat can leave toward a cold one.
+void bodies_without_a_way_for_heat(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  Groups by_heat(spec.bodies.size()), by_anything(spec.bodies.size());
+  for (const std::vector<int>& pair : meetings(spec, a.mesh, true)) by_heat.join(pair[0], pair[1]);
+  for (const std::vector<int>& pair : meetings(spec, a.mesh, false)) by_anything.join(pair[0], pair[1]);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    for (std::size_t other = 0; other < b; ++other) {
+      const int one = by_heat.root(static_cast<int>(b)), two = by_heat.root(static_cast<int>(other));
+      if (one == two || std::abs(a.start[other].high - a.start[b].low) < k_same_temperature) continue;
+      const bool touch = by_anything.root(static_cast<int>(b)) == by_anything.root(static_cast<int>(other));
+      findings.push_back(
+          {false, spec.bodies[b].where,
+           fmt::format("no heat passes between the bodies '{}' and '{}', which start {:.0f} K apart: {}",
+                       spec.bodies[other].name, spec.bodies[b].name,
+                       std::abs(a.start[other].high - a.start[b].low),
+                       touch ? "their contact has no [contact.heat]" : "no contact joins them, and no node"),
+           touch ? "a [contact.heat] with a conductance" : "a [[contact]] between their surfaces"});
+      return;  // one is enough: the others follow from it
+    }
+}
+
+/// Films of place or time take turns: each is one where the others are none.
+bool always_the_same(const ThermalConditionSpec& film) {
+  return is_number(film.coefficient) && is_number(film.factor);
+}
+
+void films_beside_contacts(const CaseSpec& spec, Findings& findings) {
+  using Kind = ThermalConditionSpec::Kind;
+  for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
+    const ThermalConditionSpec& film = spec.thermal_conditions[i];
+    if (film.kind != Kind::film) continue;
+    for (const ContactSpec& contact : spec.contacts)
+      if (contact.heat && always_the_same(film) && sides(contact).contains(film.group) &&
+          at_the_same_time(film.stages, contact.stages))
+        findings.push_back(
+            {false, film.where,
+             fmt::format("the film '{}' lies on the surface '{}', which the contact '{}' cools too",
+                         film.name, film.group, contact.name),
+             "a film on outer surfaces alone"});
+    for (std::size_t k = 0; k < i; ++k)
+      if (const ThermalConditionSpec& other = spec.thermal_conditions[k];
+          other.kind == Kind::film && always_the_same(other) && always_the_same(film) &&
+          other.group == film.group && at_the_same_time(film.stages, other.stages))
+        findings.push_back({false, film.where,
+                            fmt::format("the films '{}' and '{}' lie on the same surface '{}' and add up",
+                                        other.name, film.name, film.group),
+                            "one film for a surface"});
+  }
+}
+
+void conductances(const CaseSpec& spec, Findings& findings) {
+  for (const ContactSpec& contact : spec.contacts) {
+    if (!contact.heat) continue;
+    using Law = contact::HeatTransferSpec::ContactLaw;
+    const double h = contact.heat->conductance;
+    if (contact.heat->contact_law == Law::power && (h < 20 || h > 1e6))
+      findings.push_back(
+          {h > 1e8, contact.where,
+           fmt::format("the contact '{}' conducts {:g} W/m2/K where it is closed", contact.name, h),
+           "usual are 100 to 50000 W/m2/K between casting and mould"});
+    if (const double gas = contact.heat->gas_conductivity; gas > 0.6)
+      findings.push_back({false, contact.where,
+                          fmt::format("the gas in the gap of '{}' conducts {:g} W/m/K", contact.name, gas),
+                          "air conducts 0.03 to 0.1 W/m/K, hydrogen 0.2 to 0.6"});
+  }
+}
+
+}  // namespace
+
+void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  contacts_given_twice(spec, findings);
+  if (!spec.has_heat()) return;
+  bodies_without_a_way_for_heat(spec, a, findings);
+  films_beside_contacts(spec, findings);
+  conductances(spec, findings);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,241 @@
+/// Files of strangers and an unkind system, given to the real program: nothing is run, nothing hangs, nothing
+/// crashes, and every end has its message and its code.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* k_case = R"(title = "A square cools"
+[analysis]
+kind = "plane_strain"
+physics = "heat"
+[mesh]
+file = "part.geo"
+unit = "mm"
+[time]
+end = "2 s"
+step = "1 s"
+[[body]]
+name = "part"
+material = "steel_mould"
+initial_temperature = "200 degC"
+)";
+
+constexpr const char* k_square = R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 10, 10};
+Physical Surface("part") = {1};
+Mesh.MeshSizeMax = 5;
+)";
+
+struct Outcome {
+  int code = -1;
+  std::string said;  ///< on both streams
+  double seconds = 0;
+};
+
+class ForeignFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("case.toml", k_case);
+    write("part.geo", k_square);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
+  bool has(const std::string& name) const { return fs::exists(folder_ / name); }
+
+  /// A line for the shell in the folder; `solidus` is the program.
+  Outcome shell(const std::string& line) const {
+    const std::string command = "cd '" + folder_.string() +
+                                "' && export SOLIDUS_MATERIALS='" SOLIDUS_SOURCE_DIR
+                                "/materials' && solidus() { '" SOLIDUS_BINARY_DIR
+                                "/solidus' \"$@\"; } && { " +
+                                line + "; } 2>&1";
+    const std::string quoted = "bash -c \"$COMMAND\"";
+    setenv("COMMAND", command.c_str(), 1);
+    Outcome outcome;
+    const auto begin = std::chrono::steady_clock::now();
+    std::FILE* pipe = popen(quoted.c_str(), "r");
+    if (pipe == nullptr) return outcome;
+    std::array<char, 512> buffer{};
+    while (std::fgets(buffer.data(), buffer.size(), pipe)) outcome.said += buffer.data();
+    const int status = pclose(pipe);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return outcome;
+  }
+  /// Expects exit code 1 and one message that holds the phrases.
+  void expect_refused(const std::string& line, const std::vector<std::string>& phrases) const {
+    const Outcome outcome = shell(line);
+    EXPECT_EQ(outcome.code, 1) << line << ": " << outcome.said;
+    for (const std::string& phrase : phrases) EXPECT_THAT(outcome.said, HasSubstr(phrase)) << line;
+    EXPECT_EQ(outcome.said.find("solidus: "), 0u) << line << ": " << outcome.said;
+    EXPECT_THAT(outcome.said, Not(HasSubstr("PETSC ERROR"))) << line;
+    EXPECT_LT(outcome.seconds, 20) << line;
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("solidus_foreign_" + std::to_string(getpid()));
+};
+
+TEST_F(ForeignFiles, TheSquareThatTheyAreMadeFromRunsOnOneAndTwoProcesses) {
+  const Outcome one = shell("solidus run case.toml -o one");
+  EXPECT_EQ(one.code, 0) << one.said;
+  // This program is one of MPI too: its environment would confuse mpirun.
+  const Outcome two = shell(
+      "env -i PATH=\"$PATH\" HOME=\"$HOME\" SOLIDUS_MATERIALS=\"$SOLIDUS_MATERIALS\" "
+      "OMPI_ALLOW_RUN_AS_ROOT=1 "
+      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n 2 --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
+      "/solidus' run case.toml -o two && cmp one/case.toml two/case.toml");
+  EXPECT_EQ(two.code, 0) << two.said;
+}
+
+TEST_F(ForeignFiles, NoVerbRunsACommandOfAMesh) {
+  const std::string attack = std::string(k_square) + "SystemCall \"touch victim\";\n";
+  write("part.geo", attack);
+  write("part.msh", attack);
+  write("part.txt", attack);
+  for (const char* line :
+       {"solidus check case.toml", "solidus run case.toml -o out", "solidus mesh-info part.geo",
+        "solidus mesh-info part.msh", "solidus mesh-info part.txt"})
+    expect_refused(line, {"part."});
+  EXPECT_FALSE(has("victim"));
+  EXPECT_EQ(shell("solidus mesh-info part.geo --trust-geo").code, 0);
+  EXPECT_TRUE(has("victim")) << "trusted, it runs";
+}
+
+TEST_F(ForeignFiles, AScriptThatEndsTheReaderEndsInAMessage) {
+  write("part.geo", std::string(k_square) + "Exit;\n");
+  expect_refused("solidus check case.toml", {"part.geo:5:1", "'Exit'"});
+  expect_refused("solidus check case.toml --trust-geo", {"part.geo", "ended the program that read it"});
+}
+
+TEST_F(ForeignFiles, ACrashOfGmshIsAnErrorOfTheFile) {
+  write("part.geo", std::string(k_square) + "Mesh.Algorithm = 8;\n");
+  const Outcome outcome = shell("solidus check case.toml");  // crashes Gmsh 4.8; later ones may do without
+  if (outcome.code != 0)
+    expect_refused("solidus check case.toml", {"part.geo", "Gmsh crashed", "Segmentation"});
+}
+
+TEST_F(ForeignFiles, MemoryAndTimeOfAReaderAreLimited) {
+  write("part.geo", std::string(k_square) + "a() = LinSpace[0, 1, 1e9];\n");
+  expect_refused("export SOLIDUS_MESH_MEMORY='400 MB'; solidus check case.toml", {"part.geo"});
+  write("part.geo", std::string(k_square) + "For i In {1:1e9}\n  a = i;\nEndFor\n");
+  expect_refused("export SOLIDUS_MESH_TIME='2 s'; solidus check case.toml", {"part.geo", "longer than 2 s"});
+  write("part.msh",
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 400000000 1 400000000\n2 1 0 400000000\n1\n");
+  expect_refused("ulimit -v 4000000; solidus mesh-info part.msh", {"part.msh"});
+}
+
+TEST_F(ForeignFiles, WhatNeverEndsOrIsFarTooMuchIsRefused) {
+  write("zero.toml", "include = \"/dev/zero\"\n");
+  expect_refused("solidus check zero.toml", {"/dev/zero", "device"});
+  expect_refused("solidus check /dev/zero", {"/dev/zero", "device"});
+  mkfifo((folder_ / "pipe").c_str(), 0600);
+  write("fifo.toml", "include = \"pipe\"\n");
+  expect_refused("solidus check fifo.toml", {"pipe"});
+  expect_refused("solidus mesh-info pipe", {"pipe"});
+
+  std::string deep = "a";
+  for (int i = 0; i < 20000; ++i) deep += ".a";
+  write("deep.toml", "title = \"x\"\n" + deep + " = 1\n");
+  expect_refused("solidus check deep.toml", {"deep.toml:2", "too many parts"});
+  expect_refused("solidus check case.toml --set \"$(tail -n 1 deep.toml | tr -d ' ')\"", {"too many parts"});
+  write("inline.toml", "x = { " + deep + " = 1 }\n");
+  expect_refused("solidus check inline.toml", {"inline.toml:1", "too many parts"});
+
+  for (int i = 0; i < 30; ++i)
+    write("n" + std::to_string(i) + ".toml", "include = \"n" + std::to_string(i + 1) + ".toml\"\n");
+  expect_refused("solidus check n0.toml", {"include each other"});
+  for (int i = 0; i < 12; ++i) {
+    const std::string next = "\"m" + std::to_string(i + 1) + ".toml\"";
+    write("m" + std::to_string(i) + ".toml", "include = [" + next + ", " + next + "]\n");
+  }
+  write("m12.toml", "title = \"x\"\n");
+  expect_refused("solidus check m0.toml", {"include each other"});
+}
+
+TEST_F(ForeignFiles, NumbersBeyondAllPhysicsAndTolerancesWithoutSenseAreRefused) {
+  const std::vector<std::pair<std::string, std::string>> numbers = {
+      {"body.part.initial_temperature='1e308 K'", "beyond all physics"},
+      {"heat.tolerance=1e300", "out of range"},
+      {"heat.tolerance=0.9", "out of range"},
+      {"mechanics.linear_tolerance=2", "out of range"},
+      {"mechanics.tolerance=5", "out of range"},
+      {"mesh.element_size='1e300 m'", "beyond all physics"}};
+  for (const auto& [set, phrase] : numbers) expect_refused("solidus check case.toml --set " + set, {phrase});
+  for (const char* line :
+       {"density = \"1e308 kg/m3\"", "conductivity = \"1e308 W/m/K\"",
+        "conductivity = { argument_unit = \"K\", unit = \"W/m/K\", points = [[300, 1e308], [600, 40]] }",
+        "specific_heat = { argument_unit = \"K\", unit = \"J/kg/K\", points = [[-1e308, 1], [1e308, 2]] }"}) {
+    const std::string text = line;
+    std::string material = "title = \"Own\"\n";
+    for (const char* usual :
+         {"density = \"7800 kg/m3\"", "conductivity = \"40 W/m/K\"", "specific_heat = \"500 J/kg/K\""})
+      material += (text.substr(0, 6) == std::string(usual).substr(0, 6) ? text : usual) + "\n";
+    write("own.toml", material);
+    expect_refused("solidus check case.toml --set body.part.material=own.toml",
+                   {"own.toml", "beyond all physics"});
+  }
+}
+
+TEST_F(ForeignFiles, TextsCannotSteerTheTerminal) {
+  write("escape.toml", "title = \"\\u001b]0;owned\\u0007\"\n");
+  expect_refused("solidus check escape.toml", {"escape.toml:1", "control character"});
+  const Outcome outcome = shell("solidus check $'\\e[31mred.toml'");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, AllOf(HasSubstr("?[31mred.toml"), Not(HasSubstr("\x1b"))));
+}
+
+TEST_F(ForeignFiles, OptionsOfThePresentFolderAreNotRead) {
+  write(".petscrc", "-heat_ksp_type nonsense\n-heat_pc_type nonsense\n");
+  const Outcome outcome = shell("solidus run case.toml -o out");
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+}
+
+/// A run of many steps, ended in different ways.
+constexpr const char* k_long_run = "solidus run case.toml -o out --set time.end='9e7 s' --no-progress";
+
+TEST_F(ForeignFiles, SignalsOfATerminalThatClosesEndARunWithACheckpoint) {
+  for (const char* signal : {"HUP", "QUIT", "TERM"}) {
+    fs::remove_all(folder_ / "out");
+    const Outcome outcome =
+        shell("timeout --foreground --preserve-status -s " + std::string(signal) +
+              " 4 '" SOLIDUS_BINARY_DIR "/solidus' run case.toml -o out --set time.end='9e7 s' > log");
+    EXPECT_EQ(outcome.code, 2) << signal << ": " << outcome.said;
+    EXPECT_TRUE(has("out/checkpoint/state.h5")) << signal;
+  }
+}
+
+TEST_F(ForeignFiles, AnOutputThatClosesEndsARunQuietly) {
+  const Outcome listing = shell("solidus explain | head -n 1 > /dev/null; exit ${PIPESTATUS[0]}");
+  EXPECT_EQ(listing.code, 0) << listing.said;
+  EXPECT_EQ(listing.said, "");
+  const Outcome run = shell(std::string(k_long_run) + " | head -n 3 > /dev/null; exit ${PIPESTATUS[0]}");
+  EXPECT_EQ(run.code, 2) << run.said;
+  EXPECT_THAT(run.said, Not(HasSubstr("PETSC ERROR")));
+  EXPECT_TRUE(has("out/checkpoint/state.h5"));
+}
+
+}  // namespace

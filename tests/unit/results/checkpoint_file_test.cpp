@@ -1,0 +1,193 @@
+// A checkpoint knows that it is whole, and a folder that a run is in it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "results/file_checksum.hpp"
+#include "results/hdf5_file.hpp"
+#include "results/output_error.hpp"
+#include "results/run_lock.hpp"
+#include "sample.hpp"
+
+namespace {
+
+using namespace solidus;
+using namespace solidus::results;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+int this_process() {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+
+class CheckpointFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(SOLIDUS_BINARY_DIR) / ("checkpoint_file_" + std::to_string(this_process()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    file_ = folder_ / "state.h5";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  static std::string text(const fs::path& path) {
+    std::ostringstream all;
+    all << std::ifstream(path, std::ios::binary).rdbuf();
+    return all.str();
+  }
+  static void write(const fs::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+  }
+  void make(const fs::path& path) const {
+    Hdf5File file(path, Hdf5File::Mode::create);
+    file.write_text("format", "a test");
+    file.create_table<double>("temperature", 3, 2);
+    file.write_rows<double>("temperature", 0, std::vector<double>{1, 2, 3, 4, 5, 6});
+    file.create_table<std::int64_t>("node", 3, 1);
+    file.write_rows<std::int64_t>("node", 0, std::vector<std::int64_t>{7, 8, 9});
+    file.close();
+    write_checksum(path);
+  }
+  static std::string complaint(const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const OutputError& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+
+  fs::path folder_, file_;
+};
+
+TEST_F(CheckpointFile, IsReadBackAndAcceptedWhole) {
+  make(file_);
+  EXPECT_NO_THROW(check_checksum(file_));
+  const Hdf5File file(file_, Hdf5File::Mode::read);
+  EXPECT_EQ(file.read_text("format"), "a test");
+  std::vector<double> values(6);
+  file.read_rows<double>("temperature", 0, values);
+  EXPECT_EQ(values.back(), 6);
+}
+
+TEST_F(CheckpointFile, NoFlippedBitNoCutAndNoTailIsAccepted) {
+  make(file_);
+  const std::string good = text(file_);
+  int accepted = 0;
+  for (std::size_t at = 0; at < good.size(); at += at < k_user_block ? 1 : 3) {
+    std::string bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ (1 << (at % 8)));
+    write(file_, bad);
+    if (complaint([&] { check_checksum(file_); }) == "nothing") ++accepted;
+  }
+  EXPECT_EQ(accepted, 0) << "of " << good.size();
+  for (const std::size_t length : {std::size_t{0}, std::size_t{100}, good.size() / 2, good.size() - 1}) {
+    write(file_, good.substr(0, length));
+    EXPECT_NE(complaint([&] { check_checksum(file_); }), "nothing") << length;
+  }
+  write(file_, good + "x");
+  EXPECT_THAT(complaint([&] { check_checksum(file_); }), HasSubstr("damaged"));
+}
+
+TEST_F(CheckpointFile, EqualContentsAreEqualFiles) {
+  make(file_);
+  sleep(1);  // HDF5 notes the second in which a table was made, unless it is told not to
+  make(folder_ / "again.h5");
+  EXPECT_TRUE(text(file_) == text(folder_ / "again.h5"));
+}
+
+// What a crafted file says of itself must not decide how much memory is written.
+TEST_F(CheckpointFile, SizesAndTypesAreCheckedBeforeTheyAreRead) {
+  {
+    const Hdf5Handle file(H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    const hsize_t many = 1000;
+    const std::array<hsize_t, 2> table{3, 2};
+    const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose), list(H5Screate_simple(1, &many, nullptr), H5Sclose),
+        rows(H5Screate_simple(2, table.data(), nullptr), H5Sclose);
+    H5Tset_size(type, 8);
+    const Hdf5Handle texts(H5Dcreate2(file, "format", type, list, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Dclose),
+        floats(H5Dcreate2(file, "temperature", H5T_NATIVE_FLOAT, rows, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+               H5Dclose);
+  }
+  const Hdf5File file(file_, Hdf5File::Mode::read);
+  EXPECT_THAT(complaint([&] { file.read_text("format"); }), HasSubstr("holds no text"));
+  std::vector<double> values(6);
+  EXPECT_THAT(complaint([&] { file.read_rows<double>("temperature", 0, values); }),
+              HasSubstr("other numbers"));
+  std::vector<std::int64_t> numbers(6);
+  EXPECT_THAT(complaint([&] { file.read_rows<std::int64_t>("temperature", 0, numbers); }),
+              HasSubstr("other numbers"));
+}
+
+TEST_F(CheckpointFile, AFileThatCouldNotBeWrittenIsForgotten) {
+  const auto attempt = [] {
+    Hdf5File file("/dev/full", Hdf5File::Mode::create);
+    file.create_table<double>("temperature", 100000, 2);
+    file.write_rows<double>("temperature", 0, std::vector<double>(200000, 1.0));
+    file.close();
+  };
+  EXPECT_THAT(complaint(attempt), HasSubstr("/dev/full"));
+  make(file_);  // HDF5 goes on working
+  EXPECT_NO_THROW(check_checksum(file_));
+}
+
+/// Every process of the test locks the same folder.
+fs::path shared_folder() {
+  return fs::path(SOLIDUS_BINARY_DIR) / "run_lock";
+}
+void begin_alone() {
+  if (this_process() == 0) {
+    fs::remove_all(shared_folder());
+    fs::create_directories(shared_folder());
+  }
+  MPI_Barrier(PETSC_COMM_WORLD);
+}
+std::string complaint_of_lock() {
+  try {
+    const RunLock lock(shared_folder());
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(RunLock, HoldsAFolderUntilItEnds) {
+  begin_alone();
+  {
+    const RunLock lock(shared_folder() / ".");
+    EXPECT_THAT(complaint_of_lock(), HasSubstr("a run is under way"));
+    if (this_process() == 0) {
+      EXPECT_THAT(complaint_of_lock(), HasSubstr(std::to_string(getpid())));
+    } else {
+      complaint_of_lock();
+    }
+  }
+  EXPECT_EQ(complaint_of_lock(), "nothing");
+  EXPECT_FALSE(fs::exists(shared_folder() / "lock"));
+}
+
+TEST(RunLock, OfAProcessThatDiedIsTakenOverOfAnotherHostIsNot) {
+  begin_alone();
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  if (this_process() == 0)
+    std::ofstream(shared_folder() / "lock") << "process 4194304 on " << host.data() << "\n";
+  EXPECT_EQ(complaint_of_lock(), "nothing");
+  MPI_Barrier(PETSC_COMM_WORLD);
+  if (this_process() == 0) std::ofstream(shared_folder() / "lock") << "process 17 on elsewhere\n";
+  const std::string complaint = complaint_of_lock();
+  EXPECT_THAT(complaint, HasSubstr("process 17 on elsewhere"));
+  EXPECT_THAT(complaint, HasSubstr("remove"));
+}
+
+}  // namespace
