@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <petscsys.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -52,6 +51,28 @@ int volumetric_modes(mesh::Shape shape) {
   }
 }
 
+using PointValues = std::vector<double>;  ///< of the points of an element
+
+/// The projection of a function on some modes in the mean square with the weights of the points
+/// (Gram and Schmidt).
+PointValues projection(std::vector<PointValues> modes, const PointValues& weight, const PointValues& values) {
+  const auto product = [&](const PointValues& a, const PointValues& b) {
+    double sum = 0;
+    for (std::size_t q = 0; q < weight.size(); ++q) sum += weight[q] * a[q] * b[q];
+    return sum;
+  };
+  const auto add = [](double factor, const PointValues& a, PointValues& to) {
+    for (std::size_t q = 0; q < a.size(); ++q) to[q] += factor * a[q];
+  };
+  PointValues result(values.size(), 0.0);
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    for (std::size_t l = 0; l < k; ++l)
+      add(-product(modes[l], modes[k]) / product(modes[l], modes[l]), modes[l], modes[k]);
+    add(product(modes[k], values) / product(modes[k], modes[k]), modes[k], result);
+  }
+  return result;
+}
+
 /// The stresses at the points, their pressure replaced by its projection on the volumetric modes where there
 /// are some: the nodal forces of both are the same, ∫ B̄ᵀ σ dV = ∫ Bᵀ (dev σ + tr σ̄/3 1) dV.
 std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& mesh, const mesh::Block& block,
@@ -60,30 +81,28 @@ std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& m
                                                              int n_modes) {
   const mesh::Rule rule = mesh::stiffness_rule(block.shape);
   const mesh::BlockGeometry geometry(mesh, block, kind, rule);
-  Eigen::MatrixXd modes(rule.size(), n_modes);  // Ψ at the points
-  for (std::size_t q = 0; q < rule.size(); ++q)
-    for (int k = 0; k < n_modes; ++k)
-      modes(static_cast<Eigen::Index>(q), k) = k == 0 ? 1.0 : rule[q].xi[static_cast<std::size_t>(k - 1)];
+  std::vector<PointValues> modes;
+  for (int k = 0; k < n_modes; ++k) {
+    modes.emplace_back();
+    for (const mesh::QuadraturePoint& point : rule)
+      modes.back().push_back(k == 0 ? 1.0 : point.xi[static_cast<std::size_t>(k - 1)]);
+  }
   std::vector<std::vector<std::array<double, 6>>> stress(static_cast<std::size_t>(block.size()));
-  Eigen::VectorXd weight(modes.rows()), pressure(modes.rows());
   for (std::size_t e = 0; e < stress.size(); ++e) {
     const std::size_t batch = e / k_lanes;
     const int lane = static_cast<int>(e % k_lanes);
+    PointValues weight, pressure;
     for (std::size_t q = 0; q < rule.size(); ++q) {
       std::array<double, 6>& s = stress[e].emplace_back();
       const std::size_t point = batch * rule.size() + q;
       for (std::size_t i = 0; i < 6; ++i) s[i] = history.values[point * 6 + i][lane];
-      weight(static_cast<Eigen::Index>(q)) = geometry.weight[point][lane];
-      pressure(static_cast<Eigen::Index>(q)) = (s[0] + s[1] + s[2]) / 3;
+      weight.push_back(geometry.weight[point][lane]);
+      pressure.push_back((s[0] + s[1] + s[2]) / 3);
     }
-    if (n_modes == 0) continue;
-    const Eigen::MatrixXd weighted = weight.asDiagonal() * modes;
-    const Eigen::VectorXd projected =
-        modes * (modes.transpose() * weighted).llt().solve(weighted.transpose() * pressure);
-    for (std::size_t q = 0; q < rule.size(); ++q) {
-      const auto row = static_cast<Eigen::Index>(q);
-      for (std::size_t i = 0; i < 3; ++i) stress[e][q][i] += projected(row) - pressure(row);
-    }
+    if (modes.empty()) continue;
+    const PointValues projected = projection(modes, weight, pressure);
+    for (std::size_t q = 0; q < rule.size(); ++q)
+      for (std::size_t i = 0; i < 3; ++i) stress[e][q][i] += projected[q] - pressure[q];
   }
   return stress;
 }
