@@ -3,6 +3,7 @@
 #include <petsc/private/petscimpl.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "algebra/parallel.hpp"
 #include "algebra/petsc_handles.hpp"
@@ -34,6 +35,12 @@ PC innermost(PC pc) {
   return inner;
 }
 
+bool has_numbers(Mat matrix) {
+  PetscReal size = 0;
+  check(MatNorm(matrix, NORM_FROBENIUS, &size), "MatNorm");
+  return std::isfinite(size);
+}
+
 }  // namespace
 
 void Factorisation::set_type(PC pc, const std::string& prefix, bool symmetric, GlobalIndex n_unknowns) {
@@ -53,8 +60,9 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   PCFailedReason why = PC_NOERROR;
   check(PCGetFailedReason(inner, &why), "PCGetFailedReason");
   // Where every process factorises for itself, one may lack memory that another has.
-  if (!any_process(why == PC_FACTOR_OUTMEMORY || why == PC_FACTOR_OTHER) || ++attempts_ == k_attempts)
-    return false;
+  lacks_workspace_ = any_process(why == PC_FACTOR_OUTMEMORY || why == PC_FACTOR_OTHER);
+  // What MUMPS says of a matrix that is not made of numbers is chance, and may be lack of workspace.
+  if (!lacks_workspace_ || !has_numbers(matrix) || ++attempts_ == k_attempts) return false;
   Mat factor = nullptr;
   check(PCFactorGetMatrix(inner, &factor), "PCFactorGetMatrix");
   PetscInt present = 0;  // the user may have asked for more
@@ -74,6 +82,14 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   check(MatDestroy(&p), "MatDestroy");
   check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)), "PetscObjectStateIncrease");
   return true;
+}
+
+std::string Factorisation::failure(Mat matrix) const {
+  if (!has_numbers(matrix)) return "the matrix has entries that are not numbers";
+  if (lacks_workspace_)
+    return "MUMPS lacks memory for the factors with a workspace of " + std::to_string(workspace_) +
+           " per cent beyond its estimate (ICNTL(14))";
+  return "the matrix is singular (is every body held?)";
 }
 
 }  // namespace solidus::algebra

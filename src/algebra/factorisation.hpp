@@ -22,6 +22,8 @@ class Factorisation {
   /// After a failure, whether it is worth another attempt: MUMPS may need more workspace than its analysis
   /// foresaw, as pivoting is not known beforehand. Then it gets it. Collective.
   bool try_again(PC pc, Mat matrix);
+  /// After try_again() has found no other way, in words, why there are no factors. Collective.
+  std::string failure(Mat matrix) const;
   /// A new matrix, or one that has been factorised.
   void begin() { attempts_ = 0; }
 
@@ -29,6 +31,7 @@ class Factorisation {
   int workspace_;
   std::string option_;  ///< that sets it
   int attempts_ = 0;
+  bool lacks_workspace_ = false;  ///< in the last failure
 };
 
 }  // namespace solidus::algebra

@@ -117,6 +117,7 @@ LinearReport KrylovSolver::solve(std::span<const double> b, std::span<double> x,
   my.stale = false;
   report.converged = reason > 0;
   if (!report.converged) report.reason = KSPConvergedReasons[reason];
+  if (reason == KSP_DIVERGED_PC_FAILED) report.reason = my.factorisation.failure(my.preconditioner);
   get(my.x, x);
   // MUMPS refuses the next factorisation once one has met a singular matrix.
   if (reason == KSP_DIVERGED_PC_FAILED) reset();

@@ -548,7 +548,8 @@ LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<doub
     reason = my.run(my.b, my.x, report.iterations);
   report.converged = reason > 0 || (direct && reason == KSP_CONVERGED_ITERATING);
   if (!report.converged) {
-    report.reason = KSPConvergedReasons[reason];
+    report.reason = direct && reason == KSP_DIVERGED_PC_FAILED ? my.factorisation.failure(my.matrix)
+                                                               : KSPConvergedReasons[reason];
   } else if (direct) {
     report.converged = my.refine(report);
   }

@@ -25,6 +25,8 @@ struct ContactStep {
   double begun = 0;                  ///< t_n [s]
   std::vector<double> displacement;  ///< u_n, [local node][component] [m]
   Together together;                 ///< of the simultaneous scheme
+  /// Wet points whose face has no coherent node, so that no shell moves them: [point].
+  std::vector<char> liquid;
 };
 
 /// r_b = Σ_p w B_b (t_N n + F T) of the displacement it is called with, from the step's start, and the exact

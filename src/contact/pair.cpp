@@ -26,15 +26,29 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Whether the metal on either side of a point that has a partner is below coherency.
-bool is_wet(const PointMotion& motion, std::span<const double> coherency) {
+/// The metal at a point that has a partner.
+struct Skin {
+  bool wet = false;     ///< on either side it is below coherency in the mean of the nodes
+  bool liquid = false;  ///< there no node of the face is coherent
+};
+
+Skin skin_at(const PointMotion& motion, std::span<const double> coherency) {
   const auto n_slave = static_cast<std::size_t>(motion.n_slave);
   std::array<double, 2> side{};
+  std::array<bool, 2> molten{true, true};
   for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
-    const double part = motion.share[b] * coherency[at(motion.nodes[b])];
-    side[b < n_slave ? 0 : 1] += b < n_slave ? part : -part;
+    const std::size_t of = b < n_slave ? 0 : 1;
+    const double at_node = coherency[at(motion.nodes[b])];
+    side[of] += (of == 0 ? motion.share[b] : -motion.share[b]) * at_node;
+    molten[of] = molten[of] && at_node < k_coherent;
   }
-  return side[0] < k_coherent || (motion.nodes.size() > n_slave && side[1] < k_coherent);
+  Skin skin;
+  for (std::size_t of = 0; of < (motion.nodes.size() > n_slave ? 2 : 1); ++of) {
+    if (side[of] >= k_coherent) continue;
+    skin.wet = true;
+    skin.liquid = skin.liquid || molten[of];
+  }
+  return skin;
 }
 
 ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec, double reach,
@@ -275,13 +289,16 @@ void ContactPair::find_wet_points(std::span<const double> coherency) {
   const auto molten = [](double c) { return c < k_coherent; };
   const bool any = active_ && spec_.atmosphere > 0 && std::ranges::any_of(coherency, molten);
   if (any) placement_->place(step_.begun, step_.displacement);
+  step_.liquid.assign(step_.from.size(), 0);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
     const bool touched = from.status != PointStatus::open || from.suction > 0;
     from.suction = 0;
     if (any && touched) {
       const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
-      if (motion.partnered && is_wet(motion, coherency)) from.suction = spec_.atmosphere;
+      const Skin skin = motion.partnered ? skin_at(motion, coherency) : Skin{};
+      if (skin.wet) from.suction = spec_.atmosphere;
+      step_.liquid[at(p)] = skin.wet && skin.liquid;
     }
     from.multiplier = std::max(from.multiplier, least_multiplier(from));
   }

@@ -123,7 +123,8 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
     s[3] += w * state.dissipation;
     if (state.suction > 0) {
       s[18] += w;
-      if (-state.penetration > spec_.leaving_gap) {
+      // A face with a coherent node goes with the shell, and takes the points between along.
+      if (!step_.liquid.empty() && step_.liquid[at(p)] != 0 && -state.penetration > spec_.leaving_gap) {
         s[19] += 1;
         s[20] += w;
         left_gap = std::max(left_gap, -state.penetration);

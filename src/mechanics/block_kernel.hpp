@@ -16,7 +16,8 @@ namespace solidus::mechanics {
 
 class StructuralPoints;
 
-/// What a phase hands its blocks before a solve.
+/// What a phase hands its blocks before a solve. Kernels keep references to temperature, old_displacement and
+/// the histories and stresses until the next one.
 struct StepStart {
   std::span<const double> temperature;          ///< Θ_n [K], [local node]
   std::span<const double> pass_temperature;     ///< at which the law works: Θ_n or that of an iterate [K]
@@ -91,7 +92,7 @@ class BlockKernel {
   virtual std::size_t bytes() const = 0;
 };
 
-/// @param b_bar for 4-node quads and 8-node hexes; ignored for other shapes
+/// @param b_bar  for quads and hexes (kinematics.hpp); simplices have the standard operator
 std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, bool b_bar);

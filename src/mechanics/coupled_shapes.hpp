@@ -20,6 +20,7 @@ std::unique_ptr<BlockKernel> make_coupled_plane_block(const mesh::Mesh& mesh, co
       if (b_bar) return std::make_unique<CoupledBlock<4, kind, true>>(mesh, block, material);
       return std::make_unique<CoupledBlock<4, kind, false>>(mesh, block, material);
     case mesh::Shape::quad8:
+      if (b_bar) return std::make_unique<CoupledBlock<8, kind, true>>(mesh, block, material);
       return std::make_unique<CoupledBlock<8, kind, false>>(mesh, block, material);
     default:
       throw std::invalid_argument("a two-dimensional analysis has no elements of this shape");
@@ -39,6 +40,7 @@ inline std::unique_ptr<BlockKernel> make_coupled_solid_block(const mesh::Mesh& m
       if (b_bar) return std::make_unique<CoupledBlock<8, kind, true>>(mesh, block, material);
       return std::make_unique<CoupledBlock<8, kind, false>>(mesh, block, material);
     case mesh::Shape::hex20:
+      if (b_bar) return std::make_unique<CoupledBlock<20, kind, true>>(mesh, block, material);
       return std::make_unique<CoupledBlock<20, kind, false>>(mesh, block, material);
     default:
       throw std::invalid_argument("a three-dimensional analysis has no elements of this shape");

@@ -1,8 +1,11 @@
 /// The strain operator at a quadrature point and its transpose, standard or B-bar (monograph 6.11–6.31).
 ///
 ///   ε = Σ_a B_a u_a,   B̄_a = B_a + ⅓ 1 ⊗ (b̄_a − b_a)                                  (6.24)
-///   b_a = ∇N_a (axisymmetric: + N_a/r in the radial direction),   b̄_a = ∫ b_a dV / V    (6.11, 6.23 with Ψ =
-///   1)
+///   b_a = ∇N_a (axisymmetric: + N_a/r in the radial direction)                           (6.11)
+///   b̄_a = Ψ · H⁻¹ ∫ Ψ b_a dV,   H = ∫ Ψ ⊗ Ψ dV                                          (6.18, 6.23)
+///
+/// with the volumetric modes Ψ of law_block.hpp: one constant in elements of first order, linear ones in
+/// those of second order.
 ///
 /// In axisymmetry the hoop strain u_r/r belongs to the volumetric part as the others do.
 #pragma once

@@ -4,12 +4,22 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "mechanics/element_matrix.hpp"
 #include "mechanics/padding.hpp"
 #include "mechanics/point_block.hpp"
 
 namespace solidus::mechanics {
+
+/// Number of the volumetric modes Ψ of B-bar (6.14): the constant, and in quads and hexes of second order
+/// also the element's own coordinates ξ, η, ζ. One constant would cost those an order; all that their
+/// divergence can be leaves a melt no way to flow: a 20-node hex would have 27 points that keep their volume
+/// for 12 displacements.
+template <int n_nodes, AnalysisKind kind>
+inline constexpr std::size_t k_volumetric_modes = n_nodes == (kind == AnalysisKind::solid ? 20 : 8)
+                                                      ? displacement_components(kind) + 1
+                                                      : 1;
 
 template <class Law, int n_nodes, AnalysisKind kind, bool b_bar>
 class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
@@ -22,7 +32,13 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       typename Base::Matrix;
 
   LawBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
-      : Base(mesh, block, material) {}
+      : Base(mesh, block, material) {
+    if constexpr (b_bar)
+      for (const mesh::QuadraturePoint& point : mesh::stiffness_rule(block.shape)) {
+        modes_.push_back(1.0);
+        for (std::size_t k = 1; k < n_modes; ++k) modes_.push_back(point.xi[k - 1]);
+      }
+  }
 
   double prepare(const StepStart& start) override {
     this->begin_step(start);
@@ -127,39 +143,74 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
 
  protected:  // for the kernel of the simultaneous scheme (coupled_block.hpp)
   Operator at_point(Index batch, int point) const {
-    if constexpr (b_bar)
+    if constexpr (b_bar) {
       if (batch != held_batch_) hold_mean(batch);
-    return operator_at(batch, point, b_bar ? mean_.data() : nullptr);
+      if constexpr (n_modes > 1) {
+        NodalValues mean = mean_[0];
+        for (std::size_t k = 1; k < n_modes; ++k) {
+          const Lane mode(mode_at(point, k));
+          for (std::size_t i = 0; i < n_values; ++i) mean[i] += mode * mean_[k][i];
+        }
+        return operator_at(batch, point, mean.data());
+      }
+      return operator_at(batch, point, mean_[0].data());
+    }
+    return operator_at(batch, point, nullptr);
   }
 
  private:
+  static constexpr std::size_t n_values = n_nodes * dim, n_modes = k_volumetric_modes<n_nodes, kind>;
+  using NodalValues = std::array<Lane, n_values>;  ///< [node][dim]
+
   Operator operator_at(Index batch, int point, const Lane* mean) const {
     return Operator(geometry_.gradients_at(batch, point), this->values_at(point),
                     this->inverse_radius(batch, point), mean);
   }
-  /// b̄_a of 6.23.
+  /// Ψ_k at a point.
+  double mode_at(int point, std::size_t k) const {
+    return modes_[static_cast<std::size_t>(point) * n_modes + k];
+  }
+  /// H⁻¹ ∫ Ψ b_a dV of 6.23, the factors of Ψ in b̄_a.
   void hold_mean(Index batch) const {
-    const std::array<Lane, n_nodes * dim> unused{};
-    std::array<Lane, n_nodes * dim> total{};
-    Lane volume(0.0);
+    const NodalValues unused{};
+    std::array<NodalValues, n_modes> total{};
+    std::array<std::array<Lane, n_modes>, n_modes> h{};  // (6.18)
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Operator b = operator_at(batch, q, unused.data());
       const Lane w = geometry_.weight_at(batch, q);
-      volume += w;
-      for (std::size_t a = 0; a < n_nodes; ++a)
-        for (std::size_t i = 0; i < dim; ++i) total[a * dim + i] += w * b.divergence(a, i);
+      for (std::size_t k = 0; k < n_modes; ++k) {
+        const Lane of_mode = Lane(mode_at(q, k)) * w;
+        for (std::size_t l = 0; l < n_modes; ++l) h[k][l] += of_mode * Lane(mode_at(q, l));
+        for (std::size_t a = 0; a < n_nodes; ++a)
+          for (std::size_t i = 0; i < dim; ++i) total[k][a * dim + i] += of_mode * b.divergence(a, i);
+      }
     }
-    const Lane inverse = select(volume > Lane(0.0), Lane(1.0) / volume, Lane(0.0));
-    for (std::size_t i = 0; i < n_nodes * dim; ++i) {
-      mean_[i] = inverse * total[i];
-      repeat_last_element(mean_[i], batch, geometry_.n_elements);  // padding has no volume
+    const LaneMask has_volume = h[0][0] > Lane(0.0);  // padding has none
+    // Elimination without pivoting: H is positive definite.
+    for (std::size_t k = 0; k < n_modes; ++k) {
+      const Lane inverse = select(has_volume, Lane(1.0) / h[k][k], Lane(0.0));
+      for (std::size_t l = 0; l < n_modes; ++l) {
+        if (l == k) continue;
+        const Lane factor = inverse * h[l][k];
+        for (std::size_t m = k; m < n_modes; ++m) h[l][m] -= factor * h[k][m];
+        for (std::size_t i = 0; i < n_values; ++i) total[l][i] -= factor * total[k][i];
+      }
+    }
+    for (std::size_t k = 0; k < n_modes; ++k) {
+      const Lane inverse = select(has_volume, Lane(1.0) / h[k][k], Lane(0.0));
+      for (std::size_t i = 0; i < n_values; ++i) {
+        mean_[k][i] = inverse * total[k][i];
+        repeat_last_element(mean_[k][i], batch, geometry_.n_elements);
+      }
     }
     held_batch_ = batch;
   }
 
-  // B-bar only: of the batch that was asked for last, as the gradients are.
+  // B-bar only: the modes, [point][mode]; and of the batch that was asked for last, as the gradients are,
+  // the factors of Ψ in b̄_a, [mode][node][dim].
+  std::vector<double> modes_;
   mutable Index held_batch_ = -1;
-  mutable std::array<Lane, n_nodes * dim> mean_{};  ///< b̄_a, [node][dim]
+  mutable std::array<NodalValues, n_modes> mean_{};
 };
 
 }  // namespace solidus::mechanics

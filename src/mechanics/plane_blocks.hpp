@@ -20,6 +20,7 @@ std::unique_ptr<BlockKernel> make_plane_block(const mesh::Mesh& mesh, const mesh
       if (b_bar) return std::make_unique<LawBlock<Law, 4, kind, true>>(mesh, block, material);
       return std::make_unique<LawBlock<Law, 4, kind, false>>(mesh, block, material);
     case mesh::Shape::quad8:
+      if (b_bar) return std::make_unique<LawBlock<Law, 8, kind, true>>(mesh, block, material);
       return std::make_unique<LawBlock<Law, 8, kind, false>>(mesh, block, material);
     default:
       throw std::invalid_argument("a two-dimensional analysis has no elements of this shape");

@@ -21,6 +21,7 @@ std::unique_ptr<BlockKernel> make_solid_block(const mesh::Mesh& mesh, const mesh
       if (b_bar) return std::make_unique<LawBlock<Law, 8, kind, true>>(mesh, block, material);
       return std::make_unique<LawBlock<Law, 8, kind, false>>(mesh, block, material);
     case mesh::Shape::hex20:
+      if (b_bar) return std::make_unique<LawBlock<Law, 20, kind, true>>(mesh, block, material);
       return std::make_unique<LawBlock<Law, 20, kind, false>>(mesh, block, material);
     default:
       throw std::invalid_argument("a three-dimensional analysis has no elements of this shape");

@@ -36,30 +36,73 @@ void check_exportable(const CaseSpec& spec) {
                      "a quasi-static case");
 }
 
-/// The stresses at the points, with one pressure an element where the volumetric mode is constant: the nodal
-/// forces of both are the same, ∫ B̄ᵀ σ dV = ∫ Bᵀ (dev σ + tr σ̄/3 1) dV.
+/// Number of the volumetric modes of B-bar in a shape (mechanics/law_block.hpp); simplices have none.
+int volumetric_modes(mesh::Shape shape) {
+  switch (shape) {
+    case mesh::Shape::quad4:
+    case mesh::Shape::hex8:
+      return 1;
+    case mesh::Shape::quad8:
+      return 3;
+    case mesh::Shape::hex20:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+using PointValues = std::vector<double>;  ///< of the points of an element
+
+/// The projection of a function on some modes in the mean square with the weights of the points
+/// (Gram and Schmidt).
+PointValues projection(std::vector<PointValues> modes, const PointValues& weight, const PointValues& values) {
+  const auto product = [&](const PointValues& a, const PointValues& b) {
+    double sum = 0;
+    for (std::size_t q = 0; q < weight.size(); ++q) sum += weight[q] * a[q] * b[q];
+    return sum;
+  };
+  const auto add = [](double factor, const PointValues& a, PointValues& to) {
+    for (std::size_t q = 0; q < a.size(); ++q) to[q] += factor * a[q];
+  };
+  PointValues result(values.size(), 0.0);
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    for (std::size_t l = 0; l < k; ++l)
+      add(-product(modes[l], modes[k]) / product(modes[l], modes[l]), modes[l], modes[k]);
+    add(product(modes[k], values) / product(modes[k], modes[k]), modes[k], result);
+  }
+  return result;
+}
+
+/// The stresses at the points, their pressure replaced by its projection on the volumetric modes where there
+/// are some: the nodal forces of both are the same, ∫ B̄ᵀ σ dV = ∫ Bᵀ (dev σ + tr σ̄/3 1) dV.
 std::vector<std::vector<std::array<double, 6>>> point_stress(const mesh::Mesh& mesh, const mesh::Block& block,
                                                              AnalysisKind kind,
                                                              const mechanics::BlockHistory& history,
-                                                             bool mean_pressure) {
-  const mesh::BlockGeometry geometry(mesh, block, kind, mesh::stiffness_rule(block.shape));
-  const auto n_points = static_cast<std::size_t>(geometry.n_points);
+                                                             int n_modes) {
+  const mesh::Rule rule = mesh::stiffness_rule(block.shape);
+  const mesh::BlockGeometry geometry(mesh, block, kind, rule);
+  std::vector<PointValues> modes;
+  for (int k = 0; k < n_modes; ++k) {
+    modes.emplace_back();
+    for (const mesh::QuadraturePoint& point : rule)
+      modes.back().push_back(k == 0 ? 1.0 : point.xi[static_cast<std::size_t>(k - 1)]);
+  }
   std::vector<std::vector<std::array<double, 6>>> stress(static_cast<std::size_t>(block.size()));
   for (std::size_t e = 0; e < stress.size(); ++e) {
     const std::size_t batch = e / k_lanes;
     const int lane = static_cast<int>(e % k_lanes);
-    double pressure = 0, volume = 0;
-    for (std::size_t q = 0; q < n_points; ++q) {
+    PointValues weight, pressure;
+    for (std::size_t q = 0; q < rule.size(); ++q) {
       std::array<double, 6>& s = stress[e].emplace_back();
-      for (std::size_t i = 0; i < 6; ++i) s[i] = history.values[(batch * n_points + q) * 6 + i][lane];
-      const double weight = geometry.weight[batch * n_points + q][lane];
-      pressure += weight * (s[0] + s[1] + s[2]) / 3;
-      volume += weight;
+      const std::size_t point = batch * rule.size() + q;
+      for (std::size_t i = 0; i < 6; ++i) s[i] = history.values[point * 6 + i][lane];
+      weight.push_back(geometry.weight[point][lane]);
+      pressure.push_back((s[0] + s[1] + s[2]) / 3);
     }
-    for (auto& s : stress[e]) {
-      const double change = mean_pressure ? pressure / volume - (s[0] + s[1] + s[2]) / 3 : 0.0;
-      for (std::size_t i = 0; i < 3; ++i) s[i] += change;
-    }
+    if (modes.empty()) continue;
+    const PointValues projected = projection(modes, weight, pressure);
+    for (std::size_t q = 0; q < rule.size(); ++q)
+      for (std::size_t i = 0; i < 3; ++i) stress[e][q][i] += projected[q] - pressure[q];
   }
   return stress;
 }
@@ -175,9 +218,8 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
     deck.plastic_strain.emplace_back(of_block, of_block + block.size());
     of_block += block.size();
     if (!presence.body(block.body)) continue;
-    const bool mean =
-        spec.mechanics.b_bar && (block.shape == mesh::Shape::quad4 || block.shape == mesh::Shape::hex8);
-    deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], mean);
+    const int n_modes = spec.mechanics.b_bar ? volumetric_modes(block.shape) : 0;
+    deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], n_modes);
     report.elements += deck.stress[b].size();
   }
   if (spec.analysis.kind == AnalysisKind::axisymmetric) balance_triangles(deck);

@@ -102,7 +102,9 @@ Section<MechanicsSpec> mechanics_keys() {
           "of the simultaneous scheme.");
   s.key("b_bar", &MechanicsSpec::b_bar)
       .initially(true)
-      .doc("Mean volumetric strain per element in quads and hexahedra (Q1/P0, monograph 6.2): no locking.");
+      .doc(
+          "Volumetric strain of quads and hexahedra: constant in an element of first order, linear in one of "
+          "second order (Q1/P0 and Q2/P1, monograph 6.2): no locking.");
   using mechanics::Simplices;
   s.choice("simplices", &MechanicsSpec::simplices,
            {{"automatic", Simplices::automatic,

@@ -1,9 +1,11 @@
 #include "algebra/linear_solver.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 
 #include "algebra/parallel.hpp"
 #include "grid.hpp"
@@ -86,10 +88,29 @@ TEST(LinearSolver, ASingularMatrixIsReportedAndTheNextOneSolved) {
     system.fill(1.0, 0.0);
     EXPECT_TRUE(solver.solve(system.matrix, system.b, system.x).converged);
     system.fill(0.0, 0.0);
-    EXPECT_FALSE(solver.solve(system.matrix, system.b, system.x).converged);
+    const LinearReport singular = solver.solve(system.matrix, system.b, system.x);
+    EXPECT_FALSE(singular.converged);
+    EXPECT_THAT(singular.reason, ::testing::HasSubstr("singular"));
     system.fill(1.0, 0.0);
     EXPECT_TRUE(solver.solve(system.matrix, system.b, system.x).converged);
     EXPECT_LT(system.error(), 1e-10);
+  }
+}
+
+TEST(LinearSolver, AFactorisationSaysWhyItFails) {
+  for (bool symmetric : {true, false}) {
+    System system;
+    LinearSolver solver(system.grid.mesh,
+                        {.prefix = "test_", .kind = SolverKind::direct, .symmetric = symmetric});
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      system.fill(std::numeric_limits<double>::quiet_NaN(), 0.0);
+      const LinearReport broken = solver.solve(system.matrix, system.b, system.x);
+      EXPECT_FALSE(broken.converged);
+      EXPECT_EQ(broken.reason, "the matrix has entries that are not numbers");
+      system.fill(1.0, 0.0);
+      EXPECT_TRUE(solver.solve(system.matrix, system.b, system.x).converged);
+      EXPECT_LT(system.error(), 1e-10);
+    }
   }
 }
 

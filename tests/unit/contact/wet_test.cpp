@@ -1,6 +1,7 @@
 // Liquid metal on its wall: held by the atmosphere until it is coherent.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "algebra/parallel.hpp"
@@ -212,6 +213,33 @@ TEST(WetContact, WhatLeavesTheWallWhileLiquidIsCounted) {
   EXPECT_GT(left.left_gap, 1.8e-4);
   EXPECT_LT(left.left_gap, 2e-4);
   EXPECT_EQ(run.step(lifted(mesh, 0, 2e-4), coherency(mesh, 1.1, 1)).left_points, 0);
+}
+
+TEST(WetContact, WhatAShellTakesAlongHasNotLeftTheWall) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.leaving_gap = 1e-4;
+  OneStep run(mesh, s);
+  // Every second column of nodes of the lower body is coherent, so every face has a coherent node.
+  const double width = 0.3;
+  std::vector<double> x;
+  test::nodal_field(mesh, 1, [&](const Point& p, bool up) {
+    if (!up) x.push_back(p[0]);
+    return std::vector{0.0};
+  });
+  std::sort(x.begin(), x.end());
+  x.erase(std::unique(x.begin(), x.end(), [&](double a, double b) { return b - a < 1e-6 * width; }), x.end());
+  const auto column = [&](double at) {
+    return std::min_element(x.begin(), x.end(),
+                            [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); }) -
+           x.begin();
+  };
+  const std::vector<double> melt = test::nodal_field(
+      mesh, 1, [&](const Point& p, bool up) { return std::vector{up || column(p[0]) % 2 == 0 ? 1.0 : 0.2}; });
+  run.step(lifted(mesh, 0), melt);
+  const ContactSums moved = run.step(lifted(mesh, 2e-4), melt);
+  EXPECT_GT(moved.wet_area, 0.2);
+  EXPECT_EQ(moved.left_area, 0);
 }
 
 TEST(WetContact, TensionMakesNoFriction) {

@@ -27,9 +27,9 @@ struct Element {
 const Element k_elements[] = {
     {Shape::tri3, AnalysisKind::plane_strain, false}, {Shape::tri6, AnalysisKind::axisymmetric, false},
     {Shape::quad4, AnalysisKind::plane_strain, true}, {Shape::quad4, AnalysisKind::axisymmetric, false},
-    {Shape::quad4, AnalysisKind::axisymmetric, true}, {Shape::quad8, AnalysisKind::plane_strain, false},
+    {Shape::quad4, AnalysisKind::axisymmetric, true}, {Shape::quad8, AnalysisKind::plane_strain, true},
     {Shape::tet4, AnalysisKind::solid, false},        {Shape::tet10, AnalysisKind::solid, false},
-    {Shape::hex8, AnalysisKind::solid, true},         {Shape::hex20, AnalysisKind::solid, false}};
+    {Shape::hex8, AnalysisKind::solid, true},         {Shape::hex20, AnalysisKind::solid, true}};
 
 test::Lattice lattice(const Element& element) {
   return {.shape = element.shape, .cells = {3, 3, 2}, .distortion = 0.15, .map = [](const mesh::Point& x) {

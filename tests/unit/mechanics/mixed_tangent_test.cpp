@@ -47,6 +47,7 @@ struct Mixed {
   int components;
   std::vector<material::Material> materials;
   std::vector<double> temperature, x;  ///< x: displacements, then pressures in their unit
+  std::vector<double> at_rest;         ///< displacements at t_n, to which the kernels keep a reference
   algebra::GhostExchange ghosts;
   std::vector<std::unique_ptr<mechanics::BlockKernel>> blocks;
   mechanics::BlockHistory history;
@@ -80,7 +81,7 @@ struct Mixed {
     algebra::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));
-    const std::vector<double> at_rest(x.size(), 0.0);
+    at_rest.assign(x.size(), 0.0);
     std::vector<char> fixed(x.size(), 0);
     for (Index node = 0; node < mesh.n_nodes(); ++node)  // what a rigid body can do
       if (mesh.x[static_cast<std::size_t>(node)][1] < 1e-9)

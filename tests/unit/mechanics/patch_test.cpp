@@ -28,11 +28,11 @@ std::vector<Patch> patches() {
   for (AnalysisKind kind : {AnalysisKind::plane_strain, AnalysisKind::axisymmetric}) {
     for (Shape shape : {Shape::tri3, Shape::tri6, Shape::quad4, Shape::quad8})
       all.push_back({shape, kind, false});
-    all.push_back({Shape::quad4, kind, true});
+    for (Shape shape : {Shape::quad4, Shape::quad8}) all.push_back({shape, kind, true});
   }
   for (Shape shape : {Shape::tet4, Shape::tet10, Shape::hex8, Shape::hex20})
     all.push_back({shape, AnalysisKind::solid, false});
-  all.push_back({Shape::hex8, AnalysisKind::solid, true});
+  for (Shape shape : {Shape::hex8, Shape::hex20}) all.push_back({shape, AnalysisKind::solid, true});
   return all;
 }
 

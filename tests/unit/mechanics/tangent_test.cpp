@@ -166,6 +166,7 @@ TEST(Tangent, IsTheDerivativeOfTheForcesInPlaneStrain) {
   check<4, Shape::quad4, kind, false>();
   check<4, Shape::quad4, kind, true>();
   check<8, Shape::quad8, kind, false>();
+  check<8, Shape::quad8, kind, true>();
 }
 
 TEST(Tangent, IsTheDerivativeOfTheForcesInAxisymmetry) {
@@ -175,6 +176,7 @@ TEST(Tangent, IsTheDerivativeOfTheForcesInAxisymmetry) {
   check<4, Shape::quad4, kind, false>();
   check<4, Shape::quad4, kind, true>();
   check<8, Shape::quad8, kind, false>();
+  check<8, Shape::quad8, kind, true>();
 }
 
 TEST(Tangent, IsTheDerivativeOfTheForcesInSolids) {
@@ -183,7 +185,7 @@ TEST(Tangent, IsTheDerivativeOfTheForcesInSolids) {
   check<10, Shape::tet10, kind, false>();
   check<8, Shape::hex8, kind, false>();
   check<8, Shape::hex8, kind, true>();
-  check<20, Shape::hex20, kind, false>();
+  check<20, Shape::hex20, kind, true>();
 }
 
 }  // namespace
