@@ -77,16 +77,17 @@ class TruncatedNewton {
   double relax(std::size_t i, double residual);
   /// Adds to F what the change of v since then makes of it.
   void follow(std::span<double> step);
-  algebra::LinearReport correct(double forcing);
+  algebra::LinearReport correct(double forcing, std::span<const double> chords = {});
+  void find_chords(std::span<double> chords) const;
+  algebra::LinearReport correct_by_chords(double forcing);
   double norm_of_free() const;
   bool revise_limits(const TemperatureRange& range);
-  void search();
+  bool search(bool short_too);
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
   double linear_slope(double alpha);
   double true_slope(double alpha);
   double slope_along_step() const;
   void move(double alpha);
-  bool clip();
 
   const mesh::Mesh& mesh_;
   HeatSystem& system_;
