@@ -431,7 +431,8 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
     ++report.iterations;
     const double to = forcing.next(norm_, options_.tolerance * moved_ / norm_);
     const bool in_depth = watch.passed_in_depth(heat_, temperature_);
-    const bool may_use_chords = !(by_chords && norm_ > k_chord_worth * norm_before);
+    const bool may_use_chords =
+        storage_.has_plateaus() && !(by_chords && norm_ > k_chord_worth * norm_before);
     norm_before = norm_;
     by_chords = may_use_chords && in_depth;
     algebra::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
