@@ -10,7 +10,7 @@ PlateauWatch::PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage,
                            const algebra::BlockMatrix& matrix)
     : mesh_(mesh), storage_(storage), matrix_(matrix) {}
 
-// Nodes of other processes count as nodes that have moved.
+// A node beside one of another process does not count.
 bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const double> temperature) {
   if (!storage_.has_plateaus()) return false;
   const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
@@ -29,9 +29,8 @@ bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const
   for (std::size_t i = 0; i < n; ++i)
     for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
       const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
-      if (j >= n) continue;
-      if (moved[i] == 0) inside[j] = 0;
-      if (moved[j] == 0) inside[i] = 0;
+      if (j >= n || moved[j] == 0) inside[i] = 0;
+      if (j < n && moved[i] == 0) inside[j] = 0;
     }
   return algebra::any_process(std::find(inside.begin(), inside.end(), 1) != inside.end());
 }

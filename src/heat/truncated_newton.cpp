@@ -218,7 +218,8 @@ void TruncatedNewton::find_chords(std::span<double> chords) const {
     const double chord = (end - heat_[i]) / (dt_ * step_[i]);
     if (slope > 0 && chord <= k_chord_differs / (dt_ * slope * c)) continue;
     const double usual = diagonal_[i] + storage_.capacity(node, temperature_[i]) / (dt_ * c);
-    chords[i] = chord > k_chord_holds * usual ? HUGE_VAL : chord;
+    // A step within rounding of the plateau's temperature has a chord of either sign.
+    chords[i] = chord > 0 && chord <= k_chord_holds * usual ? chord : HUGE_VAL;
   }
 }
 
