@@ -30,7 +30,7 @@ constexpr int k_chord_rounds = 8;        ///< linear solves for one such step
 constexpr double k_chord_change = 0.1;   ///< change of the heats by a round, over the heats, that ends them
 constexpr double k_chord_forcing = 0.1;  ///< of these linear solves, where the step is not worth less
 constexpr double k_chord_differs = 1.5;  ///< a chord that is not so much steeper than the tangent is not used
-constexpr double k_chord_holds = 1e8;    ///< times the diagonal: as steep a chord holds the node
+constexpr double k_chord_holds = 1e8;    ///< times the diagonal: no chord is steeper
 constexpr double k_chord_worth =
     0.5;  ///< what chords leave of the residual for them to be used again at once
 
@@ -204,7 +204,7 @@ algebra::LinearReport TruncatedNewton::correct(double forcing, std::span<const d
 }
 
 /// The slopes D = ΔH/(Δt δ) of the chords of the nodes' curves over the steps of now, where the tangents are
-/// less steep or there are none; zero elsewhere, infinite where the node has to be held.
+/// less steep or there are none; zero elsewhere.
 void TruncatedNewton::find_chords(std::span<double> chords) const {
   const NodalPotential& potential = system_.potential();
   for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -218,8 +218,9 @@ void TruncatedNewton::find_chords(std::span<double> chords) const {
     const double chord = (end - heat_[i]) / (dt_ * step_[i]);
     if (slope > 0 && chord <= k_chord_differs / (dt_ * slope * c)) continue;
     const double usual = diagonal_[i] + storage_.capacity(node, temperature_[i]) / (dt_ * c);
-    // A step within rounding of the plateau's temperature has a chord of either sign.
-    chords[i] = chord > 0 && chord <= k_chord_holds * usual ? chord : HUGE_VAL;
+    // A step within rounding of the plateau's temperature has a chord of either sign. So steep a chord holds
+    // the node but lets a later round see which way it wants to go.
+    chords[i] = chord > 0 ? std::min(chord, k_chord_holds * usual) : k_chord_holds * usual;
   }
 }
 
