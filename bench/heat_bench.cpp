@@ -55,7 +55,7 @@ void report(benchmark::State& state, const char* what, double n) {
 struct Conduction : Body {
   std::unique_ptr<heat::ConductionBlock> conduction;
   std::unique_ptr<algebra::BlockMatrix> matrix;
-  std::vector<double> k, potential;
+  std::vector<double> k;
 
   Conduction(mesh::Shape shape, int cells) : Body(shape, cells) {
     conduction = heat::make_conduction_block(mesh, block(), kind, true);
@@ -64,22 +64,9 @@ struct Conduction : Body {
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, 1, std::move(graph));
     conduction->bind(*matrix);
     const heat::KirchhoffPotential u(material.conductivity);
-    for (double t : temperature) {
-      k.push_back(u.conductivity(t));
-      potential.push_back(u.value(t));
-    }
+    for (double t : temperature) k.push_back(u.conductivity(t));
   }
 };
-
-/// Heat flow of the elements, potentials of the nodes already looked up (as once per iteration in a run).
-void residual(benchmark::State& state, mesh::Shape shape, int cells) {
-  Conduction b(shape, cells);
-  for (auto _ : state) {
-    b.conduction->add_heat(b.potential, 1.0, b.heat);
-    benchmark::ClobberMemory();
-  }
-  report(state, "per_element", static_cast<double>(b.block().size()));
-}
 
 void tangent(benchmark::State& state, mesh::Shape shape, int cells) {
   Conduction b(shape, cells);
@@ -124,13 +111,9 @@ void open_storage(benchmark::State& state, mesh::Shape shape, int cells) {
 
 using mesh::Shape;
 constexpr auto k_unit = benchmark::kMillisecond;
-BENCHMARK_CAPTURE(residual, tet4, Shape::tet4, 30)->Unit(k_unit);
 BENCHMARK_CAPTURE(tangent, tet4, Shape::tet4, 30)->Unit(k_unit);
-BENCHMARK_CAPTURE(residual, hex8, Shape::hex8, 30)->Unit(k_unit);
 BENCHMARK_CAPTURE(tangent, hex8, Shape::hex8, 30)->Unit(k_unit);
-BENCHMARK_CAPTURE(residual, tri3, Shape::tri3, 200)->Unit(k_unit);
 BENCHMARK_CAPTURE(tangent, tri3, Shape::tri3, 200)->Unit(k_unit);
-BENCHMARK_CAPTURE(residual, quad4, Shape::quad4, 200)->Unit(k_unit);
 BENCHMARK_CAPTURE(tangent, quad4, Shape::quad4, 200)->Unit(k_unit);
 BENCHMARK_CAPTURE(closed_storage, hex8, Shape::hex8, 30)->Unit(k_unit);
 BENCHMARK_CAPTURE(open_storage, tet4, Shape::tet4, 30)->Unit(k_unit);

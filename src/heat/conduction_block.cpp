@@ -80,21 +80,6 @@ class Conduction final : public ConductionBlock {
     slots_.reset();
   }
 
-  void add_heat(std::span<const double> potential, double factor, std::span<double> heat) const override {
-    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-      const Nodal u = gather<n_nodes>(geometry_, batch, potential);
-      Nodal r{};
-      for (int q = 0; q < geometry_.n_points; ++q) {
-        const Lane* g = geometry_.gradients_at(batch, q);
-        const Lane w = geometry_.weight_at(batch, q) * Lane(factor);
-        const std::array<Lane, dim> flux = gradient(u, g);
-        for (std::size_t a = 0; a < n_nodes; ++a)
-          for (std::size_t i = 0; i < dim; ++i) r[a] += g[a * dim + i] * (w * flux[i]);
-      }
-      scatter<n_nodes>(geometry_, batch, r, heat);
-    }
-  }
-
   void add_tangent(double factor, std::span<const double> columns,
                    algebra::BlockMatrix& matrix) const override {
     assert(&matrix == matrix_);
@@ -142,16 +127,6 @@ class Conduction final : public ConductionBlock {
         for (std::size_t b = 0; b < n_nodes; ++b) m[a][b] *= column[b];
     }
     scatter_matrix<n_nodes>(slots, m, matrix);
-  }
-
-  /// Differences to the first node: a uniform temperature has no gradient, to the last bit.
-  static std::array<Lane, dim> gradient(const Nodal& u, const Lane* g) {
-    std::array<Lane, dim> sum{};
-    for (std::size_t a = 1; a < n_nodes; ++a) {
-      const Lane difference = u[a] - u[0];
-      for (std::size_t i = 0; i < dim; ++i) sum[i] += g[a * dim + i] * difference;
-    }
-    return sum;
   }
 
   mesh::BlockGeometry geometry_;

@@ -2,6 +2,8 @@
 ///
 ///   r_a += ∫ ∇N_a · ∇u dV,   u = Σ_b N_b u(Θ_b)       ∂r_a/∂Θ_b = k(Θ_b) ∫ ∇N_a · ∇N_b dV
 ///
+/// r = K u with the matrix K of the second formula without k: HeatSystem keeps it.
+///
 /// with Kirchhoff's potential u = ∫ k dΘ at the nodes (kirchhoff_potential.hpp), interpolated as the
 /// temperature is: the flux k ∇Θ to the order of the element, exact in one dimension, and linear in the nodal
 /// potentials for every k(Θ).
@@ -25,10 +27,6 @@ class ConductionBlock {
   virtual ~ConductionBlock() = default;
   /// The matrix has a new graph: places in it are found anew.
   virtual void bind(const algebra::BlockMatrix& matrix) = 0;
-  /// heat_a += factor ∫ ∇N_a · ∇u dV: heat flow out of the nodes into the element [W], [local node]; ghost
-  /// rows are scrap.
-  /// @param potential  u [W/m] with a factor of one, or Θ [K] with the conductivity; [local node]
-  virtual void add_heat(std::span<const double> potential, double factor, std::span<double> heat) const = 0;
   /// matrix_ab += factor ∫ ∇N_a · ∇N_b dV columns_b.
   /// @param columns  [local node]; empty: one
   virtual void add_tangent(double factor, std::span<const double> columns,

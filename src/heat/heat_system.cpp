@@ -130,8 +130,7 @@ void HeatSystem::remove_bodies(const algebra::Presence& presence) {
 void HeatSystem::add_conduction(const std::vector<material::Material>& materials) {
   for (const material::Material& m : materials) potentials_.emplace_back(m.conductivity);
   fields_.resize(materials.size());
-  for (const mesh::Block& block : mesh_.blocks)
-    conduction_.push_back(make_conduction_block(mesh_, block, kind_, closed_));
+  conduction_.resize(mesh_.blocks.size());
   std::vector<char> of_body;
   for (std::size_t body = 0; body < fields_.size(); ++body) {
     if (potentials_[body].constant()) continue;
@@ -379,21 +378,56 @@ double HeatSystem::residual(std::span<const double> temperature, std::span<doubl
   return moved;
 }
 
-/// Conduction without its limits, in local_.
+ConductionBlock& HeatSystem::conduction(std::size_t block) {
+  if (!conduction_[block]) {
+    conduction_[block] = make_conduction_block(mesh_, mesh_.blocks[block], kind_, closed_);
+    conduction_[block]->bind(*matrix_);
+  }
+  return *conduction_[block];
+}
+
+/// Conduction without its limits, in local_:  Σ_j K_ij (u_j − u_i), since Σ_j K_ij = 0. A uniform temperature
+/// gives no flow to the last bit, and what one node of a pair gives the other one gets.
 void HeatSystem::conduct(std::span<const double> temperature) {
-  for (std::size_t b = 0; b < fields_.size(); ++b)
+  if (kept_conduction_.empty()) keep_conduction();
+  std::vector<const double*> potential(fields_.size(), temperature.data());
+  std::vector<double> factor(fields_.size(), 1.0);
+  for (std::size_t b = 0; b < fields_.size(); ++b) {
+    if (potentials_[b].constant()) continue;
     for (const Index node : fields_[b].nodes) {
       const auto i = static_cast<std::size_t>(node);
       fields_[b].value[i] = potentials_[b].value(temperature[i]);
     }
+    potential[b] = fields_[b].value.data();
+    factor[b] = 1.0 / potentials_[b].reference();
+  }
   std::fill(local_.begin(), local_.end(), 0.0);
-  for (std::size_t b = 0; b < conduction_.size(); ++b) {
-    if (!conduction_[b]) continue;
-    const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
-    if (potentials_[body].constant())
-      conduction_[b]->add_heat(temperature, potentials_[body].reference(), local_);
-    else
-      conduction_[b]->add_heat(fields_[body].value, 1.0, local_);
+  const bool half = matrix_->storage() == algebra::BlockMatrix::Storage::upper;
+  const std::span<const std::int64_t> start = matrix_->row_start();
+  const std::span<const Index> columns = matrix_->columns();
+  // The diagonal adds nothing. Rows of ghosts are scrap.
+  for (std::size_t i = 0; i + 1 < start.size(); ++i) {
+    const int own = node_body_.empty() ? 0 : node_body_[i];
+    double sum = 0;
+    for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
+      const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+      const int body = own >= 0 ? own : node_body_[j];
+      if (body < 0) continue;
+      const auto b = static_cast<std::size_t>(body);
+      const double flow =
+          kept_conduction_[static_cast<std::size_t>(s)] * (factor[b] * (potential[b][j] - potential[b][i]));
+      sum += flow;
+      if (half) local_[j] -= flow;
+    }
+    local_[i] += sum;
+  }
+  for (const SharedPair& pair : shared_) {
+    const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j),
+               b = static_cast<std::size_t>(pair.body);
+    const double k = pair.k * potentials_[b].reference();
+    const double flow = k * (factor[b] * (potential[b][j] - potential[b][i]));
+    local_[i] += flow;
+    if (half) local_[j] -= flow;
   }
 }
 
@@ -435,32 +469,63 @@ void HeatSystem::assemble(std::span<const double> temperature) {
       fields_[b].value[i] = potentials_[b].conductivity(temperature[i]);
     }
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
-    if (!conduction_[b]) continue;
     const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
+    if (!presence_.body(static_cast<int>(body))) continue;
     if (potentials_[body].constant())
-      conduction_[b]->add_tangent(potentials_[body].reference(), {}, *matrix_);
+      conduction(b).add_tangent(potentials_[body].reference(), {}, *matrix_);
     else
-      conduction_[b]->add_tangent(1.0, fields_[body].value, *matrix_);
+      conduction(b).add_tangent(1.0, fields_[body].value, *matrix_);
   }
   for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
   if (limiter_) limiter_->add_tangent(temperature, *matrix_);
 }
 
-/// Assembles what never changes while the pattern stays.
+/// Assembles what never changes while the pattern stays. Without contributions the pattern changes only where
+/// a body leaves: then the geometry of the elements, 137 bytes a node of tetrahedra, is not kept.
 void HeatSystem::keep_conduction() {
   const auto n = static_cast<std::size_t>(matrix_->row_start().back());
+  find_node_bodies();
+  shared_.clear();
   kept_conduction_.assign(n, 0.0);
   if (limiter_) limiter_->clear();
+  const std::span<const std::int64_t> start = matrix_->row_start();
+  const std::span<const Index> columns = matrix_->columns();
   for (std::size_t body = 0; body < potentials_.size(); ++body) {
     matrix_->set_zero();
-    for (std::size_t b = 0; b < conduction_.size(); ++b)
-      if (conduction_[b] && mesh_.blocks[b].body == static_cast<int>(body))
-        conduction_[b]->add_tangent_once(1.0, *matrix_);
+    for (std::size_t b = 0; b < conduction_.size(); ++b) {
+      if (mesh_.blocks[b].body != static_cast<int>(body) || !presence_.body(static_cast<int>(body))) continue;
+      conduction(b).add_tangent_once(1.0, *matrix_);
+      if (contributions_.empty()) conduction_[b].reset();
+    }
     if (limiter_) limiter_->add_body(static_cast<int>(body), *matrix_);
     const double* values = matrix_->block(0);
     for (std::size_t s = 0; s < n; ++s) kept_conduction_[s] += potentials_[body].reference() * values[s];
+    if (node_body_.empty()) continue;
+    for (std::size_t i = 0; i + 1 < start.size(); ++i) {
+      if (node_body_[i] >= 0) continue;
+      for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
+        const Index j = columns[static_cast<std::size_t>(s)];
+        if (values[s] != 0 && j != static_cast<Index>(i) && node_body_[static_cast<std::size_t>(j)] < 0)
+          shared_.push_back({static_cast<Index>(i), j, static_cast<int>(body), values[s]});
+      }
+    }
   }
   if (limiter_) limiter_->finish(*matrix_);
+}
+
+void HeatSystem::find_node_bodies() {
+  node_body_.clear();
+  if (mesh_.bodies.size() == 1) return;
+  constexpr int k_none = -2;
+  node_body_.assign(mesh_.x.size(), k_none);
+  for (const mesh::Block& block : mesh_.blocks) {
+    if (!presence_.body(block.body)) continue;
+    for (const Index node : block.nodes) {
+      int& body = node_body_[static_cast<std::size_t>(node)];
+      if (body == k_none) body = block.body;
+      if (body != block.body) body = -1;
+    }
+  }
 }
 
 void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
@@ -520,7 +585,8 @@ std::size_t HeatSystem::bytes() const {
     if (block) total += block->bytes();
   for (const Field& u : fields_)
     total += u.nodes.capacity() * sizeof(Index) + u.value.capacity() * sizeof(double);
-  total += (kept_conduction_.capacity() + roots_.capacity()) * sizeof(double) + nodal_->bytes();
+  total += (kept_conduction_.capacity() + roots_.capacity()) * sizeof(double) + nodal_->bytes() +
+           node_body_.capacity() * sizeof(int) + shared_.capacity() * sizeof(SharedPair);
   if (limiter_) total += limiter_->bytes();
   return total;
 }

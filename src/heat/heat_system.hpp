@@ -150,6 +150,8 @@ class HeatSystem {
   void conduct(std::span<const double> temperature);
   double add_flows(std::span<const double> temperature);
   void keep_conduction();
+  void find_node_bodies();
+  ConductionBlock& conduction(std::size_t block);
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
@@ -157,13 +159,21 @@ class HeatSystem {
   std::vector<char> at_nodes_;  ///< [body]: whether it stores its heat there
   std::vector<algebra::Contribution*> contributions_;
   algebra::Presence presence_;
-  std::vector<std::unique_ptr<ConductionBlock>>
-      conduction_;                              ///< one per mesh block, null of a body that left
+  /// One per mesh block; null until it is asked for, and of a body that left.
+  std::vector<std::unique_ptr<ConductionBlock>> conduction_;
   std::vector<KirchhoffPotential> potentials_;  ///< one per body
   std::vector<Field> fields_;                   ///< one per body
   std::unique_ptr<NodalPotential> nodal_;
   std::unique_ptr<ConductionLimiter> limiter_;  ///< null where conduction is not limited
   std::vector<double> kept_conduction_;  ///< Σ_m κ_m ∫∇N_a·∇N_b dV by slot; empty until it is needed
+  std::vector<int> node_body_;  ///< the body of each local node, −1 of several; empty: there is one body
+  /// K_ij of one body between two nodes that both belong to several bodies.
+  struct SharedPair {
+    Index i, j;
+    int body;
+    double k;  ///< ∫∇N_i·∇N_j dV [m]
+  };
+  std::vector<SharedPair> shared_;
   std::vector<SurfaceHeat> surfaces_;
   std::vector<Volume> sources_;
   std::vector<Prescribed> prescribed_;

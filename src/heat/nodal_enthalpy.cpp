@@ -179,6 +179,17 @@ double NodalEnthalpy::plateau_share(Index node, double heat, double temperature)
   return high > low ? std::clamp((heat - low) / (high - low), 0.0, 1.0) : 1.0;
 }
 
+int NodalEnthalpy::branch(Index node, double heat, double temperature) const {
+  int branch = 0;
+  for (const Share& s : shares(node))
+    for (const auto& jump : curve(s).jumps()) {
+      if (temperature < jump.temperature) continue;
+      const double share = temperature > jump.temperature ? 1.0 : plateau_share(node, heat, temperature);
+      branch += share == 1.0 ? 2 : share > 0 ? 1 : 0;
+    }
+  return branch;
+}
+
 double NodalEnthalpy::solid_fraction(Index node, double heat, double temperature) const {
   double volume = 0, solid = 0;
   for (const Share& s : shares(node)) {

@@ -6,6 +6,7 @@
 #include "algebra/forcing.hpp"
 #include "algebra/parallel.hpp"
 #include "base/profile.hpp"
+#include "heat/plateau_watch.hpp"
 
 namespace solidus::heat {
 
@@ -24,7 +25,14 @@ constexpr double k_limit_change = 1e-2;  ///< of flows by new limits, over the h
 constexpr int k_revisions = 1;           ///< of limits by flows
 constexpr int k_holds = 20;              ///< and by temperatures out of range
 constexpr int k_idle = 4;  ///< such revisions that find no further nodes: what the tolerance has left goes
-constexpr double k_clip_below = 0.2;  ///< length of a step below which plateaus shorten it node by node
+constexpr double k_short = 0.2;          ///< length of a step below which it is found anew by chords
+constexpr int k_chord_rounds = 8;        ///< linear solves for one such step
+constexpr double k_chord_change = 0.1;   ///< change of the heats by a round, over the heats, that ends them
+constexpr double k_chord_forcing = 0.1;  ///< of these linear solves, where the step is not worth less
+constexpr double k_chord_differs = 1.5;  ///< a chord that is not so much steeper than the tangent is not used
+constexpr double k_chord_holds = 1e8;    ///< times the diagonal: no chord is steeper
+constexpr double k_chord_worth =
+    0.5;  ///< what chords leave of the residual for them to be used again at once
 
 }  // namespace
 
@@ -155,7 +163,9 @@ void TruncatedNewton::follow(std::span<double> step) {
 }
 
 /// (D + A) δ = −F, δ in step_ with its ghosts and A δ in product_.
-algebra::LinearReport TruncatedNewton::correct(double forcing) {
+/// @param chords  D of each node in place of the tangent's where it is not zero; infinite: the node is held.
+///                Empty: none
+algebra::LinearReport TruncatedNewton::correct(double forcing, std::span<const double> chords) {
   algebra::BlockMatrix& a = system_.matrix();
   const auto n = r_.size();
   const NodalPotential& potential = system_.potential();
@@ -167,13 +177,17 @@ algebra::LinearReport TruncatedNewton::correct(double forcing) {
       const auto node = static_cast<Index>(i);
       double& diagonal = *a.diagonal_block(node);
       of_a[i] = diagonal;
-      const double slope = storage_.point(node, heat_[i]).slope;
-      held[i] = slope == 0.0 || system_.fixed()[i] ? 1 : 0;
-      if (slope == 0.0)
+      double stiffness = chords.empty() ? 0.0 : chords[i];
+      if (stiffness == 0) {
+        const double slope = storage_.point(node, heat_[i]).slope;
+        stiffness = slope == 0.0 ? HUGE_VAL : 1.0 / (dt_ * slope * potential.slope(node, temperature_[i]));
+      }
+      held[i] = std::isinf(stiffness) || system_.fixed()[i] ? 1 : 0;
+      if (std::isinf(stiffness))
         diagonal = k_plateau_stiffness *
                    (std::abs(diagonal) + storage_.capacity(node, temperature_[i]) / (dt_ * slope_[i]));
       else
-        diagonal += 1.0 / (dt_ * slope * potential.slope(node, temperature_[i]));
+        diagonal += stiffness;
       // A held node has no equation here: its residual must not set the scale of the linear solver.
       b_[i] = held[i] ? 0.0 : -r_[i];
     }
@@ -186,6 +200,63 @@ algebra::LinearReport TruncatedNewton::correct(double forcing) {
   if (!report.converged) return report;
   ghosts_.update(step_, 1);
   a.multiply(step_, product_);
+  return report;
+}
+
+/// The slopes D = ΔH/(Δt δ) of the chords of the nodes' curves over the steps of now, where the tangents are
+/// less steep or there are none; zero elsewhere.
+void TruncatedNewton::find_chords(std::span<double> chords) const {
+  const NodalPotential& potential = system_.potential();
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    chords[i] = 0;
+    if (system_.fixed()[i] || step_[i] == 0) continue;
+    const auto node = static_cast<Index>(i);
+    const double slope = storage_.point(node, heat_[i]).slope, c = potential.slope(node, temperature_[i]);
+    const double v = potential.value(node, temperature_[i]) + step_[i];
+    const double t = potential.temperature(node, v, temperature_[i]);
+    const double end = step_[i] < 0 ? storage_.upper(node, t) : storage_.lower(node, t);
+    const double chord = (end - heat_[i]) / (dt_ * step_[i]);
+    if (slope > 0 && chord <= k_chord_differs / (dt_ * slope * c)) continue;
+    const double usual = diagonal_[i] + storage_.capacity(node, temperature_[i]) / (dt_ * c);
+    // A step within rounding of the plateau's temperature has a chord of either sign. So steep a chord holds
+    // the node but lets a later round see which way it wants to go.
+    chords[i] = chord > 0 ? std::min(chord, k_chord_holds * usual) : k_chord_holds * usual;
+  }
+}
+
+/// Solves (D + A) δ = −F with D the slope of the chord of each node's curve over δ itself, by repetition. It
+/// begins without plateaus: their nodes have the capacity of their temperature.
+algebra::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
+  const NodalPotential& potential = system_.potential();
+  std::vector<double> chords(r_.size()), before(r_.size());
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const auto node = static_cast<Index>(i);
+    if (storage_.point(node, heat_[i]).slope == 0)
+      chords[i] = storage_.capacity(node, temperature_[i]) / (dt_ * potential.slope(node, temperature_[i]));
+  }
+  algebra::LinearReport report;
+  int iterations = 0;
+  for (int round = 0; round < k_chord_rounds; ++round) {
+    if (round > 0) find_chords(chords);
+    std::copy_n(step_.begin(), before.size(), before.begin());
+    report = correct(std::max(forcing, k_chord_forcing), chords);
+    report.iterations = iterations += report.iterations;
+    if (!report.converged || round == 0) {
+      if (!report.converged) break;
+      continue;
+    }
+    double change = 0, all = 0;
+    for (std::size_t i = 0; i < r_.size(); ++i) {
+      const auto node = static_cast<Index>(i);
+      const double slope = storage_.point(node, heat_[i]).slope;
+      const double d = chords[i] > 0 && std::isfinite(chords[i]) ? chords[i]
+                       : slope > 0                               ? 1.0 / (dt_ * slope)
+                                                                 : 0.0;
+      change += d * std::abs(step_[i] - before[i]);
+      all += d * std::abs(step_[i]);
+    }
+    if (algebra::global_sum(change) <= k_chord_change * algebra::global_sum(all)) break;
+  }
   return report;
 }
 
@@ -224,30 +295,10 @@ double TruncatedNewton::slope_along_step() const {
   return algebra::global_sum(sum);
 }
 
-/// Shortens steps to the plateau that they would lead to if the heat took its temperature along the curve of
-/// now: the node comes to lie at its near end. Returns whether any was.
-bool TruncatedNewton::clip() {
-  const NodalPotential& potential = system_.potential();
-  bool any = false;
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    heat_[i] = from_heat_[i];
-    temperature_[i] = from_temperature_[i];
-    if (step_[i] == 0) continue;
-    const auto node = static_cast<Index>(i);
-    const double slope = storage_.point(node, heat_[i]).slope * potential.slope(node, temperature_[i]);
-    const NodalEnthalpy::Point there = storage_.point(node, heat_[i] + step_[i] / slope);
-    if (there.slope > 0) continue;
-    step_[i] = potential.value(node, there.temperature) - from_[i];
-    any = true;
-  }
-  if (!algebra::any_process(any)) return false;
-  ghosts_.update(step_, 1);
-  system_.matrix().multiply(step_, product_);
-  return true;
-}
-
 /// Goes to the least E along δ, to a tenth of its slope at the start; leaves F there.
-void TruncatedNewton::search() {
+/// @param short_too  false: a short step is not taken; nothing has changed then but what the next step writes
+/// @return whether the step was taken
+bool TruncatedNewton::search(bool short_too) {
   const profile::Part part("line search");
   const NodalPotential& potential = system_.potential();
   for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -255,15 +306,19 @@ void TruncatedNewton::search() {
     from_temperature_[i] = temperature_[i];
     from_[i] = potential.value(static_cast<Index>(i), temperature_[i]);
   }
-  double start = slope_along_step();
-  double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
-  if (alpha < k_clip_below && clip()) {
-    start = slope_along_step();
-    alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
+  const double start = slope_along_step();
+  const double alpha = minimise(start, 1.0, &TruncatedNewton::linear_slope);
+  if (alpha < k_short && !short_too) {
+    for (std::size_t i = 0; i < r_.size(); ++i) {
+      heat_[i] = from_heat_[i];
+      temperature_[i] = from_temperature_[i];
+    }
+    return false;
   }
   // A holds what is not linear in v by its derivative: the step must stand before F itself.
   const double slope = true_slope(alpha);
   if (start < 0 && !(slope <= -k_accept_rise * start)) minimise(start, alpha, &TruncatedNewton::true_slope);
+  return true;
 }
 
 /// @param start   dE/dα at zero
@@ -343,6 +398,10 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
   dt_ = dt;
   conductance_ = 0;
   revisions_ = idle_ = 0;
+  PlateauWatch watch(mesh_, storage_, system_.matrix());
+  watch.passed_in_depth(heat_, temperature_);
+  bool by_chords = false;
+  double norm_before = 0;
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
   algebra::Forcing forcing(true);
   algebra::NewtonReport report;
@@ -372,13 +431,24 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
       break;
     }
     ++report.iterations;
-    const algebra::LinearReport linear = correct(forcing.next(norm_, options_.tolerance * moved_ / norm_));
+    const double to = forcing.next(norm_, options_.tolerance * moved_ / norm_);
+    const bool in_depth = watch.passed_in_depth(heat_, temperature_);
+    const bool may_use_chords =
+        storage_.has_plateaus() && !(by_chords && norm_ > k_chord_worth * norm_before);
+    norm_before = norm_;
+    by_chords = may_use_chords && in_depth;
+    algebra::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
     report.linear_iterations += linear.iterations;
+    if (linear.converged && !search(by_chords || !may_use_chords)) {
+      by_chords = true;
+      linear = correct_by_chords(to);
+      report.linear_iterations += linear.iterations;
+      if (linear.converged) search(true);
+    }
     if (!linear.converged) {
       report.reason = "linear solver: " + linear.reason;
       break;
     }
-    search();
   }
   ghosts_.update(heat, 1);
   return report;

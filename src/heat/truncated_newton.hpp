@@ -15,8 +15,14 @@
 ///   2. a step of Newton's method (D + A) δ = −F, D_i = 1/(Δt dv_i/dH_i), for the nodes that do not lie on a
 ///      plateau: the others are held (truncated). The linear solver goes as far as the step is good for;
 ///   3. a line search for the least E along δ, which cuts off what is wrong with the step of a node that
-///      passes a plateau, where H_i jumps, or a bend of its curve. Where it would cut nearly all, the steps
-///      of nodes that pass a plateau end there, and the others need not wait for them.
+///      passes a plateau, where H_i jumps, or a bend of its curve. Where it would cut nearly all, or where
+///      some node has passed a plateau with all its neighbours since the last iteration (plateau_watch.hpp),
+///      the tangents say nothing of what lies behind the plateau. The step is then found with the slopes of
+///      chords, D_i = (H_i(v_i + δ_i) − H_i)/(Δt δ_i), by a few repetitions that begin without plateaus: a
+///      node that passes one takes up its latent heat in the linear system, and the front of an isothermal
+///      change moves by as many layers of nodes as the heat allows. For the kink of E that a plateau is, that
+///      is iteratively reweighted least squares (I. Daubechies, R. DeVore, M. Fornasier and C. S. Güntürk,
+///      Comm. Pure Appl. Math. 63 (2010) 1).
 /// No part lets E rise, and the sweeps alone converge, so the iteration converges from any start, for every
 /// step and curve; near the solution it is Newton's method. The number of iterations hardly depends on the
 /// mesh. C. Gräser and R. Kornhuber, J. Comput. Math. 27 (2009) 1; C. Gräser, U. Sack and O. Sander,
@@ -77,16 +83,18 @@ class TruncatedNewton {
   double relax(std::size_t i, double residual);
   /// Adds to F what the change of v since then makes of it.
   void follow(std::span<double> step);
-  algebra::LinearReport correct(double forcing);
+  /// @param chords  slopes that stand for those of the tangents, [owned node]; empty: none
+  algebra::LinearReport correct(double forcing, std::span<const double> chords = {});
+  void find_chords(std::span<double> chords) const;
+  algebra::LinearReport correct_by_chords(double forcing);
   double norm_of_free() const;
   bool revise_limits(const TemperatureRange& range);
-  void search();
+  bool search(bool short_too);
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
   double linear_slope(double alpha);
   double true_slope(double alpha);
   double slope_along_step() const;
   void move(double alpha);
-  bool clip();
 
   const mesh::Mesh& mesh_;
   HeatSystem& system_;

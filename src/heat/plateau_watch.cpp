@@ -1,0 +1,38 @@
+#include "heat/plateau_watch.hpp"
+
+#include <algorithm>
+
+#include "algebra/parallel.hpp"
+
+namespace solidus::heat {
+
+PlateauWatch::PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage,
+                           const algebra::BlockMatrix& matrix)
+    : mesh_(mesh), storage_(storage), matrix_(matrix) {}
+
+// A node beside one of another process does not count.
+bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const double> temperature) {
+  if (!storage_.has_plateaus()) return false;
+  const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
+  const bool first = branch_.empty();
+  branch_.resize(n);
+  std::vector<char> moved(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const int branch = storage_.branch(static_cast<Index>(i), heat[i], temperature[i]);
+    moved[i] = branch != branch_[i] ? 1 : 0;
+    branch_[i] = branch;
+  }
+  if (algebra::any_process(first)) return false;
+  std::vector<char> inside = moved;
+  const std::span<const std::int64_t> start = matrix_.row_start();
+  const std::span<const Index> columns = matrix_.columns();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
+      const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+      if (j >= n || moved[j] == 0) inside[i] = 0;
+      if (j < n && moved[i] == 0) inside[j] = 0;
+    }
+  return algebra::any_process(std::find(inside.begin(), inside.end(), 1) != inside.end());
+}
+
+}  // namespace solidus::heat

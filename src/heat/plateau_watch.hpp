@@ -1,0 +1,31 @@
+/// Tells when the front of an isothermal change passes many nodes in one iteration of a step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::heat {
+
+class PlateauWatch {
+ public:
+  /// All must outlive this object.
+  /// @param matrix  its pattern tells the neighbours
+  PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage, const algebra::BlockMatrix& matrix);
+
+  /// Whether some node has come onto a plateau, has left one or has passed one since the last call, and all
+  /// its neighbours too. False at the first call, which keeps where the nodes are. Collective.
+  /// @param heat, temperature  points of the nodes' curves, [local node]
+  bool passed_in_depth(std::span<const double> heat, std::span<const double> temperature);
+
+ private:
+  const mesh::Mesh& mesh_;
+  const NodalEnthalpy& storage_;
+  const algebra::BlockMatrix& matrix_;
+  std::vector<int> branch_;  ///< NodalEnthalpy::branch() at the last call, [owned node]
+};
+
+}  // namespace solidus::heat
