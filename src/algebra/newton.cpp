@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "algebra/forcing.hpp"
+#include "algebra/interruption.hpp"
 
 namespace solidus::algebra {
 
@@ -183,6 +184,7 @@ NewtonReport Iteration::run() {
   bool chord = false;
   Forcing forcing(options_.inexact);
   while (true) {
+    check_interruption();
     report.residuals.push_back(measured());
     if (!std::isfinite(norm_)) {
       report.reason = "the residual is not a number";

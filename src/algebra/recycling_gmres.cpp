@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "algebra/interruption.hpp"
 #include "base/profile.hpp"
 
 namespace solidus::algebra {
@@ -212,6 +213,7 @@ RecyclingGmres::Implementation::Cycle RecyclingGmres::Implementation::cycle(Vect
   LeastSquares problem(m, beta);
   Index j = 0;
   while (j < m && !report.converged && !report.exhausted) {
+    check_interruption();
     preconditioner(input(v.col(k + j)), output(z.col(k + j)));
     op(input(z.col(k + j)), output(v.col(k + j + 1)));
     const double before = norm(v.col(k + j + 1));

@@ -40,7 +40,8 @@ class RecyclingGmres {
   void operator_changed();
   /// Nothing of the past counts (checkpoints, other unknowns).
   void forget();
-  /// Solves to ‖b − A x‖ <= relative ‖b‖ from x = 0. Collective.
+  /// Solves to ‖b − A x‖ <= relative ‖b‖ from x = 0. Collective. Throws Interrupted where the run is asked to
+  /// stop (interruption.hpp).
   LinearReport solve(std::span<const double> b, std::span<double> x, double relative);
   std::size_t bytes() const;
 
