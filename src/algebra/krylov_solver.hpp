@@ -13,7 +13,7 @@
 namespace solidus::algebra {
 
 struct KrylovOptions {
-  std::string prefix;  ///< of PETSc's options
+  std::string prefix;     ///< of PETSc's options
   bool symmetric = true;  ///< the preconditioning matrix
   int max_iterations = 500;
 };

@@ -60,8 +60,8 @@ double norm(const Eigen::Ref<const VectorXd>& v) {
 }
 
 /// Takes the components along the orthonormal columns of q out of w, a second time where the first has
-/// cancelled digits (classical Gram-Schmidt, selective reorthogonalisation). Returns them, and behind them the
-/// norm of what is left.
+/// cancelled digits (classical Gram-Schmidt, selective reorthogonalisation). Returns them, and behind them
+/// the norm of what is left.
 template <class Columns>
 VectorXd orthogonalise(const Columns& q, Eigen::Ref<VectorXd> w) {
   constexpr double k_cancelled = 0.5;
@@ -122,8 +122,8 @@ class LeastSquares {
   std::vector<Rotation> rotations_;
 };
 
-/// The harmonic Ritz vectors of smallest absolute value, GᵀG p = θ GᵀF p, as columns; real and imaginary parts
-/// of complex ones.
+/// The harmonic Ritz vectors of smallest absolute value, GᵀG p = θ GᵀF p, as columns; real and imaginary
+/// parts of complex ones.
 MatrixXd slow_vectors(const MatrixXd& g, const MatrixXd& f, Index most) {
   const Index n = g.cols();
   const Eigen::HouseholderQR<MatrixXd> qr(g);

@@ -1,8 +1,8 @@
 /// How much stiffer a matrix has become since a preconditioner was made for it.
 ///
 /// A multigrid hierarchy that was made for a softer matrix damps nothing where the new one is stiff: where
-/// metal has frozen by a factor of 1e4 since then, the eigenvalues of the preconditioned matrix reach 1e4, and
-/// Krylov's method takes hundreds of iterations. That is seen at once in the diagonal.
+/// metal has frozen by a factor of 1e4 since then, the eigenvalues of the preconditioned matrix reach 1e4,
+/// and Krylov's method takes hundreds of iterations. That is seen at once in the diagonal.
 #pragma once
 
 #include <vector>

@@ -74,8 +74,11 @@ void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) 
   };
   at_most(options_.max_step, "largest allowed");
   if (measure.iterations > options_.easy_iterations) {
-    // Iterations that stay many whatever the step must not drive it to nothing: never below what was asked.
-    const double wanted = std::min(1.0, 2.0 * options_.easy_iterations / measure.iterations) * state_.size;
+    // Half the step pays only where it halves the iterations, and where metal yields or contact opens they
+    // often stay what they are: shorter steps are a way out for those that come near to failing, and never
+    // below what was asked.
+    constexpr double k_hard = 4;  ///< times as many iterations as are easy
+    const double wanted = std::min(1.0, k_hard * options_.easy_iterations / measure.iterations) * state_.size;
     at_most(std::max(wanted, std::min(options_.step, size)), "newton effort");
   }
   at_most(step.dt * limit.factor, limit.name);

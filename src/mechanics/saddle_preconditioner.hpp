@@ -1,16 +1,17 @@
-/// A preconditioner of the saddle point of mixed elements (saddle_solver.hpp), from the right, in two factors:
+/// A preconditioner of the saddle point of mixed elements (saddle_solver.hpp), from the right, in two
+/// factors:
 ///
 ///   K ⎡ 1      0 ⎤ = ⎡ A + B W⁻¹ Bᵀ   B  ⎤        ⎡ A_γ   B ⎤ ⎧z_u⎫   ⎧r_u⎫        z_p += W⁻¹ Bᵀ z_u
 ///     ⎣ W⁻¹Bᵀ 1 ⎦   ⎣       …         −C ⎦ ,      ⎣ 0    −S̃ ⎦ ⎩z_p⎭ = ⎩r_p⎭ ,
 ///
 /// A_γ by one cycle of multigrid, S̃ = C + S + ∫ N 1/(2Ĝ) N dV by incomplete Cholesky factors on each process.
 ///
-/// A alone has no stiffness against a body that swells evenly, and a hierarchy cannot be made of it. The first
-/// factor gives it one, W = diag ∫ N 1/(2Ĝ) dV/γ, without a change of what is solved: the augmented Lagrangian
-/// of Benzi and Olshanskii, SIAM J. Sci. Comput. 28 (2006) 2095, with the pressure as the variable that is
-/// transformed. Of A_γ the hierarchy has ∫ bᵀ s̄ b dV, b = Bᵀ 1, in place of B W⁻¹ Bᵀ, which would couple
-/// neighbours of neighbours, with the stiffness s = γ ∫ N dV/∫ N 1/(2Ĝ) dV of the nodes. That is a harmonic
-/// mean: a frozen element between soft ones swells at their cost, as the nodal pressure lets it.
+/// A alone has no stiffness against a body that swells evenly, and a hierarchy cannot be made of it. The
+/// first factor gives it one, W = diag ∫ N 1/(2Ĝ) dV/γ, without a change of what is solved: the augmented
+/// Lagrangian of Benzi and Olshanskii, SIAM J. Sci. Comput. 28 (2006) 2095, with the pressure as the variable
+/// that is transformed. Of A_γ the hierarchy has ∫ bᵀ s̄ b dV, b = Bᵀ 1, in place of B W⁻¹ Bᵀ, which would
+/// couple neighbours of neighbours, with the stiffness s = γ ∫ N dV/∫ N 1/(2Ĝ) dV of the nodes. That is a
+/// harmonic mean: a frozen element between soft ones swells at their cost, as the nodal pressure lets it.
 ///
 /// With W⁻¹ and S̃ so chosen the number of iterations depends neither on the mesh nor on how nearly
 /// incompressible the body is (Elman, Silvester and Wathen, Finite Elements and Fast Iterative Solvers, 2nd
@@ -55,8 +56,8 @@ class SaddlePreconditioner {
   algebra::Multigrid multigrid_;
   std::vector<std::unique_ptr<algebra::BlockMatrix>> schur_;  ///< of each field: fields do not couple
   std::vector<algebra::IncompleteCholesky> factors_;
-  std::vector<double> stiffness_;         ///< s [Pa], [local node][field]
-  std::vector<double> inverse_softness_;  ///< W⁻¹, [owned node][field]
+  std::vector<double> stiffness_;                                ///< s [Pa], [local node][field]
+  std::vector<double> inverse_softness_;                         ///< W⁻¹, [owned node][field]
   std::vector<double> right_, part_, result_, local_, local_u_;  ///< scratch
 };
 

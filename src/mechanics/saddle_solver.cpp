@@ -55,8 +55,8 @@ void SaddleSolver::make_solver(bool direct) {
   if (direct) {
     preconditioner_.reset();  // the factors need its memory
     iterative_.reset();
-    factorised_.emplace(algebra::KrylovOptions{
-        .prefix = "mechanics_mixed_", .symmetric = options_.symmetric});
+    factorised_.emplace(
+        algebra::KrylovOptions{.prefix = "mechanics_mixed_", .symmetric = options_.symmetric});
     operator_ =
         std::make_unique<algebra::FunctionMatrix>(static_cast<std::int64_t>(unknowns_->size()), product);
     return;

@@ -5,8 +5,8 @@
 ///
 /// one linear solve an iteration, on the degrees of freedom that are unknown: nodes of bodies that only
 /// conduct heat have no rows. Few unknowns are factorised, LDLᵀ by MUMPS; many take GMRES that recycles its
-/// slow directions (recycling_gmres.hpp), with the preconditioner of saddle_preconditioner.hpp. Where that does not converge and a
-/// factorisation is possible, it takes over until forget().
+/// slow directions (recycling_gmres.hpp), with the preconditioner of saddle_preconditioner.hpp. Where that
+/// does not converge and a factorisation is possible, it takes over until forget().
 ///
 /// Orthogonal sub-scales couple neighbours of neighbours. That part of S is applied and never assembled:
 /// GMRES has it in its operator and goes without it in what preconditions it, the factors included.
@@ -78,7 +78,7 @@ class SaddleSolver final : public algebra::TangentSolver {
   algebra::SaddleCopy copy_;
   bool direct_ = true;
   std::unique_ptr<algebra::FunctionMatrix> operator_;
-  std::optional<algebra::KrylovSolver> factorised_;    ///< where few are unknown
+  std::optional<algebra::KrylovSolver> factorised_;   ///< where few are unknown
   std::optional<algebra::RecyclingGmres> iterative_;  ///< where many are
   std::optional<SaddlePreconditioner> preconditioner_;
   algebra::HierarchyAge hierarchy_;

@@ -46,8 +46,9 @@ struct Problem {
 };
 
 void use(RecyclingGmres& solver, const Problem& problem) {
-  solver.set([&problem](std::span<const double> x, std::span<double> y) { problem.multiply(x, y); },
-             [](std::span<const double> r, std::span<double> z) { std::copy(r.begin(), r.end(), z.begin()); });
+  solver.set(
+      [&problem](std::span<const double> x, std::span<double> y) { problem.multiply(x, y); },
+      [](std::span<const double> r, std::span<double> z) { std::copy(r.begin(), r.end(), z.begin()); });
 }
 
 LinearReport solve(RecyclingGmres& solver, const Problem& problem, double relative = 1e-8) {
@@ -108,8 +109,9 @@ TEST(RecyclingGmres, ARightHandSideOfZeroTakesNoIteration) {
 TEST(RecyclingGmres, ANumberThatIsNoneEndsTheSolveAndSaysSo) {
   const Problem problem(3);
   RecyclingGmres solver;
-  solver.set([](std::span<const double>, std::span<double> y) { std::fill(y.begin(), y.end(), std::nan("")); },
-             [](std::span<const double> r, std::span<double> z) { std::copy(r.begin(), r.end(), z.begin()); });
+  solver.set(
+      [](std::span<const double>, std::span<double> y) { std::fill(y.begin(), y.end(), std::nan("")); },
+      [](std::span<const double> r, std::span<double> z) { std::copy(r.begin(), r.end(), z.begin()); });
   std::vector<double> x(problem.right.size());
   const LinearReport report = solver.solve(problem.right, x, 1e-8);
   EXPECT_FALSE(report.converged);

@@ -156,7 +156,7 @@ TEST(StepControl, ManyIterationsShrinkTheStepButNotBelowWhatWasAsked) {
   StepControl control(adaptive(1, 10), 0, {100});
   for (int i = 0; i < 4; ++i) control.accepted(control.plan(0), iterations(3));
   ASSERT_DOUBLE_EQ(control.plan(0).dt, std::pow(1.5, 4));
-  control.accepted(control.plan(0), iterations(24));  // four times as many as are easy
+  control.accepted(control.plan(0), iterations(48));  // eight times as many as are easy
   EXPECT_DOUBLE_EQ(control.plan(0).dt, std::pow(1.5, 4) / 2);
   control.accepted(control.plan(0), iterations(1000));
   EXPECT_DOUBLE_EQ(control.plan(0).dt, 1);

@@ -77,9 +77,9 @@ struct Casting {
         to_corner = std::max(to_corner, std::min(coordinate, 1 - coordinate));
       }
       const bool corner = to_corner < 1.3 * size;
-      temperature.push_back(where == Frozen::shell                ? 750 + 600 * depth
+      temperature.push_back(where == Frozen::shell               ? 750 + 600 * depth
                             : where == Frozen::corners && corner ? 790
-                                                                  : 950);
+                                                                 : 950);
     }
   }
 
