@@ -61,7 +61,8 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   check(PCGetFailedReason(inner, &why), "PCGetFailedReason");
   // Where every process factorises for itself, one may lack memory that another has.
   lacks_workspace_ = any_process(why == PC_FACTOR_OUTMEMORY || why == PC_FACTOR_OTHER);
-  // What MUMPS says of a matrix that is not made of numbers is chance, and may be lack of workspace.
+  // MUMPS reports a random error for a matrix with entries that are not numbers, lack of workspace among
+  // them.
   if (!lacks_workspace_ || !has_numbers(matrix) || ++attempts_ == k_attempts) return false;
   Mat factor = nullptr;
   check(PCFactorGetMatrix(inner, &factor), "PCFactorGetMatrix");

@@ -15,8 +15,8 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "stopped as asked within a step"; }
 };
 
-/// What is asked from now on, by every process alike; an empty function: nothing. Once true it stays true,
-/// and the loop over the steps asks the same.
+/// Sets the function that tells whether the run is asked to stop, on every process; an empty one ends the
+/// checks. Once it returns true it must go on to do so. The loop over the steps calls the same function.
 void interrupt_when(std::function<bool()> asked);
 
 /// Throws Interrupted on every process where one of them is asked to stop. Collective.

@@ -21,8 +21,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Of the preconditioned operator, whose eigenvalues lie about 1: those farther from zero converge by
-/// themselves.
+/// A direction is kept if its harmonic Ritz value is smaller than this. The eigenvalues of the preconditioned
+/// operator lie about 1, and GMRES converges fast for those that are larger.
 constexpr double k_slow = 0.3;
 /// A direction whose product is this small a part of what it was before the others were taken out of it
 /// depends on them.

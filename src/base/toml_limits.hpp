@@ -1,4 +1,4 @@
-/// What a TOML text may not be before the parser sees it.
+/// Checks a TOML text for what the parser could not survive, before it is parsed.
 #pragma once
 
 #include <string>

@@ -16,8 +16,8 @@ namespace solidus::mechanics {
 
 class StructuralPoints;
 
-/// What a phase hands its blocks before a solve. Kernels keep references to temperature, old_displacement and
-/// the histories and stresses until the next one.
+/// The state at the start of a step that a phase passes to its blocks before a solve. Kernels keep references
+/// to temperature, old_displacement and the histories and stresses until the next one.
 struct StepStart {
   std::span<const double> temperature;          ///< Θ_n [K], [local node]
   std::span<const double> pass_temperature;     ///< at which the law works: Θ_n or that of an iterate [K]

@@ -101,7 +101,10 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
 }
 
 std::size_t SaddlePreconditioner::bytes() const {
-  std::size_t total = multigrid_.bytes();
+  std::size_t total =
+      multigrid_.bytes() + (stiffness_.capacity() + inverse_softness_.capacity() + right_.capacity() +
+                            part_.capacity() + result_.capacity() + local_.capacity() + local_u_.capacity()) *
+                               sizeof(double);
   for (std::size_t field = 0; field < schur_.size(); ++field)
     total += schur_[field]->bytes() + factors_[field].bytes();
   return total;

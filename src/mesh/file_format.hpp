@@ -1,4 +1,4 @@
-/// What a mesh file is, by its name and its first bytes together.
+/// Finds the format of a mesh file from its name and its first bytes together.
 ///
 /// Gmsh takes every file whose name and first line it does not know for a script and runs it; scripts can
 /// start other programs. So the program decides what a file is, and Gmsh only sees files that it reads as

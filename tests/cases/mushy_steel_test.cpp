@@ -1,9 +1,7 @@
 /// A small casting of mushy steel: fifty triangles in a mould, contact, adaptive steps and nothing set but
-/// the data. It comes to its end, and whoever asks it to stop never waits for long.
+/// the data. It comes to its end, and it may be stopped before every try of a step.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <algorithm>
 #include <numeric>
 
 #include "case_folder.hpp"
@@ -76,31 +74,18 @@ gap_law = "gas"
 gas_conductivity = "0.05 W/m/K"
 )";
 
-/// Processor time of this process [s].
-double seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
-
-TEST(MushySteel, FreezesAndMayBeStoppedAtAnyTime) {
+TEST(MushySteel, FreezesInFewIterationsAndMayBeStoppedBeforeEveryTry) {
   k_here.write("steel.geo", k_geometry);
   const std::string file = k_here.write("steel.toml", k_case);
   solidus::model::RunOptions options;
   options.folder = k_here.root() / "steel";
-  double last = 0, longest = 0;
+  int asked = 0;
   options.stop_asked = [&] {
-    const double now = seconds();
-    if (last > 0) longest = std::max(longest, now - last);
-    last = now;
+    ++asked;
     return false;
   };
-  const double start = seconds();
   const auto result = solidus::model::run_case(solidus::model::load_case(file), options);
   ASSERT_TRUE(result.finished) << result.reason;
-  // A try of a step takes some 0.01 s; limits stand for slow and sanitised builds.
-  EXPECT_LT(longest, 0.5);
-  EXPECT_LT(seconds() - start, 40);
   const auto history = solidus::testing::read_csv(options.folder / "history.csv");
   EXPECT_EQ(history.at("solid_fraction[1]").back(), 1);
   EXPECT_LT(std::abs(history.at("energy_defect[J]").back()), 1e-8 * history.at("heat_exchanged[J]").back());
@@ -109,6 +94,7 @@ TEST(MushySteel, FreezesAndMayBeStoppedAtAnyTime) {
     const std::vector<double>& values = steps.at(column);
     return std::accumulate(values.begin(), values.end(), 0.0);
   };
+  EXPECT_GE(asked, static_cast<double>(steps.at("time[s]").size()) + sum("rejected[1]"));
   EXPECT_LT(sum("mechanics_iterations[1]"), 6 * static_cast<double>(steps.at("time[s]").size()));
   EXPECT_LT(sum("rejected[1]"), 20);
 }
