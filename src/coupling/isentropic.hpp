@@ -20,8 +20,8 @@ class IsentropicSplit final : public SequentialSplit {
  public:
   /// The phases must outlive the scheme. Throws std::invalid_argument unless both phases are there and
   /// exchange heat: entropy that is held and never accounted for would be lost.
-  explicit IsentropicSplit(Phases phases)
-      : SequentialSplit(std::move(phases), mechanics::Mapping::isentropic) {
+  explicit IsentropicSplit(Phases phases, PhaseOrder order = PhaseOrder::mechanics_first)
+      : SequentialSplit(std::move(phases), mechanics::Mapping::isentropic, order) {
     if (this->phases().heat == nullptr || this->phases().structural == nullptr)
       throw std::invalid_argument("the isentropic split needs both phases and structural heat");
   }

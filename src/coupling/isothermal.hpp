@@ -14,8 +14,8 @@ namespace solidus::coupling {
 class IsothermalSplit final : public SequentialSplit {
  public:
   /// The phases must outlive the scheme.
-  explicit IsothermalSplit(Phases phases)
-      : SequentialSplit(std::move(phases), mechanics::Mapping::isothermal) {}
+  explicit IsothermalSplit(Phases phases, PhaseOrder order = PhaseOrder::mechanics_first)
+      : SequentialSplit(std::move(phases), mechanics::Mapping::isothermal, order) {}
 };
 
 }  // namespace solidus::coupling

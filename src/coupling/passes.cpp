@@ -22,7 +22,7 @@ void add(const algebra::NewtonReport& newton, int hardest, double seconds, Phase
 
 }  // namespace
 
-bool mechanical_pass(const Phases& phases, const State& old, State& trial,
+bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
                      const mechanics::MechanicalPass& pass, StepEffort& effort) {
   const profile::Part part("mechanics");
   const double start = MPI_Wtime();
@@ -33,7 +33,8 @@ bool mechanical_pass(const Phases& phases, const State& old, State& trial,
   mechanics::MechanicalPass turn = pass;
   mechanics::MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
-  if (pass.iterate != &trial.mechanics && &old != &trial) next.history = std::move(trial.mechanics.history);
+  if (pass.iterate != &trial.mechanics && &old.mechanics != &trial.mechanics)
+    next.history = std::move(trial.mechanics.history);
   for (int n_turns = 1;; ++n_turns) {
     try {
       const mechanics::PhaseReport of_turn = phases.mechanics->solve(old.mechanics, next, turn);

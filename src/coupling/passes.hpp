@@ -6,11 +6,24 @@
 
 namespace solidus::coupling {
 
+/// What a pass of the mechanical phase starts from.
+struct MechanicalStart {
+  const mechanics::MechanicalState& mechanics;
+  const std::vector<contact::ContactState>& contacts;
+  const heat::ThermalState& heat;  ///< says which nodes are coherent
+
+  MechanicalStart(const State& state)  // NOLINT(google-explicit-constructor): a state is a start
+      : MechanicalStart(state.mechanics, state.contacts, state.heat) {}
+  MechanicalStart(const mechanics::MechanicalState& mechanical,
+                  const std::vector<contact::ContactState>& of_contacts, const heat::ThermalState& thermal)
+      : mechanics(mechanical), contacts(of_contacts), heat(thermal) {}
+};
+
 /// Equilibrium, then gaps and conductances of the configuration found. Efforts add up over the passes of a
 /// step, energies are those of the last pass; the energy in contact penalties is left to the caller. Returns
 /// whether Newton's iteration reached its tolerance, which it may miss only where the pass limits its steps.
 /// @param pass  its iterate may be `trial`
-bool mechanical_pass(const Phases& phases, const State& old, State& trial,
+bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
                      const mechanics::MechanicalPass& pass, StepEffort& effort);
 
 /// The balance of energy at the configuration of the last mechanical pass (4.43, 4.53); otherwise the same.

@@ -27,9 +27,11 @@ std::vector<double> rate(const std::vector<double>& from, const std::vector<doub
 
 }  // namespace
 
-SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping) : phases_(std::move(phases)) {
+SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order)
+    : phases_(std::move(phases)), order_(order) {
   if (phases_.mechanics != nullptr && phases_.mechanics->mapping() != mapping)
     throw std::invalid_argument("the mechanical phase was built for another split");
+  if (phases_.mechanics == nullptr || phases_.heat == nullptr) order_ = PhaseOrder::mechanics_first;
 }
 
 void SequentialSplit::synchronise(const State& state) {
@@ -44,27 +46,57 @@ void SequentialSplit::forget() {
 }
 
 StepEffort SequentialSplit::advance(const State& old, State& trial, double time, double dt) {
+  StepEffort effort = order_ == PhaseOrder::heat_first ? heat_first(old, trial, time, dt)
+                                                       : mechanics_first(old, trial, time, dt);
+  summarise(phases_, trial, effort);
+  return effort;
+}
+
+StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, double time, double dt) {
   StepEffort effort;
-  if (phases_.mechanics != nullptr) mechanical_phase(old, trial, time, dt, effort);
+  if (phases_.mechanics != nullptr) mechanical_phase(old, old, trial, time, dt, effort);
   if (phases_.heat != nullptr)
     thermal_pass(phases_, old, trial, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   const profile::Part part("audit");
   effort.stability = stability_audit(phases_, old, trial, effort);
-  summarise(phases_, trial, effort);
   return effort;
 }
 
-// From the temperature of t_n (4.40, 4.46).
-void SequentialSplit::mechanical_phase(const State& old, State& trial, double time, double dt,
-                                       StepEffort& effort) {
+StepEffort SequentialSplit::heat_first(const State& old, State& trial, double time, double dt) {
+  State warm;
+  StepEffort effort = heat_at_rest(old, warm, time, dt);
+  const contact::InterfaceSums conducted = effort.energy.interface;
+  StepEffort deformed;
+  mechanical_phase(old, warm, trial, time, dt, deformed);
+  thermal_pass(phases_, warm, trial, {.time = time, .dt = dt, .adiabatic = true}, deformed);
+  book_interface(deformed.energy, phases_.structural != nullptr);
+  deformed.stability = stability_audit(phases_, warm, trial, deformed);
+  effort += deformed;
+  add(conducted, effort.energy.interface);
+  return effort;
+}
+
+StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt) {
+  StepEffort effort;
+  phases_.mechanics->rest(old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
+  for (contact::ContactPair* pair : phases_.contacts) pair->rest();
+  thermal_pass(phases_, old, warm, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
+  book_interface(effort.energy, phases_.structural != nullptr);
+  effort.stability = stability_audit(phases_, old, warm, effort);
+  return effort;
+}
+
+// From the temperature of t_n (4.40, 4.46), or from the one that conduction has left.
+void SequentialSplit::mechanical_phase(const State& old, const State& warm, State& trial, double time,
+                                       double dt, StepEffort& effort) {
   ContactWork contact(phases_);
   const std::vector<double>& temperature =
-      phases_.heat != nullptr ? old.heat.temperature : phases_.temperature;
+      phases_.heat != nullptr ? warm.heat.temperature : phases_.temperature;
   const std::vector<double> guess = extrapolated(old.mechanics.displacement, old.displacement_rate, dt),
                             pressure = extrapolated(old.mechanics.pressure, old.pressure_rate, dt);
-  const std::vector<double> share = plateau_share(phases_, old.heat);
-  mechanical_pass(phases_, old, trial,
+  const std::vector<double> share = plateau_share(phases_, warm.heat);
+  mechanical_pass(phases_, {old.mechanics, warm.contacts, warm.heat}, trial,
                   {.time = time,
                    .dt = dt,
                    .temperature = temperature,

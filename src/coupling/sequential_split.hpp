@@ -1,8 +1,18 @@
-/// What the splits of first order have in common: the mechanical phase from Θ_n, then gaps and conductances,
-/// then the thermal phase at the configuration and the internal variables found. What the mechanical phase
-/// holds, temperature or entropy, is its own affair (mechanics::Mapping).
+/// What the splits of first order have in common: the two phases in turn, each once a step. What the
+/// mechanical phase holds, temperature or entropy, is its own affair (mechanics::Mapping).
+///
+///   mechanics_first  (4.31–4.54)  equilibrium at t_{n+1} from Θ_n; gaps and conductances; then heat at the
+///                                 configuration and the internal variables found. Displacements and stresses
+///                                 of t_{n+1} belong to the temperatures of t_n.
+///   heat_first       heat at the configuration of t_n, Θ_n to Θ*; equilibrium at t_{n+1} from Θ*; then what
+///                    the deformation has taken up or released, with nothing that flows: Θ* to Θ_{n+1}. What
+///                    the step ends with is in equilibrium with its own temperatures; gaps and structural
+///                    heat act on the conduction of the next step.
+///
+/// Both are products of the same two dissipative operators (docs/theory/coupling_stability.md, section 3).
 #pragma once
 
+#include "coupling/phase_order.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/scheme.hpp"
 
@@ -15,15 +25,22 @@ class SequentialSplit : public CouplingScheme {
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
 
  protected:
-  /// The phases must outlive the scheme. Throws std::invalid_argument when the mechanical phase was built for
-  /// another mapping.
-  SequentialSplit(Phases phases, mechanics::Mapping mapping);
+  /// The phases must outlive the scheme; the order means nothing where one of them is missing. Throws
+  /// std::invalid_argument when the mechanical phase was built for another mapping.
+  SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order);
   const Phases& phases() const { return phases_; }
 
  private:
-  void mechanical_phase(const State& old, State& trial, double time, double dt, StepEffort& effort);
+  StepEffort mechanics_first(const State& old, State& trial, double time, double dt);
+  StepEffort heat_first(const State& old, State& trial, double time, double dt);
+  /// Heat at the configuration of t_n.
+  StepEffort heat_at_rest(const State& old, State& warm, double time, double dt);
+  /// Equilibrium at t_{n+1}, and the works of contact.
+  void mechanical_phase(const State& old, const State& warm, State& trial, double time, double dt,
+                        StepEffort& effort);
 
   Phases phases_;
+  PhaseOrder order_;
 };
 
 }  // namespace solidus::coupling

@@ -252,7 +252,8 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
   system_->exchange(!pass.adiabatic);
   ThermalState next;
   PhaseReport report;
-  flows_ = {};
+  // A pass in which nothing flows leaves what is known of the flow of the step.
+  if (!pass.adiabatic) flows_ = {};
   const bool flows = nodal() && !pass.adiabatic;
   if (pass.stepping == ThermalStepping::sdirk2) {
     const double first_dt = k_sdirk_share * pass.dt;
@@ -277,7 +278,7 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
     report = solve_stage(old, old, {pass.dt}, pass, next);
     if (flows) flows_.last = flow(old, next, {pass.dt});
   }
-  flows_.dt = flows ? pass.dt : 0;
+  if (!pass.adiabatic) flows_.dt = flows ? pass.dt : 0;
   trial = std::move(next);
   return report;
 }
@@ -342,6 +343,7 @@ std::vector<double> ThermalPhase::last_flow() const {
 }
 
 std::vector<double> ThermalPhase::time_error(const ThermalState& now, std::span<const double> flow_before) {
+  system_->exchange(true);  // an adiabatic pass may have been the last one
   const double last_stage = flows_.first.empty() ? 1.0 : flows_.share;
   return (*spread_)(heat::time_error(flows_, flow_before), now.temperature, last_stage * flows_.dt);
 }

@@ -134,13 +134,13 @@ class ThermalPhase {
   PhaseReport solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass);
   /// HeatOptions::stepping.
   ThermalStepping stepping() const { return options_.stepping.value_or(ThermalStepping::backward_euler); }
-  /// Whether the heat flows of the last solve() are known: nodes hold the heat, and it flowed.
+  /// Whether the heat flows of the last solve() that was not adiabatic are known: nodes hold the heat.
   bool knows_flows() const { return flows_.dt > 0; }
-  /// The flow into the nodes at the end of the last solve() whose flows are known, [local node], ghosts up to
-  /// date [W]: what time_error() of the next step asks for.
+  /// The flow into the nodes at the end of that solve(), [local node], ghosts up to date [W]: what
+  /// time_error() of the next step asks for.
   std::vector<double> last_flow() const;
-  /// The error in time of the last solve(), whose flows must be known: the heat of heat::time_error(), spread
-  /// for as long as its last stage is. [local node] [K]. Collective.
+  /// The error in time of that solve(), whose flows must be known: the heat of heat::time_error(), spread for
+  /// as long as its last stage is. [local node] [K]. Collective.
   /// @param flow_before  last_flow() of the step before
   std::vector<double> time_error(const ThermalState& now, std::span<const double> flow_before);
   /// (H_b − H_a)/C, without latent heat in C: what the change of heat comes to in kelvin, [local node],
@@ -253,7 +253,7 @@ class ThermalPhase {
   std::unique_ptr<TemperatureSystem> temperature_system_;
   std::unique_ptr<HeatSpread> spread_;
   std::vector<double> reactions_;
-  StageFlows flows_;  ///< of the last solve()
+  StageFlows flows_;  ///< of the last solve() that was not adiabatic
 };
 
 }  // namespace solidus::heat

@@ -357,6 +357,14 @@ void check_coupling(const CaseSpec& spec) {
         c.where, "heat.stepping = \"sdirk2\": " + reason,
         "no such key, or scheme \"isentropic\" or \"isothermal\" with structural_heating \"energy\" "
         "or \"none\"");
+  if (c.order && c.scheme != Scheme::isentropic && c.scheme != Scheme::isothermal)
+    throw InputError(c.where, "'order' is of the isentropic and the isothermal split",
+                     "one of these schemes, or no 'order'");
+  if (c.order == coupling::PhaseOrder::heat_first &&
+      (form == Heating::literal || form == Heating::temperature))
+    throw InputError(c.where,
+                     "printed forms of structural heat count from a mechanical phase that comes first",
+                     "order = \"mechanics_first\", or structural_heating \"energy\" or \"entropy\"");
   if (c.scheme == Scheme::double_pass && spec.dynamics)
     throw InputError(c.where, "the double pass is for quasi-statics",
                      "scheme = \"isentropic\", \"simultaneous\" or \"isothermal\"");

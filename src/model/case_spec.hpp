@@ -13,6 +13,7 @@
 #include "base/types.hpp"
 #include "contact/spec.hpp"
 #include "coupling/block_iterative.hpp"
+#include "coupling/phase_order.hpp"
 #include "coupling/step_limits.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mechanics/mechanical_phase.hpp"
@@ -263,6 +264,7 @@ struct IterationSpec {
 struct CouplingSpec {
   enum class Scheme { isentropic, isothermal, simultaneous, block_iterative, double_pass };
   Scheme scheme = Scheme::isentropic;
+  std::optional<coupling::PhaseOrder> order;  ///< of the sequential splits; absent: phase_order() chooses
   /// How deformation enters the heat balance (mechanics/structural_heat.hpp); none: not at all.
   enum class StructuralHeating { energy, entropy, literal, temperature, none };
   StructuralHeating structural_heating = StructuralHeating::energy;

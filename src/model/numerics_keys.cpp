@@ -198,6 +198,19 @@ Section<CouplingSpec> coupling_keys() {
             {"simultaneous", Scheme::simultaneous, "one Newton iteration for both fields"}})
       .initially("isentropic")
       .doc("The coupling scheme. With heat or mechanics alone there is nothing to couple.");
+  using coupling::PhaseOrder;
+  s.choice("order", &CouplingSpec::order,
+           {{"automatic", std::nullopt,
+             "heat_first; mechanics_first with friction where nothing melts, whose heat is then conducted in "
+             "the step that makes it, with inertia and with printed forms of structural heat"},
+            {"heat_first", PhaseOrder::heat_first,
+             "displacements and stresses belong to the temperatures of the step's end; what deformation and "
+             "friction warm is conducted in the next step"},
+            {"mechanics_first", PhaseOrder::mechanics_first,
+             "as printed (4.40 - 4.54): displacements and stresses belong to the temperatures of the step's "
+             "start"}})
+      .initially("automatic")
+      .doc("Which phase of the isentropic and of the isothermal split comes first in a step.");
   using Heating = CouplingSpec::StructuralHeating;
   s.choice(
        "structural_heating", &CouplingSpec::structural_heating,

@@ -1,5 +1,6 @@
 #include "model/scheme_input.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "coupling/block_iterative.hpp"
@@ -28,15 +29,29 @@ coupling::IterationOptions iteration_options(const IterationSpec& spec) {
 
 }  // namespace
 
+coupling::PhaseOrder phase_order(const CaseSpec& spec, bool melts) {
+  using Heating = CouplingSpec::StructuralHeating;
+  using coupling::PhaseOrder;
+  const CouplingSpec& c = spec.coupling;
+  if (c.order) return *c.order;
+  const bool rubs =
+      std::any_of(spec.contacts.begin(), spec.contacts.end(), [](const auto& pair) { return pair.friction; });
+  const bool printed = c.as_printed || c.structural_heating == Heating::literal ||
+                       c.structural_heating == Heating::temperature;
+  return (rubs && !melts) || printed || spec.dynamics ? PhaseOrder::mechanics_first : PhaseOrder::heat_first;
+}
+
 std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
                                                           const coupling::Phases& phases) {
   using Scheme = CouplingSpec::Scheme;
   if (!spec.coupled()) return std::make_unique<coupling::IsothermalSplit>(phases);
   switch (spec.coupling.scheme) {
     case Scheme::isentropic:
-      return std::make_unique<coupling::IsentropicSplit>(phases);
+      return std::make_unique<coupling::IsentropicSplit>(phases,
+                                                         phase_order(spec, phases.coherency != nullptr));
     case Scheme::isothermal:
-      return std::make_unique<coupling::IsothermalSplit>(phases);
+      return std::make_unique<coupling::IsothermalSplit>(phases,
+                                                         phase_order(spec, phases.coherency != nullptr));
     case Scheme::simultaneous:
       return std::make_unique<coupling::SimultaneousScheme>(phases, simultaneous_options(spec.coupling));
     case Scheme::block_iterative:

@@ -3,12 +3,18 @@
 
 #include <memory>
 
+#include "coupling/phase_order.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/scheme.hpp"
 #include "mechanics/structural_heat.hpp"
 #include "model/case_spec.hpp"
 
 namespace solidus::model {
+
+/// Of the sequential splits: as the case says, or heat first unless friction between bodies that do not melt,
+/// inertia or a printed form of structural heat speaks against it.
+/// @param melts  something that deforms does
+coupling::PhaseOrder phase_order(const CaseSpec& spec, bool melts);
 
 /// @param phases must outlive the scheme
 std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,

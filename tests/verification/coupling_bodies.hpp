@@ -35,8 +35,10 @@ struct Coupled {
   mechanics::Simplices simplices = mechanics::Simplices::automatic;
   mechanics::Stabilisation stabilisation = mechanics::Stabilisation::orthogonal;
   heat::SensibleForm sensible = heat::SensibleForm::enthalpy;
-  coupling::SimultaneousOptions simultaneous;  ///< with Mapping::simultaneous
-  bool double_pass = false;                    ///< with Mapping::isentropic
+  std::optional<heat::ThermalStepping> stepping;  ///< of the thermal phase of a split; absent: backward Euler
+  coupling::SimultaneousOptions simultaneous;     ///< with Mapping::simultaneous
+  bool double_pass = false;                       ///< with Mapping::isentropic
+  coupling::PhaseOrder order = coupling::PhaseOrder::mechanics_first;  ///< of the sequential splits
   /// Present: passes of `mapping` in turn until they agree.
   std::optional<coupling::IterationOptions> iteration;
   /// Θ_a of 𝓛; absent: as the conditions say, where they are admissible (admissible_ambient.hpp).
@@ -112,6 +114,7 @@ class Assembly {
     heat::HeatOptions heat_options;
     heat_options.integration = c.integration;
     heat_options.sensible = c.sensible;
+    heat_options.stepping = c.stepping;
     heat_options.tolerance = 1e-12;
     heat_options.solver = algebra::SolverKind::direct;
     heat_options.symmetric = !pair_ || pair_->symmetric_heat();
@@ -128,11 +131,11 @@ class Assembly {
     else if (c.double_pass)
       scheme_ = std::make_unique<coupling::DoublePass>(phases);
     else if (c.mapping == mechanics::Mapping::isentropic)
-      scheme_ = std::make_unique<coupling::IsentropicSplit>(phases);
+      scheme_ = std::make_unique<coupling::IsentropicSplit>(phases, c.order);
     else if (c.mapping == mechanics::Mapping::simultaneous)
       scheme_ = std::make_unique<coupling::SimultaneousScheme>(phases, c.simultaneous);
     else
-      scheme_ = std::make_unique<coupling::IsothermalSplit>(phases);
+      scheme_ = std::make_unique<coupling::IsothermalSplit>(phases, c.order);
 
     start_.heat = heat_->initial_state(c.start);
     start_.mechanics = mechanics_->initial_state();

@@ -1,0 +1,8 @@
+/// Which phase of a sequential split comes first in a step (sequential_split.hpp).
+#pragma once
+
+namespace solidus::coupling {
+
+enum class PhaseOrder { mechanics_first, heat_first };
+
+}  // namespace solidus::coupling
