@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/assembly.hpp"
+#include "model/case_measures.hpp"
 #include "model/case_spec.hpp"
 
 namespace solidus::model {
@@ -33,7 +34,7 @@ void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings);
 void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings);
 
 /// All of them, of a case that is built. Collective.
-Findings findings(const CaseSpec& spec, const Assembly& a);
+Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
 
 /// Warns of each finding; throws InputError for the first error.
 void report(const Findings& findings);

@@ -26,6 +26,7 @@
 #include "model/findings.hpp"
 #include "model/fingerprint.hpp"
 #include "model/mesh_input.hpp"
+#include "model/overview.hpp"
 #include "model/run_input.hpp"
 #include "model/scheme_input.hpp"
 #include "model/stage_input.hpp"
@@ -279,11 +280,12 @@ CheckedRun check_run(const Case& c) {
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
   build(c.spec, a);
-  report(findings(c.spec, a));
+  const CaseMeasures measures = measure(c.spec, a);
+  report(findings(c.spec, a, measures));
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
-  CheckedRun checked{counts(c.spec, a.mesh), a.start, {}};
+  CheckedRun checked{counts(c.spec, a.mesh), overview(c.spec, a, measures), {}};
   if (a.phases.audits_stability())
     checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh, a.start);
   return checked;
@@ -302,11 +304,15 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   part.emplace("set-up");
   build(c.spec, a);
   return_free_memory();
-  report(findings(c.spec, a));
+  part.emplace("findings");
+  const CaseMeasures measures = measure(c.spec, a);
+  report(findings(c.spec, a, measures));
+  part.emplace("set-up");
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
   results::RecorderOptions r = recorder_options(c, options, a);
+  r.summary.overview = overview(c.spec, a, measures);
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
   const results::RunLock lock(options.folder);
   std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);
