@@ -24,6 +24,19 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
                             fmt::format("'{}' has surroundings of {:.0f} degC ({:.0f} K)", t.name,
                                         units::to_display(ambient, "K", "degC"), ambient),
                             "room temperature is 20 degC, 293 K"});
+    if (t.kind == Kind::source && is_number(t.power) && std::abs(t.power.table.value(0)) > 1e11)
+      findings.push_back({false, t.where,
+                          fmt::format("the source '{}' has {:g} W/m3", t.name, t.power.table.value(0)),
+                          "usual are 1e3 to 1e9 W/m3, under a laser 1e11"});
+    if (t.kind == Kind::flux && is_number(t.flux) && std::abs(t.flux.table.value(0)) > 1e8)
+      findings.push_back({false, t.where,
+                          fmt::format("the flux '{}' has {:g} W/m2", t.name, t.flux.table.value(0)),
+                          "usual are 1e2 to 1e7 W/m2"});
+    if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor) &&
+        t.coefficient.table.value(0) < 0.5)
+      findings.push_back({false, t.where,
+                          fmt::format("the film '{}' has {:g} W/m2/K", t.name, t.coefficient.table.value(0)),
+                          "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
     if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor))
       if (const double h = t.coefficient.table.value(0); h > 1e6)
         findings.push_back({h > 1e8, t.where, fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),
@@ -47,6 +60,18 @@ void steps(const CaseSpec& spec, Findings& findings) {
                         "some hundred steps; time.adaptive chooses them"});
 }
 
+/// What a step may be wrong by, against what the run passes through.
+void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  double high = 0, low = std::numeric_limits<double>::max();
+  for (const TemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
+  if (const double allowed = spec.time.temperature_error.value_or(0);
+      high - low > 100 && allowed > 0.1 * (high - low))
+    findings.push_back({false, spec.time.where,
+                        fmt::format("each step may be wrong by {:g} K, where bodies start {:.0f} K apart",
+                                    allowed, high - low),
+                        "time.temperature_error of 0.5 to 10 K"});
+}
+
 void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -54,7 +79,7 @@ void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
     for (const mesh::Point& x : a.mesh.x) low = std::min(low, x[i]), high = std::max(high, x[i]);
     largest = std::max(largest, algebra::global_max(high) - algebra::global_min(low));
   }
-  if (largest > 50 || largest < 1e-4)
+  if (largest > 30 || largest < 1e-4)
     findings.push_back({false, spec.mesh.where, fmt::format("the mesh is {:.3g} m large", largest),
                         "is mesh.unit right? It is \"m\" unless the case says \"mm\""});
 }
@@ -65,6 +90,7 @@ void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findi
   if (spec.has_heat()) surroundings(spec, findings);
   gravity(spec, findings);
   steps(spec, findings);
+  if (spec.has_heat()) tolerance(spec, a, findings);
   size(spec, a, findings);
 }
 

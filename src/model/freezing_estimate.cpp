@@ -9,6 +9,8 @@ namespace solidus::model {
 namespace {
 
 constexpr int k_metal_cells = 16, k_mould_cells = 24;
+/// Between a bar and a ball: the thick place of a casting of several thicknesses.
+constexpr double k_thick_place = 2.5;
 
 /// A cell of the line: joined to `parent` alone, which comes later in the list. The last is the metal's skin.
 struct Cell {
@@ -27,9 +29,8 @@ struct Cell {
 class Line {
  public:
   explicit Line(const FreezingProblem& problem) : problem_(problem), metal_(problem.metal->enthalpy()) {
-    const double exponent = std::clamp(problem.depth / problem.modulus, 1.0, 3.0);
-    radius_ = problem.depth / problem.modulus > 3 ? problem.depth : exponent * problem.modulus;
-    exponent_ = exponent;
+    exponent_ = std::clamp(problem.depth / problem.modulus, 1.0, k_thick_place);
+    radius_ = std::max(problem.depth, problem.modulus);
     for (const MouldSide& mould : problem.moulds) curves_.push_back(mould.material->enthalpy());
     for (std::size_t m = 0; m < problem.moulds.size(); ++m) add_mould(m);
     add_metal();

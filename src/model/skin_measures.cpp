@@ -29,6 +29,8 @@ int body_of(const mesh::Mesh& mesh, const std::string& name) {
   return lowest == highest ? lowest : k_several_bodies;
 }
 
+}  // namespace
+
 GlobalIndex shared_nodes(const mesh::Mesh& mesh, const std::string& a, const std::string& b) {
   const auto one = mesh.surfaces.find(a), two = mesh.surfaces.find(b);
   if (one == mesh.surfaces.end() || two == mesh.surfaces.end()) return 0;
@@ -38,8 +40,6 @@ GlobalIndex shared_nodes(const mesh::Mesh& mesh, const std::string& a, const std
   const auto owned = std::count_if(both.begin(), both.end(), [&](Index i) { return i < mesh.n_owned_nodes; });
   return static_cast<GlobalIndex>(std::llround(algebra::global_sum(static_cast<double>(owned))));
 }
-
-}  // namespace
 
 std::vector<mesh::Point> gather(const std::vector<mesh::Point>& points) {
   int n_processes = 1;

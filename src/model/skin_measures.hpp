@@ -37,6 +37,9 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
 /// Collective. A group that is no surface has no faces.
 SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name, AnalysisKind kind);
 
+/// Nodes that lie on both of two surfaces. Collective.
+GlobalIndex shared_nodes(const mesh::Mesh& mesh, const std::string& a, const std::string& b);
+
 /// Points of all processes, in the order of the processes. Collective.
 std::vector<mesh::Point> gather(const std::vector<mesh::Point>& points);
 
