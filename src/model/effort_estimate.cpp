@@ -13,16 +13,21 @@ namespace solidus::model {
 
 namespace {
 
-/// Of a step, by node [s].
+/// By node: of a step [s], and of memory [bytes].
 struct Cost {
-  double heat, mechanics;
+  double heat, mechanics, heat_bytes, mechanics_bytes;
 };
-Cost cost(AnalysisKind kind) {
-  return kind == AnalysisKind::solid ? Cost{6e-6, 80e-6} : Cost{2.2e-6, 6e-6};
-}
-/// By node [bytes].
-Cost memory(AnalysisKind kind) {
-  return kind == AnalysisKind::solid ? Cost{1.2e3, 65e3} : Cost{0.7e3, 5.5e3};
+constexpr Cost k_plane{2.2e-6, 6e-6, 0.7e3, 5.5e3};
+constexpr Cost k_solid_direct{6e-6, 80e-6, 1.2e3, 65e3};
+constexpr Cost k_solid_iterative{6e-6, 150e-6, 1.2e3, 48e3};
+
+Cost cost(const CaseSpec& spec, double nodes_of_mechanics) {
+  if (spec.analysis.kind != AnalysisKind::solid) return k_plane;
+  constexpr double k_direct_unknowns = 50000;  // where algebra::SolverKind::automatic changes
+  const bool direct =
+      spec.mechanics.solver == algebra::SolverKind::direct ||
+      (spec.mechanics.solver == algebra::SolverKind::automatic && 3 * nodes_of_mechanics < k_direct_unknowns);
+  return direct ? k_solid_direct : k_solid_iterative;
 }
 
 /// How much more a scheme does in a step than one pass of each phase.
@@ -88,12 +93,11 @@ Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasur
     if (spec.has_heat()) heat += nodes;
     if (spec.has_mechanics() && !only_conducts(spec.bodies[b])) mechanics += nodes;
   }
-  const Cost time = cost(spec.analysis.kind), bytes = memory(spec.analysis.kind);
+  const Cost by_node = cost(spec, mechanics);
   constexpr double k_start = 0.5, k_output = 1e-3, k_program = 95e6;  // [s], [s] a step, [bytes]
-  effort.seconds =
-      k_start + effort.steps *
-                    (k_output + passes(spec) * (time.heat * heat + time.mechanics * mechanics) / n_processes);
-  effort.bytes = n_processes * k_program + bytes.heat * heat + bytes.mechanics * mechanics;
+  const double step = by_node.heat * heat + by_node.mechanics * mechanics;
+  effort.seconds = k_start + effort.steps * (k_output + passes(spec) * step / n_processes);
+  effort.bytes = n_processes * k_program + by_node.heat_bytes * heat + by_node.mechanics_bytes * mechanics;
   return effort;
 }
 

@@ -1,12 +1,13 @@
 #include "model/overview.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
-#include "base/units.hpp"
 #include "contact/heat_transfer.hpp"
 #include "model/body_input.hpp"
 #include "model/mechanics_input.hpp"
@@ -19,7 +20,7 @@ results::BodyOverview body_overview(const BodySpec& spec, const BodyMeasures& m,
                                     const TemperatureRange& start, double density) {
   results::BodyOverview body;
   body.name = spec.name;
-  body.material = spec.material;
+  body.material = std::filesystem::path(spec.material).stem().string();
   body.low = m.low;
   body.high = m.high;
   body.volume = m.volume;
@@ -67,10 +68,15 @@ std::string law_text(const ContactSpec& contact, const ContactMeasures& m, doubl
   return text;
 }
 
+/// "air", "air [shake_out]".
+std::string with_stages(const std::string& name, const std::vector<std::string>& stages) {
+  return stages.empty() ? name : fmt::format("{} [{}]", name, fmt::join(stages, ", "));
+}
+
 results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, const ContactSpec& contact,
                                        const ContactMeasures& m) {
   results::SkinOverview skin;
-  skin.name = contact.name;
+  skin.name = with_stages(contact.name, contact.stages);
   skin.surface = m.slave;
   skin.body = name_of(spec, m.slave_body);
   skin.faces =
@@ -91,7 +97,7 @@ results::SkinOverview condition_overview(const CaseSpec& spec, const ThermalCond
                                          const SurfaceMeasures& m) {
   using Kind = ThermalConditionSpec::Kind;
   results::SkinOverview skin;
-  skin.name = c.name;
+  skin.name = with_stages(c.name, c.stages);
   skin.surface = c.group;
   skin.body = name_of(spec, m.body);
   skin.area = skin.paired = m.area;

@@ -175,25 +175,30 @@ std::vector<CooledSkin> shared_faces_of(std::size_t body, const Assembly& a, con
   return skins;
 }
 
-/// The greatest distance of a node of the body from a cloud of points, of some thousand nodes.
+/// The greatest distance of a node of the body from a cloud of points, both thinned out where there are very
+/// many.
 double depth_below(const mesh::Mesh& mesh, std::size_t body, const std::vector<mesh::Point>& cloud) {
-  constexpr std::size_t k_most_nodes = 2000, k_most_points = 20000;
+  constexpr std::size_t k_most_nodes = 20000, k_most_points = 50000;
   const std::vector<char> of_body = nodes_of(mesh, body);
   std::vector<std::size_t> nodes;
   for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.n_owned_nodes); ++i)
     if (of_body[i] != 0) nodes.push_back(i);
   const std::size_t every = 1 + nodes.size() / k_most_nodes, stride = 1 + cloud.size() / k_most_points;
+  const auto squared = [&](std::size_t node, std::size_t point) {
+    const mesh::Point &x = mesh.x[node], &y = cloud[point];
+    const double dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
+    return dx * dx + dy * dy + dz * dz;
+  };
   double depth = 0;
-  for (std::size_t n = 0; n < nodes.size(); n += every) {
-    const mesh::Point& x = mesh.x[nodes[n]];
-    double nearest = std::numeric_limits<double>::max();
-    for (std::size_t i = 0; i < cloud.size(); i += stride) {
-      const double dx = x[0] - cloud[i][0], dy = x[1] - cloud[i][1], dz = x[2] - cloud[i][2];
-      nearest = std::min(nearest, dx * dx + dy * dy + dz * dz);
-    }
+  std::size_t hint = 0;  // the point that was near the node before
+  for (std::size_t n = 0; n < nodes.size() && !cloud.empty(); n += every) {
+    double nearest = squared(nodes[n], hint);
+    // A node that is nearer than the deepest so far is not the deepest.
+    for (std::size_t i = 0; i < cloud.size() && nearest > depth; i += stride)
+      if (const double here = squared(nodes[n], i); here < nearest) nearest = here, hint = i;
     depth = std::max(depth, nearest);
   }
-  return cloud.empty() ? 0.0 : std::sqrt(algebra::global_max(depth));
+  return std::sqrt(algebra::global_max(depth));
 }
 
 /// What a skin takes at the start or later in the run, at the temperature of the pour [W/m²].

@@ -22,6 +22,13 @@ std::string number(double value) {
   return fmt::format("{:.3g}", value);
 }
 
+/// With two digits: of an estimate.
+double rounded(double value) {
+  if (!(value > 0)) return value;
+  const double digit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return digit * std::round(value / digit);
+}
+
 std::string range(double low, double high, const char* unit) {
   const std::string from = number(low), to = number(high);
   return from == to ? fmt::format("{} {}", from, unit) : fmt::format("{} to {} {}", from, to, unit);
@@ -123,8 +130,9 @@ std::string pour_lines(const PourOverview& p) {
   if (!p.no_estimate.empty()) return text + "\n  freezes     " + p.body + ": no estimate, " + p.no_estimate;
   if (p.freezing_time)
     text += fmt::format(
-        "\n  freezes     {}: in about {}, by Chvorinov {} s/mm2 x (V/A = {} mm)^2; {} governs", p.body,
-        duration(*p.freezing_time), number(1e-6 * p.chvorinov()), number(1e3 * p.modulus), p.governed_by);
+        "\n  freezes     {}: in about {}, by Chvorinov {} s/mm2 x (V/A = {} mm)^2; governed by {}", p.body,
+        duration(rounded(*p.freezing_time)), number(1e-6 * p.chvorinov()), number(1e3 * p.modulus),
+        p.governed_by);
   else
     text += fmt::format("\n  freezes     {}: not at all", p.body);
   text += fmt::format("\n  numbers     {}: {} mm from its skin to its centre, {} elements", p.body,
@@ -166,7 +174,8 @@ std::string text(const Overview& o) {
   for (const PourOverview& pour : o.pours) text += pour_lines(pour);
   text +=
       fmt::format("\n  effort      {}{} steps, about {} and {:.2g} GB", o.effort.steps_known ? "" : "about ",
-                  number(o.effort.steps), duration(o.effort.seconds), 1e-9 * o.effort.bytes);
+                  number(o.effort.steps_known ? o.effort.steps : rounded(o.effort.steps)),
+                  duration(rounded(o.effort.seconds)), 1e-9 * o.effort.bytes);
   return text;
 }
 
