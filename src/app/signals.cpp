@@ -28,6 +28,8 @@ void listen_to_signals() {
   // Once more may come before the run has ended: each is a write to whoever has gone.
   action.sa_flags = SA_RESTART;
   sigaction(SIGPIPE, &action, nullptr);
+  // A file beyond the limit of the shell (`ulimit -f`) is an error of its write, as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool stop_asked() {
