@@ -60,7 +60,7 @@ std::string law_text(const ContactSpec& contact, const ContactMeasures& m, doubl
   const contact::HeatTransferLaw law(*contact.heat);
   const double pressure = contact.wet ? contact.atmosphere : 0.0;
   const double closed = law.at(0, pressure, temperature).value, gap = std::max(m.largest_gap, 1e-4);
-  std::string text = fmt::format("{:.3g} W/m2/K closed", closed);
+  std::string text = fmt::format("{:.4g} W/m2/K closed", closed);
   const double open = law.at(gap, 0, temperature).value;
   if (std::abs(open - closed) > 0.01 * closed)
     text += fmt::format(", {:.3g} over a gap of {:.2g} mm", open, 1e3 * gap);

@@ -14,11 +14,12 @@ double celsius(double kelvin) {
   return kelvin - k_zero_celsius;
 }
 
-/// "0.5", "12", "1200": three digits, no exponent where a person would write none.
+/// "0.5", "12", "148.5", "1200": no exponent where a person would write none.
 std::string number(double value) {
   const double size = std::abs(value);
   if (size != 0 && (size < 1e-3 || size >= 1e7)) return fmt::format("{:.2e}", value);
-  if (size >= 100) return fmt::format("{:.0f}", value);
+  if (size >= 1000) return fmt::format("{:.0f}", value);
+  if (size >= 100) return fmt::format("{:.4g}", value);
   return fmt::format("{:.3g}", value);
 }
 

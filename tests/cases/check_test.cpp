@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/log.hpp"
@@ -74,6 +77,33 @@ TEST(Check, EstimatesWhenCastingsAreSolid) {
     EXPECT_GT(ratio, 0.5) << m.file;
     EXPECT_LT(ratio, 2.0) << m.file;
   }
+}
+
+/// What the program prints for a case, without the line of what the run may cost, which goes by processes.
+std::string table(int processes) {
+  const std::string command =
+      "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n " +
+      std::to_string(processes) +
+      " --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' check '" SOLIDUS_SOURCE_DIR
+      "/cases/bracket' 2>/dev/null";
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return "";
+  std::string text;
+  std::array<char, 512> line{};
+  while (std::fgets(line.data(), line.size(), pipe) != nullptr)
+    if (std::string_view(line.data()).find("  effort") != 0) text += line.data();
+  pclose(pipe);
+  return text;
+}
+
+TEST(Check, PrintsTheSameTableOnOneProcessAndOnTwo) {
+  const std::string one = table(1);
+  for (const char* said :
+       {"poured      part: at 700 degC, 86 K above its liquidus", "148.5 cm3", "256.5 cm2", "0.399 kg",
+        "on mould_surface (mould)", "9.81 m/s2 along -z", "by Chvorinov", "Biot", "in order"})
+    EXPECT_THAT(one, HasSubstr(said));
+  EXPECT_EQ(one, table(2));
 }
 
 }  // namespace

@@ -430,9 +430,9 @@ checkpoint_every = 1
   const std::string file = "'" + (root() / "block/checkpoint/state.h5").string() + "'";
   // The second step begins behind the checkpoint of the first: it is in its factorisation soon.
   const Outcome outcome = shell(
-      program + " & p=$!; while kill -0 $p && ! [ -e " + file +
+      "(" + program + " & p=$!; while kill -0 $p && ! [ -e " + file +
       " ]; do sleep 0.05; done; sleep 1; kill -TERM $p; sleep 0.3; kill -TERM $p; a=$(date +%s%N); wait $p; "
-      "echo code=$?; b=$(date +%s%N); [ $((b - a)) -lt 2000000000 ] && echo 'within 2 s'");
+      "echo code=$?; b=$(date +%s%N); [ $((b - a)) -lt 2000000000 ] && echo 'within 2 s')");
   EXPECT_THAT(outcome.output, HasSubstr("asked again, it ends at once"));
   EXPECT_THAT(outcome.output, HasSubstr("within 2 s"));
   EXPECT_THAT(outcome.output, ::testing::AnyOf(HasSubstr("code=143"), HasSubstr("code=2")));
