@@ -37,11 +37,56 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
       findings.push_back({false, t.where,
                           fmt::format("the film '{}' has {:g} W/m2/K", t.name, t.coefficient.table.value(0)),
                           "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+    if (t.kind == Kind::film && t.coefficient.place == nullptr && !is_number(t.coefficient) &&
+        t.coefficient.table.max_value() > 1e8)
+      findings.push_back(
+          {true, t.where,
+           fmt::format("the film '{}' comes to {:g} W/m2/K", t.name, t.coefficient.table.max_value()),
+           "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
     if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor))
       if (const double h = t.coefficient.table.value(0); h > 1e6)
         findings.push_back({h > 1e8, t.where, fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),
                             "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
   }
+}
+
+/// Room temperature in K is a slip where it is read in degrees Celsius.
+bool looks_like_kelvins(double temperature) {
+  const double celsius = temperature - k_zero_celsius;
+  return std::abs(celsius - 293.1) < 0.2 || std::abs(celsius - 298.1) < 0.2;
+}
+
+void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  const auto compare = [&](const SourceLocation& where, const std::string& what, double temperature) {
+    if (looks_like_kelvins(temperature))
+      findings.push_back({false, where, fmt::format("{} of {:g} degC", what, temperature - k_zero_celsius),
+                          "is it in K? 293 K are 20 degC"});
+  };
+  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
+    using Kind = ThermalConditionSpec::Kind;
+    if ((t.kind == Kind::film || t.kind == Kind::radiation) && t.ambient.place == nullptr)
+      compare(t.where, fmt::format("'{}' has surroundings", t.name), t.ambient.table.min_value());
+  }
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const std::string body = fmt::format("the body '{}' has an initial temperature", spec.bodies[b].name);
+    compare(spec.bodies[b].where, body, a.start[b].low);
+    if (a.start[b].low < 200)
+      findings.push_back({false, spec.bodies[b].where,
+                          fmt::format("{} of {:.0f} degC", body, a.start[b].low - k_zero_celsius),
+                          "moulds start at 0 to 400 degC"});
+  }
+}
+
+void outputs(const CaseSpec& spec, Findings& findings) {
+  if (spec.time.steady || !spec.time.end) return;
+  const double end = *spec.time.end;
+  double last = spec.output.every.value_or(0);
+  for (const double time : spec.output.times) last = std::max(last, time);
+  if (last > end * (1 + 1e-9))
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("an output is asked for at {:g} s, but the run ends at {:g} s", last, end),
+         "output.every and output.times up to the end"});
 }
 
 void gravity(const CaseSpec& spec, Findings& findings) {
@@ -70,6 +115,10 @@ void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
                         fmt::format("each step may be wrong by {:g} K, where bodies start {:.0f} K apart",
                                     allowed, high - low),
                         "time.temperature_error of 0.5 to 10 K"});
+  if (const double allowed = spec.time.temperature_error.value_or(1); allowed < 1e-3)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("each step may be wrong by {:g} K alone", allowed),
+                        "time.temperature_error of 0.5 to 10 K"});
 }
 
 void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
@@ -91,6 +140,8 @@ void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findi
   gravity(spec, findings);
   steps(spec, findings);
   if (spec.has_heat()) tolerance(spec, a, findings);
+  if (spec.has_heat()) rooms_in_kelvins(spec, a, findings);
+  outputs(spec, findings);
   size(spec, a, findings);
 }
 

@@ -110,6 +110,25 @@ void held_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, 
   }
 }
 
+/// Springs of contacts, and gaps that count as closed.
+void contact_numbers(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+    const ContactSpec& contact = spec.contacts[c];
+    if (const double penalty = contact.penalty.value_or(1e12); penalty < 1e6 || penalty > 1e17)
+      findings.push_back(
+          {false, contact.where,
+           fmt::format("the contact '{}' has a penalty of {:g} N/m3", contact.name, penalty),
+           "1e8 N/m3 (sand that gives way) to 1e15 N/m3 (steel); without it the program chooses"});
+    if (m.contacts[c].slave_body < 0 || !contact.touching) continue;
+    const double size = std::cbrt(m.bodies[static_cast<std::size_t>(m.contacts[c].slave_body)].volume);
+    if (*contact.touching > 0.2 * size)
+      findings.push_back({false, contact.where,
+                          fmt::format("the contact '{}' takes gaps of up to {:g} mm as closed", contact.name,
+                                      1e3 * *contact.touching),
+                          "tenths of a millimetre between faceted surfaces"});
+  }
+}
+
 void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   double largest = 0;
   for (const BodyMeasures& body : m.bodies)
@@ -140,6 +159,7 @@ void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   if (!spec.has_mechanics()) return;
   supports(spec, a, m, findings);
   held_skins(spec, a, m, findings);
+  contact_numbers(spec, m, findings);
   loads(spec, m, findings);
 }
 

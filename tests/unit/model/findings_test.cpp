@@ -229,6 +229,25 @@ TEST_F(FindingsTest, WhatKeepsACastingFromFreezingIsNamed) {
       ::testing::Contains(HasSubstr("nothing cools the body 'upper'")));
 }
 
+TEST_F(FindingsTest, FurtherSlipsOfUnitsAreNamed) {
+  const std::vector<Slip> slips = {
+      {"ambient = \"20 degC\"", "ambient = \"293 degC\"", "is it in K?"},
+      {"\"200 degC\"", "\"298.15 degC\"", "'lower' has an initial temperature of 298.15 degC; is it in K?"},
+      {"\"200 degC\"", "\"-200 degC\"", "'lower' has an initial temperature of -200 degC"},
+      {"gap_law = \"constant\"", "gap_law = \"gas\"\ngas_conductivity = \"0.05 mW/m/K\"",
+       "the gas in the gap"},
+      {"\"20 W/m2/K\"",
+       "{ of = \"time\", argument_unit = \"s\", unit = \"W/m2/K\", points = [[0, 20], [600, 2e9]] }",
+       "comes to 2e+09 W/m2/K"},
+      {"[[contact]]", "[output]\nevery = \"1 h\"\n[[contact]]", "an output is asked for at 3600 s"},
+      {"[[contact]]", "[output]\ntimes = [\"1 h\"]\n[[contact]]", "an output is asked for at 3600 s"},
+      {"step = \"1 s\"", "step = \"1 s\"\nadaptive = true\ntemperature_error = \"1 uK\"", "by 1e-06 K alone"},
+      {"\"700 degC\"", "\"700 degF\"", "below the liquidus"}};
+  for (const Slip& slip : slips)
+    EXPECT_THAT(said_of(changed(k_casting, slip.what, slip.with)), ::testing::Contains(HasSubstr(slip.said)))
+        << slip.with;
+}
+
 TEST_F(FindingsTest, SupportsThatHoldTooMuchOrNothingAreNamed) {
   const auto support = [](const std::string& text) {
     return "[[mechanical_condition]]\nname = \"slip\"\n" + text + "\n[[mechanical_condition]]";
@@ -237,6 +256,9 @@ TEST_F(FindingsTest, SupportsThatHoldTooMuchOrNothingAreNamed) {
   const std::vector<Slip> slips = {
       {"[[mechanical_condition]]", support("group = \"upper\"\n" + held),
        "100 % of the nodes of 'upper' are held"},
+      {"master = \"lower_top\"", "master = \"lower_top\"\npenalty = \"1 N/m3\"", "a penalty of 1 N/m3"},
+      {"master = \"lower_top\"", "master = \"lower_top\"\ntouching = \"1 m\"",
+       "gaps of up to 1000 mm as closed"},
       {"[[mechanical_condition]]", support("group = \"upper_bottom\"\n" + held), "no gap can open"},
       {"[[mechanical_condition]]", support("group = \"upper_y_max\"\nkind = \"displacement\"\nuy = \"-3 m\""),
        "moves 'upper_y_max' by 3000 mm"},
