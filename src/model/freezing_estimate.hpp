@@ -9,10 +9,9 @@
 ///
 ///   ∂h/∂t = r^(1−n) ∂/∂r ( r^(n−1) k(Θ) ∂Θ/∂r ),   n = R A/V between 1 (plate) and 2.5
 ///
-/// (2 is a bar, 3 a ball; where R A/V is larger the casting has a thick place, which freezes last and counts as
-/// n = 2.5),
-/// with the enthalpy h(Θ) of the material, beside it every mould that the skin faces as a shell of its
-/// volume, with the conductance of the contact (and the gap that the metal's own shrinkage opens where
+/// (2 is a bar, 3 a ball; where R A/V is larger the casting has a thick place, which freezes last and counts
+/// as n = 2.5), with the enthalpy h(Θ) of the material, beside it every mould that the skin faces as a shell
+/// of its volume, with the conductance of the contact (and the gap that the metal's own shrinkage opens where
 /// contact may open), films, radiation and fluxes as they are. So C holds superheat, latent heat, the mould's
 /// √(k ρ C) and its finite thickness, the resistance of the interface and that of the metal, whichever
 /// governs.
