@@ -3,8 +3,6 @@
 #include <fmt/ranges.h>
 
 #include "app/verbs.hpp"
-#include "base/units.hpp"
-#include "model/body_input.hpp"
 #include "model/run.hpp"
 #include "model/stage_input.hpp"
 
@@ -36,14 +34,6 @@ const char* text(model::Physics physics) {
   return "";
 }
 
-/// "670 degC", "400 to 670 degC".
-std::string text(const model::TemperatureRange& range) {
-  const double low = units::to_display(range.low, "K", "degC"),
-               high = units::to_display(range.high, "K", "degC");
-  return range.low == range.high ? fmt::format("{:.6g} degC", low)
-                                 : fmt::format("{:.6g} to {:.6g} degC", low, high);
-}
-
 /// Stages as they come first, and how often each cycle comes round.
 std::string stage_lines(const model::CaseSpec& spec) {
   std::string out;
@@ -68,19 +58,9 @@ ExitCode check(const CaseArguments& arguments) {
   std::string out = fmt::format("{}\n  analysis    {}, {}\n  mesh        {} nodes", spec.title,
                                 text(spec.analysis.kind), text(spec.analysis.physics), counts.nodes);
   for (const auto& [shape, n] : counts.elements_of_shape) out += fmt::format(", {} {}", n, shape);
-  for (std::size_t i = 0; i < spec.bodies.size(); ++i)
-    out += fmt::format("\n  body        {}: {} at {}, {} elements{}{}", spec.bodies[i].name,
-                       spec.bodies[i].material, text(checked.start[i]), counts.elements_of_body[i].second,
-                       model::only_conducts(spec.bodies[i]) ? ", only conducts heat" : "",
-                       spec.bodies[i].stages.empty()
-                           ? ""
-                           : fmt::format(", there in {}", fmt::join(spec.bodies[i].stages, ", ")));
-  for (const auto& t : spec.thermal_conditions)
-    out += fmt::format("\n  heat        {} on {}", t.name, t.group);
+  out += results::text(checked.overview);
   for (const auto& m : spec.mechanical_conditions)
     out += fmt::format("\n  mechanics   {} on {}", m.name, m.group);
-  for (const auto& k : spec.contacts)
-    out += fmt::format("\n  contact     {}: {} on {}", k.name, k.sides()[0], k.sides()[1]);
   for (const model::CouplingEstimate& estimate : checked.couplings)
     out += "\n  coupling    " + model::text(estimate);
   out += stage_lines(spec);

@@ -1,21 +1,40 @@
 #include "app/signals.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdlib>
 #include <initializer_list>
+#include <string_view>
 
 namespace solidus::app {
 
 namespace {
 
 volatile std::sig_atomic_t asked = 0;
+volatile std::sig_atomic_t speaks = 0;  ///< this is process 0
 
-extern "C" void ask_to_stop(int) {
+extern "C" void ask_to_stop(int signal) {
   asked = 1;
+  if (speaks == 0 || signal == SIGPIPE) return;
+  static constexpr char k_text[] =
+      "\ninfo: asked to stop: the run ends with a checkpoint as soon as its step or a factorisation in it "
+      "allows; "
+      "asked again, it ends at once, and the checkpoint before stays\n";
+  if (::write(STDERR_FILENO, k_text, sizeof k_text - 1) < 0) return;  // whoever has gone need not hear it
+}
+
+/// Whether this is the first process of its launcher, before MPI can tell.
+bool is_first_process() {
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK", "SLURM_PROCID"})
+    if (const char* rank = std::getenv(name)) return std::string_view(rank) == "0";
+  return true;
 }
 
 }  // namespace
 
 void listen_to_signals() {
+  speaks = is_first_process() ? 1 : 0;
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
@@ -28,6 +47,8 @@ void listen_to_signals() {
   // Once more may come before the run has ended: each is a write to whoever has gone.
   action.sa_flags = SA_RESTART;
   sigaction(SIGPIPE, &action, nullptr);
+  // A file beyond the limit of the shell (`ulimit -f`) is an error of its write, as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool stop_asked() {

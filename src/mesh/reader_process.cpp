@@ -23,6 +23,7 @@
 #include <string_view>
 
 #include "base/errors.hpp"
+#include "base/log.hpp"
 #include "base/units.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/reader_message.hpp"
@@ -144,6 +145,7 @@ class Reader {
   const MeshSource& source_;
   ReaderLimits limits_;
   Clock::time_point begun_ = Clock::now();
+  double next_report_ = 5;  ///< after so many seconds, then after twice as many, it is said that it goes on
   pid_t pid_ = -1;
   int to_ = -1, from_ = -1;
 };
@@ -198,7 +200,14 @@ void Reader::wait_for_bytes() {
     pollfd waiting{from_, POLLIN, 0};
     if (::poll(&waiting, 1, k_tick) > 0) return;
     if (give_up != nullptr && give_up()) throw StepRejected("stopped by a signal while the mesh was read");
-    if (std::chrono::duration<double>(Clock::now() - begun_).count() > limits_.time)
+    const double taken = std::chrono::duration<double>(Clock::now() - begun_).count();
+    if (taken > next_report_) {
+      logging::info(
+          "'{}' is being read or meshed for {:.0f} s; it may take up to {:.0f} s (SOLIDUS_MESH_TIME)",
+          source_.path, taken, limits_.time);
+      next_report_ *= 2;
+    }
+    if (taken > limits_.time)
       throw InputError({source_.path},
                        "reading or meshing took longer than " + std::to_string(std::lround(limits_.time)) +
                            " s and was ended",

@@ -15,6 +15,7 @@
 #include "model/heat_input.hpp"
 #include "model/mechanics_input.hpp"
 #include "model/scheme_input.hpp"
+#include "model/skin_measures.hpp"
 
 namespace solidus::model {
 
@@ -39,22 +40,46 @@ std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTempera
   return temperature;
 }
 
+/// That the two surfaces of a contact are not one. Collective.
+void check_separate(const mesh::Mesh& mesh, const contact::ContactSpec& pair) {
+  const GlobalIndex shared = shared_nodes(mesh, pair.slave, pair.master);
+  if (shared > 0 && shared == shared_nodes(mesh, pair.slave, pair.slave))
+    throw InputError(pair.where,
+                     fmt::format("the surfaces '{}' and '{}' of the contact '{}' share all their nodes: the "
+                                 "bodies are one there, and no gap can open",
+                                 pair.slave, pair.master, pair.name),
+                     "bodies with nodes of their own: no mesh.conforming, no common faces in the geometry");
+}
+
+/// Warns of slave surfaces that contacts cover in part; several may share one.
+void check_coverage(const Assembly& a) {
+  for (const auto& pair : a.contacts) {
+    double covered = 0;
+    bool slides = false;
+    for (const auto& other : a.contacts) {
+      if (other->spec().slave != pair->spec().slave) continue;
+      covered += other->coverage();
+      slides = slides || other->spec().formulation == contact::Formulation::large_sliding;
+    }
+    if (!slides && covered < 0.999)
+      logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
+                    pair->spec().name, 100 * pair->coverage(), pair->spec().slave);
+  }
+}
+
 void build_contacts(const CaseSpec& spec, Assembly& a) {
   std::vector<double> moduli = contact_moduli(a.materials);
   for (std::size_t b = 0; b < moduli.size(); ++b)
     if (only_conducts(spec.bodies[b])) moduli[b] = 0;  // its stiffness makes no penalty
   for (contact::ContactSpec& pair : contact_specs(spec)) {
+    check_separate(a.mesh, pair);
     set_walls(spec, a.mesh, pair);
     set_leaving_gap(spec, a.mesh, a.materials, pair);
     a.contacts.push_back(
         std::make_unique<contact::ContactPair>(a.mesh, spec.analysis.kind, std::move(pair), moduli));
     a.phases.contacts.push_back(a.contacts.back().get());
-    const bool slides = a.contacts.back()->spec().formulation == contact::Formulation::large_sliding;
-    if (!slides && a.contacts.back()->coverage() < 0.999)
-      logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
-                    a.contacts.back()->spec().name, 100 * a.contacts.back()->coverage(),
-                    a.contacts.back()->spec().slave);
   }
+  check_coverage(a);
 }
 
 void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_temperature, Assembly& a) {

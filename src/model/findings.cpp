@@ -5,12 +5,16 @@
 
 namespace solidus::model {
 
-Findings findings(const CaseSpec& spec, const Assembly& a) {
+Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   Findings found;
   find_in_interfaces(spec, a, found);
   find_in_materials(spec, a, found);
   find_in_pour(spec, a, found);
   find_in_conditions(spec, a, found);
+  find_in_geometry(spec, a, m, found);
+  find_in_freezing(spec, a, m, found);
+  find_in_mechanics(spec, a, m, found);
+  find_in_effort(spec, m, found);
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/assembly.hpp"
+#include "model/case_measures.hpp"
 #include "model/case_spec.hpp"
 
 namespace solidus::model {
@@ -22,6 +23,11 @@ inline bool is_number(const Function& f) {
   return f.place == nullptr && f.of == Argument::constant;
 }
 
+/// Whether a condition is there from the start to the end with one strength.
+inline bool always_on(const ThermalConditionSpec& c) {
+  return is_number(c.coefficient) && is_number(c.factor) && c.stages.empty();
+}
+
 /// Contacts that are given twice, that no heat passes, or that are missing; films on surfaces in contact and
 /// several films on one surface; conductances. Collective.
 void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings);
@@ -32,8 +38,18 @@ void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Surroundings, coefficients and gravity; the length of the run in steps. Collective: size of the mesh.
 void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings);
 
+/// Bodies that overlap, share nodes or are too coarsely meshed.
+void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// What keeps a casting from freezing, runs that end before, steps that are too long for it, feeders and
+/// chills. Collective.
+void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Supports and loads. Collective.
+void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Runs that do not fit into the machine or the year, and outputs without number.
+void find_in_effort(const CaseSpec& spec, const CaseMeasures& m, Findings& findings);
+
 /// All of them, of a case that is built. Collective.
-Findings findings(const CaseSpec& spec, const Assembly& a);
+Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
 
 /// Warns of each finding; throws InputError for the first error.
 void report(const Findings& findings);

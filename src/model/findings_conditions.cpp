@@ -24,11 +24,69 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
                             fmt::format("'{}' has surroundings of {:.0f} degC ({:.0f} K)", t.name,
                                         units::to_display(ambient, "K", "degC"), ambient),
                             "room temperature is 20 degC, 293 K"});
+    if (t.kind == Kind::source && is_number(t.power) && std::abs(t.power.table.value(0)) > 1e11)
+      findings.push_back({false, t.where,
+                          fmt::format("the source '{}' has {:g} W/m3", t.name, t.power.table.value(0)),
+                          "usual are 1e3 to 1e9 W/m3, under a laser 1e11"});
+    if (t.kind == Kind::flux && is_number(t.flux) && std::abs(t.flux.table.value(0)) > 1e8)
+      findings.push_back({false, t.where,
+                          fmt::format("the flux '{}' has {:g} W/m2", t.name, t.flux.table.value(0)),
+                          "usual are 1e2 to 1e7 W/m2"});
+    if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor) &&
+        t.coefficient.table.value(0) < 0.5)
+      findings.push_back({false, t.where,
+                          fmt::format("the film '{}' has {:g} W/m2/K", t.name, t.coefficient.table.value(0)),
+                          "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+    if (t.kind == Kind::film && t.coefficient.place == nullptr && !is_number(t.coefficient) &&
+        t.coefficient.table.max_value() > 1e8)
+      findings.push_back(
+          {true, t.where,
+           fmt::format("the film '{}' comes to {:g} W/m2/K", t.name, t.coefficient.table.max_value()),
+           "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
     if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor))
       if (const double h = t.coefficient.table.value(0); h > 1e6)
         findings.push_back({h > 1e8, t.where, fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),
                             "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
   }
+}
+
+/// Room temperature in K is a slip where it is read in degrees Celsius.
+bool looks_like_kelvins(double temperature) {
+  const double celsius = temperature - k_zero_celsius;
+  return std::abs(celsius - 293.1) < 0.2 || std::abs(celsius - 298.1) < 0.2;
+}
+
+void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  const auto compare = [&](const SourceLocation& where, const std::string& what, double temperature) {
+    if (looks_like_kelvins(temperature))
+      findings.push_back({false, where, fmt::format("{} of {:g} degC", what, temperature - k_zero_celsius),
+                          "is it in K? 293 K are 20 degC"});
+  };
+  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
+    using Kind = ThermalConditionSpec::Kind;
+    if ((t.kind == Kind::film || t.kind == Kind::radiation) && t.ambient.place == nullptr)
+      compare(t.where, fmt::format("'{}' has surroundings", t.name), t.ambient.table.min_value());
+  }
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const std::string body = fmt::format("the body '{}' has an initial temperature", spec.bodies[b].name);
+    compare(spec.bodies[b].where, body, a.start[b].low);
+    if (a.start[b].low < 200)
+      findings.push_back({false, spec.bodies[b].where,
+                          fmt::format("{} of {:.0f} degC", body, a.start[b].low - k_zero_celsius),
+                          "moulds start at 0 to 400 degC"});
+  }
+}
+
+void outputs(const CaseSpec& spec, Findings& findings) {
+  if (spec.time.steady || !spec.time.end) return;
+  const double end = *spec.time.end;
+  double last = spec.output.every.value_or(0);
+  for (const double time : spec.output.times) last = std::max(last, time);
+  if (last > end * (1 + 1e-9))
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("an output is asked for at {:g} s, but the run ends at {:g} s", last, end),
+         "output.every and output.times up to the end"});
 }
 
 void gravity(const CaseSpec& spec, Findings& findings) {
@@ -47,6 +105,22 @@ void steps(const CaseSpec& spec, Findings& findings) {
                         "some hundred steps; time.adaptive chooses them"});
 }
 
+/// What a step may be wrong by, against what the run passes through.
+void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  double high = 0, low = std::numeric_limits<double>::max();
+  for (const TemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
+  if (const double allowed = spec.time.temperature_error.value_or(0);
+      high - low > 100 && allowed > 0.1 * (high - low))
+    findings.push_back({false, spec.time.where,
+                        fmt::format("each step may be wrong by {:g} K, where bodies start {:.0f} K apart",
+                                    allowed, high - low),
+                        "time.temperature_error of 0.5 to 10 K"});
+  if (const double allowed = spec.time.temperature_error.value_or(1); allowed < 1e-3)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("each step may be wrong by {:g} K alone", allowed),
+                        "time.temperature_error of 0.5 to 10 K"});
+}
+
 void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -54,7 +128,7 @@ void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
     for (const mesh::Point& x : a.mesh.x) low = std::min(low, x[i]), high = std::max(high, x[i]);
     largest = std::max(largest, algebra::global_max(high) - algebra::global_min(low));
   }
-  if (largest > 50 || largest < 1e-4)
+  if (largest > 30 || largest < 1e-4)
     findings.push_back({false, spec.mesh.where, fmt::format("the mesh is {:.3g} m large", largest),
                         "is mesh.unit right? It is \"m\" unless the case says \"mm\""});
 }
@@ -65,6 +139,9 @@ void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findi
   if (spec.has_heat()) surroundings(spec, findings);
   gravity(spec, findings);
   steps(spec, findings);
+  if (spec.has_heat()) tolerance(spec, a, findings);
+  if (spec.has_heat()) rooms_in_kelvins(spec, a, findings);
+  outputs(spec, findings);
   size(spec, a, findings);
 }
 

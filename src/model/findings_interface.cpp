@@ -145,7 +145,8 @@ void conductances(const CaseSpec& spec, Findings& findings) {
           {h > 1e8, contact.where,
            fmt::format("the contact '{}' conducts {:g} W/m2/K where it is closed", contact.name, h),
            "usual are 100 to 50000 W/m2/K between casting and mould"});
-    if (const double gas = contact.heat->gas_conductivity; gas > 0.6)
+    const bool through_gas = contact.heat->gap_law == contact::HeatTransferSpec::GapLaw::gas;
+    if (const double gas = contact.heat->gas_conductivity; gas > 0.6 || (through_gas && gas < 0.005))
       findings.push_back({false, contact.where,
                           fmt::format("the gas in the gap of '{}' conducts {:g} W/m/K", contact.name, gas),
                           "air conducts 0.03 to 0.1 W/m/K, hydrogen 0.2 to 0.6"});

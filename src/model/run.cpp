@@ -16,7 +16,6 @@
 #include "base/units.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/simulation.hpp"
-#include "material/library.hpp"
 #include "model/advice.hpp"
 #include "model/assembly.hpp"
 #include "model/audit_watch.hpp"
@@ -26,6 +25,8 @@
 #include "model/findings.hpp"
 #include "model/fingerprint.hpp"
 #include "model/mesh_input.hpp"
+#include "model/overview.hpp"
+#include "model/range_watch.hpp"
 #include "model/run_input.hpp"
 #include "model/scheme_input.hpp"
 #include "model/stage_input.hpp"
@@ -36,56 +37,6 @@
 namespace solidus::model {
 
 namespace {
-
-// Watches the temperatures of each body and warns once when a property is used outside the range of its
-// source.
-class RangeWatch : public coupling::Observer {
- public:
-  RangeWatch(const CaseSpec& spec, const Assembly& a) : spec_(spec), a_(a), warned_(spec.bodies.size()) {}
-  void begin(const coupling::State& state) override { look(state); }
-  void step(const coupling::StepRecord&, const coupling::State& state) override { look(state); }
-  void stopped(const coupling::Stop&, const coupling::State&) override {}
-  void end(const coupling::State&) override {}
-
- private:
-  void look(const coupling::State& state) {
-    const std::vector<double>& temperature = a_.heat ? state.heat.temperature : a_.phases.temperature;
-    std::vector<double> low(spec_.bodies.size(), 1e300), high(spec_.bodies.size(), -1e300);
-    for (const mesh::Block& block : a_.mesh.blocks) {
-      if (a_.heat && !a_.heat->presence().body(block.body)) continue;
-      for (const Index i : block.nodes) {
-        const auto b = static_cast<std::size_t>(block.body);
-        low[b] = std::min(low[b], temperature[static_cast<std::size_t>(i)]);
-        high[b] = std::max(high[b], temperature[static_cast<std::size_t>(i)]);
-      }
-    }
-    for (std::size_t b = 0; b < low.size(); ++b) {
-      const double lowest = algebra::global_min(low[b]), highest = algebra::global_max(high[b]);
-      if (lowest <= highest) report(b, lowest, highest);  // else it has gone
-    }
-  }
-
-  void report(std::size_t body, double low, double high) {
-    for (const material::LeftRange& left : material::left_ranges(a_.materials[body], low, high)) {
-      const std::string text = fmt::format(
-          "body '{}', material '{}': {} is used between {:.1f} and {:.1f} degC, its data hold from {:.1f} to "
-          "{:.1f} degC",
-          spec_.bodies[body].name, a_.materials[body].name, left.property, low - k_zero_celsius,
-          high - k_zero_celsius, left.valid_from - k_zero_celsius, left.valid_to - k_zero_celsius);
-      if (left.refused)
-        throw InputError(spec_.bodies[body].where, text,
-                         "a table that reaches further, or another extrapolation");
-      auto& said = warned_[body];
-      if (std::find(said.begin(), said.end(), left.property) != said.end()) continue;
-      said.push_back(left.property);
-      logging::warn("{}", text);
-    }
-  }
-
-  const CaseSpec& spec_;
-  const Assembly& a_;
-  std::vector<std::vector<std::string>> warned_;
-};
 
 // The second law for deformation: every law dissipates; warns once where one does not (2.113).
 class DissipationWatch : public coupling::Observer {
@@ -279,11 +230,12 @@ CheckedRun check_run(const Case& c) {
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
   build(c.spec, a);
-  report(findings(c.spec, a));
+  const CaseMeasures measures = measure(c.spec, a);
+  report(findings(c.spec, a, measures));
   results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
   for (std::size_t i = 0; i < a.stages.size(); ++i)
     if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
-  CheckedRun checked{counts(c.spec, a.mesh), a.start, {}};
+  CheckedRun checked{counts(c.spec, a.mesh), overview(c.spec, a, measures), {}};
   if (a.phases.audits_stability())
     checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh, a.start);
   return checked;
@@ -302,11 +254,15 @@ RunResult run_case(const Case& c, const RunOptions& options) {
   part.emplace("set-up");
   build(c.spec, a);
   return_free_memory();
-  report(findings(c.spec, a));
+  part.emplace("findings");
+  const CaseMeasures measures = measure(c.spec, a);
+  report(findings(c.spec, a, measures));
+  part.emplace("set-up");
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
   results::RecorderOptions r = recorder_options(c, options, a);
+  r.summary.overview = overview(c.spec, a, measures);
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
   const results::RunLock lock(options.folder);
   std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);

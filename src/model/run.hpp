@@ -34,7 +34,7 @@ RunResult run_case(const Case& c, const RunOptions& options);
 /// What a look at a case shows.
 struct CheckedRun {
   results::MeshCounts mesh;
-  std::vector<TemperatureRange> start;      ///< initial temperatures, [body]
+  results::Overview overview;
   std::vector<CouplingEstimate> couplings;  ///< one per body where heat and deformation are coupled
 };
 

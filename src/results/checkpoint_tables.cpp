@@ -1,9 +1,16 @@
 #include "results/checkpoint_tables.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <mpi.h>
 #include <petscsys.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +24,22 @@ namespace {
 
 constexpr std::int64_t k_rows_at_once = 1 << 16;
 constexpr std::size_t k_widest = 1 << 14;  ///< numbers in a row: of the points of one element
+/// What HDF5 writes beside the numbers, of a file and of a table, amply [bytes].
+constexpr std::int64_t k_of_file = 1 << 16, k_of_table = 1 << 12;
+
+/// Reserves the first bytes of a file; an error number where there is no room for them, else zero. A file
+/// system that cannot reserve is believed to have it.
+int reserve_bytes(int descriptor, std::int64_t bytes) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+      static_cast<std::uint64_t>(bytes) > limit.rlim_cur)
+    return EFBIG;
+  while (fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, bytes) != 0) {
+    if (errno == EINTR) continue;
+    return errno == ENOSPC || errno == EDQUOT || errno == EFBIG ? errno : 0;
+  }
+  return 0;
+}
 
 std::string from_first(std::string text) {
   int length = static_cast<int>(text.size());
@@ -30,11 +53,15 @@ std::string from_first(std::string text) {
 
 TableWriter::TableWriter(std::filesystem::path path) : path_(std::move(path)) {
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
+  if (rank_ == 0) descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (!reserve(k_of_file)) return;
   attempt([&] { file_.emplace(path_, Hdf5File::Mode::create, PETSC_COMM_WORLD); });
+  reserve(0);  // making the file has emptied it
 }
 
 TableWriter::~TableWriter() {
   file_.reset();
+  if (descriptor_ >= 0) ::close(descriptor_);
   if (finished_ || rank_ != 0) return;
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
@@ -49,14 +76,31 @@ void TableWriter::attempt(const std::function<void()>& work) {
   }
 }
 
+bool TableWriter::reserve(std::int64_t more) {
+  int failed = 0;
+  reserved_ += more;
+  if (descriptor_ >= 0 && !error_) failed = reserve_bytes(descriptor_, reserved_);
+  MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  if (failed == 0) return true;
+  attempt([&] {
+    throw OutputError(path_.string(),
+                      fmt::format("cannot write a checkpoint of {:.3g} MB or more: {}",
+                                  1e-6 * static_cast<double>(reserved_), std::strerror(failed)),
+                      "is there room on the disk?");
+  });
+  full_ = true;
+  return false;
+}
+
 void TableWriter::text(const std::string& name, const std::string& of_first) {
   // Its length is part of what the processes create together.
   const std::string text = from_first(of_first);
+  if (full_ || !reserve(static_cast<std::int64_t>(text.size()) + k_of_table)) return;
   if (file_) attempt([&] { file_->write_text(name, text); });
 }
 
 void TableWriter::numbers(const std::string& name, const std::vector<double>& n) {
-  if (!file_) return;
+  if (full_ || !reserve(static_cast<std::int64_t>(n.size() * sizeof(double)) + k_of_table) || !file_) return;
   attempt([&] { file_->create_table<double>(name, static_cast<std::int64_t>(n.size()), 1); });
   if (rank_ == 0) attempt([&] { file_->write_rows<double>(name, 0, n); });
 }
@@ -70,7 +114,7 @@ void TableWriter::rows(const std::string& name, int width, std::span<const T> ow
   MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
   MPI_Exscan(&mine, &first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
   if (rank_ == 0) first = 0;
-  if (!file_) return;
+  if (full_ || !reserve(all * width * static_cast<std::int64_t>(sizeof(T)) + k_of_table) || !file_) return;
   attempt([&] { file_->create_table<T>(name, all, width); });
   attempt([&] { file_->write_rows<T>(name, first, own); });
 }
@@ -80,6 +124,11 @@ template void TableWriter::rows<std::int64_t>(const std::string&, int, std::span
 
 void TableWriter::finish(const std::function<void()>& last) {
   if (file_) attempt([&] { file_->close(); });
+  struct stat written {};
+  if (descriptor_ >= 0 && fstat(descriptor_, &written) == 0 && S_ISREG(written.st_mode) &&
+      ftruncate(descriptor_, written.st_size) != 0)
+    attempt(
+        [&] { throw OutputError(path_.string(), std::string("cannot be cut: ") + std::strerror(errno)); });
   together([&] {
     if (error_) std::rethrow_exception(error_);
   });

@@ -16,10 +16,15 @@
 namespace solidus::results {
 
 /// All calls are collective. A failure is kept, so that no process waits for another, and thrown by finish().
+///
+/// Room on the disk is reserved before anything goes into the file: neither HDF5 nor MPI-IO survives a disk
+/// that fills up under them (one crashes when the program ends, the other waits for ever).
 class TableWriter {
  public:
   explicit TableWriter(std::filesystem::path path);
   ~TableWriter();
+  TableWriter(const TableWriter&) = delete;
+  TableWriter& operator=(const TableWriter&) = delete;
   void text(const std::string& name, const std::string& of_first);      ///< of process 0
   void numbers(const std::string& name, const std::vector<double>& n);  ///< of process 0; as many on all
   /// The rows of all processes, in their order. `width` may differ where a process has no row.
@@ -31,10 +36,16 @@ class TableWriter {
 
  private:
   void attempt(const std::function<void()>& work);
+  /// Room for so many more bytes [bytes]; false, on every process, where the disk has none: nothing more is
+  /// written then.
+  bool reserve(std::int64_t more);
 
   std::filesystem::path path_;
   int rank_ = 0;
   bool finished_ = false;
+  int descriptor_ = -1;  ///< of process 0, to reserve with
+  std::int64_t reserved_ = 0;
+  bool full_ = false;  ///< the disk has no room: the same on every process
   std::optional<Hdf5File> file_;
   std::exception_ptr error_;
 };

@@ -127,6 +127,7 @@ std::string summary_json(const Summary& s) {
   json.add("final", object(s.final_values)).add("criteria", findings(s.criteria));
   if (!s.melt.empty()) json.add("melt", melts(s.melt));
   if (!s.left_walls.empty()) json.add("liquid_metal_left_its_wall", left_walls(s.left_walls));
+  if (s.overview) json.add("understood", results::json(*s.overview));
   json.add("warnings", std::move(warnings));
   return json.text();
 }

@@ -12,6 +12,7 @@
 #include "criteria/criterion.hpp"
 #include "mesh/mesh.hpp"
 #include "results/balance.hpp"
+#include "results/overview.hpp"
 
 namespace solidus::results {
 
@@ -68,6 +69,7 @@ struct Summary {
   std::vector<criteria::Finding> criteria;
   std::vector<ChosenMelt> melt;
   std::vector<LeftWall> left_walls;
+  std::optional<Overview> overview;  ///< what the case was understood to be
   std::vector<std::string> warnings;
 };
 

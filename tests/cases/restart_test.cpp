@@ -54,14 +54,17 @@ class Restart : public ::testing::Test {
            " --set mesh.cylinder_in_mould.mould_element_size='\"8 mm\"' --set time.end='\"10 s\"' -o '" +
            (root() / folder).string() + "' " + more;
   }
-  static Outcome run(const std::string& folder, const std::string& more = {}, int processes = 1) {
+  static std::string launched(const std::string& folder, const std::string& more, int processes) {
     // This program is an MPI program too, whose environment would confuse mpirun.
     const std::string launcher =
         processes == 1 ? ""
                        : "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
                          "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n " +
                              std::to_string(processes) + " --bind-to none --oversubscribe ";
-    return shell(launcher + command(folder, more));
+    return launcher + command(folder, more);
+  }
+  static Outcome run(const std::string& folder, const std::string& more = {}, int processes = 1) {
+    return shell(launched(folder, more, processes));
   }
   /// A run in two halves leaves the tables and fields of one that was never stopped.
   static void expect_the_same(const std::string& options, int processes) {
@@ -344,6 +347,32 @@ TEST_F(Restart, AFullDiskAtACheckpointIsSaidAndTheRunCanGoOn) {
   }
 }
 
+// A small disk in memory, which fills up in the first steps and is then made larger.
+TEST_F(Restart, ADiskThatFillsUpEndsTheRunAndTheRestGivesTheSameBytes) {
+  if (shell("unshare -rm true").code != 0)
+    GTEST_SKIP() << "this system lets nobody but root mount a disk of its own";
+  const fs::path disk = root() / "disk";
+  fs::create_directories(disk);
+  const std::string every = "--set output.checkpoint_every=1 --set output.every='\"1 s\"'";
+  for (const int processes : {1, 2}) {
+    ASSERT_EQ(run("whole", every, processes).code, 0);
+    const auto quoted = [](const std::string& text) { return "'" + text + "'"; };
+    // The folder of the run lies on the disk, which is there for this shell alone.
+    std::ofstream(root() / "fill.sh")
+        << "mount -t tmpfs -o size=900k tmpfs " << quoted(disk.string()) << "\n"
+        << launched("disk/run", every, processes) << "; echo first=$?\n"
+        << "mount -o remount,size=100m " << quoted(disk.string()) << "\n"
+        << launched("disk/run", every + " --restart", processes) << "; echo second=$?\n"
+        << "cmp " << quoted((disk / "run/history.csv").string()) << " "
+        << quoted((root() / "whole/history.csv").string()) << " && echo equal\n";
+    const Outcome outcome = shell("timeout 120 unshare -rm sh " + quoted((root() / "fill.sh").string()));
+    EXPECT_THAT(outcome.output, HasSubstr("is there room on the disk?")) << processes;
+    EXPECT_THAT(outcome.output, HasSubstr("first=1")) << processes;
+    EXPECT_THAT(outcome.output, HasSubstr("second=0")) << processes;
+    EXPECT_THAT(outcome.output, HasSubstr("equal")) << processes;
+  }
+}
+
 TEST_F(Restart, ASignalEndsTheRunAfterItsStepAndTheRestGivesTheSameBits) {
   const std::string steps = "--set time.step='\"0.02 s\"'";
   ASSERT_EQ(run("whole", steps).code, 0);
@@ -356,6 +385,59 @@ TEST_F(Restart, ASignalEndsTheRunAfterItsStepAndTheRestGivesTheSameBits) {
   const Outcome rest = run("halves", steps + " --restart");
   ASSERT_EQ(rest.code, 0) << rest.output;
   EXPECT_EQ(text(root() / "whole/history.csv"), text(root() / "halves/history.csv"));
+}
+
+// A factorisation of some seconds cannot be left: the first signal waits for it, the second does not.
+TEST_F(Restart, ASecondSignalEndsAFactorisationAtOnceAndTheCheckpointStays) {
+  fs::create_directories(root());
+  std::ofstream(root() / "block.toml") << R"(title = "A block that cools, by factorisation"
+[analysis]
+kind = "solid"
+physics = "thermomechanical"
+[mesh]
+shape = "block"
+element = "hex8"
+[mesh.block]
+size = ["100 mm", "100 mm", "100 mm"]
+divisions = [24, 24, 24]
+[time]
+end = "100 s"
+step = "1 s"
+[[body]]
+name = "block"
+material = "steel_mould"
+initial_temperature = "500 degC"
+[[thermal_condition]]
+name = "water"
+group = "z_min"
+kind = "film"
+coefficient = "5000 W/m2/K"
+ambient = "20 degC"
+[[mechanical_condition]]
+name = "table"
+group = "z_min"
+kind = "displacement"
+ux = "0 mm"
+uy = "0 mm"
+uz = "0 mm"
+[mechanics]
+solver = "direct"
+[output]
+checkpoint_every = 1
+)";
+  const std::string program = "'" SOLIDUS_BINARY_DIR "/solidus' run '" + (root() / "block.toml").string() +
+                              "' -o '" + (root() / "block").string() + "' --set time.end='\"2 s\"'";
+  const std::string file = "'" + (root() / "block/checkpoint/state.h5").string() + "'";
+  // The second step begins behind the checkpoint of the first: it is in its factorisation soon.
+  const Outcome outcome = shell(
+      "(" + program + " & p=$!; while kill -0 $p && ! [ -e " + file +
+      " ]; do sleep 0.05; done; sleep 1; kill -TERM $p; sleep 0.3; kill -TERM $p; a=$(date +%s%N); wait $p; "
+      "echo code=$?; b=$(date +%s%N); [ $((b - a)) -lt 2000000000 ] && echo 'within 2 s')");
+  EXPECT_THAT(outcome.output, HasSubstr("asked again, it ends at once"));
+  EXPECT_THAT(outcome.output, HasSubstr("within 2 s"));
+  EXPECT_THAT(outcome.output, ::testing::AnyOf(HasSubstr("code=143"), HasSubstr("code=2")));
+  const Outcome rest = shell(program + " --restart");
+  EXPECT_EQ(rest.code, 0) << rest.output;
 }
 
 }  // namespace

@@ -143,6 +143,11 @@ TEST_F(ForeignFiles, MemoryAndTimeOfAReaderAreLimited) {
   expect_refused("export SOLIDUS_MESH_MEMORY='400 MB'; solidus check case.toml", {"part.geo"});
   write("part.geo", std::string(k_square) + "For i In {1:1e9}\n  a = i;\nEndFor\n");
   expect_refused("export SOLIDUS_MESH_TIME='2 s'; solidus check case.toml", {"part.geo", "longer than 2 s"});
+  // What takes long says that it goes on, and how long it may.
+  const Outcome slow = shell("export SOLIDUS_MESH_TIME='7 s'; solidus check case.toml");
+  EXPECT_EQ(slow.code, 1);
+  EXPECT_THAT(slow.said, AllOf(HasSubstr("is being read or meshed for 5 s"), HasSubstr("up to 7 s"),
+                               HasSubstr("longer than 7 s")));
   write("part.msh",
         "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 400000000 1 400000000\n2 1 0 400000000\n1\n");
   expect_refused("ulimit -v 4000000; solidus mesh-info part.msh", {"part.msh"});

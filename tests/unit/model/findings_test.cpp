@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "base/log.hpp"
+#include "model/case_materials.hpp"
+#include "model/range_watch.hpp"
 #include "model/run.hpp"
 
 namespace {
@@ -35,7 +37,7 @@ lower_divisions = [8, 4]
 upper = ["40 mm", "20 mm"]
 upper_divisions = [8, 4]
 [time]
-end = "60 s"
+end = "10 min"
 step = "1 s"
 [[body]]
 name = "upper"
@@ -67,6 +69,18 @@ std::string changed(std::string text, const std::string& what, const std::string
   const std::size_t at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;
   return at == std::string::npos ? text : text.replace(at, what.size(), with);
+}
+
+/// The same blocks with mechanics: the upper one shrinks on the lower one.
+std::string deforming() {
+  return changed(k_casting, "physics = \"heat\"", "physics = \"thermomechanical\"") + R"(
+[[mechanical_condition]]
+name = "table"
+group = "lower_y_min"
+kind = "displacement"
+ux = "0 mm"
+uy = "0 mm"
+)";
 }
 
 class FindingsTest : public ::testing::Test {
@@ -123,7 +137,7 @@ TEST_F(FindingsTest, EachSlipIsNamed) {
       {"\"20 W/m2/K\"", "\"2000 W/mm2/K\"", "error"},
       {"\"9.81 m/s2\"", "\"9.81 mm/s2\"", "gravity is 0.00981"},
       {"\"9.81 m/s2\"", "\"98.1 m/s2\"", "gravity is 98.1"},
-      {"step = \"1 s\"", "step = \"60 s\"", "one step of 60 s"},
+      {"step = \"1 s\"", "step = \"600 s\"", "one step of 600 s"},
       {"lower = [\"40 mm\", \"20 mm\"]", "lower = [\"160 m\", \"20 m\"]", "the mesh is 160 m"}};
   for (const Slip& slip : slips) {
     const std::vector<std::string> said = said_of(changed(k_casting, slip.what, slip.with));
@@ -133,6 +147,163 @@ TEST_F(FindingsTest, EachSlipIsNamed) {
       changed(changed(changed(k_casting, "steel_mould", "x"), "aluminium_alsi7mg", "steel_mould"), "\"x\"",
               "\"aluminium_alsi7mg\"");
   EXPECT_THAT(said_of(swapped), ::testing::Contains(HasSubstr("swapped")));
+}
+
+TEST_F(FindingsTest, NormalPoursOfAllAlloysIntoAllMouldsGiveNone) {
+  // The cards with the monograph's data hold from 200 or 350 degC up, and say so: not among these.
+  const std::vector<std::pair<std::string, std::string>> alloys = {{"aluminium_1070", "740 degC"},
+                                                                   {"aluminium_alsi7mg", "700 degC"},
+                                                                   {"grey_iron", "1300 degC"},
+                                                                   {"nodular_iron", "1350 degC"},
+                                                                   {"low_carbon_steel", "1600 degC"}};
+  const std::vector<std::string> moulds = {"green_sand", "steel_mould", "h13_tool_steel", "iron_chill",
+                                           "copper_chill"};
+  std::string pour = changed(k_casting, "end = \"10 min\"", "end = \"2 h\"\nadaptive = true");
+  pour = changed(pour, "lower = [\"40 mm\", \"20 mm\"]", "lower = [\"40 mm\", \"100 mm\"]");
+  pour = changed(pour, "lower_divisions = [8, 4]", "lower_divisions = [8, 20]");
+  for (const auto& [alloy, temperature] : alloys) {
+    for (const std::string& mould : moulds) {
+      const std::string text = changed(
+          changed(changed(pour, "aluminium_alsi7mg", alloy), "700 degC", temperature), "steel_mould", mould);
+      EXPECT_THAT(said_of(text), IsEmpty()) << alloy << " in " << mould;
+    }
+    // The properties of the solid count up to its solidus, those of heat in the melt too.
+    said_of(changed(changed(deforming(), "aluminium_alsi7mg", alloy), "700 degC", temperature));
+    const CaseSpec spec = load_case(folder_ / "case.toml").spec;
+    const double hot = spec.bodies[0].initial_temperature.table.value(0);
+    std::vector<std::string> said;
+    EXPECT_EQ(left_data(spec, 0, load_materials(spec)[0], 293.15, hot, said), "") << alloy;
+  }
+}
+
+TEST_F(FindingsTest, ANormalPourWithMechanicsGivesNone) {
+  EXPECT_THAT(said_of(deforming()), IsEmpty());
+}
+
+/// One change of the casting, and a part of what is to be said of it.
+struct Slip {
+  std::string what, with, said;
+};
+
+TEST_F(FindingsTest, WhatKeepsACastingFromFreezingIsNamed) {
+  const std::string contact = std::string(k_casting).substr(std::string(k_casting).find("[[contact]]"));
+  const auto condition = [](const std::string& text) {
+    return "[[thermal_condition]]\nname = \"slip\"\n" + text + "\n[[contact]]";
+  };
+  const std::vector<Slip> slips = {
+      {"[[contact]]", condition("group = \"upper_y_max\"\nkind = \"flux\"\nflux = \"1e5 W/m2\""),
+       "the flux 'slip' of 100000 W/m2 heats 'upper'"},
+      {"[[contact]]",
+       condition("group = \"upper_y_max\"\nkind = \"temperature\"\ntemperature = \"700 degC\""),
+       "holds the skin 'upper_y_max' of 'upper' at 700 degC"},
+      {"[[contact]]",
+       condition(
+           "group = \"upper_y_max\"\nkind = \"film\"\ncoefficient = \"2000 W/m2/K\"\nambient = \"700 degC\""),
+       "the surroundings of 'slip' have 700 degC"},
+      {"[[contact]]",
+       condition(
+           "group = \"upper_y_max\"\nkind = \"film\"\ncoefficient = \"0 W/m2/K\"\nambient = \"20 degC\""),
+       "the film 'slip' has 0 W/m2/K"},
+      {"[[contact]]", condition("group = \"upper\"\nkind = \"source\"\npower = \"1e12 W/m3\""),
+       "the source 'slip' has 1e+12 W/m3"},
+      {"end = \"10 min\"", "end = \"10 ms\"", "longer than the whole time"},
+      {"end = \"10 min\"\nstep = \"1 s\"", "end = \"2 s\"\nstep = \"0.1 s\"", "the run ends after 2 s"},
+      {"step = \"1 s\"", "step = \"100 s\"", "steps of 100 s"},
+      {"step = \"1 s\"", "step = \"1 s\"\nadaptive = true\ntemperature_error = \"200 K\"",
+       "each step may be wrong by 200 K"},
+      {"initial_temperature = \"200 degC\"", "initial_temperature = \"700 degC\"", "nothing cools"},
+      {"lower = [\"40 mm\", \"20 mm\"]", "lower = [\"40 mm\", \"1 mm\"]", "\'upper\' takes some"},
+      {"upper = [\"40 mm\", \"20 mm\"]\nupper_divisions = [8, 4]",
+       "upper = [\"40 mm\", \"2 mm\"]\nupper_divisions = [1, 1]", "its deepest place is 2 mm"},
+      {"material = \"steel_mould\"", "material = \"grey_iron\"", "counts as a casting"},
+      {"[[contact]]", "[criteria]\nfeeders = [\"lower_y_min\"]\n[[contact]]",
+       "the feeder 'lower_y_min' has no node of a body that is poured"},
+      {"[[contact]]", "[criteria]\nfeeders = [\"upper_bottom\"]\n[[contact]]", "lies in the lowest quarter"},
+      {"[[contact]]", "[output]\nevery = \"1 ms\"\n[[contact]]", "600000 outputs"},
+      {"upper_divisions = [8, 4]", "upper_divisions = [8, 4]\ngap = \"3 mm\"", "are 3 mm apart"}};
+  for (const Slip& slip : slips)
+    EXPECT_THAT(said_of(changed(k_casting, slip.what, slip.with)), ::testing::Contains(HasSubstr(slip.said)))
+        << slip.with;
+  EXPECT_THAT(
+      said_of(changed(changed(k_casting, contact, ""), "group = \"lower_y_min\"", "group = \"lower_x_min\"")),
+      ::testing::Contains(HasSubstr("nothing cools the body 'upper'")));
+}
+
+TEST_F(FindingsTest, FurtherSlipsOfUnitsAreNamed) {
+  const std::vector<Slip> slips = {
+      {"ambient = \"20 degC\"", "ambient = \"293 degC\"", "is it in K?"},
+      {"\"200 degC\"", "\"298.15 degC\"", "'lower' has an initial temperature of 298.15 degC; is it in K?"},
+      {"\"200 degC\"", "\"-200 degC\"", "'lower' has an initial temperature of -200 degC"},
+      {"gap_law = \"constant\"", "gap_law = \"gas\"\ngas_conductivity = \"0.05 mW/m/K\"",
+       "the gas in the gap"},
+      {"\"20 W/m2/K\"",
+       "{ of = \"time\", argument_unit = \"s\", unit = \"W/m2/K\", points = [[0, 20], [600, 2e9]] }",
+       "comes to 2e+09 W/m2/K"},
+      {"[[contact]]", "[output]\nevery = \"1 h\"\n[[contact]]", "an output is asked for at 3600 s"},
+      {"[[contact]]", "[output]\ntimes = [\"1 h\"]\n[[contact]]", "an output is asked for at 3600 s"},
+      {"step = \"1 s\"", "step = \"1 s\"\nadaptive = true\ntemperature_error = \"1 uK\"", "by 1e-06 K alone"},
+      {"\"700 degC\"", "\"700 degF\"", "below the liquidus"}};
+  for (const Slip& slip : slips)
+    EXPECT_THAT(said_of(changed(k_casting, slip.what, slip.with)), ::testing::Contains(HasSubstr(slip.said)))
+        << slip.with;
+}
+
+TEST_F(FindingsTest, SupportsThatHoldTooMuchOrNothingAreNamed) {
+  const auto support = [](const std::string& text) {
+    return "[[mechanical_condition]]\nname = \"slip\"\n" + text + "\n[[mechanical_condition]]";
+  };
+  const std::string held = "kind = \"displacement\"\nux = \"0 mm\"\nuy = \"0 mm\"";
+  const std::vector<Slip> slips = {
+      {"[[mechanical_condition]]", support("group = \"upper\"\n" + held),
+       "100 % of the nodes of 'upper' are held"},
+      {"master = \"lower_top\"", "master = \"lower_top\"\npenalty = \"1 N/m3\"", "a penalty of 1 N/m3"},
+      {"master = \"lower_top\"", "master = \"lower_top\"\ntouching = \"1 m\"",
+       "gaps of up to 1000 mm as closed"},
+      {"[[mechanical_condition]]", support("group = \"upper_bottom\"\n" + held), "no gap can open"},
+      {"[[mechanical_condition]]", support("group = \"upper_y_max\"\nkind = \"displacement\"\nuy = \"-3 m\""),
+       "moves 'upper_y_max' by 3000 mm"},
+      {"[[mechanical_condition]]",
+       support("group = \"upper_y_max\"\nkind = \"pressure\"\npressure = \"101325 MPa\""), "101.325 GPa"}};
+  for (const Slip& slip : slips)
+    EXPECT_THAT(said_of(changed(deforming(), slip.what, slip.with)),
+                ::testing::Contains(HasSubstr(slip.said)))
+        << slip.with;
+  const std::string loose = deforming().substr(0, deforming().find("[[contact]]"));
+  EXPECT_THAT(said_of(loose), ::testing::Contains(HasSubstr("nothing holds the body 'upper'")));
+}
+
+/// A plate in a mould: the mould's cavity reaches from `left` to 60 mm, and the two have nodes of their own,
+/// or share those of their common side.
+std::string two_squares(const std::string& left, bool shared) {
+  return "lc = 5;\nPoint(1) = {0, 0, 0, lc};\nPoint(2) = {30, 0, 0, lc};\nPoint(3) = {30, 30, 0, lc};\n"
+         "Point(4) = {0, 30, 0, lc};\nLine(1) = {1, 2};\nLine(2) = {2, 3};\nLine(3) = {3, 4};\n"
+         "Line(4) = {4, 1};\nCurve Loop(1) = {1, 2, 3, 4};\nPlane Surface(1) = {1};\n"
+         "Point(6) = {60, 0, 0, lc};\nPoint(7) = {60, 30, 0, lc};\n" +
+         (shared ? std::string("Line(5) = {2, 6};\nLine(6) = {6, 7};\nLine(7) = {7, 3};\n"
+                               "Curve Loop(2) = {5, 6, 7, -2};\n")
+                 : "Point(5) = {" + left + ", 0, 0, lc};\nPoint(8) = {" + left +
+                       ", 30, 0, lc};\nLine(5) = {5, 6};\nLine(6) = {6, 7};\nLine(7) = {7, 8};\n"
+                       "Line(8) = {8, 5};\nCurve Loop(2) = {5, 6, 7, 8};\n") +
+         "Plane Surface(2) = {2};\nPhysical Surface(\"upper\") = {1};\nPhysical Surface(\"lower\") = {2};\n"
+         "Physical Curve(\"upper_bottom\") = {2};\nPhysical Curve(\"lower_top\") = {" +
+         (shared ? "2" : "8") + "};\nPhysical Curve(\"lower_y_min\") = {6};\n";
+}
+
+TEST_F(FindingsTest, BodiesThatOverlapOrAreGluedAreNamed) {
+  const std::string text = k_casting;
+  const std::size_t mesh = text.find("[mesh]"), time = text.find("[time]");
+  const std::string meshed =
+      text.substr(0, mesh) + "[mesh]\nfile = \"squares.geo\"\nunit = \"mm\"\n" + text.substr(time);
+  const auto said_of_squares = [&](const std::string& left, bool shared, const std::string& casefile) {
+    std::ofstream(folder_ / "squares.geo") << two_squares(left, shared);
+    return said_of(casefile);
+  };
+  EXPECT_THAT(said_of_squares("30", false, meshed), IsEmpty());
+  EXPECT_THAT(said_of_squares("27", false, meshed), ::testing::Contains(HasSubstr("overlap by up to 3 mm")));
+  EXPECT_THAT(said_of_squares("30", true, meshed), ::testing::Contains(HasSubstr("share all their nodes")));
+  const std::string glued = meshed.substr(0, meshed.find("[[contact]]"));
+  EXPECT_THAT(said_of_squares("30", true, glued),
+              ::testing::Contains(HasSubstr("'upper' and 'lower', which start 500 K apart, share 7 nodes")));
 }
 
 TEST_F(FindingsTest, PropertiesThatNoMaterialHasAreNamed) {
@@ -161,6 +332,17 @@ liquidus = "613 degC"
   EXPECT_THAT(said_of_material("159 W/m/K", "0.159 W/m/K"),
               ::testing::Contains(HasSubstr("conductivity of")));
   EXPECT_THAT(said_of_material("2700 kg/m3", "2.7 kg/m3"), ::testing::Contains(HasSubstr("density of")));
+  const auto table = [](const std::string& unit, const std::string& points) {
+    return "{ argument_unit = \"" + unit + "\", unit = \"W/m/K\", points = " + points + " }";
+  };
+  const std::string kelvins = "[[293, 159], [823, 140], [886, 90]]",
+                    degrees = "[[20, 159], [550, 140], [613, 90]]";
+  EXPECT_THAT(said_of_material("\"159 W/m/K\"", table("K", kelvins)), IsEmpty());
+  EXPECT_THAT(said_of_material("\"159 W/m/K\"", table("degC", degrees)), IsEmpty());
+  EXPECT_THAT(said_of_material("\"159 W/m/K\"", table("degC", kelvins)),
+              ::testing::Contains(HasSubstr("are its temperatures in K?")));
+  EXPECT_THAT(said_of_material("\"159 W/m/K\"", table("K", degrees)),
+              ::testing::Contains(HasSubstr("are its temperatures in degC?")));
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // A checkpoint knows that it is whole, and a folder that a run is in it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -11,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "results/checkpoint_tables.hpp"
 #include "results/file_checksum.hpp"
 #include "results/hdf5_file.hpp"
 #include "results/output_error.hpp"
@@ -21,6 +24,7 @@ namespace {
 
 using namespace solidus;
 using namespace solidus::results;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -139,6 +143,36 @@ TEST_F(CheckpointFile, AFileThatCouldNotBeWrittenIsForgotten) {
   EXPECT_THAT(complaint(attempt), HasSubstr("/dev/full"));
   make(file_);  // HDF5 goes on working
   EXPECT_NO_THROW(check_checksum(file_));
+}
+
+// On one process and on two: none waits for another, and no part of the file stays.
+TEST(CheckpointTables, WhatDoesNotFitIsAnErrorOnEveryProcess) {
+  const fs::path file = fs::path(SOLIDUS_BINARY_DIR) / "too_large.h5";
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{1 << 20, before.rlim_max};
+  std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto save = [&](std::size_t n) -> std::string {
+    try {
+      TableWriter out(file);
+      out.text("format", "a test");
+      out.rows<double>("temperature", 2, std::vector<double>(n, 1.0));
+      out.numbers("time", {1.0, 2.0});
+      out.finish([] {});
+    } catch (const OutputError& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  EXPECT_THAT(save(200000), AllOf(HasSubstr("File too large"), HasSubstr("room on the disk")));
+  MPI_Barrier(PETSC_COMM_WORLD);
+  EXPECT_FALSE(fs::exists(file));
+  EXPECT_EQ(save(1000), "nothing");  // and the next one is written
+  EXPECT_NO_THROW(check_checksum(file));
+  setrlimit(RLIMIT_FSIZE, &before);
+  MPI_Barrier(PETSC_COMM_WORLD);
+  if (this_process() == 0) fs::remove(file);
 }
 
 /// Every process of the test locks the same folder.

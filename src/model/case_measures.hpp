@@ -1,0 +1,51 @@
+/// What a case amounts to, measured on its mesh: bodies, skins, what is poured and how long it may take to
+/// freeze, and what the run may cost. Findings and the table of `check` read it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/assembly.hpp"
+#include "model/body_measures.hpp"
+#include "model/freezing_estimate.hpp"
+#include "model/skin_measures.hpp"
+
+namespace solidus::model {
+
+/// A body that can freeze and is liquid at the start.
+struct Pour {
+  std::size_t body = 0;
+  double cooled_area = 0;  ///< A: skin that a contact, film, radiation, shared face or temperature cools [m²]
+  double depth = 0;        ///< greatest distance of a node from the cooled skin [m]
+  double spanned = 0;      ///< share of its volume in elements that reach from cooled skin to cooled skin
+  double conductance = 0;  ///< mean over A at the start, closed [W/(m² K)]; zero: nothing cools
+  /// Why there is no estimate; empty: there is one.
+  std::string no_estimate;
+  FreezingEstimate freezing;
+};
+
+/// What a run may take, from the number of its steps and nodes (docs/guide/findings.md says how well).
+struct Effort {
+  double steps = 0;
+  bool steps_known = true;
+  double seconds = 0, bytes = 0;
+};
+
+struct CaseMeasures {
+  std::vector<BodyMeasures> bodies;       ///< [body]
+  std::vector<ContactMeasures> contacts;  ///< [contact]
+  std::vector<SurfaceMeasures> surfaces;  ///< [thermal condition]
+  std::vector<Pour> pours;
+  Effort effort;
+};
+
+/// Of a case that is built. Collective.
+CaseMeasures measure(const CaseSpec& spec, const Assembly& a);
+
+/// The bodies that are poured, with estimates; `m` has bodies, contacts and surfaces. Collective.
+std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+
+/// `m` has all but the effort. Collective.
+Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+
+}  // namespace solidus::model

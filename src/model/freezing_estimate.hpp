@@ -1,0 +1,76 @@
+/// How long a casting takes to freeze, before anything is computed: Chvorinov's rule with a constant that
+/// comes from the case's own data.
+///
+///   t = C (V/A)²
+///
+/// V [m³] volume of the metal, A [m²] its cooled skin. C [s/m²] is not a number from a book: the freezing of
+/// a plate, cylinder or ball with the same V/A, and with the casting's greatest depth R below the cooled
+/// skin, is computed in one dimension,
+///
+///   ∂h/∂t = r^(1−n) ∂/∂r ( r^(n−1) k(Θ) ∂Θ/∂r ),   n = R A/V between 1 (plate) and 2.5
+///
+/// (2 is a bar, 3 a ball; where R A/V is larger the casting has a thick place, which freezes last and counts
+/// as n = 2.5), with the enthalpy h(Θ) of the material, beside it every mould that the skin faces as a shell
+/// of its volume, with the conductance of the contact (and the gap that the metal's own shrinkage opens where
+/// contact may open), films, radiation and fluxes as they are. So C holds superheat, latent heat, the mould's
+/// √(k ρ C) and its finite thickness, the resistance of the interface and that of the metal, whichever
+/// governs.
+///
+/// What it does not see: that thick and thin places of a casting feed heat to each other, other bodies behind
+/// a mould, and the flow of metal. Measured: within a factor of two of the runs of all cases that freeze
+/// (docs/guide/findings.md).
+///
+/// Source: N. Chvorinov, "Theorie der Erstarrung von Gussstücken", Die Giesserei 27 (1940) 177–186, 201–208,
+/// 222–225.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "material/material.hpp"
+
+namespace solidus::model {
+
+/// A part of the cooled skin that faces another body.
+struct MouldSide {
+  double share = 0;  ///< of the cooled skin
+  const material::Material* material = nullptr;
+  double start = 0;         ///< [K]
+  double volume_ratio = 0;  ///< its volume over that of the casting
+  /// Between the skins, of the gap [m] and both skins' temperatures [K] [W/(m² K)].
+  std::function<double(double gap, double metal, double mould)> conductance;
+  bool may_open = false;  ///< the casting may shrink away from it
+  /// Heat into its outer side per area of the casting's cooled skin [W/m²], of its temperature [K] and the
+  /// time [s].
+  std::function<double(double temperature, double time)> outer_heat;
+};
+
+/// A part of the skin that exchanges heat with surroundings; all such parts of a casting together.
+struct OpenSide {
+  /// Into the body, per area of the whole cooled skin [W/m²].
+  std::function<double(double temperature, double time)> heat;
+};
+
+struct FreezingProblem {
+  const material::Material* metal = nullptr;  ///< it solidifies
+  double start = 0;                           ///< [K]
+  double modulus = 0;                         ///< V/A [m]
+  double depth = 0;                           ///< R, of the deepest place below the cooled skin [m]
+  std::vector<MouldSide> moulds;
+  std::vector<OpenSide> open;
+};
+
+struct FreezingEstimate {
+  std::optional<double> time;  ///< until the last place is at its solidus [s]; absent: it stays liquid
+  std::string governed_by;     ///< what took the largest drop of temperature on the way
+  double mould_reach = 0;      ///< √(α t) of the mould with the largest share [m]; zero: no mould
+  /// Temperature that everything comes to where it never freezes [K].
+  double rest = 0;
+};
+
+/// Takes some milliseconds. No MPI.
+FreezingEstimate estimate_freezing(const FreezingProblem& problem);
+
+}  // namespace solidus::model

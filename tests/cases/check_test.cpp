@@ -1,0 +1,109 @@
+/// Every case of the project is in order: `check` finds nothing to say of it, and its table is complete.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/log.hpp"
+#include "model/run.hpp"
+#include "results/overview.hpp"
+
+namespace {
+
+using namespace solidus;
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// The files of cases/ that are whole cases: variants include a case.toml, materials and plots are none.
+std::vector<fs::path> case_files() {
+  std::vector<fs::path> files;
+  for (const auto& folder : fs::directory_iterator(fs::path(SOLIDUS_SOURCE_DIR) / "cases")) {
+    if (!fs::exists(folder.path() / "case.toml")) continue;
+    for (const auto& file : fs::directory_iterator(folder.path())) {
+      if (file.path().extension() != ".toml" || file.path().filename() == "plots.toml") continue;
+      std::ifstream in(file.path());
+      const std::string text((std::istreambuf_iterator<char>(in)), {});
+      if (text.find("include = ") != std::string::npos || text.find("[[body]]") != std::string::npos)
+        files.push_back(file.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Coarser meshes for what takes long to mesh.
+std::vector<std::string> overrides(const fs::path& file) {
+  if (file.parent_path().filename() == "crankshaft") return {"mesh.constant.size.value=12"};
+  return {};
+}
+
+TEST(Check, FindsNothingToSayOfTheProjectsCases) {
+  logging::set_level(logging::Level::silent);
+  const std::vector<fs::path> files = case_files();
+  EXPECT_GT(files.size(), 100u);
+  for (const fs::path& file : files) {
+    logging::clear_warnings();
+    const model::CheckedRun checked = model::check_run(model::load_case(file, overrides(file)));
+    EXPECT_THAT(logging::warnings(), IsEmpty()) << file;
+    EXPECT_THAT(results::text(checked.overview), HasSubstr("effort")) << file;
+  }
+  logging::set_level(logging::Level::info);
+}
+
+/// The estimate against what runs of the cases took, within a factor of two (docs/guide/findings.md).
+TEST(Check, EstimatesWhenCastingsAreSolid) {
+  struct Measured {
+    const char* file;
+    double seconds;  ///< until the last node is solid, of the run of the case
+  };
+  for (const Measured& m : {Measured{"aluminium_cylinder/case.toml", 14.0},
+                            {"bracket/case.toml", 187},
+                            {"bracket/plate.toml", 446},
+                            {"hot_spots/case.toml", 272},
+                            {"crankshaft/case.toml", 515}}) {
+    const fs::path file = fs::path(SOLIDUS_SOURCE_DIR) / "cases" / m.file;
+    const model::CheckedRun checked = model::check_run(model::load_case(file));
+    ASSERT_EQ(checked.overview.pours.size(), 1u) << m.file;
+    ASSERT_TRUE(checked.overview.pours[0].freezing_time) << m.file;
+    const double ratio = *checked.overview.pours[0].freezing_time / m.seconds;
+    EXPECT_GT(ratio, 0.5) << m.file;
+    EXPECT_LT(ratio, 2.0) << m.file;
+  }
+}
+
+/// What the program prints for a case, without the line of what the run may cost, which goes by processes.
+std::string table(int processes) {
+  const std::string command =
+      "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n " +
+      std::to_string(processes) +
+      " --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' check '" SOLIDUS_SOURCE_DIR
+      "/cases/bracket' 2>/dev/null";
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return "";
+  std::string text;
+  std::array<char, 512> line{};
+  while (std::fgets(line.data(), line.size(), pipe) != nullptr)
+    if (std::string_view(line.data()).find("  effort") != 0) text += line.data();
+  pclose(pipe);
+  return text;
+}
+
+TEST(Check, PrintsTheSameTableOnOneProcessAndOnTwo) {
+  const std::string one = table(1);
+  for (const char* said :
+       {"poured      part: at 700 degC, 86 K above its liquidus", "148.5 cm3", "256.5 cm2", "0.399 kg",
+        "on mould_surface (mould)", "9.81 m/s2 along -z", "by Chvorinov", "Biot", "in order"})
+    EXPECT_THAT(one, HasSubstr(said));
+  EXPECT_EQ(one, table(2));
+}
+
+}  // namespace
