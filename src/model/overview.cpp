@@ -59,7 +59,9 @@ std::string law_text(const ContactSpec& contact, const ContactMeasures& m, doubl
   if (!contact.heat) return "no heat";
   const contact::HeatTransferLaw law(*contact.heat);
   const double pressure = contact.wet ? contact.atmosphere : 0.0;
-  const double closed = law.at(0, pressure, temperature).value, gap = std::max(m.largest_gap, 1e-4);
+  // Gaps that count as touching are none to begin with.
+  const double start = m.largest_gap > contact.touching.value_or(0) ? m.largest_gap : 0.0;
+  const double closed = law.at(0, pressure, temperature).value, gap = std::max(start, 1e-4);
   std::string text = fmt::format("{:.4g} W/m2/K closed", closed);
   const double open = law.at(gap, 0, temperature).value;
   if (std::abs(open - closed) > 0.01 * closed)
@@ -86,6 +88,7 @@ results::SkinOverview contact_overview(const CaseSpec& spec, const Assembly& a, 
   if (m.paired > 0) {
     skin.least_gap = m.least_gap;
     skin.largest_gap = m.largest_gap;
+    skin.touching = contact.touching.value_or(0);
   }
   double hot = 0, cold = 1e300;
   for (const TemperatureRange& r : a.start) hot = std::max(hot, r.high), cold = std::min(cold, r.low);
