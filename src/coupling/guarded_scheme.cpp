@@ -1,0 +1,106 @@
+#include "coupling/guarded_scheme.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "algebra/parallel.hpp"
+#include "base/errors.hpp"
+#include "base/types.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "heat/worst_node.hpp"
+
+namespace solidus::coupling {
+
+namespace {
+
+constexpr double k_overshoot = 0.5;     ///< of integration in space, as a share of the range
+constexpr double k_slack = 10;          ///< whatever the range [K]
+constexpr double k_of_deformation = 2;  ///< times the heat of deformation, which is that of the last stage
+constexpr double k_most = 0.25;         ///< of the highest absolute temperature
+
+/// Of the temperatures at t_n, and with those around the bodies.
+struct Ranges {
+  heat::TemperatureRange start, all;
+};
+
+Ranges find_ranges(const Phases& phases, const State& old) {
+  const heat::ThermalPhase& phase = *phases.heat;
+  heat::TemperatureRange start;
+  for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
+    const double t = old.heat.temperature[static_cast<std::size_t>(i)];
+    start.lowest = std::min(start.lowest, t);
+    start.highest = std::max(start.highest, t);
+  }
+  start = {algebra::global_min(start.lowest), algebra::global_max(start.highest)};
+  heat::TemperatureRange around = phase.ambient_range(false);
+  for (const contact::ContactPair* pair : phases.contacts) {
+    if (pair->spec().friction) around.highest = HUGE_VAL;
+    const std::optional<double> tool = pair->tool_temperature();
+    if (!tool) continue;
+    around.lowest = std::min(around.lowest, *tool);
+    around.highest = std::max(around.highest, *tool);
+  }
+  return {start, {std::min(start.lowest, around.lowest), std::max(start.highest, around.highest)}};
+}
+
+/// The temperature by which deformation can have changed owned nodes [K].
+std::vector<double> by_deformation(const Phases& phases, const State& trial, double dt, double highest) {
+  std::vector<double> heat(phases.heat->mesh().x.size(), 0.0);
+  if (phases.structural == nullptr) return heat;
+  phases.structural->add_residual(trial.heat.temperature, heat);
+  const heat::NodalEnthalpy& storage = phases.heat->storage();
+  for (Index i = 0; i < phases.heat->mesh().n_owned_nodes; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const double capacity = storage.capacity(i, trial.heat.temperature[n]);
+    const double change = capacity > 0 ? k_of_deformation * std::abs(heat[n]) * dt / capacity : 0.0;
+    heat[n] = std::min(change, k_most * highest);
+  }
+  return heat;
+}
+
+}  // namespace
+
+void require_continued(const Phases& phases, const State& old, const State& trial, double dt) {
+  if (phases.heat == nullptr) return;
+  const heat::ThermalPhase& phase = *phases.heat;
+  const Ranges range = find_ranges(phases, old);
+  const auto finite = [](double bound, double otherwise) { return std::isfinite(bound) ? bound : otherwise; };
+  const double highest = finite(range.all.highest, range.start.highest),
+               width = highest - finite(range.all.lowest, range.start.lowest);
+  const double allowed = k_overshoot * width + k_slack;
+  const std::vector<double>& now = trial.heat.temperature;
+  const auto look = [&](const std::vector<double>* deformation) {
+    heat::WorstNode worst;
+    for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      const double beyond = std::max(range.all.lowest - now[n], now[n] - range.all.highest);
+      worst.look(n, beyond - allowed - (deformation != nullptr ? (*deformation)[n] : 0.0));
+    }
+    return worst;
+  };
+  if (!(algebra::global_max(look(nullptr).size) > 0)) return;
+  const std::vector<double> deformation = by_deformation(phases, trial, dt, highest);
+  const heat::WorstNode worst = look(&deformation);
+  if (!(algebra::global_max(worst.size) > 0)) return;
+  throw StepRejected(
+      fmt::format(
+          "coupling: a temperature that does not follow from those at the start of the step and around "
+          "({:.4g} to {:.4g} degC), nor from the heat of deformation: another solution of the equations",
+          finite(range.all.lowest, range.start.lowest) - k_zero_celsius, highest - k_zero_celsius),
+      worst.text(phase.mesh(), now, {}));
+}
+
+GuardedScheme::GuardedScheme(std::unique_ptr<CouplingScheme> scheme, Phases phases)
+    : scheme_(std::move(scheme)), phases_(std::move(phases)) {}
+
+StepEffort GuardedScheme::advance(const State& old, State& trial, double time, double dt) {
+  const StepEffort effort = scheme_->advance(old, trial, time, dt);
+  require_continued(phases_, old, trial, dt);
+  return effort;
+}
+
+}  // namespace solidus::coupling
