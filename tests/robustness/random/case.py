@@ -1,0 +1,388 @@
+"""A random valid case: every element, kind, scheme, contact law and phase change on a mesh of a few elements.
+
+The seed alone makes the case. What may be combined follows the documentation; what the program refuses with a
+message that names the place in the file is counted as such by check.py and should stay rare.
+"""
+
+import random
+from dataclasses import dataclass, field
+
+PLANE = ["tri3", "tri6", "quad4", "quad8"]
+SOLID = ["tet4", "tet10", "hex8", "hex20"]
+SOLIDS = ["steel_mould", "h13_tool_steel", "copper_chill"]
+CASTINGS = {  # liquidus [degC]
+    "aluminium_99_7": 660, "aluminium_99_7_plastic": 660, "aluminium_1070": 658, "aluminium_alsi7mg": 614,
+    "grey_iron": 1190, "nodular_iron": 1150, "low_carbon_steel": 1524,
+}
+
+
+@dataclass
+class Case:
+    """Text of the case and of its material files, and what the invariants need to know of it."""
+    seed: int
+    text: str = ""
+    files: dict = field(default_factory=dict)
+    processes: int = 1
+    facts: dict = field(default_factory=dict)
+
+
+class Writer:
+    """Collects sections of TOML."""
+
+    def __init__(self):
+        self.lines = []
+
+    def section(self, head, /, **keys):
+        self.lines += ["", head]
+        self.add(**keys)
+
+    def add(self, **keys):
+        self.lines += [f"{key} = {toml(value)}" for key, value in keys.items() if value is not None]
+
+
+def toml(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{k} = {toml(v)}" for k, v in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(toml(v) for v in value) + "]"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def around(rng, low, high):
+    """A number between two of the same sign, evenly in its logarithm."""
+    return low * (high / low) ** rng.random()
+
+
+def material(rng, name, liquidus):
+    """A made-up casting material: tables, any fraction curve, liquid model, hardening and rate law."""
+    w = Writer()
+    w.add(title=name, density=f"{around(rng, 2000, 8000):.4g} kg/m3", poisson_ratio=round(rng.uniform(0.2, 0.4), 3))
+    hot = liquidus - 5
+
+    def falling(low, high, least=0.05):
+        top = around(rng, low, high)
+        return [[20, top], [round(0.6 * hot), top * rng.uniform(0.5, 0.9)], [hot, top * rng.uniform(least, 0.4)]]
+
+    def table(unit, points):
+        return {"argument_unit": "degC", "unit": unit, "points": points}
+
+    w.add(conductivity=table("W/m/K", falling(15, 300, 0.2)), specific_heat=table("J/kg/K", [[20, around(rng, 400, 900)], [hot, around(rng, 600, 1300)]]))
+    w.add(young_modulus=table("GPa", falling(20, 200)), expansion=table("1/K", [[20, around(rng, 8e-6, 2e-5)], [hot, around(rng, 1e-5, 2.5e-5)]]))
+    model = rng.choice(["maxwell", "maxwell", "modified_shear", "degenerated"])
+    plastic = model == "degenerated" or rng.random() < 0.7
+    w.add(liquid_model=model)
+    if model == "maxwell" and rng.random() < 0.3:
+        w.add(twice_shear_viscosity=f"{around(rng, 1e4, 1e9):.4g} Pa s")
+    solidus = liquidus - rng.choice([0, 0.5, 5, 30, 80])
+    kind = rng.choice(["linear", "linear", "table", "lever_rule", "scheil"])
+    w.section("[[phase_change]]", name="freezing", solidification=True, latent_heat=f"{around(rng, 5e4, 5e5):.4g} J/kg", volume_change=rng.choice([0.0, -0.05, 0.01]))
+    w.lines.append("[phase_change.fraction]")
+    if kind == "linear":
+        w.add(kind=kind, solidus=f"{solidus} degC", liquidus=f"{liquidus} degC")
+    elif kind == "table":
+        middle = 0.5 * (solidus + liquidus)
+        w.add(kind=kind, temperatures=[f"{t} degC" for t in (solidus - 1, middle, liquidus)], fractions=[1.0, round(rng.uniform(0.2, 0.8), 2), 0.0])
+    else:
+        w.add(kind=kind, melting_point=f"{liquidus + 40} degC", liquidus=f"{liquidus} degC", eutectic=f"{liquidus - 60} degC", partition=round(rng.uniform(0.05, 0.6), 2))
+    if rng.random() < 0.25:
+        w.section("[[phase_change]]", name="in_the_solid", latent_heat=f"{around(rng, 1e3, 5e4):.4g} J/kg", volume_change=rng.choice([0.0, 0.004, -0.004]))
+        w.lines.append("[phase_change.fraction]")
+        w.add(kind="linear", solidus=f"{0.5 * liquidus:.1f} degC", liquidus=f"{0.5 * liquidus + rng.choice([0, 20]):.1f} degC")
+    if plastic:
+        plasticity(rng, w, liquidus, model)
+    return "\n".join(w.lines) + "\n"
+
+
+def plasticity(rng, w, liquidus, model):
+    w.section("[plasticity]")
+    hardening = rng.choice(["none", "linear", "saturation", "power"])
+    kinematic = rng.choice(["none", "none", "linear", "armstrong_frederick"])
+    rate = "perzyna" if model == "degenerated" else rng.choice(["none", "perzyna"])
+    stress = around(rng, 20, 300)
+    points = [[20, stress], [0.6 * liquidus, 0.5 * stress], [liquidus, 1.0]]
+    falling = {"argument_unit": "degC", "unit": "MPa", "points": points}
+    w.add(isotropic_hardening=hardening, kinematic_hardening=kinematic, rate_dependence=rate, flow_stress=falling)
+    if hardening == "linear":
+        w.add(hardening_modulus=f"{around(rng, 50, 2000):.4g} MPa")
+    if hardening == "saturation":
+        w.add(saturation_stress={**falling, "points": [[t, round(1.5 * s, 4)] for t, s in points]}, saturation_rate=round(around(rng, 5, 100), 2))
+    if hardening == "power":
+        w.add(reference_strain=round(around(rng, 0.001, 0.05), 4), hardening_exponent=round(rng.uniform(0.05, 0.4), 2))
+    if kinematic != "none":
+        w.add(kinematic_modulus=f"{around(rng, 100, 5000):.4g} MPa")
+    if kinematic == "armstrong_frederick":
+        w.add(recall=round(around(rng, 5, 100), 1))
+    if rate == "perzyna":
+        w.add(viscosity=f"{around(rng, 1e6, 1e10):.4g} Pa s", rate_exponent=rng.choice([1, 3, 5]), drag_stress="10 MPa")
+
+
+def random_case(seed):
+    rng = random.Random(seed)
+    case = Case(seed)
+    facts = case.facts
+    w = Writer()
+    kind = facts["kind"] = rng.choice(["plane_strain", "axisymmetric", "solid"])
+    physics = facts["physics"] = rng.choice(["heat", "mechanics"] + 6 * ["thermomechanical"])
+    element = facts["element"] = rng.choice(SOLID if kind == "solid" else PLANE)
+    dynamic = facts["dynamic"] = physics != "heat" and rng.random() < 0.08
+    w.add(title=f"A random case, seed {seed}")
+    gravity = rng.choice([None, "9.81 m/s2"]) if physics != "heat" else None
+    w.section("[analysis]", kind=kind, physics=physics, gravity=gravity)
+    shape = mesh(rng, w, kind, element)
+    facts["shape"] = shape
+    bodies = choose_bodies(rng, case, shape, physics)
+    steps = time(rng, w, facts, physics, dynamic)
+    for name, body in bodies.items():
+        w.section("[[body]]", name=name, group=body["group"], material=body["material"], initial_temperature=f"{body['temperature']} degC", physics=body.get("physics"))
+    facts["temperatures"] = [body["temperature"] for body in bodies.values()]
+    if physics != "mechanics":
+        thermal_conditions(rng, w, facts, kind, shape)
+    if physics != "heat":
+        mechanical_conditions(rng, w, kind, shape, bodies)
+    if shape != "block":
+        contact(rng, w, facts, kind, physics, shape, bodies, dynamic)
+    numerics(rng, w, facts, physics, dynamic)
+    w.section("[output]", checkpoint_every=1, stage_ends=False)
+    case.processes = facts["processes"] = 2 if rng.random() < 0.05 else 1
+    facts["steps"] = steps
+    case.text = "\n".join(w.lines) + "\n"
+    return case
+
+
+def mesh(rng, w, kind, element):
+    shape = rng.choice(["block", "two_blocks", "two_blocks", "two_blocks"] + (["cylinder_in_mould"] * 2 if kind == "axisymmetric" else []))
+    dim = 3 if kind == "solid" else 2
+    few = 2 if kind == "solid" else 4
+    w.section("[mesh]", shape=shape, element=element)
+    length = round(around(rng, 10, 120), 1)
+
+    def size(last):
+        return [f"{length} mm"] * (dim - 1) + [f"{round(last, 2)} mm"]
+
+    def divisions():
+        return [rng.randint(1, few) for _ in range(dim)]
+
+    if shape == "block":
+        w.section("[mesh.block]", size=size(length * rng.uniform(0.2, 1.5)), divisions=divisions())
+    elif shape == "two_blocks":
+        w.section("[mesh.two_blocks]", lower=size(length * rng.uniform(0.2, 0.8)), upper=size(length * rng.uniform(0.2, 0.8)), lower_divisions=divisions(), upper_divisions=divisions())
+    else:
+        w.section("[mesh.cylinder_in_mould]", radius=f"{length} mm", height=f"{2 * length} mm", mould_wall=f"{length} mm", mould_bottom=f"{0.7 * length:.1f} mm",
+                  mould_height=f"{2.7 * length:.1f} mm", element_size=f"{length / rng.choice([2, 3]):.2f} mm", mould_element_size=f"{length / 2:.2f} mm")
+    return shape
+
+
+def choose_bodies(rng, case, shape, physics):
+    """One body is poured or hot, the other one cold; roles that are turned around now and then."""
+    names = {"block": ["block"], "two_blocks": ["upper", "lower"], "cylinder_in_mould": ["part", "mould"]}[shape]
+    bodies = {}
+    for i, name in enumerate(names):
+        if i == 0:
+            library = rng.random() < 0.5
+            what = rng.choice(list(CASTINGS))
+            liquidus = CASTINGS[what] if library else rng.choice([600, 900, 1300])
+            if not library:
+                what = "made_up.toml"
+                case.files[what] = material(rng, "made up", liquidus)
+            temperature = round(rng.choice([liquidus + rng.uniform(1, 100), liquidus * rng.uniform(0.6, 0.98)]), 1)
+            if physics == "mechanics":
+                temperature = round(liquidus * rng.uniform(0.2, 0.9), 1)
+        else:
+            what = rng.choice(SOLIDS + (["green_sand"] if physics != "mechanics" else []) + ["aluminium_alsi7mg"])
+            temperature = rng.choice([20.0, 200.0, 472.0])
+        body = {"group": name, "material": what, "temperature": temperature}
+        if what == "green_sand" and physics == "thermomechanical":
+            body["physics"] = "heat"
+        bodies[name] = body
+    return bodies
+
+
+def time(rng, w, facts, physics, dynamic):
+    steps = rng.randint(2, 6)
+    step = around(rng, 1e-6, 1e-3) if dynamic else around(rng, 0.05, 1000)
+    adaptive = physics != "mechanics" and not dynamic and rng.random() < 0.35
+    facts["adaptive"] = adaptive
+    w.section("[time]", end=f"{step * steps:.6g} s", step=f"{step:.6g} s", adaptive=adaptive or None)
+    if not adaptive:
+        return steps
+    control = rng.choice(["predictor", "doubling", "none"])
+    w.add(error_control=control, solid_fraction_change=0.4)
+    if control != "none":  # few steps: the error allowed goes with the range of temperatures
+        w.add(temperature_error="20 K", displacement_error="0.1 mm" if physics == "thermomechanical" else None)
+    return steps
+
+
+def faces(shape, kind):
+    last = "z" if kind == "solid" else "y"
+    if shape == "cylinder_in_mould":
+        return ["part_top", "mould_outer", "mould_bottom"]
+    if shape == "block":
+        return ["x_max", f"{last}_max", f"{last}_min"]
+    return ["upper_x_max", f"upper_{last}_max", "lower_x_max", f"lower_{last}_min"]
+
+
+def thermal_conditions(rng, w, facts, kind, shape):
+    """None in a third of the cases; facts say what bounds the temperatures have."""
+    facts["insulated"] = True
+    facts["heated"] = False
+    if rng.random() < 0.33:
+        return
+    surfaces = faces(shape, kind)
+    rng.shuffle(surfaces)
+    for i, group in enumerate(surfaces[: rng.randint(1, len(surfaces))]):
+        what = rng.choice(["temperature", "flux", "film", "film", "radiation"])
+        ambient = rng.choice([20.0, 100.0, 300.0])
+        facts["insulated"] = False
+        if what != "flux":
+            facts["temperatures"].append(ambient)
+        keys = {"name": f"condition_{i}", "group": group, "kind": what}
+        if what == "temperature":
+            keys["temperature"] = f"{ambient} degC"
+        elif what == "flux":
+            keys["flux"] = f"{rng.choice([-1, 1]) * around(rng, 1e2, 1e4):.4g} W/m2"
+            facts["heated"] = True
+        elif what == "film":
+            keys |= {"coefficient": f"{around(rng, 5, 5000):.4g} W/m2/K", "ambient": f"{ambient} degC"}
+        else:
+            keys |= {"emissivity": round(rng.uniform(0.1, 1), 2), "ambient": f"{ambient} degC"}
+        w.section("[[thermal_condition]]", **keys)
+
+
+def mechanical_conditions(rng, w, kind, shape, bodies):
+    """No rigid motion: a support below, planes of symmetry; then held or loaded faces."""
+    last, radial = ("z", "x") if kind == "solid" else ("y", "x")
+    across = "ur" if kind == "axisymmetric" else "ux"
+    along = "u" + last
+    n = 0
+
+    def support(group, direction):
+        nonlocal n
+        n += 1
+        w.section("[[mechanical_condition]]", name=f"support_{n}", group=group, kind="displacement", **{direction: "0 mm"})
+
+    mechanical = [name for name, body in bodies.items() if body.get("physics") != "heat"]
+    if shape == "cylinder_in_mould":
+        if "mould" in mechanical:
+            support("mould_bottom", along)
+        return
+    prefixes = [""] if shape == "block" else [f"{name}_" for name in mechanical]
+    for prefix in prefixes:
+        support(f"{prefix}{radial}_min", across)
+        if kind == "solid":
+            support(f"{prefix}y_min", "uy")
+    if shape == "block" or "lower" in mechanical:
+        support(f"{prefixes[-1]}{last}_min", along)
+    if rng.random() < 0.3:
+        support(f"{prefixes[0]}{radial}_max", across)
+    top = f"{prefixes[0]}{last}_max"
+    load = rng.choice(["none", "none", "pressure", "held"])
+    if load == "pressure":
+        w.section("[[mechanical_condition]]", name="load", group=top, kind="pressure", pressure=f"{around(rng, 0.01, 1):.4g} MPa")
+    if load == "held":
+        support(top, along)
+
+
+def contact(rng, w, facts, kind, physics, shape, bodies, dynamic):
+    last = "z" if kind == "solid" else "y"
+    pairs = [("part_surface", "mould_surface")] if shape == "cylinder_in_mould" else [("upper_bottom", "lower_top")]
+    sand = any(body.get("physics") == "heat" for body in bodies.values())
+    for i, (slave, master) in enumerate(pairs):
+        keys = {"name": f"interface_{i}"}
+        if rng.random() < 0.3 and not sand:
+            slave, master = master, slave
+        keys |= {"slave": slave, "master": master}
+        large = physics != "heat" and not sand and rng.random() < 0.3
+        if large:
+            keys |= {"formulation": "large_sliding", "smoothing": rng.random() < 0.3, "integration": rng.choice(["gauss", "nodal"])}
+        else:
+            keys["integration"] = rng.choice(["segments", "segments", "nodal", "gauss"])
+        if physics != "heat":
+            keys["normal"] = rng.choice(["automatic", "penalty", "augmented_lagrangian"])
+            keys["wet"] = rng.choice([True, True, False])
+        facts["contact"] = [keys.get("formulation", "small_sliding"), keys["integration"], keys.get("normal", "")]
+        w.section("[[contact]]", **keys)
+        if physics != "mechanics" and rng.random() < 0.95:
+            contact_heat(rng, w, facts, physics)
+        if physics != "heat" and not sand and rng.random() < 0.3:
+            friction(rng, w, facts)
+
+
+def contact_heat(rng, w, facts, physics):
+    h = around(rng, 100, 20000)
+    law = rng.choice(["power", "power", "table", "spots"])
+    gap = rng.choice(["constant", "gas", "table"]) if law != "spots" else rng.choice(["constant", "gas"])
+    facts["contact_heat"] = [law, gap]
+    keys = {"contact_law": law, "gap_law": gap}
+    if law == "power":
+        keys["conductance"] = f"{h:.6g} W/m2/K"
+        if gap != "table" and rng.random() < 0.3:
+            keys |= {"exponent": 0.95, "hardness": "300 MPa"}
+    elif law == "table":
+        keys["contact_conductance"] = {"argument_unit": "MPa", "unit": "W/m2/K", "points": [[0, round(h, 3)], [10, round(3 * h, 3)]]}
+    if gap == "table":
+        keys["gap_conductance"] = {"argument_unit": "mm", "unit": "W/m2/K", "points": [[0, round(h, 3)], [0.1, round(0.2 * h, 3)], [0.5, round(0.05 * h, 3)]]}
+        if law == "power":
+            keys["conductance"] = f"{round(h, 3)} W/m2/K"
+    if gap == "gas":
+        keys["gas_conductivity"] = "0.05 W/m/K"
+    if law == "spots":
+        keys["hardness"] = "300 MPa"
+        if gap == "constant":
+            keys["open_conductance"] = "100 W/m2/K"
+    if rng.random() < 0.2:
+        keys |= {"slave_emissivity": 0.8, "master_emissivity": 0.6}
+    if law != "spots" and rng.random() < 0.2:
+        keys["smooth"] = True
+    w.section("[contact.heat]", **keys)
+    if law == "spots":
+        w.section("[contact.heat.asperities]", roughness="3 um", slope=0.15, conductivity="40 W/m/K", hardness_coefficient="3 GPa", hardness_exponent=-0.2)
+
+
+def friction(rng, w, facts):
+    facts["friction"] = True
+    coefficient = rng.choice([0.2, [0.3, -0.001], {"argument_unit": "degC", "unit": "1", "points": [[20, 0.3], [600, 0.1]]}])
+    w.section("[contact.friction]", coefficient=coefficient, symmetric=rng.choice([None, True]))
+    if isinstance(coefficient, list):
+        w.add(internal_variable=rng.choice(["normal_work", "frictional_work"]), internal_variable_unit="kN/mm")
+    if rng.random() < 0.3:
+        w.section("[contact.wear]", archard=1e-5, hardness="1 GPa")
+
+
+def numerics(rng, w, facts, physics, dynamic):
+    heat = {"integration": rng.choice(["closed", "closed", "open"])}
+    facts["closed"] = heat["integration"] == "closed"
+    facts["scheme"] = scheme = rng.choice(["isentropic", "isothermal", "double_pass", "block_iterative", "simultaneous", "simultaneous"]) if physics == "thermomechanical" else physics
+    if rng.random() < 0.3 and scheme in ("isentropic", "isothermal", "heat") and not dynamic:
+        heat["stepping"] = rng.choice(["backward_euler", "sdirk2"])
+    if rng.random() < 0.3:
+        heat["solver"] = rng.choice(["direct", "jacobi", "incomplete"])
+    if physics != "mechanics":
+        w.section("[heat]", **heat)
+    tight = facts["tight"] = physics == "thermomechanical" and rng.random() < 0.3
+    if tight:  # then what residuals leave of the first law is rounding
+        w.add(tolerance=1e-11)
+    if physics == "heat":
+        return
+    w.section("[mechanics]", tolerance=1e-9 if tight else None, b_bar=rng.choice([None, None, False]), simplices=rng.choice([None, None, "mixed", "displacement"]))
+    if rng.random() < 0.15 and scheme not in ("simultaneous", "double_pass") and not dynamic:
+        w.add(integration="bdf2")
+    if dynamic:
+        w.section("[dynamics]", method=rng.choice(["backward_euler", "newmark", "trapezoidal", "generalised_alpha"]), mass=rng.choice(["consistent", "lumped"]))
+    if physics != "thermomechanical":
+        return
+    form = "energy"
+    if rng.random() < 0.2 and heat.get("stepping") != "sdirk2":
+        form = rng.choice({"isothermal": ["entropy", "literal", "temperature"]}.get(scheme, ["entropy"]))
+    facts["form"] = form
+    keys = {"scheme": scheme, "structural_heating": form}
+    if scheme == "simultaneous" and rng.random() < 0.3 and not dynamic:
+        keys["integration"] = "sdirk2"
+    w.section("[coupling]", **keys)
+    if scheme == "block_iterative":
+        passes = rng.choice(["isentropic", "isothermal"])
+        w.section("[coupling.iteration]", passes=passes, sweep=rng.choice(["gauss_seidel", "jacobi"]), loop=rng.choice(["nested", "single"]),
+                  relaxation=rng.choice(["none", "fixed"] + (["aitken"] if passes == "isothermal" else [])), factor=0.9)
