@@ -12,7 +12,7 @@ namespace solidus::coupling {
 
 namespace {
 
-constexpr int k_most_augmentations = 60;
+constexpr int k_most_augmentations = 400;
 
 const contact::ContactState& state_of(const std::vector<contact::ContactState>& contacts, std::size_t i) {
   static const contact::ContactState k_unmoved;

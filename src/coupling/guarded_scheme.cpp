@@ -17,26 +17,28 @@ namespace solidus::coupling {
 
 namespace {
 
-constexpr double k_overshoot = 0.5;     ///< of integration in space, as a share of the range
+constexpr double k_overshoot = 1;       ///< of integration in space, as a share of the range
 constexpr double k_slack = 10;          ///< whatever the range [K]
 constexpr double k_of_deformation = 2;  ///< times the heat of deformation, which is that of the last stage
 constexpr double k_most = 0.25;         ///< of the highest absolute temperature
 
-/// Of the temperatures at t_n, and with those around the bodies.
-struct Ranges {
-  heat::TemperatureRange start, all;
-};
-
-Ranges find_ranges(const Phases& phases, const State& old) {
-  const heat::ThermalPhase& phase = *phases.heat;
-  heat::TemperatureRange start;
+heat::TemperatureRange range_of(const heat::ThermalPhase& phase, const State& state) {
+  heat::TemperatureRange range;
   for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
-    const double t = old.heat.temperature[static_cast<std::size_t>(i)];
-    start.lowest = std::min(start.lowest, t);
-    start.highest = std::max(start.highest, t);
+    const double t = state.heat.temperature[static_cast<std::size_t>(i)];
+    range.lowest = std::min(range.lowest, t);
+    range.highest = std::max(range.highest, t);
   }
-  start = {algebra::global_min(start.lowest), algebra::global_max(start.highest)};
-  heat::TemperatureRange around = phase.ambient_range(false);
+  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+}
+
+heat::TemperatureRange including(const heat::TemperatureRange& a, const heat::TemperatureRange& b) {
+  return {std::min(a.lowest, b.lowest), std::max(a.highest, b.highest)};
+}
+
+/// Beyond which nothing heats or cools; without end where something does.
+heat::TemperatureRange range_around(const Phases& phases) {
+  heat::TemperatureRange around = phases.heat->ambient_range(false);
   for (const contact::ContactPair* pair : phases.contacts) {
     if (pair->spec().friction) around.highest = HUGE_VAL;
     const std::optional<double> tool = pair->tool_temperature();
@@ -44,7 +46,7 @@ Ranges find_ranges(const Phases& phases, const State& old) {
     around.lowest = std::min(around.lowest, *tool);
     around.highest = std::max(around.highest, *tool);
   }
-  return {start, {std::min(start.lowest, around.lowest), std::max(start.highest, around.highest)}};
+  return around;
 }
 
 /// The temperature by which deformation can have changed owned nodes [K].
@@ -67,17 +69,19 @@ std::vector<double> by_deformation(const Phases& phases, const State& trial, dou
 void require_continued(const Phases& phases, const State& old, const State& trial, double dt) {
   if (phases.heat == nullptr) return;
   const heat::ThermalPhase& phase = *phases.heat;
-  const Ranges range = find_ranges(phases, old);
-  const auto finite = [](double bound, double otherwise) { return std::isfinite(bound) ? bound : otherwise; };
-  const double highest = finite(range.all.highest, range.start.highest),
-               width = highest - finite(range.all.lowest, range.start.lowest);
+  const heat::TemperatureRange start = range_of(phase, old), range = including(start, range_around(phases));
+  // Where a side has no bound, what is found there is what there is.
+  const heat::TemperatureRange found = including(start, range_of(phase, trial));
+  const double lowest = std::isfinite(range.lowest) ? range.lowest : found.lowest,
+               highest = std::isfinite(range.highest) ? range.highest : found.highest,
+               width = highest - lowest;
   const double allowed = k_overshoot * width + k_slack;
   const std::vector<double>& now = trial.heat.temperature;
   const auto look = [&](const std::vector<double>* deformation) {
     heat::WorstNode worst;
     for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
       const auto n = static_cast<std::size_t>(i);
-      const double beyond = std::max(range.all.lowest - now[n], now[n] - range.all.highest);
+      const double beyond = std::max(range.lowest - now[n], now[n] - range.highest);
       worst.look(n, beyond - allowed - (deformation != nullptr ? (*deformation)[n] : 0.0));
     }
     return worst;
@@ -90,7 +94,7 @@ void require_continued(const Phases& phases, const State& old, const State& tria
       fmt::format(
           "coupling: a temperature that does not follow from those at the start of the step and around "
           "({:.4g} to {:.4g} degC), nor from the heat of deformation: another solution of the equations",
-          finite(range.all.lowest, range.start.lowest) - k_zero_celsius, highest - k_zero_celsius),
+          lowest - k_zero_celsius, highest - k_zero_celsius),
       worst.text(phase.mesh(), now, {}));
 }
 

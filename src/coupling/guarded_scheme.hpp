@@ -11,8 +11,9 @@
 /// Q_i is the structural heat and dissipation that the node took in the step, C_i its capacity. Of what only
 /// explains itself (a wrong strain at a wrong temperature) no more than a quarter of the absolute temperature
 /// is believed: steel that flows by 100 % at 300 MPa warms by less. a is what integration in space may over-
-/// and undershoot: half of the range and 10 K. A step beyond is rejected and repeated with a smaller one,
-/// from the same state: the root that is left is the one that t_n leads to.
+/// and undershoot: as much as the range, and 10 K (the open rule at a sudden chill: up to 65 %). A step
+/// beyond is rejected and repeated with a smaller one, from the same state: the root that is left is the one
+/// that t_n leads to.
 ///
 /// Where fluxes, sources or friction heat or cool, that side has no bound.
 #pragma once

@@ -55,12 +55,12 @@ class Guard : public ::testing::Test {
 
 TEST_F(Guard, LetsTemperaturesPassThatIntegrationInSpaceMayOvershootBy) {
   State trial;
-  EXPECT_NO_THROW(guarded(0, 59)->advance(start_, trial, 1, 1));  // half of 100 K, and 10 K
-  EXPECT_NO_THROW(guarded(0, -59)->advance(start_, trial, 1, 1));
+  EXPECT_NO_THROW(guarded(0, 109)->advance(start_, trial, 1, 1));  // 100 K, and 10 K
+  EXPECT_NO_THROW(guarded(0, -109)->advance(start_, trial, 1, 1));
 }
 
 TEST_F(Guard, RejectsWhatDoesNotFollowAndNamesTheRange) {
-  for (const double change : {61.0, 2700.0, -61.0}) {
+  for (const double change : {111.0, 2700.0, -111.0}) {
     State trial;
     try {
       guarded(0, change)->advance(start_, trial, 1, 1);
