@@ -93,7 +93,8 @@ void require_continued(const Phases& phases, const State& old, const State& tria
   throw StepRejected(
       fmt::format(
           "coupling: a temperature that does not follow from those at the start of the step and around "
-          "({:.4g} to {:.4g} degC), nor from the heat of deformation: another solution of the equations",
+          "({:.4g} to {:.4g} degC), nor from the heat of deformation: another solution of the equations, or "
+          "a split that diverges",
           lowest - k_zero_celsius, highest - k_zero_celsius),
       worst.text(phase.mesh(), now, {}));
 }

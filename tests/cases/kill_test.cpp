@@ -11,11 +11,13 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -50,8 +52,10 @@ class Child {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     posix_spawn_file_actions_adddup2(&actions, 1, 2);
-    posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
+    const int error = posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
+    // Without a process there is nothing to kill or to wait for: -1 means all of them.
+    if (error != 0) throw std::runtime_error(arguments[0] + ": " + std::strerror(error));
   }
   void kill_hard() const { ::kill(pid_, SIGKILL); }
   /// The exit code, or minus the signal that ended it.

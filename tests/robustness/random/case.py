@@ -115,7 +115,7 @@ def time(rng, w, facts, physics, dynamic):
     steps = rng.randint(2, 6)
     step = around(rng, 1e-6, 1e-3) if dynamic else around(rng, 0.05, 1000)
     adaptive = physics != "mechanics" and not dynamic and rng.random() < 0.35
-    facts["adaptive"] = adaptive
+    facts["adaptive"], facts["end"] = adaptive, step * steps
     w.section("[time]", end=f"{step * steps:.6g} s", step=f"{step:.6g} s", adaptive=adaptive or None)
     if not adaptive:
         return steps
@@ -153,7 +153,7 @@ def thermal_conditions(rng, w, facts, kind, shape):
         if what == "temperature":
             keys["temperature"] = f"{ambient} degC"
         elif what == "flux":
-            keys["flux"] = f"{rng.choice([-1, 1]) * around(rng, 1e2, 1e4):.4g} W/m2"
+            keys["flux"] = f"{rng.choice([-1, 1]) * min(around(rng, 1e2, 1e4), 3e5 / facts['end']):.4g} W/m2"  # some tens of kelvin
             facts["heated"] = True
         elif what == "film":
             keys |= {"coefficient": f"{around(rng, 5, 5000):.4g} W/m2/K", "ambient": f"{ambient} degC"}
