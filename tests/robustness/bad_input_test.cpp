@@ -336,6 +336,13 @@ std::vector<BadInput> material_files() {
         {"own.toml", k_material}},
        "check case.toml",
        {"case.toml:14", "no elastic properties"}},
+      {"melt_without_stiffness",
+       {{"case.toml", changed(changed(good_but("\"steel_mould\"", "\"own.toml\""), "physics = \"heat\"",
+                                      "physics = \"thermomechanical\""),
+                              "200 degC", "650 degC")},
+        {"own.toml", "like = \"aluminium_alsi7mg\"\nliquid_model = \"modified_shear\"\n"}},
+       "check case.toml",
+       {"case.toml:14", "a melt has no stiffness against shear", "maxwell"}},
   };
 }
 

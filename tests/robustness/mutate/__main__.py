@@ -89,9 +89,11 @@ class Driver:
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(path.parent, folder, ignore=shutil.ignore_patterns("*.png", "results"))
         (folder / path.name).write_bytes(mutate(rng, self.texts[number], self.texts))
-        environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", SOLIDUS_MATERIALS=str(ROOT / "materials"))
+        environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
+                           SOLIDUS_MATERIALS=str(ROOT / "materials"))
         command = [str(a) for a in (self.program, *self.arguments(verb, folder / path.name, folder))]
-        child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment, cwd=folder, preexec_fn=limits)
+        child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment,
+                                 cwd=folder, preexec_fn=limits)
         out = child.stdout.read().decode(errors="replace")
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = code = os.waitstatus_to_exitcode(status)
@@ -114,7 +116,8 @@ class Driver:
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="mutate", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="mutate", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", type=int)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--program", default=ROOT / "build/release/solidus")

@@ -1,4 +1,5 @@
-"""random CASES [--seed S] [--program P] [--folder F] [--jobs J] [--limit SECONDS] [--allow N]
+"""random CASES [--seed S] [--program P] [--folder F] [--jobs J] [--limit SECONDS] [--processes P]
+                [--allow N]
 
 Runs cases made from the seeds S, S + 1, ... and says what of them broke an invariant, stopped (exit code 2) or was
 refused. Folders of cases that went well are removed; the others stay, for `solidus run FOLDER/SEED/case.toml`.
@@ -20,13 +21,15 @@ from check import Runner  # noqa: E402
 
 def main():
     root = Path(__file__).resolve().parents[3]
-    parser = argparse.ArgumentParser(prog="random", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="random", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", type=int, help="how many")
     parser.add_argument("--seed", type=int, default=1, help="of the first one")
     parser.add_argument("--program", default=root / "build/release/solidus")
     parser.add_argument("--folder", default=root / "build/random")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--limit", type=int, default=60, help="of one run [s of a processor]")
+    parser.add_argument("--processes", type=int, default=2, help="at most, of a run: 1 where others use the machine")
     parser.add_argument("--allow", type=int, default=0, help="how many may break or stop")
     arguments = parser.parse_args()
 
@@ -35,6 +38,7 @@ def main():
 
     def run(seed):
         case = random_case(seed)
+        case.processes = min(case.processes, arguments.processes)
         return case, runner.check(case)
 
     with ThreadPoolExecutor(arguments.jobs) as pool:

@@ -47,7 +47,8 @@ def random_case(seed):
     bodies = choose_bodies(rng, case, shape, physics)
     steps = time(rng, w, facts, physics, dynamic)
     for name, body in bodies.items():
-        w.section("[[body]]", name=name, group=body["group"], material=body["material"], initial_temperature=f"{body['temperature']} degC", physics=body.get("physics"))
+        w.section("[[body]]", name=name, group=body["group"], material=body["material"],
+                  initial_temperature=f"{body['temperature']} degC", physics=body.get("physics"))
     facts["temperatures"] = [body["temperature"] for body in bodies.values()]
     if physics != "mechanics":
         thermal_conditions(rng, w, facts, kind, shape)
@@ -79,7 +80,8 @@ def mesh(rng, w, kind, element):
     if shape == "block":
         w.section("[mesh.block]", size=size(length * rng.uniform(0.2, 1.5)), divisions=divisions())
     elif shape == "two_blocks":
-        w.section("[mesh.two_blocks]", lower=size(length * rng.uniform(0.2, 0.8)), upper=size(length * rng.uniform(0.2, 0.8)), lower_divisions=divisions(), upper_divisions=divisions())
+        w.section("[mesh.two_blocks]", lower=size(length * rng.uniform(0.2, 0.8)),
+                  upper=size(length * rng.uniform(0.2, 0.8)), lower_divisions=divisions(), upper_divisions=divisions())
     else:
         w.section("[mesh.cylinder_in_mould]", radius=f"{length} mm", height=f"{2 * length} mm", mould_wall=f"{length} mm", mould_bottom=f"{0.7 * length:.1f} mm",
                   mould_height=f"{2.7 * length:.1f} mm", element_size=f"{length / rng.choice([2, 3]):.2f} mm", mould_element_size=f"{length / 2:.2f} mm")
@@ -172,7 +174,8 @@ def mechanical_conditions(rng, w, kind, shape, bodies):
     def support(group, direction):
         nonlocal n
         n += 1
-        w.section("[[mechanical_condition]]", name=f"support_{n}", group=group, kind="displacement", **{direction: "0 mm"})
+        w.section("[[mechanical_condition]]", name=f"support_{n}", group=group, kind="displacement",
+                  **{direction: "0 mm"})
 
     mechanical = [name for name, body in bodies.items() if body.get("physics") != "heat"]
     if shape == "cylinder_in_mould":
@@ -191,7 +194,8 @@ def mechanical_conditions(rng, w, kind, shape, bodies):
     top = f"{prefixes[0]}{last}_max"
     load = rng.choice(["none", "none", "pressure", "held"])
     if load == "pressure":
-        w.section("[[mechanical_condition]]", name="load", group=top, kind="pressure", pressure=f"{around(rng, 0.01, 1):.4g} MPa")
+        w.section("[[mechanical_condition]]", name="load", group=top, kind="pressure",
+                  pressure=f"{around(rng, 0.01, 1):.4g} MPa")
     if load == "held":
         support(top, along)
 
@@ -213,11 +217,13 @@ def numerics(rng, w, facts, physics, dynamic):
         w.add(tolerance=1e-11)
     if physics == "heat":
         return
-    w.section("[mechanics]", tolerance=1e-9 if tight else None, b_bar=rng.choice([None, None, False]), simplices=rng.choice([None, None, "mixed", "displacement"]))
+    w.section("[mechanics]", tolerance=1e-9 if tight else None, b_bar=rng.choice([None, None, False]),
+              simplices=rng.choice([None, None, "mixed", "displacement"]))
     if rng.random() < 0.15 and scheme not in ("simultaneous", "double_pass") and not dynamic:
         w.add(integration="bdf2")
     if dynamic:
-        w.section("[dynamics]", method=rng.choice(["backward_euler", "newmark", "trapezoidal", "generalised_alpha"]), mass=rng.choice(["consistent", "lumped"]))
+        w.section("[dynamics]", method=rng.choice(["backward_euler", "newmark", "trapezoidal", "generalised_alpha"]),
+                  mass=rng.choice(["consistent", "lumped"]))
     if physics != "thermomechanical":
         return
     form = "energy"

@@ -25,9 +25,11 @@ class Runner:
         self.program, self.folder, self.limit = Path(program), Path(folder), limit
 
     def command(self, case, results, further=()):
-        command = [str(self.program), "run", str(self.folder / str(case.seed) / "case.toml"), "-o", str(results), *further]
+        command = [str(self.program), "run", str(self.folder / str(case.seed) / "case.toml"), "-o", str(results),
+                   *further]
         if case.processes > 1:  # which leave their processor to each other where there are too few
-            command = ["env", "OMPI_MCA_mpi_yield_when_idle=1", "mpirun", "-n", str(case.processes), "--bind-to", "none", "--oversubscribe", *command]
+            command = ["env", "OMPI_MCA_mpi_yield_when_idle=1", "mpirun", "-n", str(case.processes), "--bind-to",
+                       "none", "--oversubscribe", *command]
         return command
 
     def write(self, case):

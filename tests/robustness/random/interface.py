@@ -14,7 +14,8 @@ def contact(rng, w, facts, kind, physics, shape, bodies, dynamic):
         keys |= {"slave": slave, "master": master}
         large = physics != "heat" and not sand and rng.random() < 0.3
         if large:
-            keys |= {"formulation": "large_sliding", "smoothing": rng.random() < 0.3, "integration": rng.choice(["gauss", "nodal"])}
+            keys |= {"formulation": "large_sliding", "smoothing": rng.random() < 0.3,
+                     "integration": rng.choice(["gauss", "nodal"])}
         else:
             keys["integration"] = rng.choice(["segments", "segments", "nodal", "gauss"])
         if physics != "heat":
@@ -39,9 +40,11 @@ def contact_heat(rng, w, facts, physics):
         if gap != "table" and rng.random() < 0.3:
             keys |= {"exponent": 0.95, "hardness": "300 MPa"}
     elif law == "table":
-        keys["contact_conductance"] = {"argument_unit": "MPa", "unit": "W/m2/K", "points": [[0, round(h, 3)], [10, round(3 * h, 3)]]}
+        keys["contact_conductance"] = {"argument_unit": "MPa", "unit": "W/m2/K",
+                                       "points": [[0, round(h, 3)], [10, round(3 * h, 3)]]}
     if gap == "table":
-        keys["gap_conductance"] = {"argument_unit": "mm", "unit": "W/m2/K", "points": [[0, round(h, 3)], [0.1, round(0.2 * h, 3)], [0.5, round(0.05 * h, 3)]]}
+        keys["gap_conductance"] = {"argument_unit": "mm", "unit": "W/m2/K",
+                                   "points": [[0, round(h, 3)], [0.1, round(0.2 * h, 3)], [0.5, round(0.05 * h, 3)]]}
         if law == "power":
             keys["conductance"] = f"{round(h, 3)} W/m2/K"
     if gap == "gas":
@@ -56,7 +59,8 @@ def contact_heat(rng, w, facts, physics):
         keys["smooth"] = True
     w.section("[contact.heat]", **keys)
     if law == "spots":
-        w.section("[contact.heat.asperities]", roughness="3 um", slope=0.15, conductivity="40 W/m/K", hardness_coefficient="3 GPa", hardness_exponent=-0.2)
+        w.section("[contact.heat.asperities]", roughness="3 um", slope=0.15, conductivity="40 W/m/K",
+                  hardness_coefficient="3 GPa", hardness_exponent=-0.2)
 
 
 def friction(rng, w, facts):
