@@ -106,7 +106,7 @@ def choose_bodies(rng, case, shape, physics):
         else:
             what = rng.choice(SOLIDS + (["green_sand"] if physics != "mechanics" else []) + ["aluminium_alsi7mg"])
             temperature = rng.choice([20.0, 200.0, 472.0])
-        body = {"group": name, "material": what, "temperature": temperature}
+        body = {"group": name, "material": what, "temperature": temperature, "molten": i == 0 and temperature > liquidus}
         if what == "green_sand" and physics == "thermomechanical":
             body["physics"] = "heat"
         bodies[name] = body
@@ -193,7 +193,7 @@ def mechanical_conditions(rng, w, kind, shape, bodies):
         support(f"{prefixes[0]}{radial}_max", across)
     top = f"{prefixes[0]}{last}_max"
     load = rng.choice(["none", "none", "pressure", "held"])
-    if load == "pressure":
+    if load == "pressure" and not bodies[next(iter(bodies))]["molten"]:  # melt flows away from it
         w.section("[[mechanical_condition]]", name="load", group=top, kind="pressure",
                   pressure=f"{around(rng, 0.01, 1):.4g} MPa")
     if load == "held":
@@ -205,7 +205,8 @@ def numerics(rng, w, facts, physics, dynamic):
     smooth = max(facts["temperatures"]) - min(facts["temperatures"]) < 300
     heat = {"integration": rng.choice(["closed", "open"]) if smooth else "closed"}
     facts["closed"] = heat["integration"] == "closed"
-    facts["scheme"] = scheme = rng.choice(["isentropic", "isothermal", "double_pass", "block_iterative", "simultaneous", "simultaneous"]) if physics == "thermomechanical" else physics
+    schemes = ["isentropic", "isothermal", "double_pass", "block_iterative", "simultaneous", "simultaneous"]
+    facts["scheme"] = scheme = rng.choice(schemes) if physics == "thermomechanical" else physics
     if rng.random() < 0.3 and scheme in ("isentropic", "isothermal", "heat") and not dynamic:
         heat["stepping"] = rng.choice(["backward_euler", "sdirk2"])
     if rng.random() < 0.3:
@@ -227,7 +228,7 @@ def numerics(rng, w, facts, physics, dynamic):
     if physics != "thermomechanical":
         return
     form = "energy"
-    if rng.random() < 0.2 and heat.get("stepping") != "sdirk2":
+    if rng.random() < 0.2 and heat.get("stepping") != "sdirk2" and scheme != "double_pass":
         form = rng.choice({"isothermal": ["entropy", "literal", "temperature"]}.get(scheme, ["entropy"]))
     facts["form"] = form
     keys = {"scheme": scheme, "structural_heating": form}
@@ -236,5 +237,7 @@ def numerics(rng, w, facts, physics, dynamic):
     w.section("[coupling]", **keys)
     if scheme == "block_iterative":
         passes = rng.choice(["isentropic", "isothermal"])
-        w.section("[coupling.iteration]", passes=passes, sweep=rng.choice(["gauss_seidel", "jacobi"]), loop=rng.choice(["nested", "single"]),
-                  relaxation=rng.choice(["none", "fixed"] + (["aitken"] if passes == "isothermal" else [])), factor=0.9)
+        w.section("[coupling.iteration]", passes=passes, sweep=rng.choice(["gauss_seidel", "jacobi"]),
+                  loop=rng.choice(["nested", "single"]))
+        relaxation = rng.choice(["none", "fixed"] + (["aitken"] if passes == "isothermal" else []))
+        w.add(relaxation=relaxation, factor=0.9 if relaxation != "none" else None)
