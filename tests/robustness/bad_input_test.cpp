@@ -137,6 +137,9 @@ BadInput bad_arguments(const std::string& name, const std::string& arguments,
 
 std::vector<BadInput> files_and_syntax() {
   return {
+      bad_case("included_name_that_no_system_takes",
+               "include = \"" + std::string(300, 'x') + ".toml\"\n" + k_good,
+               {"case.toml:1:11", "does not exist"}),
       {"missing_case", {}, "check nowhere.toml", {"nowhere.toml", "no such file"}},
       {"folder_without_case", {}, "check .", {"case.toml", "no such file"}},
       bad_case("empty_file", "", {"case.toml", "empty"}),
