@@ -65,7 +65,9 @@ struct InterfaceHeat {
 ///
 /// e = σ_r F. Both are sums of exchanges between pairs of nodes, so heat is conserved to rounding. In the
 /// nodal form the pairs are one of the slave and one of the master, with h N_i N_j >= 0 for linear shapes:
-/// with it a matrix of non-negative type stays one (6.3.1).
+/// with it a matrix of non-negative type stays one (6.3.1). Quadratic shapes have functions below zero, by
+/// which heat would pass from cold to hot: they always take the consistent form, whose entropy production
+/// h (Θ_s − Θ_m)²/(Θ_s Θ_m) is nowhere below zero.
 ///
 /// Where friction acts, the heat is that of the balance of the interface (3.65, 5.33), Θ_c eliminated at the
 /// point (interface_thermodynamics.hpp): Q_1 and Q_2 leave the bodies, and what they differ from conduction
@@ -86,7 +88,7 @@ struct InterfaceHeat {
 class HeatTerm : public algebra::Contribution {
  public:
   /// Keeps references.
-  /// @param nodal  the nodal form
+  /// @param nodal  the nodal form; for linear faces only
   HeatTerm(const mesh::Mesh& mesh, const PartnerList& partners, ContactGraph& graph,
            const HeatTransferLaw& law, bool nodal);
   /// Freezes the configuration, [point]; the partners are those of the list now.

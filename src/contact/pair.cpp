@@ -66,6 +66,12 @@ ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const Conta
   return points;
 }
 
+bool has_linear_faces(const ContactSurface& surface) {
+  for (Index face = 0; face < surface.n_faces(); ++face)
+    if (mesh::order(surface.shape(face)) > 1) return false;
+  return true;
+}
+
 double find_penalty(const mesh::Mesh& mesh, const ContactSpec& spec, const ContactSurface& slave,
                     const ContactSurface* master, std::span<const double> modulus) {
   if (!(spec.penalty > 0))
@@ -124,7 +130,9 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
                                       spec_.stabilisation, spec_.friction && spec_.friction->symmetric);
   if (spec_.heat) {
     heat_law_.emplace(*spec_.heat);
-    heat_ = std::make_unique<HeatTerm>(mesh, partners_, *graph_, *heat_law_, spec_.nodal_heat);
+    // The nodal form needs shape functions that are nowhere below zero.
+    const bool nodal = spec_.nodal_heat && has_linear_faces(slave) && (!master || has_linear_faces(*master));
+    heat_ = std::make_unique<HeatTerm>(mesh, partners_, *graph_, *heat_law_, nodal);
   }
   restore({}, std::vector<double>(mesh.x.size() * static_cast<std::size_t>(components_), 0.0), 0);
 }

@@ -16,6 +16,8 @@ namespace solidus::coupling {
 
 namespace {
 
+constexpr int k_revisions = 5;  ///< of the limits of conduction, each with a further solution of both fields
+
 const Phases& checked(const Phases& phases, const SimultaneousOptions& options) {
   if (phases.heat == nullptr || phases.mechanics == nullptr || phases.structural == nullptr)
     throw std::invalid_argument("the simultaneous scheme needs both phases and structural heat");
@@ -140,7 +142,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   begin_contacts(phases_, contacts, old, pass, coherency);
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
-  int iterations = 0, linear_iterations = 0;
+  int iterations = 0, linear_iterations = 0, revisions = 0;
   for (int turn = 1;; ++turn) {
     try {
       report_ = newton_->solve(old, pass, x);
@@ -149,7 +151,9 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     }
     iterations += report_.iterations;
     linear_iterations += report_.linear_iterations;
-    if (penetrations_small(phases_, turn)) break;
+    if (!penetrations_small(phases_, turn)) continue;
+    if (revisions == k_revisions || !newton_->thermal().revise_limits()) break;
+    ++revisions;
   }
   const mechanics::MechanicalWork work =
       phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);

@@ -332,7 +332,7 @@ TemperatureRange HeatSystem::surroundings() const {
   return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
 }
 
-TemperatureRange HeatSystem::ambient_range() const {
+TemperatureRange HeatSystem::ambient_range(bool with_contributions) const {
   double cooling = 0, heating = 0;
   for (const SurfaceHeat& surface : surfaces_) {
     if (surface.ambient()) continue;
@@ -346,8 +346,9 @@ TemperatureRange HeatSystem::ambient_range() const {
       heating = std::max(heating, heat);
     }
   TemperatureRange range = surroundings();
-  if (contributions_heat_ || algebra::global_min(cooling) < 0) range.lowest = -HUGE_VAL;
-  if (contributions_heat_ || algebra::global_max(heating) > 0) range.highest = HUGE_VAL;
+  const bool contributed = with_contributions && contributions_heat_;
+  if (algebra::global_min(cooling) < 0 || contributed) range.lowest = -HUGE_VAL;
+  if (algebra::global_max(heating) > 0 || contributed) range.highest = HUGE_VAL;
   return range;
 }
 

@@ -66,7 +66,8 @@ class HeatSystem {
   /// The range of the prescribed temperatures and of those around films and radiating surfaces, at the time
   /// set, over all processes [K]; without end where fluxes, sources or contributions (those that bring heat
   /// at the last find_limits(), rather than pass it on) can heat or cool beyond it. Collective.
-  TemperatureRange ambient_range() const;
+  /// @param with_contributions  false: they are taken to pass heat on
+  TemperatureRange ambient_range(bool with_contributions = true) const;
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);

@@ -1,5 +1,6 @@
 #include "heat/thermal_iteration.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,14 @@
 #include "heat/temperature_system.hpp"
 
 namespace solidus::heat {
+
+namespace {
+
+// What deformation alone does, heating or cooling, is no reason to limit conduction and solve again.
+constexpr double k_by_deformation = 1;              ///< [K]
+constexpr double k_by_deformation_of_range = 0.01;  ///< as a share of the range of temperatures
+
+}  // namespace
 
 ThermalIteration::ThermalIteration(ThermalPhase& phase) : phase_(phase) {}
 
@@ -38,7 +47,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
     if (factor != 0) phase_.consistent_->begin_stage({dt, factor}, stage.temperature);
   }
   now_ = phase_.start(stage, time);
-  phase_.limit_conduction(stage, old);
+  range_ = phase_.limit_conduction(stage, old);
   if (nodal()) {
     stored_from_ = old.enthalpy;
     for (std::size_t i = 0; i < stored_from_.size(); ++i)
@@ -67,6 +76,17 @@ void ThermalIteration::evaluate() {
   for (std::size_t i = 0; i < residual_.size(); ++i)
     if (!phase_.system_->fixed()[i]) sum += std::abs(residual_[i]);
   unbalanced_ = algebra::global_sum(sum);
+}
+
+bool ThermalIteration::revise_limits() {
+  double beyond = 0;
+  for (std::size_t i = 0; i < phase_.reactions_.size(); ++i)
+    beyond = std::max({beyond, range_.lowest - now_.temperature[i], now_.temperature[i] - range_.highest});
+  const double width = range_.highest - range_.lowest;
+  if (!(algebra::global_max(beyond) > k_by_deformation + k_by_deformation_of_range * width)) return false;
+  if (phase_.system_->hold_nodes(now_.temperature, range_) != ConductionLimiter::Held::further) return false;
+  phase_.system_->find_limits(now_.temperature);
+  return true;
 }
 
 std::span<const double> ThermalIteration::residual() const {

@@ -41,6 +41,9 @@ class ThermalIteration {
   /// The criterion of the phase, on the last evaluate().
   bool converged() const;
   double tolerance() const;
+  /// Limits conduction anew where the Θ of now have left the range of those at t_n and around the bodies
+  /// (conduction_limiter.hpp). True where that has changed F: the unknowns then solve it no more. Collective.
+  bool revise_limits();
   int max_iterations() const { return phase_.options_.max_iterations; }
 
   /// Makes the matrix anew where nodes meet that did not before; then true. Collective.
@@ -73,6 +76,7 @@ class ThermalIteration {
   std::vector<double> stored_from_;  ///< H*, [local node]; where the enthalpy of the nodes is the unknown
   std::vector<double> residual_, rhs_, step_;
   double dt_ = 0, unbalanced_ = 0;
+  TemperatureRange range_;  ///< within which conduction is to stay
 };
 
 }  // namespace solidus::heat

@@ -413,8 +413,8 @@ void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) 
   ghosts_.update(next.temperature, 1);
 }
 
-TemperatureRange ThermalPhase::ambient_range() const {
-  return system_->ambient_range();
+TemperatureRange ThermalPhase::ambient_range(bool with_contributions) const {
+  return system_->ambient_range(with_contributions);
 }
 
 void ThermalPhase::book(std::span<const double> residual, double dt, std::span<double> heat) const {

@@ -160,7 +160,8 @@ class ThermalPhase {
   /// The temperatures around the bodies at the time of the last solve, prescribed, of films and of radiation,
   /// beyond which nothing is heated or cooled; without end where fluxes, sources or contributions can.
   /// Collective.
-  TemperatureRange ambient_range() const;
+  /// @param with_contributions  false: who asks knows whether contributions heat
+  TemperatureRange ambient_range(bool with_contributions = true) const;
 
   /// Heat needed to hold prescribed temperatures in the last solve, [owned node] [W], zero elsewhere.
   std::span<const double> reactions() const { return reactions_; }

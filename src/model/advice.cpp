@@ -54,7 +54,22 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
   return advice;
 }
 
+/// Of coupling::GuardedScheme.
+std::vector<std::string> guard_advice(const CaseSpec& spec) {
+  std::vector<std::string> advice;
+  if (spec.heat.integration == heat::Integration::open)
+    advice.emplace_back(
+        "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden "
+        "chills");
+  if (!spec.heat.bounds) advice.emplace_back("heat.bounds = true");
+  advice.emplace_back("a heat transfer that changes less steeply with gap and pressure: [contact.heat]");
+  if (spec.coupling.scheme == CouplingSpec::Scheme::simultaneous)
+    advice.emplace_back("coupling.scheme = \"isentropic\", whose thermal phase has one solution");
+  return advice;
+}
+
 std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  if (says(stop, "does not follow")) return guard_advice(spec);
   const IterationSpec& i = spec.coupling.iteration;
   std::vector<std::string> advice;
   if (i.passes == IterationSpec::Passes::isothermal) {
@@ -77,8 +92,16 @@ std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseS
 }
 
 std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec& spec) {
-  if (says(stop, "temperature falls") || says(stop, "temperature is not"))
-    return {"fluxes and sources at that place: do they take more heat than there is?"};
+  const char* const closed =
+      "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden chills, "
+      "the "
+      "more the shorter the step is";
+  if (says(stop, "temperature falls") || says(stop, "temperature is not")) {
+    std::vector<std::string> advice = {
+        "fluxes and sources at that place: do they take more heat than there is?"};
+    if (spec.heat.integration == heat::Integration::open) advice.insert(advice.begin(), closed);
+    return advice;
+  }
   std::vector<std::string> advice = {
       fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance",
                   spec.heat.max_iterations),

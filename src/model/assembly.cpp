@@ -10,6 +10,7 @@
 #include "base/log.hpp"
 #include "model/admissible.hpp"
 #include "model/body_input.hpp"
+#include "model/case_materials.hpp"
 #include "model/contact_input.hpp"
 #include "model/criteria_input.hpp"
 #include "model/heat_input.hpp"
@@ -166,6 +167,9 @@ void build(const CaseSpec& spec, Assembly& a) {
     if (stage.cycle <= 1) without_body(spec, a.mesh, &stage);  // complains early
   const InitialTemperatures start(spec, a.materials, a.mesh);
   a.start = start.ranges();
+  std::vector<double> highest;
+  for (const TemperatureRange& range : a.start) highest.push_back(range.high);
+  check_melts(spec, a.materials, highest);
   build_contacts(spec, a);
   a.phases.temperature = nodal_temperature(spec, start, a.mesh);
   if (spec.has_mechanics()) {

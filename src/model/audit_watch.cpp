@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "coupling/energy_scale.hpp"
 
 namespace solidus::model {
 
@@ -30,21 +31,25 @@ void StabilityWatch::step(const coupling::StepRecord& record, const coupling::St
   warned_ = true;
 }
 
+void FirstLawWatch::begin(const coupling::State& state) {
+  if (heat_ != nullptr) heat_content_ = coupling::heat_content(*heat_, state.heat);
+}
+
 void FirstLawWatch::step(const coupling::StepRecord& record, const coupling::State&) {
   sum_ += record.energy;
   unsolved_ += std::abs(record.energy.unbalanced) + record.heat.residual * record.energy.heat_exchanged;
 }
 
 void FirstLawWatch::report() const {
-  constexpr double k_rounding = 1e-9, k_seen = 1e-3;  // of the heat exchanged
-  const double defect = std::abs(sum_.defect()), exchanged = sum_.heat_exchanged;
+  constexpr double k_rounding = 1e-9, k_seen = 1e-3;  // of the scale
+  const double defect = std::abs(sum_.defect()), scale = coupling::energy_scale(sum_, heat_content_);
   const bool closes = closes_first_law(spec_);
-  if (!(defect > unsolved_ + (closes ? k_rounding : k_seen) * exchanged)) return;
+  if (!(defect > unsolved_ + (closes ? k_rounding : k_seen) * scale)) return;
   const bool printed =
       spec_.coupled() && (spec_.coupling.structural_heating != CouplingSpec::StructuralHeating::energy ||
                           spec_.coupling.as_printed);
-  logging::warn("the first law is violated by {:.2g} of the heat exchanged, {:.3g} J; {}",
-                exchanged > 0 ? defect / exchanged : 0.0, sum_.defect(),
+  logging::warn("the first law is violated by {:.2g} of the {}, {:.3g} J; {}", defect / scale,
+                scale == sum_.heat_exchanged ? "heat exchanged" : "energy at hand", sum_.defect(),
                 printed ? "structural_heating = \"energy\" in [coupling] closes it, smaller steps lose less"
                         : "smaller steps lose less");
 }

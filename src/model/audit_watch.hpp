@@ -2,6 +2,7 @@
 #pragma once
 
 #include "coupling/observer.hpp"
+#include "heat/thermal_phase.hpp"
 #include "model/admissible.hpp"
 
 namespace solidus::model {
@@ -30,9 +31,11 @@ class StabilityWatch : public coupling::Observer {
 /// (the entropy and the printed forms).
 class FirstLawWatch : public coupling::Observer {
  public:
-  /// @param spec kept by reference
-  explicit FirstLawWatch(const CaseSpec& spec) : spec_(spec) {}
-  void begin(const coupling::State&) override {}
+  /// @param spec  kept by reference
+  /// @param heat  of the run, kept; null: nothing but what is exchanged makes the scale
+  explicit FirstLawWatch(const CaseSpec& spec, const heat::ThermalPhase* heat = nullptr)
+      : spec_(spec), heat_(heat) {}
+  void begin(const coupling::State& state) override;
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
   void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
   void end(const coupling::State&) override { report(); }
@@ -41,8 +44,10 @@ class FirstLawWatch : public coupling::Observer {
   void report() const;
 
   const CaseSpec& spec_;
+  const heat::ThermalPhase* heat_;
   coupling::EnergyAudit sum_;
-  double unsolved_ = 0;  ///< what residuals explain, summed [J]
+  double heat_content_ = 0;  ///< at the start [J]
+  double unsolved_ = 0;      ///< what residuals explain, summed [J]
 };
 
 /// Says at the end of a run where liquid metal left its wall (contact::ContactSpec::leaving_gap).

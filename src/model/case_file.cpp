@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 
 #include "model/case_keys.hpp"
 #include "model/overrides.hpp"
@@ -39,9 +40,10 @@ Value load_included(const Value& include, Includes& includes) {
                      "the path of a case file, in quotes, or a list of such paths");
   const fs::path other = resolved_path(include);
   const std::vector<fs::path>& chain = includes.chain;
-  if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(other)) != chain.end())
+  std::error_code error;  // a name that no system takes names no file
+  if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(other, error)) != chain.end())
     throw InputError(include.where, fmt::format("'{}' is included by itself", include.text()));
-  if (!fs::exists(other))
+  if (!fs::exists(other, error))
     throw InputError(include.where, fmt::format("the included file '{}' does not exist", other.string()));
   if (chain.size() >= Includes::k_deepest || ++includes.n_files > Includes::k_most)
     throw InputError(
@@ -54,7 +56,8 @@ Value load_with_includes(const fs::path& path, Includes& includes) {
   Value document = load_document(path);
   const Value* include = document.find("include");
   if (!include) return document;
-  includes.chain.push_back(fs::weakly_canonical(path));
+  std::error_code error;
+  includes.chain.push_back(fs::weakly_canonical(path, error));
   Value base;
   for (const Value& item : include->is_list() ? include->items() : Value::List{*include})
     lay_over(base, load_included(item, includes));
@@ -107,7 +110,8 @@ std::string Case::toml() const {
 
 Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   Case result;
-  result.file = fs::is_directory(path) ? path / "case.toml" : path;
+  std::error_code error;
+  result.file = fs::is_directory(path, error) ? path / "case.toml" : path;
   Includes includes;
   Value document = load_with_includes(result.file, includes);
   for (const std::string& assignment : overrides) apply_override(document, assignment);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "base/types.hpp"
 #include "material/library.hpp"
 #include "model/body_input.hpp"
 
@@ -47,6 +48,27 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
           "young_modulus, poisson_ratio and expansion in the material, or physics = \"heat\" of the body");
   }
   return materials;
+}
+
+void check_melts(const CaseSpec& spec, const std::vector<material::Material>& materials,
+                 const std::vector<double>& highest) {
+  if (!spec.has_mechanics() || spec.dynamics) return;
+  for (std::size_t b = 0; b < materials.size(); ++b) {
+    const BodySpec& body = spec.bodies[b];
+    const material::PhaseChange* freezing = materials[b].solidification();
+    if (only_conducts(body) || freezing == nullptr ||
+        materials[b].liquid_model != material::LiquidModel::modified_shear ||
+        freezing->fraction.value(highest[b]) > 0)
+      continue;
+    throw InputError(
+        body.where,
+        fmt::format("body '{}' starts as a melt at {:.4g} degC, and with liquid_model = "
+                    "\"modified_shear\" of '{}' a melt has no stiffness against shear at all: it "
+                    "flows away from every load but a uniform pressure",
+                    body.name, highest[b] - k_zero_celsius, body.material),
+        "liquid_model = \"maxwell\" or \"degenerated\", an initial temperature below the "
+        "liquidus, or [dynamics]");
+  }
 }
 
 }  // namespace solidus::model

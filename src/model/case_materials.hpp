@@ -19,4 +19,10 @@ std::vector<std::filesystem::path> material_folders();
 /// case needs.
 std::vector<material::Material> load_materials(const CaseSpec& spec);
 
+/// Throws InputError for a body without inertia that starts as a melt without stiffness against shear: the
+/// modified shear modulus f_S G (2.77) is zero there, and nothing but luck is in equilibrium.
+/// @param highest  initial temperature [K], [body]
+void check_melts(const CaseSpec& spec, const std::vector<material::Material>& materials,
+                 const std::vector<double>& highest);
+
 }  // namespace solidus::model

@@ -62,8 +62,7 @@ Section<heat::HeatOptions> heat_keys() {
       .doc(
           "Closed rule: limits conduction where obtuse, bent or quadratic elements would let temperatures "
           "leave the range of the initial and boundary ones (docs/theory/thermal.md); linear fields and "
-          "smooth temperatures stay as they are. The simultaneous scheme limits by the start of the step "
-          "alone, which need not be enough.");
+          "smooth temperatures stay as they are.");
   solver_choice(s).doc("Linear solver; PETSc options with the prefix -heat_ change it further.");
   return s;
 }

@@ -161,7 +161,7 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   RangeWatch watch(spec, a);
   DissipationWatch dissipation;
   StabilityWatch stability(spec, a.coldest_start());
-  FirstLawWatch first_law(spec);
+  FirstLawWatch first_law(spec, a.heat.get());
   WallWatch walls(a.phases.contacts);
   StopReason why;
   simulation.add(watch);

@@ -5,6 +5,7 @@
 
 #include "coupling/block_iterative.hpp"
 #include "coupling/double_pass.hpp"
+#include "coupling/guarded_scheme.hpp"
 #include "coupling/isentropic.hpp"
 #include "coupling/isothermal.hpp"
 #include "coupling/simultaneous.hpp"
@@ -41,8 +42,9 @@ coupling::PhaseOrder phase_order(const CaseSpec& spec, bool melts) {
   return (rubs && !melts) || printed || spec.dynamics ? PhaseOrder::mechanics_first : PhaseOrder::heat_first;
 }
 
-std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
-                                                          const coupling::Phases& phases) {
+namespace {
+
+std::unique_ptr<coupling::CouplingScheme> bare_scheme(const CaseSpec& spec, const coupling::Phases& phases) {
   using Scheme = CouplingSpec::Scheme;
   if (!spec.coupled()) return std::make_unique<coupling::IsothermalSplit>(phases);
   switch (spec.coupling.scheme) {
@@ -60,6 +62,13 @@ std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
       return std::make_unique<coupling::DoublePass>(phases);
   }
   throw std::logic_error("no such coupling scheme");
+}
+
+}  // namespace
+
+std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
+                                                          const coupling::Phases& phases) {
+  return std::make_unique<coupling::GuardedScheme>(bare_scheme(spec, phases), phases);
 }
 
 mechanics::StructuralForm structural_form(const CaseSpec& spec) {

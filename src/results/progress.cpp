@@ -1,4 +1,5 @@
 #include "results/progress.hpp"
+#include "coupling/energy_scale.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,6 +10,8 @@
 #include <cstdlib>
 #include <string_view>
 #include <utility>
+
+#include "coupling/energy_scale.hpp"
 
 namespace solidus::results {
 
@@ -34,7 +37,8 @@ Progress::Progress(std::ostream& out, ProgressOptions options) : out_(out), opti
     };
 }
 
-void Progress::begin() {
+void Progress::begin(double heat_content) {
+  heat_content_ = heat_content;
   began_ = options_.clock();
   std::string head = fmt::format("{:>6} {:>11} {:>9}", "step", "time [s]", "dt [s]");
   if (options_.heat) head += fmt::format(" {:>4} {:>8}", "heat", "residual");
@@ -51,8 +55,7 @@ double Progress::seconds_left(double time) const {
 }
 
 void Progress::step(const coupling::StepRecord& record) {
-  defect_ += record.energy.defect();
-  exchanged_ += record.energy.heat_exchanged;
+  sum_ += record.energy;
   std::string text = fmt::format("{:>6} {:>11.6g} {:>9.4g}", record.number, record.time, record.dt);
   const auto phase = [&](const coupling::PhaseEffort& effort) {
     text += fmt::format(" {:>4} {:>8.1e}", effort.iterations, effort.residual);
@@ -65,8 +68,8 @@ void Progress::step(const coupling::StepRecord& record) {
     for (const auto& contact : record.contacts) closed += contact.closed_points, points += contact.points;
     text += fmt::format(" {:>11}", fmt::format("{}/{}", closed, points));
   }
-  if (options_.heat)  // of all steps together, relative to the heat that moved
-    text += fmt::format(" {:>8.1e}", exchanged_ > 0 ? std::abs(defect_) / exchanged_ : std::abs(defect_));
+  if (options_.heat)  // of all steps together
+    text += fmt::format(" {:>8.1e}", coupling::relative_defect(sum_, heat_content_));
   text += fmt::format(" {:>12}  {}", duration_text(seconds_left(record.time)), record.reason);
   if (!record.stage.empty()) text += ", " + record.stage;
   if (record.cycle > 0) text += fmt::format(" {}", record.cycle);

@@ -31,7 +31,8 @@ class Progress {
   Progress(std::ostream& out, ProgressOptions options);
 
   /// The header of the columns.
-  void begin();
+  /// @param heat_content  as of coupling::heat_content() [J]
+  void begin(double heat_content = 0);
   void step(const coupling::StepRecord& record);
   /// Removes the bar and says how it ended: "finished", "stopped: …", with the time it took.
   /// @param profile  lines that say where the time went (base/profile.hpp)
@@ -45,8 +46,9 @@ class Progress {
   std::ostream& out_;
   ProgressOptions options_;
   double began_ = 0;
-  bool bar_ = false;                   ///< a bar stands on the present line
-  double defect_ = 0, exchanged_ = 0;  ///< [J], over all steps
+  bool bar_ = false;           ///< a bar stands on the present line
+  coupling::EnergyAudit sum_;  ///< over all steps
+  double heat_content_ = 0;    ///< at the start [J]
 };
 
 }  // namespace solidus::results

@@ -7,6 +7,7 @@
 
 #include "base/log.hpp"
 #include "base/profile.hpp"
+#include "coupling/energy_scale.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::results {
@@ -136,11 +137,13 @@ void Recorder::begin(const coupling::State& state) {
   const profile::Part part("output");
   coupling::StepEffort initial;
   coupling::summarise(phases_, state, initial);
-  if (progress_) progress_->begin();
+  const double heat_content =
+      phases_.heat != nullptr ? coupling::heat_content(*phases_.heat, state.heat) : 0.0;
+  if (progress_) progress_->begin(heat_content);
   fields_.update(state);
   if (options_.continue_from) {
     // Rows and fields of this state were written before; stresses follow with the first step.
-    globals_.start(initial, options_.continue_from->energy, options_.continue_from->stability);
+    globals_.start(initial, options_.continue_from->energy, options_.continue_from->stability, heat_content);
     options_.summary.steps = options_.continue_from->continuation.steps;
     options_.summary.rejected = options_.continue_from->rejected;
     last_row_ = history_row(state.time);
@@ -151,7 +154,7 @@ void Recorder::begin(const coupling::State& state) {
     });
     return;
   }
-  globals_.start(initial);
+  globals_.start(initial, {}, {}, heat_content);
   if (criteria_probed_) fields_.update_criteria(state);
   add_history_row(state.time);
   add_pools(state);

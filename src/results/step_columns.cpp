@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/types.hpp"
+#include "coupling/energy_scale.hpp"
 
 namespace solidus::results {
 
@@ -213,8 +214,9 @@ std::vector<Column> GlobalHistory::columns() const {
 }
 
 void GlobalHistory::start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy,
-                          const coupling::StabilityAudit& stability) {
+                          const coupling::StabilityAudit& stability, double heat_content) {
   last_ = initial;
+  heat_content_ = heat_content;
   sum_ = energy;
   stability_ = stability;
 }
@@ -232,7 +234,7 @@ std::vector<double> GlobalHistory::values() const {
 }
 
 double GlobalHistory::relative_defect() const {
-  return sum_.heat_exchanged > 0 ? std::abs(sum_.defect()) / sum_.heat_exchanged : 0;
+  return coupling::relative_defect(sum_, heat_content_);
 }
 
 }  // namespace solidus::results

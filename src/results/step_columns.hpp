@@ -51,8 +51,9 @@ class GlobalHistory {
   std::vector<Column> columns() const;
   /// The state before the first step; energies begin at zero.
   /// @param energy, stability  sums of the steps before, where a run goes on
+  /// @param heat_content       of that state, as of coupling::heat_content() [J]
   void start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy = {},
-             const coupling::StabilityAudit& stability = {});
+             const coupling::StabilityAudit& stability = {}, double heat_content = 0);
   void add(const coupling::StepEffort& step);
   /// In the order of columns().
   std::vector<double> values() const;
@@ -60,7 +61,7 @@ class GlobalHistory {
   std::vector<Reading> all() const;
   const coupling::EnergyAudit& energy() const { return sum_; }
   const coupling::StabilityAudit& stability() const { return stability_; }
-  /// |sum of defects| / sum of heat exchanged; zero when no heat moved.
+  /// Of the steps together, as of coupling::relative_defect().
   double relative_defect() const;
 
  private:
@@ -69,6 +70,7 @@ class GlobalHistory {
   Options options_;
   coupling::StepEffort last_;
   coupling::EnergyAudit sum_;
+  double heat_content_ = 0;             ///< at the start [J]
   coupling::StabilityAudit stability_;  ///< summed
 };
 

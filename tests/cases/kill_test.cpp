@@ -9,12 +9,15 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,6 +36,11 @@ std::string text(const fs::path& path) {
   return all.str();
 }
 
+int from_environment(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? std::atoi(text) : otherwise;
+}
+
 /// The program in a process of its own; what it prints goes to a file.
 class Child {
  public:
@@ -44,8 +52,10 @@ class Child {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     posix_spawn_file_actions_adddup2(&actions, 1, 2);
-    posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
+    const int error = posix_spawn(&pid_, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
+    // Without a process there is nothing to kill or to wait for: -1 means all of them.
+    if (error != 0) throw std::runtime_error(arguments[0] + ": " + std::strerror(error));
   }
   void kill_hard() const { ::kill(pid_, SIGKILL); }
   /// The exit code, or minus the signal that ended it.
@@ -63,7 +73,7 @@ class Child {
 /// checkpoint.
 class Kill : public ::testing::Test {
  protected:
-  static constexpr unsigned k_seed = 20;
+  static constexpr int k_seed = 20;
 
   void SetUp() override {
     fs::remove_all(root());
@@ -135,6 +145,7 @@ class Kill : public ::testing::Test {
   }
   static void expect_as_whole(const std::string& folder) {
     EXPECT_EQ(text(root() / folder / "history.csv"), text(root() / "whole/history.csv"));
+    EXPECT_EQ(text(root() / folder / "pools.csv"), text(root() / "whole/pools.csv"));
     EXPECT_EQ(text(root() / folder / "fields.pvd"), text(root() / "whole/fields.pvd"));
     std::set<std::string> here, there;
     for (const auto& file : fs::directory_iterator(root() / "whole/fields")) {
@@ -162,13 +173,15 @@ class Kill : public ::testing::Test {
   }
 };
 
-TEST_F(Kill, TwentyTimesAtRandomMomentsLeavesTheSameBytes) {
+// Twenty times, or as often and with the seed that `./dev kill` asks for.
+TEST_F(Kill, AtRandomMomentsLeavesTheSameBytes) {
   constexpr int k_steps = 40;  // of the run
+  const int kills = from_environment("SOLIDUS_KILLS", 20);
   const Seconds step = run_whole() / k_steps;
-  std::mt19937 random(k_seed);
+  std::mt19937 random(static_cast<unsigned>(from_environment("SOLIDUS_KILL_SEED", k_seed)));
   std::uniform_real_distribution<double> share(0.0, 1.0);
   int killed = 0, with_checkpoint = 0;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < kills; ++i) {
     const std::string folder = "killed";
     fs::remove_all(root() / folder);
     // By the run's own progress, whatever else the machine does: a number of rows, and up to two steps more.
@@ -185,8 +198,10 @@ TEST_F(Kill, TwentyTimesAtRandomMomentsLeavesTheSameBytes) {
     if (HasFailure()) return;  // the folder is left to look at
   }
   // The moments are worth their name: few come after the end, many find a checkpoint.
-  EXPECT_GE(killed, 15);
-  EXPECT_GE(with_checkpoint, 8);
+  std::printf("%d kills, %d before the end of the run, %d with a checkpoint to go on from\n", kills, killed,
+              with_checkpoint);
+  EXPECT_GE(killed, kills * 3 / 4);
+  EXPECT_GE(with_checkpoint, kills * 2 / 5);
 }
 
 TEST_F(Kill, AgainAndAgainInAdaptiveSteps) {

@@ -137,6 +137,9 @@ BadInput bad_arguments(const std::string& name, const std::string& arguments,
 
 std::vector<BadInput> files_and_syntax() {
   return {
+      bad_case("included_name_that_no_system_takes",
+               "include = \"" + std::string(300, 'x') + ".toml\"\n" + k_good,
+               {"case.toml:1:11", "does not exist"}),
       {"missing_case", {}, "check nowhere.toml", {"nowhere.toml", "no such file"}},
       {"folder_without_case", {}, "check .", {"case.toml", "no such file"}},
       bad_case("empty_file", "", {"case.toml", "empty"}),
@@ -336,6 +339,13 @@ std::vector<BadInput> material_files() {
         {"own.toml", k_material}},
        "check case.toml",
        {"case.toml:14", "no elastic properties"}},
+      {"melt_without_stiffness",
+       {{"case.toml", changed(changed(good_but("\"steel_mould\"", "\"own.toml\""), "physics = \"heat\"",
+                                      "physics = \"thermomechanical\""),
+                              "200 degC", "650 degC")},
+        {"own.toml", "like = \"aluminium_alsi7mg\"\nliquid_model = \"modified_shear\"\n"}},
+       "check case.toml",
+       {"case.toml:14", "a melt has no stiffness against shear", "maxwell"}},
   };
 }
 

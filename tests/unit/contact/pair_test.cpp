@@ -304,6 +304,30 @@ TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
     }
 }
 
+TEST(InterfaceHeat, LeavesWhatIsHotterThanAllAroundItWhateverTheShapeAndTheGaps) {
+  HeatTransferSpec gas = heat_spec();
+  gas.gap_law = HeatTransferSpec::GapLaw::gas;
+  gas.open_conductance = gas.conductance;
+  gas.gas_conductivity = 1e-3;  // conductances that differ a lot along a face
+  for (Shape shape : {Shape::tri3, Shape::quad4, Shape::tri6, Shape::quad8, Shape::tet4, Shape::hex8,
+                      Shape::tet10, Shape::hex20}) {
+    const mesh::Mesh mesh = test::two_blocks(shape);
+    ContactSpec s = spec();
+    s.heat = gas;
+    ContactPair pair(mesh, kind_of(mesh), s);
+    pair.update(rocking(mesh));
+    const auto n_owned = static_cast<std::size_t>(mesh.n_owned_nodes);
+    for (std::size_t hot = 0; hot < n_owned; ++hot) {
+      std::vector<double> temperature(mesh.x.size(), 600.0);
+      temperature[hot] = 700;
+      const std::vector<double> heat = pair.nodal_heat(temperature);
+      double size = 0;
+      for (const double q : heat) size = std::max(size, std::abs(q));
+      EXPECT_GE(heat[hot], -1e-12 * size) << mesh::name(shape) << ", node " << hot;
+    }
+  }
+}
+
 TEST(NodalFields, ShowTheHeatThatEntersEitherBodyAndWhatOfItIsByFriction) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   ContactSpec s = spec();

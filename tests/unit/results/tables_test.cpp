@@ -318,6 +318,21 @@ TEST(GlobalHistory, SumsTheFirstLawOverTheSteps) {
   EXPECT_DOUBLE_EQ(history.relative_defect(), 3.0 / 60.0);
 }
 
+TEST(GlobalHistory, MeasuresTheDefectOfARunAtRestAgainstItsHeatContent) {
+  coupling::StepEffort rounding;
+  rounding.energy.stored_heat = 2e-13;
+  rounding.energy.heat_exchanged = 1e-13;
+  GlobalHistory history({});
+  history.start({}, {}, {}, 1e6);
+  history.add(rounding);
+  EXPECT_DOUBLE_EQ(history.relative_defect(), 2e-13);  // of 1e-6 of the content, 1 J
+  rounding.energy.structural = 4;                      // 4 J that have gone into elastic energy
+  history.add(rounding);
+  EXPECT_NEAR(history.relative_defect(), 1, 1e-12);
+  history.start({});  // nothing there at all
+  EXPECT_EQ(history.relative_defect(), 0);
+}
+
 TEST(GlobalHistory, ShowsWhereThePlasticWorkWent) {
   GlobalHistory history({.plastic = true});
   coupling::StepRecord step = sample_step();

@@ -1,0 +1,34 @@
+#include "coupling/energy_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "heat/nodal_enthalpy.hpp"
+
+namespace solidus::coupling {
+
+double heat_content(const heat::ThermalPhase& phase, const heat::ThermalState& state) {
+  double content = 0;
+  const heat::NodalEnthalpy& storage = phase.storage();
+  for (Index i = 0; i < phase.mesh().n_owned_nodes; ++i) {
+    const double temperature = state.temperature[static_cast<std::size_t>(i)];
+    content += storage.capacity(i, temperature) * temperature;
+  }
+  return algebra::global_sum(content);
+}
+
+double energy_scale(const EnergyAudit& sum, double heat_content) {
+  double scale = std::max(sum.heat_exchanged, k_at_rest * heat_content);
+  for (const double energy :
+       {sum.structural, sum.contact, sum.kinetic, sum.friction, sum.numerical, sum.work})
+    scale = std::max(scale, std::abs(energy));
+  return scale;
+}
+
+double relative_defect(const EnergyAudit& sum, double heat_content) {
+  const double scale = energy_scale(sum, heat_content);
+  return scale > 0 ? std::abs(sum.defect()) / scale : 0;
+}
+
+}  // namespace solidus::coupling

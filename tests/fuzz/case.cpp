@@ -1,0 +1,9 @@
+/// Any bytes as a case file.
+#include "input.hpp"
+#include "model/case_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace solidus;
+  const auto file = fuzz::as_file("case.toml", data, size);
+  return fuzz::answer([&] { model::load_case(file).toml(); });
+}
