@@ -18,8 +18,10 @@ constexpr double k_beyond = 1e-9;
 /// How much further than in the first stage a temperature may go: by (1 − γ)/γ where the capacity is
 /// constant, and half as much again where it is not.
 constexpr double k_outside = 1.5 * k_sdirk_carried;
-/// Share of the range of temperatures below which a difference is none, and by which a node may sink.
-constexpr double k_even = 1e-4, k_deep = 2e-3;
+/// Share of the range of temperatures below which a difference is none.
+constexpr double k_even = 1e-4;
+/// Share of the range of temperatures by which metal may sink, root mean square over its volume.
+constexpr double k_sunk = 3e-4;
 
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
@@ -29,7 +31,11 @@ std::size_t at(Index i) {
 
 ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& storage,
                                        const ThermalState& old, const ThermalState& middle)
-    : system_(system), before_(old.temperature), now_(middle.temperature), ahead_(at(storage.n_nodes())) {
+    : system_(system),
+      storage_(storage),
+      before_(old.temperature),
+      now_(middle.temperature),
+      ahead_(at(storage.n_nodes())) {
   TemperatureRange first, second;
   const auto look = [](TemperatureRange& range, double temperature) {
     range.lowest = std::min(range.lowest, temperature);
@@ -108,7 +114,7 @@ bool ExtrapolationGuard::turns_back(const ThermalState& next, const algebra::Gho
   if (passes_kink_.empty()) return false;
   const std::size_t n = ahead_.size();
   const double range = highest_ - lowest_;
-  double deepest = 0;
+  std::vector<double> sunk(n, 0.0);
   for (const double sign : {1.0, -1.0}) {
     std::vector<std::size_t> way_out(n);
     for (std::size_t i = 0; i < n; ++i) way_out[i] = i;
@@ -118,9 +124,18 @@ bool ExtrapolationGuard::turns_back(const ThermalState& next, const algebra::Gho
     std::vector<double> barrier = next.temperature;
     while (raise_along(way_out, sign, barrier)) ghosts.update(barrier, 1);
     for (std::size_t i = 0; i < n; ++i)
-      if (passes_kink_[i] == sign) deepest = std::max(deepest, sign * (barrier[i] - next.temperature[i]));
+      if (passes_kink_[i] == sign) sunk[i] = sign * (barrier[i] - next.temperature[i]);
   }
-  return algebra::global_max(deepest) > k_deep * range;
+  double squares = 0, volume = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at_node = storage_.sum(
+        static_cast<Index>(i), [](const material::Material& m) { return m.solidification() ? 1.0 : 0.0; });
+    squares += at_node * sunk[i] * sunk[i];
+    volume += at_node;
+  }
+  squares = algebra::global_sum(squares);
+  volume = algebra::global_sum(volume);
+  return squares > k_sunk * k_sunk * range * range * volume;
 }
 
 /// Takes the barriers of this process to the highest further on, its ghosts' included; returns whether one

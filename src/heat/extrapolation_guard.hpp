@@ -34,10 +34,11 @@ class ExtrapolationGuard {
   /// first stage: where a flux or a source cools or heats, nothing bounds it.
   /// @param surroundings  the temperatures around the bodies during the step
   bool leaves_range(const TemperatureRange& surroundings) const;
-  /// Whether a node that has passed a kink of its curve has sunk below its way out by more than two
-  /// thousandths of the range of temperatures. The way out leads from each node to its coldest neighbour in
-  /// the first stage. Nodes that pass a kink are those whose Θ(H*) lies beyond what it and its neighbours
-  /// would come to, changing on as in the first stage and half as fast again.
+  /// Whether metal has sunk below its way out: by more than three ten-thousandths of the range of
+  /// temperatures, root mean square over the volume of what can melt, of the nodes that have passed a kink of
+  /// their curve. The way out leads from each node to its coldest neighbour in the first stage. Nodes that
+  /// pass a kink are those whose Θ(H*) lies beyond what it and its neighbours would come to, changing on as
+  /// in the first stage and half as fast again.
   /// @param next  the state at the end of the second stage
   bool turns_back(const ThermalState& next, const algebra::GhostExchange& ghosts) const;
 
@@ -48,6 +49,7 @@ class ExtrapolationGuard {
   bool raise_along(std::span<const std::size_t> way_out, double sign, std::span<double> barrier) const;
 
   HeatSystem& system_;
+  const NodalEnthalpy& storage_;
   const std::vector<double>&before_, &now_;      ///< Θ_n and Θ¹, [local node]
   std::vector<double> ahead_;                    ///< Θ(H*), [owned node]
   std::vector<char> passes_kink_;                ///< [owned node]: 1 downward, −1 upward; empty: none

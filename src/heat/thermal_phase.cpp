@@ -264,20 +264,20 @@ PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const Therma
                                            ThermalState& next) {
   const algebra::Stage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
       rest{pass.dt - first.dt, 1};
-  const bool flows = nodal() && !pass.adiabatic, guarded = flows && pass.within_range;
+  const bool flows = nodal() && !pass.adiabatic;
   ThermalState middle;
   PhaseReport report = solve_stage(
       old, old, first, {pass.time - pass.dt + first.dt, pass.dt, pass.iterate, pass.newton_steps}, middle);
   if (flows) flows_.first = flow(old, middle, first);
   std::optional<ExtrapolationGuard> guard;
   bool second_order = true;
-  if (guarded) {
+  if (flows && pass.within_range && options_.integration == Integration::closed) {
     TemperatureRange around = system_->surroundings();
     system_->set_time(pass.time);
     const TemperatureRange at_end = system_->surroundings();
     around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
     guard.emplace(*system_, *storage_, old, middle);
-    second_order = options_.integration != Integration::closed || !guard->leaves_range(around);
+    second_order = !guard->leaves_range(around);
   }
   const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
   PhaseReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);

@@ -94,7 +94,7 @@ struct ThermalPass {
   /// Nothing flows: temperatures follow what the contributions that store take up (coupling/double_pass.hpp).
   bool adiabatic = false;
   /// With two stages: where the extrapolation between them overshoots, the step is of first order
-  /// (extrapolation_guard.hpp; nodes hold the heat).
+  /// (extrapolation_guard.hpp; closed rule).
   bool within_range = true;
 };
 

@@ -119,25 +119,12 @@ TEST(ThermalStepping, Sdirk2StaysOfSecondOrderWhereAFluxCoolsBelowAllTemperature
   EXPECT_NEAR(std::log2(difference(coarse, middle) / difference(middle, fine)), 2, 0.2);
 }
 
-/// The elements around each node tell its neighbours, [node].
-std::vector<std::vector<std::size_t>> neighbours(const mesh::Mesh& mesh) {
-  std::vector<std::vector<std::size_t>> of(mesh.x.size());
-  for (const mesh::Block& block : mesh.blocks)
-    for (Index e = 0; e < block.size(); ++e)
-      for (int a = 0; a < mesh::node_count(block.shape); ++a)
-        for (int b = 0; b < mesh::node_count(block.shape); ++b)
-          if (a != b)
-            of[static_cast<std::size_t>(block.element(e)[a])].push_back(
-                static_cast<std::size_t>(block.element(e)[b]));
-  return of;
-}
-
 // The middle of a casting freezes in less than a step, while much heat flows out of it: the extrapolation
-// between the stages of SDIRK2 takes it far below what lies around it. A fifth of a percent of the range of
-// temperatures is what extrapolation_guard.hpp lets pass; without it nodes sink by up to 3.4 K.
-TEST(ThermalStepping, Sdirk2LetsTheLastMetalToFreezeCoolMonotonicallyAndNotBelowItsNeighbours) {
+// between the stages of SDIRK2 takes it far below what lies around it, by up to 37 K here. One percent of the
+// range of temperatures is what extrapolation_guard.hpp lets pass.
+TEST(ThermalStepping, Sdirk2LetsTheLastMetalToFreezeCoolMonotonicallyAndNotBelowWhatLiesAroundIt) {
   using material::PhaseFraction;
-  constexpr double k_pouring = 910, k_ambient = 400, k_sink = 2e-3 * (k_pouring - k_ambient);
+  constexpr double k_pouring = 910, k_ambient = 400, k_sink = 1e-2 * (k_pouring - k_ambient);
   for (const PhaseFraction& change :
        {PhaseFraction::linear(900, 900), PhaseFraction::linear(899, 900), PhaseFraction::linear(860, 900),
         PhaseFraction::scheil(933, 900, 850, 0.13)})
@@ -145,7 +132,7 @@ TEST(ThermalStepping, Sdirk2LetsTheLastMetalToFreezeCoolMonotonicallyAndNotBelow
                                       std::pair{mesh::Shape::tri3, AnalysisKind::axisymmetric},
                                       std::pair{mesh::Shape::tri6, AnalysisKind::plane_strain},
                                       std::pair{mesh::Shape::tet4, AnalysisKind::solid}})
-      for (const double dt : {0.3, 0.6}) {
+      for (const double dt : {0.6, 1.2}) {
         SCOPED_TRACE(std::string(mesh::name(shape)) + ", steps of " + std::to_string(dt) + " s");
         std::vector<material::Material> materials{test::metal(0)};
         materials[0].phase_changes[0].fraction = change;
@@ -154,25 +141,22 @@ TEST(ThermalStepping, Sdirk2LetsTheLastMetalToFreezeCoolMonotonicallyAndNotBelow
             test::block_mesh(shape, solid ? std::vector{0.015, 0.004, 0.004} : std::vector{0.015, 0.004},
                              solid ? std::vector{15, 4, 4} : std::vector{15, 4});
         heat::Conditions conditions;
-        conditions.films.push_back({"film", "x_max", {Table(5000.0)}, Table(k_ambient)});
+        conditions.films.push_back({"film", "x_max", {Table(3000.0)}, Table(k_ambient)});
         heat::ThermalPhase phase(mesh, kind, materials, conditions);
         heat::ThermalState now = phase.initial_state_at_nodes(std::vector<double>(mesh.x.size(), k_pouring));
-        const auto around = neighbours(mesh);
         for (int n = 1; n <= 40; ++n) {
           const heat::ThermalState before = now;
           const heat::HeatBalance b =
               phase.solve(now, now, {.time = n * dt, .dt = dt, .stepping = ThermalStepping::sdirk2}).balance;
           EXPECT_NEAR(b.stored, b.heat_in(), 1e-11 * b.exchanged);
-          for (Index node = 0; node < mesh.n_owned_nodes; ++node) {
-            const auto i = static_cast<std::size_t>(node);
-            const double x = mesh.x[i][0];
-            double coldest = HUGE_VAL;
-            for (const std::size_t j : around[i]) coldest = std::min(coldest, now.temperature[j]);
-            if (x < 0.0149) {
-              EXPECT_GT(now.temperature[i], coldest - k_sink) << "node " << i << ", step " << n;
-            }
-            if (x < 1e-9) {
-              EXPECT_LT(now.temperature[i], before.temperature[i] + 1e-3) << "step " << n;
+          for (std::size_t i = 0; i < mesh.x.size(); ++i) {
+            double hottest_outside = 0;
+            for (std::size_t j = 0; j < mesh.x.size(); ++j)
+              if (mesh.x[j][0] > mesh.x[i][0])
+                hottest_outside = std::max(hottest_outside, now.temperature[j]);
+            EXPECT_GT(now.temperature[i], hottest_outside - k_sink) << "node " << i << ", step " << n;
+            if (mesh.x[i][0] < 1e-9) {
+              EXPECT_LT(now.temperature[i], before.temperature[i] + 1e-3) << "node " << i << ", step " << n;
             }
           }
         }
