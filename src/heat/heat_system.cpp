@@ -506,7 +506,7 @@ void HeatSystem::keep_conduction() {
       for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
         const Index j = columns[static_cast<std::size_t>(s)];
         if (values[s] != 0 && j != static_cast<Index>(i) && node_body_[static_cast<std::size_t>(j)] < 0)
-          shared_.push_back({static_cast<Index>(i), j, static_cast<int>(body), values[s], s});
+          shared_.push_back({static_cast<Index>(i), j, static_cast<int>(body), values[s]});
       }
     }
   }
@@ -548,48 +548,9 @@ void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::sp
         if (values[s] != 0)
           values[s] *= roots_[row] * roots_[static_cast<std::size_t>(columns[static_cast<std::size_t>(s)])];
   }
-  if (exchange_) add_conduction_tangent(temperature, slopes);
-  if (limiter_ && exchange_) limiter_->add_symmetric_tangent(*matrix_);
-}
-
-// With K of each material m and σ = (k_m/κ_m)/c, which differs from one at nodes that it shares with others:
-// Σ_m κ_m σ_i^½ K_ij σ_j^½, symmetric and positive semi-definite as K is.
-void HeatSystem::add_conduction_tangent(std::span<const double> temperature, std::span<const double> slopes) {
-  double* values = matrix_->block(0);
-  if (nodal_->identity() || node_body_.empty()) {
+  if (exchange_)
     for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
-    return;
-  }
-  const bool half = matrix_->storage() == algebra::BlockMatrix::Storage::upper;
-  const std::span<const std::int64_t> start = matrix_->row_start();
-  const std::span<const Index> columns = matrix_->columns();
-  const auto root = [&](int body, std::size_t node) {
-    if (node_body_[node] >= 0) return 1.0;
-    const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(body)];
-    return std::sqrt((u.constant() ? 1.0 : u.conductivity(temperature[node]) / u.reference()) / slopes[node]);
-  };
-  // Of shared nodes the diagonal is what makes the rows of K sum to zero.
-  const auto add_pair = [&](std::size_t i, std::size_t j, std::int64_t slot, int body, double conductance) {
-    const double of_i = root(body, i), of_j = root(body, j);
-    values[slot] += of_i * of_j * conductance;
-    if (node_body_[i] < 0) *matrix_->diagonal_block(static_cast<Index>(i)) -= of_i * of_i * conductance;
-    if (half && node_body_[j] < 0 && j + 1 < start.size())
-      *matrix_->diagonal_block(static_cast<Index>(j)) -= of_j * of_j * conductance;
-  };
-  for (std::size_t i = 0; i + 1 < start.size(); ++i) {
-    const int own = node_body_[i];
-    for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-      const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
-      const double conductance = kept_conduction_[static_cast<std::size_t>(s)];
-      if (own >= 0 && node_body_[j] >= 0)
-        values[s] += conductance;
-      else if (own >= 0 || node_body_[j] >= 0)
-        add_pair(i, j, s, own >= 0 ? own : node_body_[j], conductance);
-    }
-  }
-  for (const SharedPair& p : shared_)
-    add_pair(static_cast<std::size_t>(p.i), static_cast<std::size_t>(p.j), p.slot, p.body,
-             p.k * potentials_[static_cast<std::size_t>(p.body)].reference());
+  if (limiter_ && exchange_) limiter_->add_symmetric_tangent(*matrix_);
 }
 
 std::vector<HeatSystem::Power> HeatSystem::powers() const {

@@ -73,9 +73,9 @@ class HeatSystem {
   /// Fills the matrix with ∂r/∂Θ, which is unsymmetric where a conductivity varies.
   void assemble(std::span<const double> temperature);
   /// Fills the matrix with ∂r/∂v in the unknown of nodal_potential.hpp. It is symmetric if the contributions
-  /// are, and exact but for what couples nodes of different c = dv/dΘ: contributions and surfaces, and
-  /// conduction to nodes that materials of different k(Θ)/κ share. With S = ∂r/∂Θ of those, what stands there
-  /// is c^-1/2 S c^-1/2 for S c^-1, which has the same diagonal.
+  /// are, and exact but for conduction
+  /// at nodes that materials of different k(Θ)/κ share, and for contributions and surfaces between nodes of
+  /// different c = dv/dΘ: with S = ∂r/∂Θ of those, what stands there is c^-1/2 S c^-1/2 for S c^-1.
   /// @param slopes   c, [local node], ghosts up to date
   /// @param further  adds to S; may be empty
   void assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
@@ -148,7 +148,6 @@ class HeatSystem {
   void add_conditions(const Conditions& conditions);
   void remove_bodies(const algebra::Presence& presence);
   void conduct(std::span<const double> temperature);
-  void add_conduction_tangent(std::span<const double> temperature, std::span<const double> slopes);
   double add_flows(std::span<const double> temperature);
   void keep_conduction();
   void find_node_bodies();
@@ -172,8 +171,7 @@ class HeatSystem {
   struct SharedPair {
     Index i, j;
     int body;
-    double k;           ///< ∫∇N_i·∇N_j dV [m]
-    std::int64_t slot;  ///< in the matrix
+    double k;  ///< ∫∇N_i·∇N_j dV [m]
   };
   std::vector<SharedPair> shared_;
   std::vector<SurfaceHeat> surfaces_;

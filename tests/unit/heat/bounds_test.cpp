@@ -226,8 +226,7 @@ TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
     const Problem p = draw_problem(number);
     const Excursion kept = run(p, true, 5), free = run(p, false, 5);
     EXPECT_LE(kept.kelvins, 1e-6) << "problem " << number << ", " << mesh::name(p.shape);
-    EXPECT_LE(kept.rejected, test::processes() == 1 ? 0 : 1)
-        << "problem " << number << ", " << mesh::name(p.shape);
+    EXPECT_EQ(kept.rejected, 0) << "problem " << number << ", " << mesh::name(p.shape);
     EXPECT_LE(kept.defect, 1e-10) << "problem " << number << ", " << mesh::name(p.shape);
     worst_without = std::max(worst_without, free.kelvins);
     sum += kept.iterations;
@@ -238,7 +237,7 @@ TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
                   kept.iterations, kept.rejected, free.kelvins, free.iterations);
   }
   EXPECT_LE(sum, 300 * 4);
-  EXPECT_LE(hard, 12);
+  EXPECT_LE(hard, 16);
   EXPECT_GT(worst_without, 10.0);  // kelvins: the problems are hard enough
 }
 
