@@ -79,6 +79,10 @@ void HeatTerm::begin_stage(const algebra::Stage& stage, std::span<const double> 
     phase_->start = std::move(start);
     phase_->first_flux = std::move(flux);
     phase_->staged = true;
+  } else {
+    phase_->start.clear();
+    phase_->first_flux.clear();
+    phase_->staged = false;
   }
   phase_->stage_dt = stage.dt;
 }

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/log.hpp"
 #include "heat/consistent_heat.hpp"
+#include "heat/extrapolation_guard.hpp"
 #include "heat/heat_solver.hpp"
 #include "heat/heat_spread.hpp"
 #include "heat/heat_system.hpp"
@@ -29,13 +30,6 @@ using material::k_sdirk_carried;
 using material::k_sdirk_share;
 
 constexpr int k_one_component[] = {1};
-/// Share of the range of temperatures by which an extrapolated one may leave it: what the iteration leaves
-/// in the heats of nodes far from all that happens is no overshoot.
-constexpr double k_beyond = 1e-9;
-/// How much further than the first stage the extrapolation may go where that has left the range: by (1 − γ)/γ
-/// where the capacity is constant, and half as much again where it is not.
-constexpr double k_outside = 1.5 * k_sdirk_carried;
-
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
@@ -256,30 +250,56 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
   if (!pass.adiabatic) flows_ = {};
   const bool flows = nodal() && !pass.adiabatic;
   if (pass.stepping == ThermalStepping::sdirk2) {
-    const double first_dt = k_sdirk_share * pass.dt;
-    ThermalState middle;
-    const ThermalPass to_middle{pass.time - pass.dt + first_dt, pass.dt, pass.iterate, pass.newton_steps};
-    report = solve_stage(old, old, {first_dt, 0}, to_middle, middle);
-    if (flows) flows_.first = flow(old, middle, {first_dt, 0});
-    const bool bounded = flows && pass.within_range && options_.integration == Integration::closed;
-    const bool second_order = !bounded || !leaves_range(old, middle, pass.time);
-    if (!second_order)
-      logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
-    const algebra::Stage stage =
-        second_order ? algebra::Stage{first_dt, k_sdirk_carried} : algebra::Stage{pass.dt - first_dt, 1};
-    const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
-    PhaseReport last = solve_stage(old, middle, stage, to_end, next);
-    add_stage(report, stage.carried, last);
-    set_latent(report.balance, old, next);
-    flows_.second_order = second_order;
-    flows_.share = k_sdirk_share;
-    if (flows) flows_.last = flow(stage_start(old, middle, stage), next, stage);
+    report = solve_two_stages(old, pass, next);
   } else {
     report = solve_stage(old, old, {pass.dt}, pass, next);
     if (flows) flows_.last = flow(old, next, {pass.dt});
   }
   if (!pass.adiabatic) flows_.dt = flows ? pass.dt : 0;
   trial = std::move(next);
+  return report;
+}
+
+/// SDIRK2; its second stage is backward Euler over the rest of the step where H* is no place to start from.
+PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const ThermalPass& pass,
+                                           ThermalState& next) {
+  const algebra::Stage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
+      rest{pass.dt - first.dt, 1};
+  const bool flows = nodal() && !pass.adiabatic;
+  ThermalState middle;
+  PhaseReport report = solve_stage(
+      old, old, first, {pass.time - pass.dt + first.dt, pass.dt, pass.iterate, pass.newton_steps}, middle);
+  if (flows) flows_.first = flow(old, middle, first);
+  std::optional<ExtrapolationGuard> guard;
+  bool second_order = true;
+  if (flows && pass.within_range && options_.integration == Integration::closed) {
+    TemperatureRange around = system_->surroundings();
+    system_->set_time(pass.time);
+    const TemperatureRange at_end = system_->surroundings();
+    around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
+    guard.emplace(*system_, *storage_, old, middle);
+    second_order = !guard->leaves_range(around);
+  }
+  const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
+  PhaseReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
+  if (second_order && guard && guard->turns_back(next, ghosts_)) {
+    second_order = false;
+    begin_stage(first, old.temperature);
+    PhaseReport again = solve_stage(old, middle, rest, to_end, next);
+    again.newton.iterations += last.newton.iterations;
+    again.newton.linear_iterations += last.newton.linear_iterations;
+    again.hardest = std::max(again.hardest, last.hardest);
+    last = std::move(again);
+  }
+  if (!second_order)
+    logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
+  const algebra::Stage& stage = second_order ? extrapolated : rest;
+  if (flows) flows_.last = flow(stage_start(old, middle, stage), next, stage);
+  flows_.second_order = second_order;
+  flows_.share = k_sdirk_share;
+  flows_.last_share = stage.dt / pass.dt;
+  add_stage(report, stage.carried, last);
+  set_latent(report.balance, old, next);
   return report;
 }
 
@@ -303,38 +323,6 @@ std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalSt
   return flow;
 }
 
-// The range may grow as fast as in the first stage: where a flux or a source cools or heats, nothing bounds
-// it.
-bool ThermalPhase::leaves_range(const ThermalState& old, const ThermalState& middle, double end) const {
-  auto [low, high] = system_->surroundings();
-  system_->set_time(end);
-  const auto [low_at_end, high_at_end] = system_->surroundings();
-  low = std::min(low, low_at_end);
-  high = std::max(high, high_at_end);
-  double old_low = HUGE_VAL, old_high = -HUGE_VAL, middle_low = HUGE_VAL, middle_high = -HUGE_VAL;
-  double ahead_low = HUGE_VAL, ahead_high = -HUGE_VAL;
-  const auto look = [](double temperature, double& least, double& greatest) {
-    least = std::min(least, temperature);
-    greatest = std::max(greatest, temperature);
-  };
-  for (std::size_t i = 0; i < reactions_.size(); ++i) {
-    if (!system_->presence().node(static_cast<Index>(i))) continue;
-    look(old.temperature[i], old_low, old_high);
-    look(middle.temperature[i], middle_low, middle_high);
-    if (system_->fixed()[i]) continue;
-    const double heat = old.enthalpy[i] + k_sdirk_carried * (middle.enthalpy[i] - old.enthalpy[i]);
-    look(storage_->temperature(static_cast<Index>(i), heat), ahead_low, ahead_high);
-  }
-  old_low = std::min(low, algebra::global_min(old_low));
-  old_high = std::max(high, algebra::global_max(old_high));
-  middle_low = std::min(low, algebra::global_min(middle_low));
-  middle_high = std::max(high, algebra::global_max(middle_high));
-  const double fall = std::max(0.0, old_low - middle_low), rise = std::max(0.0, middle_high - old_high);
-  const double beyond = k_beyond * (old_high - old_low);
-  return algebra::global_min(ahead_low) < old_low - k_outside * fall - beyond ||
-         algebra::global_max(ahead_high) > old_high + k_outside * rise + beyond;
-}
-
 std::vector<double> ThermalPhase::last_flow() const {
   std::vector<double> flow = flows_.last;
   flow.resize(mesh_.x.size());
@@ -344,8 +332,7 @@ std::vector<double> ThermalPhase::last_flow() const {
 
 std::vector<double> ThermalPhase::time_error(const ThermalState& now, std::span<const double> flow_before) {
   system_->exchange(true);  // an adiabatic pass may have been the last one
-  const double last_stage = flows_.first.empty() ? 1.0 : flows_.share;
-  return (*spread_)(heat::time_error(flows_, flow_before), now.temperature, last_stage * flows_.dt);
+  return (*spread_)(heat::time_error(flows_, flow_before), now.temperature, flows_.last_share * flows_.dt);
 }
 
 std::vector<double> ThermalPhase::change_in_kelvin(const ThermalState& a, const ThermalState& b) const {

@@ -14,8 +14,9 @@
 /// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by algebra::Stage.
 ///
 /// H* is an extrapolation. Where with the closed rule a node's Θ(H*) leaves the range of the temperatures at
-/// t_n and around, the second stage is backward Euler over (1 − γ) Δt from H¹ instead: the step is then of
-/// first order, balanced as exactly, and no temperature leaves that range (docs/decisions/0016).
+/// t_n and around, or where it makes heat flow back beside nodes that have frozen or melted in the step
+/// (extrapolation_guard.hpp), the second stage is backward Euler over (1 − γ) Δt from H¹ instead: the step is
+/// then of first order, balanced as exactly, and no temperature leaves that range (docs/decisions/0016).
 #pragma once
 
 #include <functional>
@@ -92,8 +93,8 @@ struct ThermalPass {
   ThermalStepping stepping = ThermalStepping::backward_euler;
   /// Nothing flows: temperatures follow what the contributions that store take up (coupling/double_pass.hpp).
   bool adiabatic = false;
-  /// With two stages: where the extrapolation between them leaves the range of temperatures, the step is of
-  /// first order and stays within it (closed rule).
+  /// With two stages: where the extrapolation between them overshoots, the step is of first order
+  /// (extrapolation_guard.hpp; closed rule).
   bool within_range = true;
 };
 
@@ -202,8 +203,7 @@ class ThermalPhase {
   HeatBalance measure(std::span<const double> temperature, double dt) const;
   PhaseReport solve_stage(const ThermalState& old, const ThermalState& before, const algebra::Stage& stage,
                           const ThermalPass& pass, ThermalState& next);
-  /// Whether the extrapolated heats of the second stage leave the range of temperatures. Collective.
-  bool leaves_range(const ThermalState& old, const ThermalState& middle, double end) const;
+  PhaseReport solve_two_stages(const ThermalState& old, const ThermalPass& pass, ThermalState& next);
   void start_from(std::span<const double> heat, ThermalState& next) const;
   static ThermalState stage_start(const ThermalState& old, const ThermalState& before,
                                   const algebra::Stage& stage);

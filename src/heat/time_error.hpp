@@ -20,6 +20,7 @@ namespace solidus::heat {
 struct StageFlows {
   double dt = 0;              ///< the step [s]; zero: nothing is known
   double share = 1;           ///< of the step that lies before the end of the first stage; 1: the only one
+  double last_share = 1;      ///< of the step over which the last stage solves
   bool second_order = false;  ///< the stages are those of SDIRK2; else backward Euler, one after the other
   /// Into the nodes by conduction, surfaces, sources and contributions that do not store, [owned node] [W];
   /// `first` is empty where there is one stage.

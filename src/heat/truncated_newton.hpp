@@ -10,8 +10,8 @@
 ///
 /// One iteration is
 ///   1. a nonlinear sweep of Gauss and Seidel's method over the nodes, there and back: each node takes the
-///      H_i that balances its own equation, so it may come to lie on a plateau, or leave it. Where the
-///      residual is small enough now, the iteration ends;
+///      H_i that balances its own equation, so it may come to lie on a plateau, or leave it. F is evaluated
+///      anew; where it is small enough now, the iteration ends;
 ///   2. a step of Newton's method (D + A) δ = −F, D_i = 1/(Δt dv_i/dH_i), for the nodes that do not lie on a
 ///      plateau: the others are held (truncated). The linear solver goes as far as the step is good for;
 ///   3. a line search for the least E along δ, which cuts off what is wrong with the step of a node that
@@ -87,7 +87,6 @@ class TruncatedNewton {
   algebra::LinearReport correct(double forcing, std::span<const double> chords = {});
   void find_chords(std::span<double> chords) const;
   algebra::LinearReport correct_by_chords(double forcing);
-  double norm_of_free() const;
   bool revise_limits(const TemperatureRange& range);
   bool search(bool short_too);
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
@@ -107,7 +106,7 @@ class TruncatedNewton {
   double dt_ = 1;
   std::span<const double> old_heat_;
   std::span<double> heat_, temperature_;
-  std::vector<double> r_;         ///< F, after sweeps that of the linear A, [owned node]
+  std::vector<double> r_;         ///< F, during sweeps that of the linear A, [owned node]
   std::vector<double> slope_;     ///< c = dv/dΘ where A was assembled, [local node]
   std::vector<double> diagonal_;  ///< of A, with the magnitudes of the couplings to other processes' nodes
   std::vector<double> step_;      ///< change of v, [local node]

@@ -37,6 +37,12 @@ TEST(AluminiumCylinder, ShowsWhatTheMonographShows) {
   // somewhat before the 14.4 s of a long cylinder.
   for (const double t : {5.0, 8.0, 12.0}) EXPECT_NEAR(at(h, "T_center[degC]", t), 659.7, 0.5) << t;
   EXPECT_LT(at(h, "T_center[degC]", 17), 600);
+  // It cools from there on without a notch, as the last of the metal.
+  const std::vector<double>&center = h.at("T_center[degC]"), &surface = h.at("T_casting_surface[degC]");
+  for (std::size_t n = 1; n < center.size(); ++n) {
+    EXPECT_LT(center[n], center[n - 1] + 0.01) << n << " s";
+    EXPECT_GT(center[n], surface[n]) << n << " s";
+  }
   // The casting's surface falls fast, the mould's rises and both draw together.
   EXPECT_LT(at(h, "T_casting_surface[degC]", 10), 640);
   EXPECT_GT(at(h, "T_mould_surface[degC]", 10), 300);

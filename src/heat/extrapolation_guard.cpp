@@ -1,0 +1,165 @@
+#include "heat/extrapolation_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/parallel.hpp"
+#include "material/time_integration.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+using material::k_sdirk_carried;
+
+/// Share of the range of temperatures by which an extrapolated one may leave it: what the iteration leaves
+/// in the heats of nodes far from all that happens is no overshoot.
+constexpr double k_beyond = 1e-9;
+/// How much further than in the first stage a temperature may go: by (1 − γ)/γ where the capacity is
+/// constant, and half as much again where it is not.
+constexpr double k_outside = 1.5 * k_sdirk_carried;
+/// Share of the range of temperatures below which a difference is none.
+constexpr double k_even = 1e-4;
+/// Share of the range of temperatures by which metal may sink, root mean square over its volume.
+constexpr double k_sunk = 3e-4;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& storage,
+                                       const ThermalState& old, const ThermalState& middle)
+    : system_(system),
+      storage_(storage),
+      before_(old.temperature),
+      now_(middle.temperature),
+      ahead_(at(storage.n_nodes())) {
+  TemperatureRange first, second;
+  const auto look = [](TemperatureRange& range, double temperature) {
+    range.lowest = std::min(range.lowest, temperature);
+    range.highest = std::max(range.highest, temperature);
+  };
+  for (std::size_t i = 0; i < ahead_.size(); ++i) {
+    const auto node = static_cast<Index>(i);
+    if (!system.presence().node(node)) continue;
+    look(first, before_[i]);
+    look(second, now_[i]);
+    ahead_[i] = now_[i];
+    if (system.fixed()[i]) continue;
+    const double heat = old.enthalpy[i] + k_sdirk_carried * (middle.enthalpy[i] - old.enthalpy[i]);
+    ahead_[i] = storage.temperature(node, heat);
+  }
+  lowest_ = algebra::global_min(first.lowest);
+  highest_ = algebra::global_max(first.highest);
+  first_lowest_ = algebra::global_min(second.lowest);
+  first_highest_ = algebra::global_max(second.highest);
+
+  std::vector<double> low(before_.size()), high(before_.size());
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const double change = k_outside * (now_[i] - before_[i]);
+    low[i] = before_[i] + std::min(change, 0.0);
+    high[i] = before_[i] + std::max(change, 0.0);
+  }
+  std::vector<double> least(low.begin(), low.begin() + static_cast<std::ptrdiff_t>(ahead_.size())),
+      greatest(high.begin(), high.begin() + static_cast<std::ptrdiff_t>(ahead_.size()));
+  for_neighbours([&](std::size_t i, std::size_t j) {
+    least[i] = std::min(least[i], low[j]);
+    greatest[i] = std::max(greatest[i], high[j]);
+  });
+  const double even = k_even * (highest_ - lowest_);
+  std::vector<char> kinks(ahead_.size());
+  int found = 0;
+  for (std::size_t i = 0; i < kinks.size(); ++i) {
+    if (!free(i)) continue;
+    kinks[i] = ahead_[i] < least[i] - even ? 1 : ahead_[i] > greatest[i] + even ? -1 : 0;
+    found += kinks[i] != 0 ? 1 : 0;
+  }
+  if (algebra::any_process(found > 0)) passes_kink_ = std::move(kinks);
+}
+
+bool ExtrapolationGuard::free(std::size_t i) const {
+  return system_.presence().node(static_cast<Index>(i)) && !system_.fixed()[i];
+}
+
+/// Calls f(node, neighbour) for all neighbours of the owned nodes, which may be ghosts.
+template <class F>
+void ExtrapolationGuard::for_neighbours(const F& f) const {
+  const std::span<const std::int64_t> start = system_.matrix().row_start();
+  const std::span<const Index> columns = system_.matrix().columns();
+  for (std::size_t i = 0; i < ahead_.size(); ++i)
+    for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
+      const auto j = at(columns[static_cast<std::size_t>(s)]);
+      f(i, j);
+      if (j > i && j < ahead_.size()) f(j, i);  // half of the pattern may be all that there is
+    }
+}
+
+bool ExtrapolationGuard::leaves_range(const TemperatureRange& surroundings) const {
+  const double low = std::min(lowest_, surroundings.lowest), high = std::max(highest_, surroundings.highest);
+  const double fall = std::max(0.0, low - first_lowest_), rise = std::max(0.0, first_highest_ - high);
+  const double beyond = k_beyond * (high - low);
+  bool leaves = false;
+  for (std::size_t i = 0; i < ahead_.size() && !leaves; ++i)
+    leaves = free(i) &&
+             (ahead_[i] < low - k_outside * fall - beyond || ahead_[i] > high + k_outside * rise + beyond);
+  return algebra::any_process(leaves);
+}
+
+// From a node on it goes to its coldest neighbour in the first stage, and so on: the hottest node that is
+// met there at the end, less the node itself, is how far it has sunk below its way out (turned upside down
+// where it melts).
+bool ExtrapolationGuard::turns_back(const ThermalState& next, const algebra::GhostExchange& ghosts) const {
+  if (passes_kink_.empty()) return false;
+  const std::size_t n = ahead_.size();
+  const double range = highest_ - lowest_;
+  std::vector<double> sunk(n, 0.0);
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<std::size_t> way_out(n);
+    for (std::size_t i = 0; i < n; ++i) way_out[i] = i;
+    for_neighbours([&](std::size_t i, std::size_t j) {
+      if (sign * (now_[way_out[i]] - now_[j]) > k_beyond * range) way_out[i] = j;
+    });
+    std::vector<double> barrier = next.temperature;
+    while (raise_along(way_out, sign, barrier)) ghosts.update(barrier, 1);
+    for (std::size_t i = 0; i < n; ++i)
+      if (passes_kink_[i] == sign) sunk[i] = sign * (barrier[i] - next.temperature[i]);
+  }
+  double squares = 0, volume = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double at_node = storage_.sum(
+        static_cast<Index>(i), [](const material::Material& m) { return m.solidification() ? 1.0 : 0.0; });
+    squares += at_node * sunk[i] * sunk[i];
+    volume += at_node;
+  }
+  squares = algebra::global_sum(squares);
+  volume = algebra::global_sum(volume);
+  return squares > k_sunk * k_sunk * range * range * volume;
+}
+
+/// Takes the barriers of this process to the highest further on, its ghosts' included; returns whether one
+/// has changed that another process may have to know.
+bool ExtrapolationGuard::raise_along(std::span<const std::size_t> way_out, double sign,
+                                     std::span<double> barrier) const {
+  const std::size_t n = way_out.size();
+  std::vector<char> seen(n, 0);
+  std::vector<std::size_t> chain;
+  bool changed = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = i; k < n && seen[k] == 0; k = way_out[k]) {
+      seen[k] = 1;
+      chain.push_back(k);
+    }
+    for (; !chain.empty(); chain.pop_back()) {
+      double& here = barrier[chain.back()];
+      const double ahead = barrier[way_out[chain.back()]];
+      if (sign * (ahead - here) <= 0) continue;
+      here = ahead;
+      changed = true;
+    }
+  }
+  return algebra::any_process(changed && n < barrier.size());
+}
+
+}  // namespace solidus::heat

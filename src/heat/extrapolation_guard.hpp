@@ -1,0 +1,60 @@
+/// Looks at what the extrapolation between the stages of SDIRK2 makes of temperatures.
+///
+/// The second stage starts from H* = H_n + (1 − γ)/γ (H¹ − H_n), an extrapolation of heats. Where a node
+/// gives off the last of its latent heat in the step, its flow of heat goes on as if there were more of it,
+/// and Θ(H*) falls far below what the temperatures around it let expect. Conduction takes that back within
+/// the second stage where it is a matter of single nodes. Where a whole region freezes in the step, it ends
+/// below its surroundings, which no solution of the equations does.
+///
+/// A solve by backward Euler makes no node colder than it was and than all its neighbours, but for what
+/// surfaces and sources take. So two things tell that an extrapolation goes too far: temperatures beyond the
+/// range of all that there are, before the second solve; and after it a node that has sunk below its way out,
+/// the nodes through which its heat went in the first stage. Melting is the same upside down.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "algebra/parallel.hpp"
+#include "heat/heat_system.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "heat/thermal_state.hpp"
+
+namespace solidus::heat {
+
+/// Of one step; all calls are collective.
+class ExtrapolationGuard {
+ public:
+  /// All must outlive this object.
+  /// @param old, middle   the states at t_n and at the end of the first stage
+  ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& storage, const ThermalState& old,
+                     const ThermalState& middle);
+
+  /// Whether Θ(H*) leaves the range of temperatures at t_n and around. The range may grow as fast as in the
+  /// first stage: where a flux or a source cools or heats, nothing bounds it.
+  /// @param surroundings  the temperatures around the bodies during the step
+  bool leaves_range(const TemperatureRange& surroundings) const;
+  /// Whether metal has sunk below its way out: by more than three ten-thousandths of the range of
+  /// temperatures, root mean square over the volume of what can melt, of the nodes that have passed a kink of
+  /// their curve. The way out leads from each node to its coldest neighbour in the first stage. Nodes that
+  /// pass a kink are those whose Θ(H*) lies beyond what it and its neighbours would come to, changing on as
+  /// in the first stage and half as fast again.
+  /// @param next  the state at the end of the second stage
+  bool turns_back(const ThermalState& next, const algebra::GhostExchange& ghosts) const;
+
+ private:
+  template <class F>
+  void for_neighbours(const F& f) const;
+  bool free(std::size_t i) const;
+  bool raise_along(std::span<const std::size_t> way_out, double sign, std::span<double> barrier) const;
+
+  HeatSystem& system_;
+  const NodalEnthalpy& storage_;
+  const std::vector<double>&before_, &now_;      ///< Θ_n and Θ¹, [local node]
+  std::vector<double> ahead_;                    ///< Θ(H*), [owned node]
+  std::vector<char> passes_kink_;                ///< [owned node]: 1 downward, −1 upward; empty: none
+  double lowest_ = 0, highest_ = 0;              ///< of Θ_n, of all processes
+  double first_lowest_ = 0, first_highest_ = 0;  ///< of Θ¹
+};
+
+}  // namespace solidus::heat
