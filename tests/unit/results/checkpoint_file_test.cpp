@@ -168,7 +168,7 @@ TEST(CheckpointTables, WhatDoesNotFitIsAnErrorOnEveryProcess) {
   EXPECT_THAT(save(200000), AllOf(HasSubstr("File too large"), HasSubstr("room on the disk")));
   MPI_Barrier(PETSC_COMM_WORLD);
   EXPECT_FALSE(fs::exists(file));
-  MPI_Barrier(PETSC_COMM_WORLD);  // before another process makes it
+  MPI_Barrier(PETSC_COMM_WORLD);     // before another process makes it
   EXPECT_EQ(save(1000), "nothing");  // and the next one is written
   EXPECT_NO_THROW(check_checksum(file));
   setrlimit(RLIMIT_FSIZE, &before);
