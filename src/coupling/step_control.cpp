@@ -75,10 +75,13 @@ void StepControl::accepted(const PlannedStep& step, const StepMeasure& measure) 
   at_most(options_.max_step, "largest allowed");
   if (measure.iterations > options_.easy_iterations) {
     // Half the step pays only where it halves the iterations, and where metal yields or contact opens they
-    // often stay what they are: shorter steps are a way out for those that come near to failing, and never
-    // below what was asked.
-    constexpr double k_hard = 4;  ///< times as many iterations as are easy
-    const double wanted = std::min(1.0, k_hard * options_.easy_iterations / measure.iterations) * state_.size;
+    // often stay what they are: steps grow the less the more iterations there are, and shorter ones are a way
+    // out for those that come near to failing, never below what was asked.
+    constexpr double k_no_growth = 3, k_hard = 4;  ///< times as many iterations as are easy
+    const double effort = static_cast<double>(measure.iterations) / options_.easy_iterations;
+    const double growth =
+        1 + (options_.growth - 1) * std::max(0.0, (k_no_growth - effort) / (k_no_growth - 1));
+    const double wanted = (effort > k_hard ? k_hard / effort : growth) * state_.size;
     at_most(std::max(wanted, std::min(options_.step, size)), "newton effort");
   }
   at_most(step.dt * limit.factor, limit.name);

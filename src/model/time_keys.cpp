@@ -64,8 +64,9 @@ Section<TimeSpec> time_keys() {
       .initially(8)
       .range(1, 1000)
       .doc(
-          "Adaptive steps grow only where no phase took more Newton iterations than this; beyond twice as "
-          "many they shrink, not below `step`.");
+          "Adaptive steps grow by `growth` where no phase took more Newton iterations than this, the less "
+          "the more there were, and not at all from three times as many on; beyond four times as many they "
+          "shrink, not below `step`.");
   s.place(&TimeSpec::where);
   return s;
 }

@@ -144,12 +144,21 @@ TEST(StepControl, AdaptiveStepsGrowWhenEasyAndStayBelowTheLargest) {
   control.accepted(control.plan(0), iterations(3));
   EXPECT_DOUBLE_EQ(control.plan(1).dt, 1.5);
   EXPECT_EQ(control.plan(1).reason, "growth limit");
-  control.accepted(control.plan(1), iterations(10));
+  control.accepted(control.plan(1), iterations(18));  // three times as many as are easy
   EXPECT_DOUBLE_EQ(control.plan(2.5).dt, 1.5);
   EXPECT_EQ(control.plan(2.5).reason, "newton effort");
   control.accepted(control.plan(2.5), iterations(3));
   EXPECT_DOUBLE_EQ(control.plan(4).dt, 2.0);
   EXPECT_EQ(control.plan(4).reason, "largest allowed");
+}
+
+TEST(StepControl, GrowsTheLessTheMoreIterationsThereAre) {
+  StepControl control(adaptive(1, 10), 0, {100});
+  control.accepted(control.plan(0), iterations(12));  // twice as many as are easy: half of 50 %
+  EXPECT_DOUBLE_EQ(control.plan(1).dt, 1.25);
+  EXPECT_EQ(control.plan(1).reason, "newton effort");
+  control.accepted(control.plan(1), iterations(24));
+  EXPECT_DOUBLE_EQ(control.plan(2.25).dt, 1.25);
 }
 
 TEST(StepControl, ManyIterationsShrinkTheStepButNotBelowWhatWasAsked) {
