@@ -37,12 +37,10 @@ int this_process() {
 class CheckpointFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(SOLIDUS_BINARY_DIR) / ("checkpoint_file_" + std::to_string(this_process()));
-    fs::remove_all(folder_);
+    folder_ = shared_.path / std::to_string(this_process());
     fs::create_directories(folder_);
     file_ = folder_ / "state.h5";
   }
-  void TearDown() override { fs::remove_all(folder_); }
   static std::string text(const fs::path& path) {
     std::ostringstream all;
     all << std::ifstream(path, std::ios::binary).rdbuf();
@@ -70,7 +68,8 @@ class CheckpointFile : public ::testing::Test {
     return "nothing";
   }
 
-  fs::path folder_, file_;
+  test::SharedFolder shared_;
+  fs::path folder_, file_;  ///< of this process
 };
 
 TEST_F(CheckpointFile, IsReadBackAndAcceptedWhole) {
@@ -147,7 +146,8 @@ TEST_F(CheckpointFile, AFileThatCouldNotBeWrittenIsForgotten) {
 
 // On one process and on two: none waits for another, and no part of the file stays.
 TEST(CheckpointTables, WhatDoesNotFitIsAnErrorOnEveryProcess) {
-  const fs::path file = fs::path(SOLIDUS_BINARY_DIR) / "too_large.h5";
+  const test::SharedFolder folder;
+  const fs::path file = folder.path / "too_large.h5";
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit small{1 << 20, before.rlim_max};
@@ -172,24 +172,11 @@ TEST(CheckpointTables, WhatDoesNotFitIsAnErrorOnEveryProcess) {
   EXPECT_EQ(save(1000), "nothing");  // and the next one is written
   EXPECT_NO_THROW(check_checksum(file));
   setrlimit(RLIMIT_FSIZE, &before);
-  MPI_Barrier(PETSC_COMM_WORLD);
-  if (this_process() == 0) fs::remove(file);
 }
 
-/// Every process of the test locks the same folder.
-fs::path shared_folder() {
-  return fs::path(SOLIDUS_BINARY_DIR) / "run_lock";
-}
-void begin_alone() {
-  if (this_process() == 0) {
-    fs::remove_all(shared_folder());
-    fs::create_directories(shared_folder());
-  }
-  MPI_Barrier(PETSC_COMM_WORLD);
-}
-std::string complaint_of_lock() {
+std::string complaint_of_lock(const fs::path& folder) {
   try {
-    const RunLock lock(shared_folder());
+    const RunLock lock(folder);
   } catch (const OutputError& error) {
     return error.what();
   }
@@ -197,30 +184,31 @@ std::string complaint_of_lock() {
 }
 
 TEST(RunLock, HoldsAFolderUntilItEnds) {
-  begin_alone();
+  const test::SharedFolder folder;  // every process locks the same one
   {
-    const RunLock lock(shared_folder() / ".");
-    EXPECT_THAT(complaint_of_lock(), HasSubstr("a run is under way"));
+    const RunLock lock(folder.path / ".");
+    EXPECT_THAT(complaint_of_lock(folder.path), HasSubstr("a run is under way"));
     if (this_process() == 0) {
-      EXPECT_THAT(complaint_of_lock(), HasSubstr(std::to_string(getpid())));
+      EXPECT_THAT(complaint_of_lock(folder.path), HasSubstr(std::to_string(getpid())));
     } else {
-      complaint_of_lock();
+      complaint_of_lock(folder.path);
     }
   }
-  EXPECT_EQ(complaint_of_lock(), "nothing");
-  EXPECT_FALSE(fs::exists(shared_folder() / "lock"));
+  EXPECT_EQ(complaint_of_lock(folder.path), "nothing");
+  MPI_Barrier(PETSC_COMM_WORLD);  // the first process has taken its lock away
+  EXPECT_FALSE(fs::exists(folder.path / "lock"));
 }
 
 TEST(RunLock, OfAProcessThatDiedIsTakenOverOfAnotherHostIsNot) {
-  begin_alone();
+  const test::SharedFolder folder;  // every process locks the same one
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   if (this_process() == 0)
-    std::ofstream(shared_folder() / "lock") << "process 4194304 on " << host.data() << "\n";
-  EXPECT_EQ(complaint_of_lock(), "nothing");
+    std::ofstream(folder.path / "lock") << "process 4194304 on " << host.data() << "\n";
+  EXPECT_EQ(complaint_of_lock(folder.path), "nothing");
   MPI_Barrier(PETSC_COMM_WORLD);
-  if (this_process() == 0) std::ofstream(shared_folder() / "lock") << "process 17 on elsewhere\n";
-  const std::string complaint = complaint_of_lock();
+  if (this_process() == 0) std::ofstream(folder.path / "lock") << "process 17 on elsewhere\n";
+  const std::string complaint = complaint_of_lock(folder.path);
   EXPECT_THAT(complaint, HasSubstr("process 17 on elsewhere"));
   EXPECT_THAT(complaint, HasSubstr("remove"));
 }
