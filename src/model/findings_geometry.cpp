@@ -16,9 +16,10 @@ namespace {
 /// Bodies whose temperatures differ by less may share nodes with good reason [K].
 constexpr double k_same_temperature = 50;
 
-const std::string& name_of(const CaseSpec& spec, int body) {
-  static const std::string k_other = "a tool";
-  return body >= 0 ? spec.bodies[static_cast<std::size_t>(body)].name : k_other;
+/// In quotes.
+std::string name_of(const CaseSpec& spec, int body) {
+  if (body == k_several_bodies) return "several bodies";
+  return body >= 0 ? "'" + spec.bodies[static_cast<std::size_t>(body)].name + "'" : "a tool";
 }
 
 /// Facets of two meshes on one curved skin overlap by a tenth of a face at most.
@@ -29,12 +30,11 @@ void overlaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
     const double depth = -contact.least_gap;
     if (contact.paired > 0 && depth > k_of_face * contact.face_size &&
         depth > spec.contacts[c].touching.value_or(0.0))
-      findings.push_back(
-          {false, spec.contacts[c].where,
-           fmt::format("the bodies '{}' and '{}' of the contact '{}' overlap by up to {:.3g} mm at the start",
-                       name_of(spec, contact.slave_body), name_of(spec, contact.master_body),
-                       spec.contacts[c].name, 1e3 * depth),
-           "surfaces that touch; do the two geometries have the same size, place and unit?"});
+      findings.push_back({false, spec.contacts[c].where,
+                          fmt::format("{} and {} of the contact '{}' overlap by up to {:.3g} mm at the start",
+                                      name_of(spec, contact.slave_body), name_of(spec, contact.master_body),
+                                      spec.contacts[c].name, 1e3 * depth),
+                          "surfaces that touch; do the two geometries have the same size, place and unit?"});
   }
 }
 
@@ -57,7 +57,7 @@ void same_body(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) 
   for (std::size_t c = 0; c < m.contacts.size(); ++c)
     if (m.contacts[c].slave_body >= 0 && m.contacts[c].slave_body == m.contacts[c].master_body)
       findings.push_back({false, spec.contacts[c].where,
-                          fmt::format("both surfaces of the contact '{}' belong to the body '{}'",
+                          fmt::format("both surfaces of the contact '{}' belong to the body {}",
                                       spec.contacts[c].name, name_of(spec, m.contacts[c].slave_body)),
                           "surfaces of two bodies, unless this one has a slit"});
 }

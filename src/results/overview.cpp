@@ -137,8 +137,10 @@ std::string pour_lines(const PourOverview& p) {
         p.governed_by);
   else
     text += fmt::format("\n  freezes     {}: not at all", p.body);
-  text += fmt::format("\n  numbers     {}: {} mm from its skin to its centre, {} elements", p.body,
-                      number(1e3 * p.depth), number(p.elements_across));
+  text += "\n  numbers     " + p.body;
+  text += p.depth > 0 ? fmt::format(": {} mm from its skin to its centre, {} elements", number(1e3 * p.depth),
+                                    number(p.elements_across))
+                      : std::string(": no node below its skin, one element through its walls");
   if (p.biot) text += fmt::format("; Biot {}", number(*p.biot));
   if (p.fourier) text += fmt::format(", Fourier {} at the end", number(*p.fourier));
   if (p.mould_reach > 0)
