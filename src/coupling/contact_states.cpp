@@ -14,8 +14,8 @@ namespace solidus::coupling {
 namespace {
 
 constexpr int k_most_augmentations = 400;
-// Where points at the edge of contact open and close from turn to turn, penetrations go round: after as many
-// turns they may be so many times as large as allowed.
+// Where points at the edge of contact open and close from turn to turn, penetrations do not settle: after
+// k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;
 
@@ -104,10 +104,8 @@ bool penetrations_small(const Phases& phases, int turn) {
   if (turn >= k_enough_augmentations && excess <= k_tolerable) {
     logging::warn(
         "contact '{}': in some steps points open and close from one turn of the augmented Lagrangian to the "
-        "next, "
-        "and penetrations stay above penetration_tolerance, by less than {:g} times; normal = \"penalty\" or "
-        "a "
-        "larger tolerance costs fewer turns",
+        "next, and penetrations stay above penetration_tolerance, by less than {:g} times; normal = "
+        "\"penalty\" or a larger tolerance costs fewer turns",
         worst->spec().name, k_tolerable);
     return true;
   }

@@ -1,4 +1,4 @@
-/// What the defect of the first law is measured against.
+/// The energy that the defect of the first law is divided by.
 ///
 ///   E = max(Q, |E_mech|, k ∫ρ c Θ dV)                                                              [J]
 ///
@@ -13,7 +13,7 @@
 
 namespace solidus::coupling {
 
-/// Of the heat content, where less than it is exchanged.
+/// Share of the heat content that counts where less heat than that is exchanged.
 inline constexpr double k_at_rest = 1e-6;
 
 /// ∫ρ c Θ dV of all bodies at the temperatures of the state, latent heat left out [J]. Collective.

@@ -6,7 +6,7 @@
 
 namespace solidus::coupling {
 
-/// What a pass of the mechanical phase starts from.
+/// The state from which a pass of the mechanical phase starts.
 struct MechanicalStart {
   const mechanics::MechanicalState& mechanics;
   const std::vector<contact::ContactState>& contacts;

@@ -1,5 +1,5 @@
-/// What the splits of first order have in common: the two phases in turn, each once a step. What the
-/// mechanical phase holds, temperature or entropy, is its own affair (mechanics::Mapping).
+/// The base of the isothermal and the isentropic split, which solve the two phases in turn, each once a step.
+/// mechanics::Mapping decides whether the mechanical phase holds temperature or entropy.
 ///
 ///   mechanics_first  (4.31–4.54)  equilibrium at t_{n+1} from Θ_n; gaps and conductances; then heat at the
 ///                                 configuration and the internal variables found. Displacements and stresses

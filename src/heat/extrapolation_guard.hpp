@@ -22,7 +22,7 @@
 
 namespace solidus::heat {
 
-/// Of one step; all calls are collective.
+/// Judges the extrapolation of one step. All calls are collective.
 class ExtrapolationGuard {
  public:
   /// All must outlive this object.

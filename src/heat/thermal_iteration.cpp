@@ -17,7 +17,8 @@ namespace solidus::heat {
 
 namespace {
 
-// What deformation alone does, heating or cooling, is no reason to limit conduction and solve again.
+// Deformation heats and cools too. Temperatures beyond their range by no more than this are taken to be its
+// work: conduction is not limited for them.
 constexpr double k_by_deformation = 1;              ///< [K]
 constexpr double k_by_deformation_of_range = 0.01;  ///< as a share of the range of temperatures
 

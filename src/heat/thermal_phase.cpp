@@ -30,6 +30,7 @@ using material::k_sdirk_carried;
 using material::k_sdirk_share;
 
 constexpr int k_one_component[] = {1};
+
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }

@@ -101,7 +101,9 @@ constexpr Scheme k_split{""}, k_together{"_together", Mapping::simultaneous},
     k_double_pass{"_double_pass", Mapping::isentropic, false, true},
     k_heat_first{"_heat_first", Mapping::isentropic, false, false, coupling::PhaseOrder::heat_first};
 
-void flash(const Scheme& scheme) {
+/// @param off     share by which the surfaces may be warmer or colder than the closed form
+/// @param shared  share by which the heats may be divided otherwise
+void flash(const Scheme& scheme, double off = 1e-2, double shared = 5e-3) {
   SCOPED_TRACE(scheme.name);
   const double k1 = 160, k2 = 40, start = 300, end = 1;  // diffusion lengths of 6 and 3 mm
   Coupled c = sliding(100, k1, k2, start, end);
@@ -137,8 +139,8 @@ void flash(const Scheme& scheme) {
   EXPECT_NEAR(lower + upper, dissipated + lost, (c.form ? 1e-6 : 1e-9) * dissipated)
       << "all of it reaches the bodies";
   // Backward Euler of 200 steps and elements of 0.5 mm against diffusion lengths of 3 to 6 mm.
-  EXPECT_NEAR(lower / upper, e1 / e2, 5e-3 * e1 / e2);
-  EXPECT_LT(worst, 1e-2);
+  EXPECT_NEAR(lower / upper, e1 / e2, shared * e1 / e2);
+  EXPECT_LT(worst, off);
 }
 
 TEST(FrictionHeat, IsSharedByHalfSpacesAsTheirEffusivitiesAndFlashesAsTheClosedForm) {
@@ -147,6 +149,12 @@ TEST(FrictionHeat, IsSharedByHalfSpacesAsTheirEffusivitiesAndFlashesAsTheClosedF
 
 TEST(FrictionHeat, DoesSoWithTheOtherSchemes) {
   for (const Scheme& scheme : {k_together, k_two_stages, k_double_pass}) flash(scheme);
+}
+
+// The heat of a step lies in the surfaces when it ends: the closed form is left by more than with the other
+// order, which is therefore taken where bodies rub and nothing melts.
+TEST(FrictionHeat, OfAStepStaysInTheSurfaceWhereHeatComesFirst) {
+  flash(k_heat_first, 0.2, 1e-2);
 }
 
 TEST(FrictionHeat, GoesHalfAndHalfWhereTheInterfaceResistsMoreThanTheBodies) {

@@ -3,8 +3,6 @@
 /// temperature of its surroundings rising and falling without a kink.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "thick_cylinder.hpp"
 
 namespace solidus {
@@ -17,15 +15,8 @@ using verification::CoupledRun;
 
 constexpr double k_end = 80;  // [s]
 
-/// From a to b as sin², in 400 pieces over the time of the run.
 Table smooth(double a, double b) {
-  std::vector<double> x, y;
-  for (int i = 0; i <= 400; ++i) {
-    const double s = std::sin(0.5 * std::numbers::pi * i / 400);
-    x.push_back(k_end * i / 400);
-    y.push_back(a + (b - a) * s * s);
-  }
-  return Table(x, y);
+  return verification::smooth(a, b, k_end);
 }
 
 Coupled wall(int factor, bool double_pass, bool plastic = false) {

@@ -3,8 +3,6 @@
 /// order.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "casting_bodies.hpp"
 #include "thick_cylinder.hpp"
 
@@ -57,17 +55,6 @@ TEST(HeatFirst, ShrinksWithTheTemperaturesThatItEndsWith) {
   }
 }
 
-/// From a to b as sin^2, in 400 pieces over the time of the run.
-Table smooth(double a, double b) {
-  std::vector<double> x, y;
-  for (int i = 0; i <= 400; ++i) {
-    const double s = std::sin(0.5 * std::numbers::pi * i / 400);
-    x.push_back(k_end * i / 400);
-    y.push_back(a + (b - a) * s * s);
-  }
-  return Table(x, y);
-}
-
 double mean_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -77,9 +64,9 @@ double mean_difference(const std::vector<double>& a, const std::vector<double>& 
 TEST(HeatFirst, IsOfFirstOrderAndTendsToWhatTheDoublePassTendsTo) {
   const auto wall = [](PhaseOrder order, bool double_pass) {
     Coupled c = verification::cylinder({false, 3, Mapping::isentropic, StructuralForm::energy});
-    c.mechanical.pressures = {{"left", smooth(0, 2e8)}};
+    c.mechanical.pressures = {{"left", verification::smooth(0, 2e8, k_end)}};
     c.thermal.films.clear();
-    c.thermal.films.push_back({"inner", "left", {1160.0}, smooth(593, 293)});
+    c.thermal.films.push_back({"inner", "left", {1160.0}, verification::smooth(593, 293, k_end)});
     c.order = order;
     c.double_pass = double_pass;
     return c;

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -35,6 +36,17 @@ inline material::Material steel(double expansion_factor, bool plastic) {
     m.flow->viscosity = 0.0;
   }
   return m;
+}
+
+/// From a to b as sin² from time zero to `end`, in 400 pieces.
+inline Table smooth(double a, double b, double end) {
+  std::vector<double> x, y;
+  for (int i = 0; i <= 400; ++i) {
+    const double s = std::sin(0.5 * std::numbers::pi * i / 400);
+    x.push_back(end * i / 400);
+    y.push_back(a + (b - a) * s * s);
+  }
+  return {x, y};
 }
 
 struct Variant {

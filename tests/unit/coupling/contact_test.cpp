@@ -1,4 +1,5 @@
 /// Contact through the steps of a scheme: history, energy, graphs that change, restart.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,6 +7,8 @@
 #include "../../verification/contact_bodies.hpp"
 #include "../contact/friction_laws.hpp"
 #include "algebra/parallel.hpp"
+#include "base/errors.hpp"
+#include "base/log.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/isothermal.hpp"
@@ -229,6 +232,46 @@ WorkOnContact dynamic_step(Rubbed& run, double dt) {
 
 const mechanics::Motion k_means[] = {mechanics::Motion::trapezoidal(),
                                      mechanics::Motion::generalised_alpha(0.6)};
+
+// Penetrations after one solve, which no further one follows, 5 and 20 times as large as allowed.
+TEST(AugmentedLagrangian, AcceptsAfterSixtyTurnsWhatIsTenTimesTooLargeAndSaysSo) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  contact::ContactSpec s = rubbing();
+  s.normal = contact::NormalKind::augmented_lagrangian;
+  const auto check = [&](double tolerance, const auto& look) {
+    s.penetration_tolerance = tolerance;
+    mechanics::Conditions c;
+    for (int i = 0; i < 2; ++i) c.displacements.push_back({"lower_y_min", i, 0.0});
+    c.displacements.push_back({"upper_y_max", 0, 0.0});
+    c.displacements.push_back({"upper_y_max", 1, -1e-5});
+    Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
+    const mechanics::MechanicalState old = run.state.mechanics;
+    const mechanics::MechanicalPass pass{.time = 1, .dt = 1, .temperature = run.phases.temperature};
+    coupling::begin_contacts(run.phases, run.state.contacts, old, pass);
+    mechanics::MechanicalState next;
+    run.phase.solve(old, next, pass);
+    run.pair.update(next.displacement);
+    look(run);
+  };
+  double excess = 0;
+  check(1e-6, [&](const Rubbed& run) { excess = run.pair.excess(); });
+  ASSERT_GT(excess, 0);
+  logging::clear_warnings();
+  check(1e-6 * excess / 5, [](Rubbed& run) {
+    EXPECT_FALSE(coupling::penetrations_small(run.phases, 59));
+    EXPECT_TRUE(logging::warnings().empty());
+    EXPECT_TRUE(coupling::penetrations_small(run.phases, 60));
+  });
+  ASSERT_EQ(logging::warnings().size(), 1);
+  EXPECT_THAT(logging::warnings()[0], ::testing::HasSubstr("by less than 10 times"));
+  logging::clear_warnings();
+  check(1e-6 * excess / 20, [](Rubbed& run) {
+    EXPECT_FALSE(coupling::penetrations_small(run.phases, 60));
+    EXPECT_FALSE(coupling::penetrations_small(run.phases, 399));
+    EXPECT_THROW(coupling::penetrations_small(run.phases, 400), StepRejected);
+  });
+  EXPECT_TRUE(logging::warnings().empty());
+}
 
 TEST(ContactWork, OfTheAugmentedLagrangianHasTheTractionsOfTheStart) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
