@@ -148,6 +148,7 @@ Material make_material(std::string name, const MaterialData& data) {
   m.density = note("density", data.density).value(0);
   m.conductivity = note("conductivity", data.conductivity);
   m.specific_heat = note("specific_heat", data.specific_heat);
+  m.specific_heat_at = data.specific_heat_at;
   for (const PhaseChangeData& change : data.phase_changes) add_phase_change(m, change);
 
   const bool elastic[] = {data.young_modulus.has_value(), data.poisson_ratio.has_value(),
