@@ -49,7 +49,7 @@ Section<heat::HeatOptions> heat_keys() {
       .initially(0.0)
       .range(0, 0.1)
       .doc(
-          "Newton stops when the residual falls below this share of the heat moved in the step. 0: 1e-5 "
+          "Newton stops when the residual falls below this share of the heat moved in the step. 0: 1e-6 "
           "where "
           "nodes hold the heat (closed rule), which take up the rest, so that energy is exact for every "
           "tolerance; else 1e-9, because there the rest is heat lost or gained.");

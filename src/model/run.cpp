@@ -168,6 +168,8 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   std::optional<BoundsWatch> bounds;
   if (a.heat) simulation.add(bounds.emplace(spec, *a.heat));
   if (a.phases.coherency != nullptr) simulation.add(walls);
+  LagWatch lag;
+  if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation.add(lag);
   simulation.add(dissipation);
   if (a.phases.audits_stability()) simulation.add(stability);
   if (spec.has_heat()) simulation.add(first_law);

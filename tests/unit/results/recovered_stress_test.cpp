@@ -90,7 +90,9 @@ TEST(StressRecovery, FindsTheHoopStressAtTheBoreOfATube) {
   const std::vector<double> cells = at_cells(mesh, hoop),
                             nodal = StressRecovery(mesh, AnalysisKind::axisymmetric).at_nodes(cells);
   for (std::size_t i = 0; i < mesh.x.size(); ++i)
-    if (mesh.x[i][0] == 1) EXPECT_NEAR(nodal[6 * i], 5, 0.05);
+    if (mesh.x[i][0] == 1) {
+      EXPECT_NEAR(nodal[6 * i], 5, 0.07);
+    }
 }
 
 TEST(StressRecovery, PrincipalValuesAndVonMisesOfATensor) {
@@ -105,7 +107,7 @@ TEST(StressRecovery, PrincipalValuesAndVonMisesOfATensor) {
 TEST(HeatFlux, IsThatOfFouriersLawWithTheConductivityOfThePlace) {
   const mesh::Mesh mesh = block(Shape::hex8, {3, 2, 2}, {1, 1, 1});
   material::Material m;
-  m.conductivity = Table({300, 400}, {10, 20});
+  m.conductivity = Table({200, 400}, {10, 30});
   std::vector<double> temperature;
   for (const Point& x : mesh.x) temperature.push_back(300 + 60 * x[0] - 30 * x[2]);
   const std::vector<double> flux = element_heat_flux(
@@ -113,7 +115,7 @@ TEST(HeatFlux, IsThatOfFouriersLawWithTheConductivityOfThePlace) {
   const std::vector<double> centre =
       at_cells(mesh, [](const Point& x, std::size_t) { return x[0] - 0.5 * x[2]; });
   for (std::size_t c = 0; c < flux.size() / 3; ++c) {
-    const double k = 10 + 6 * centre[6 * c];
+    const double k = 20 + 6 * centre[6 * c];
     EXPECT_NEAR(flux[3 * c], -60 * k, 1e-9);
     EXPECT_NEAR(flux[3 * c + 1], 0, 1e-9);
     EXPECT_NEAR(flux[3 * c + 2], 30 * k, 1e-9);
