@@ -14,11 +14,23 @@ if(SOLIDUS_PCH)
     $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
 endif()
 
-# The standard library's, fmt's and, where the target links it, PETSc's; and the headers named.
-function(solidus_precompile target)
+# Headers compiled once for all the targets that use them: the standard library's, fmt's and those named after `libraries`, whose
+# include folders and definitions they are read with. A target compiled with other definitions that these headers look at could not
+# use them (-Winvalid-pch).
+# @param name       what solidus_precompile calls them
+# @param libraries  targets, a list
+function(solidus_common_headers name libraries)
   if(NOT SOLIDUS_PCH)
     return()
   endif()
-  target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional>
-                            <set> <sstream> <string> <unordered_map> <variant> <vector> <fmt/format.h> ${ARGN})
+  add_library(solidus_headers_${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/nothing.cpp)
+  target_link_libraries(solidus_headers_${name} PRIVATE solidus_options fmt::fmt spdlog::spdlog tomlplusplus::tomlplusplus ${libraries})
+  target_precompile_headers(solidus_headers_${name} PRIVATE <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map>
+                            <memory> <optional> <set> <sstream> <string> <unordered_map> <variant> <vector> <fmt/format.h> ${ARGN})
+endfunction()
+
+function(solidus_precompile target name)
+  if(SOLIDUS_PCH)
+    target_precompile_headers(${target} REUSE_FROM solidus_headers_${name})
+  endif()
 endfunction()

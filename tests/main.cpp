@@ -1,6 +1,13 @@
 /// The entry point of every test program: PETSc and MPI live as long as the tests.
+///
+/// --source=NAME runs the tests that NAME.cpp defines and no others: a program holds those of many sources.
 #include <gtest/gtest.h>
 #include <petscsys.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
 
 #if defined(__SANITIZE_ADDRESS__)
 #define SOLIDUS_LEAK_CHECK
@@ -31,10 +38,49 @@ void check_leaks() {
 #endif
 }
 
+/// The filter of GoogleTest that leaves the tests of one source; empty where it has none.
+std::string tests_of(std::string_view source) {
+  const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
+  std::string filter;
+  for (int s = 0; s < all.total_test_suite_count(); ++s) {
+    const ::testing::TestSuite& suite = *all.GetTestSuite(s);
+    for (int t = 0; t < suite.total_test_count(); ++t) {
+      const ::testing::TestInfo& test = *suite.GetTestInfo(t);
+      if (std::filesystem::path(test.file()).stem() != source) continue;
+      filter += std::string(filter.empty() ? "" : ":") + suite.name() + "." + test.name();
+    }
+  }
+  return filter;
+}
+
+/// Applies --source. False where the arguments make no sense.
+bool select_tests(int argc, char** argv) {
+  constexpr std::string_view option = "--source=";
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (!argument.starts_with(option)) {
+      std::fprintf(stderr, "unknown argument '%s'; known: --source=NAME and those of GoogleTest\n", argv[i]);
+      return false;
+    }
+    if (::testing::GTEST_FLAG(filter) != "*") {
+      std::fprintf(stderr, "--source and --gtest_filter cannot be given together\n");
+      return false;
+    }
+    const std::string filter = tests_of(argument.substr(option.size()));
+    if (filter.empty()) {
+      std::fprintf(stderr, "%s: no source of this program has that name, or it defines no test\n", argv[i]);
+      return false;
+    }
+    ::testing::GTEST_FLAG(filter) = filter;
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
+  if (!select_tests(argc, argv)) return 2;
   ignore_leaks(true);
   if (PetscInitialize(nullptr, nullptr, nullptr, nullptr) != 0) return 3;
   ignore_leaks(false);

@@ -15,6 +15,13 @@ double entropy_of_part(double a, double b, double y_a, double m) {
 
 }  // namespace
 
+Table::Table() = default;
+Table::Table(const Table&) = default;
+Table::Table(Table&&) noexcept = default;
+Table& Table::operator=(const Table&) = default;
+Table& Table::operator=(Table&&) noexcept = default;
+Table::~Table() = default;
+
 Table::Table(double y) : y_{y} {
   if (!std::isfinite(y)) throw std::invalid_argument("a constant is not a finite number");
 }

@@ -17,7 +17,14 @@ enum class Extrapolation { constant, linear, error };
 /// A continuous function y(x) given by points with strictly increasing x. A single point is a constant.
 class Table {
  public:
-  Table() = default;
+  // In table.cpp: materials and conditions hold dozens of tables, and every file that copies one would hold
+  // the code of all these.
+  Table();
+  Table(const Table&);
+  Table(Table&&) noexcept;
+  Table& operator=(const Table&);
+  Table& operator=(Table&&) noexcept;
+  ~Table();
   /// A constant.
   Table(double y);  // NOLINT: a number is a constant table
   /// Throws std::invalid_argument when x and y differ in length, are empty, not finite, or x does not
