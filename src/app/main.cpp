@@ -73,6 +73,38 @@ void add_trust(CLI::App& verb, bool& trust) {
                 "Run .geo scripts whatever they say: they can start programs and write files as you can");
 }
 
+CLI::App* add_material_import(CLI::App& materials, MaterialImportArguments& arguments) {
+  CLI::App* verb = materials.add_subcommand(
+      "import",
+      "Make a material card from a table of Thermo-Calc, JMatPro or pycalphad's Scheil (CSV or JSON)");
+  verb->add_option("FILE", arguments.file, "The table")->required();
+  verb->add_option("-o,--output", arguments.output, "The material file to write; default: print it");
+  verb->add_option("--like", arguments.like, "A card for what the table lacks");
+  verb->add_option("--title", arguments.title, "What the material is, in one line");
+  verb->add_option("--source", arguments.source, "Where the table comes from; default: its name");
+  verb->add_option("--latent-heat", arguments.latent_heat,
+                   "For example \"390 kJ/kg\", for tables without enthalpy");
+  verb->add_option("--volume-change", arguments.volume_change, "On freezing, for example -0.045");
+  verb->add_option("--molar-mass", arguments.molar_mass, "For example \"27.1 g/mol\", for columns per mole");
+  verb->add_option("--column", arguments.columns,
+                   "Which column holds what: QUANTITY=HEADER or QUANTITY=HEADER:UNIT, "
+                   "for example \"enthalpy=HMR:J/mol\"")
+      ->allow_extra_args(false);
+  return verb;
+}
+
+CLI::App* add_solidification(CLI::App& materials, SolidificationArguments& arguments) {
+  CLI::App* verb = materials.add_subcommand(
+      "scheil", "Print the solid fraction of an alloy by Scheil's equation or the lever rule");
+  verb->add_option("ALLOY", arguments.alloy, "Weight per cent, for example Al-9Si-3Cu-0.3Mg")->required();
+  verb->add_flag("--lever", arguments.lever, "The lever rule: full diffusion in the solid");
+  verb->add_option("--system", arguments.system, "A file with the liquidus; default: that of the library");
+  verb->add_option("--tolerance", arguments.tolerance,
+                   "Of the straight lines between the points; default 0.002");
+  verb->add_option("-o,--output", arguments.output, "A file; default: print it");
+  return verb;
+}
+
 void set_log_level(const std::string& wanted) {
   using logging::Level;
   const std::map<std::string, Level> levels = {
@@ -137,6 +169,10 @@ ExitCode parse_and_run(int argc, char** argv) {
   materials_verb->add_option("NAME", name, "A material of the library, or a material file");
   materials_verb->add_option("-o,--output", arguments.output,
                              "Folder for tables of the properties and the flow curves (CSV)");
+  MaterialImportArguments imported;
+  SolidificationArguments freezing;
+  CLI::App* import_verb = add_material_import(*materials_verb, imported);
+  CLI::App* scheil_verb = add_solidification(*materials_verb, freezing);
   ExportArguments exported;
   CLI::App* export_verb = program.add_subcommand(
       "export", "Write the end of a run as the start of a structural analysis in another program");
@@ -174,6 +210,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*explain_verb) return explain(file, key, manual);
   if (*schema_verb) return schema(file);
   if (*mesh_verb) return mesh_info(arguments, unit);
+  if (*import_verb) return import_material(imported);
+  if (*scheil_verb) return solidification_path(freezing);
   if (*materials_verb) return materials(name, arguments.output);
   if (*export_verb) return export_state(exported);
   if (*version_verb) return version();

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -29,9 +30,11 @@ TEST(MaterialLibrary, EveryPropertyOfEveryFileHasASourceAndEveryTableAValidityRa
     EXPECT_GE(m.notes.size(), 3u);
     for (const PropertyNote& note : m.notes) {
       EXPECT_FALSE(note.source.empty()) << name << " " << note.property;
-      const bool always = note.property == "density" || note.property == "poisson_ratio" ||
-                          note.property == "twice_shear_viscosity" || note.property == "solidification" ||
-                          note.property == "graphite" || note.property == "plasticity.rate_exponent" ||
+      const bool change = std::any_of(m.phase_changes.begin(), m.phase_changes.end(),
+                                      [&](const PhaseChange& one) { return one.name == note.property; });
+      const bool always = change || note.property == "density" || note.property == "poisson_ratio" ||
+                          note.property == "twice_shear_viscosity" ||
+                          note.property == "plasticity.rate_exponent" ||
                           note.property == "plasticity.drag_stress" || note.property == "casting";
       EXPECT_TRUE(always || note.valid_to > note.valid_from) << name << " " << note.property;
     }
