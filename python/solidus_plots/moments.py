@@ -72,7 +72,7 @@ def values(grid, spec, cells=None):
                 found = np.linalg.norm(found, axis=1) if component is None else found[:, component]
             if spec.get("smooth", False) and kind == "cell_data":
                 kind, found = "point_data", _at_nodes(grid, found, cells)
-            found = style.convert(found, _written_unit(grid, name), spec.get("unit", ""))
+            found = style.convert(found, _written_unit(grid, name), unit(grid, spec))
             return kind, np.where(found > spec["above"], found, np.nan) if "above" in spec else found
     known = [name for data in (grid.point_data, grid.cell_data) for name in data]
     raise ResultError(f"plots.toml: no field '{name}' was written; there are {', '.join(known)}")
@@ -103,7 +103,8 @@ def _written_unit(grid, name):
 
 def unit(grid, spec):
     """The unit of the values of a picture."""
-    return spec.get("unit") or _written_unit(grid, spec["field"])
+    written = _written_unit(grid, spec["field"])
+    return spec.get("unit") or style.SHOWN_UNITS.get(written, written)
 
 
 def limits(grids, masks, spec):
