@@ -10,7 +10,7 @@
 namespace solidus::app {
 
 /// What a shell sees (design.md section 6).
-enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_go_on = 2, k_our_bug = 3 };
+enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_go_on = 2, k_our_bug = 3, k_interrupted = 130 };
 
 struct CaseArguments {
   std::string path;              ///< a case file, or a folder with a case.toml
@@ -18,6 +18,7 @@ struct CaseArguments {
   std::string output;            ///< results folder; empty: by the case
   bool progress_bar = true;      ///< on a terminal
   bool restart = false;          ///< go on from the checkpoint
+  bool profile = false;          ///< show at the end where the time went
   bool trust_script = false;     ///< run a .geo script whatever it says
 };
 
@@ -67,5 +68,7 @@ struct ExportArguments {
 };
 ExitCode export_state(const ExportArguments& arguments);
 ExitCode version();
+/// Writes schemas and rules for editors into a folder; empty: the present one.
+ExitCode init_editor(const std::string& folder);
 
 }  // namespace solidus::app

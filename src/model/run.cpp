@@ -21,6 +21,7 @@
 #include "model/audit_watch.hpp"
 #include "model/bounds_watch.hpp"
 #include "model/case_materials.hpp"
+#include "model/cast_bodies.hpp"
 #include "model/coupling_estimate.hpp"
 #include "model/findings.hpp"
 #include "model/fingerprint.hpp"
@@ -92,6 +93,8 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.stages = !spec.stages.empty();
   r.steady = spec.time.steady;
   r.progress = options.progress;
+  r.profile = options.profile;
+  r.castings = cast_bodies(spec, a.materials, a.start);
   r.progress_options.end = spec.time.end.value_or(0);
   r.progress_options.heat = spec.has_heat();
   r.progress_options.mechanics = spec.has_mechanics();

@@ -18,6 +18,7 @@ struct RunOptions {
   std::ostream* progress = nullptr;  ///< where steps are shown; null: nowhere (process 0 only)
   bool terminal = false;             ///< draw a progress bar
   bool restart = false;              ///< go on from the checkpoint in `folder`
+  bool profile = false;              ///< show at the end where the wall time went
   std::function<bool()> stop_asked;  ///< asked before each step; true on any process ends the run there
 };
 
