@@ -105,6 +105,11 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Continue a run that was stopped, from its checkpoint in the folder of the results");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
+  for (CLI::App* verb : {run_verb, check_verb}) {
+    CLI::Option* heat_only = verb->add_flag("--heat-only", arguments.heat_only,
+                                            "Compute heat alone; what does not apply is left out and named");
+    verb->add_flag("--coupled", arguments.coupled, "Compute heat and mechanics")->excludes(heat_only);
+  }
   add_trust(*run_verb, arguments.trust_script);
   add_trust(*check_verb, arguments.trust_script);
   CLI::App* explain_verb = program.add_subcommand("explain", "Explain a key of the case file, or list all");

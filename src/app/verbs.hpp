@@ -19,6 +19,8 @@ struct CaseArguments {
   bool progress_bar = true;      ///< on a terminal
   bool restart = false;          ///< go on from the checkpoint
   bool trust_script = false;     ///< run a .geo script whatever it says
+  bool heat_only = false;        ///< heat alone, whatever the case says
+  bool coupled = false;          ///< heat and mechanics, whatever the case says
 };
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).
