@@ -150,6 +150,22 @@ ExitCode parse_and_run(int argc, char** argv) {
   export_verb->add_option("--abaqus", exported.abaqus, "File for Abaqus: stress of the elements");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
   add_trust(*export_verb, exported.trust_script);
+  NewArguments fresh;
+  CLI::App* new_verb = program.add_subcommand("new", "Make a case that runs from the geometry of a casting");
+  new_verb->add_option("PART", fresh.geometry, "A STEP, BREP or IGES file")->required();
+  new_verb->add_option("--alloy", fresh.alloy, "What is cast: a material of the library, or a file")
+      ->required();
+  new_verb->add_option("--process", fresh.process, "sand, shell, gravity_die or high_pressure; default sand");
+  new_verb->add_option("--riser", fresh.riser, "auto: put a riser on the thickest place");
+  new_verb->add_option("--symmetry", fresh.symmetry, "x, y or z: keep half of the part, below its middle");
+  new_verb
+      ->add_option("--as", fresh.as, "What a body of the file is, NAME=ROLE, for example --as Box_2=chill")
+      ->allow_extra_args(false);
+  new_verb->add_option("--unit", fresh.unit,
+                       "Unit of length of the file; default mm, in which STEP files come");
+  new_verb->add_option("--fineness", fresh.fineness,
+                       "So many times as many elements along each edge; default 1");
+  new_verb->add_option("-o,--output", fresh.folder, "Folder for the case; default the file's name, here");
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
   for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
 
@@ -181,6 +197,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*mesh_verb) return mesh_info(arguments, unit);
   if (*materials_verb) return materials(name, arguments.output);
   if (*export_verb) return export_state(exported);
+  if (*new_verb) return new_case(fresh);
   if (*version_verb) return version();
   return k_our_bug;
 }

@@ -50,6 +50,14 @@ struct ExportArguments {
   bool trust_script = false;     ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);
+struct NewArguments {
+  std::string geometry, alloy, folder, symmetry, riser;
+  std::string process = "sand", unit = "mm";
+  std::vector<std::string> as;  ///< "NAME=role"
+  double fineness = 1;
+};
+/// From the geometry of a casting to a case that runs.
+ExitCode new_case(const NewArguments& arguments);
 ExitCode version();
 
 }  // namespace solidus::app

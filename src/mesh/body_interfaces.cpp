@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "mesh/faces.hpp"
@@ -58,6 +59,13 @@ struct Side {
   std::vector<const SkinFace*> faces;
   double area = 0, covered = 0, gap = 0, largest = 0;
 };
+
+bool lies_in(const std::optional<HalfSpace>& plane, const SkinFace& face) {
+  constexpr double k_flat = 0.999, k_near = 1e-3;  // of the face's size
+  if (!plane || face.normal[static_cast<std::size_t>(plane->axis)] < k_flat) return false;
+  return std::abs(face.centre[static_cast<std::size_t>(plane->axis)] - plane->at) <
+         k_near * std::sqrt(face.area);
+}
 
 }  // namespace
 
@@ -117,7 +125,7 @@ void split_nodes(RawMesh& mesh, const std::vector<std::string>& bodies, const st
 
 std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& bodies,
                                 const std::vector<std::string>& names, const std::vector<FacingWish>& wishes,
-                                const std::string& source) {
+                                const std::optional<HalfSpace>& cut, const std::string& source) {
   std::vector<std::vector<SkinFace>> skins;
   std::vector<std::vector<char>> faces_somebody;
   for (const std::string& body : bodies) {
@@ -166,9 +174,10 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
     found.push_back(std::move(facing));
   }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    std::vector<const SkinFace*> free;
+    std::vector<const SkinFace*> free, symmetric;
     for (std::size_t f = 0; f < skins[b].size(); ++f)
-      if (faces_somebody[b][f] == 0) free.push_back(&skins[b][f]);
+      if (faces_somebody[b][f] == 0) (lies_in(cut, skins[b][f]) ? symmetric : free).push_back(&skins[b][f]);
+    if (!symmetric.empty()) add_surface(mesh, names[b] + "_symmetry", symmetric, source);
     if (!free.empty()) add_surface(mesh, names[b] + "_free", free, source);
   }
   return found;

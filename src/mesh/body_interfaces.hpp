@@ -2,11 +2,13 @@
 /// only, as reading a mesh is.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "mesh/casting_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
@@ -47,11 +49,12 @@ struct Facing {
 /// Finds the faces of the pairs that face each other: normals opposed, no farther apart than the distance.
 /// Makes the surface groups A_to_B and B_to_A of each pair that has some, and A_free of what of each body
 /// faces none, where there is some.
+/// @param cut     the plane at which the geometry was cut: what of a skin lies in it is A_symmetry, not A_free
 /// @param bodies  groups of full dimension
 /// @param names   of the bodies, for the names of the groups
 /// @param source  for messages: the file or shape of the mesh
 std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& bodies,
                                 const std::vector<std::string>& names, const std::vector<FacingWish>& wishes,
-                                const std::string& source);
+                                const std::optional<HalfSpace>& cut, const std::string& source);
 
 }  // namespace solidus::mesh

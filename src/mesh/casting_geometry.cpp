@@ -38,7 +38,7 @@ std::string complaint_of(const InputError& error, const std::string& path) {
 
 }  // namespace
 
-RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry) {
+RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough) {
   std::optional<RawMesh> best;
   double best_quality = 0;
   int best_way = 0;
@@ -52,7 +52,7 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry) {
         best_quality = quality;
         best_way = geometry.attempt;
       }
-      if (best_quality >= k_sound_quality) break;
+      if (best_quality >= enough) break;
       complaints.push_back(meshing_attempt(geometry.attempt) + ": least quality " +
                            std::to_string(quality).substr(0, 5));
     } catch (const InputError& error) {
@@ -66,10 +66,10 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry) {
     throw InputError({source.path}, "the geometry could not be meshed in any of these ways:" + all,
                      "a geometry whose faces neither cross nor nearly touch there; other element sizes");
   }
-  if (best_quality < k_sound_quality)
+  if (best_quality < enough)
     logging::warn("the best of {} ways to mesh '{}' has elements of quality {:.2g}; 0.15 is sound",
                   n_meshing_attempts(), source.path, best_quality);
-  else if (best_way > 0)
+  else if (best_way > 0 && enough > 0)
     logging::info("meshed in way {} ({}), after: {}", best_way + 1, meshing_attempt(best_way),
                   complaints.back());
   return std::move(*best);

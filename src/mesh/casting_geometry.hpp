@@ -59,7 +59,8 @@ std::string meshing_attempt(int attempt);
 /// least quality is k_sound_quality; else takes the best of those that gave a mesh, with a warning. The first
 /// way of those that succeeds is said where it is not the first of all. Each way is a reader process of its
 /// own. Throws InputError with the complaints of each way where none gives a mesh.
-RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry);
+/// @param enough  the least quality, 0 where any mesh will do
+RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough = k_sound_quality);
 
 /// One way, in the reader's process; Gmsh has the file open.
 /// Makes mould, riser and groups, and meshes. Throws InputError.

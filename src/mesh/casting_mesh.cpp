@@ -443,7 +443,7 @@ class Maker {
     if (source_.element_order == 2) setNumber("Mesh.SecondOrderIncomplete", 1);
     limit_entities();
     const Extent all = extent_of(volumes());
-    double coarse = all.diagonal() / 20;
+    double coarse = all.diagonal() / (geometry_.sizes.empty() ? 35 : 20);
     for (const auto& [entity, limit] : limit_)
       if (entity.first == 2) coarse = std::min(coarse, limit);
     coarse = std::max(coarse, parts_extent() / 40);

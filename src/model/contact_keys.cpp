@@ -132,7 +132,8 @@ Section<BodyInterfaceSpec> body_interface_keys() {
       "interface",
       "Contact between bodies, whose facing surfaces are found by themselves: each pair A, B becomes a "
       "[[contact]] between the groups `A_to_B` and `B_to_A`. What of a skin faces no other body is "
-      "the group `A_free`, for films. Nodes that two such bodies share are split.");
+      "the group `A_free`, for films; what lies in a plane of symmetry is `A_symmetry`. Nodes that two such "
+      "bodies share are split.");
   s.key("name", &I::name).initially("").doc("A name of your choice, that of the contact; without it `A_B`.");
   s.key("bodies", &I::bodies)
       .or_one()

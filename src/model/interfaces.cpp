@@ -152,7 +152,9 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
     mesh::split_nodes(mesh, groups, apart);
     logging::info("bodies that shared nodes have their own now: {}", fmt::join(split, ", "));
   }
-  const std::vector<mesh::Facing> facings = mesh::find_facing(mesh, groups, names, wishes, source);
+  std::optional<mesh::HalfSpace> cut;
+  if (spec.mesh.symmetry) cut = {spec.mesh.symmetry->axis[0] - 'x', spec.mesh.symmetry->at};
+  const std::vector<mesh::Facing> facings = mesh::find_facing(mesh, groups, names, wishes, cut, source);
   std::vector<FoundInterface> found;
   for (const mesh::Facing& f : facings) {
     std::size_t section = 0;
