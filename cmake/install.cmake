@@ -2,7 +2,7 @@
 # the manual page and the documents. The program finds them relative to itself, so that the prefix may be moved.
 include(GNUInstallDirs)
 install(TARGETS solidus)
-install(DIRECTORY materials DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus)
+install(DIRECTORY materials interfaces DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus)
 install(DIRECTORY python DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)

@@ -159,6 +159,11 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Print at the end where the wall time went (always in summary.json)");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
+  for (CLI::App* verb : {run_verb, check_verb}) {
+    CLI::Option* heat_only = verb->add_flag("--heat-only", arguments.heat_only,
+                                            "Compute heat alone; what does not apply is left out and named");
+    verb->add_flag("--coupled", arguments.coupled, "Compute heat and mechanics")->excludes(heat_only);
+  }
   add_trust(*run_verb, arguments.trust_script);
   add_trust(*check_verb, arguments.trust_script);
   CLI::App* explain_verb = program.add_subcommand("explain", "Explain a key of the case file, or list all");
@@ -208,6 +213,22 @@ ExitCode parse_and_run(int argc, char** argv) {
       ->type_name("FILE");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
   add_trust(*export_verb, exported.trust_script);
+  NewArguments fresh;
+  CLI::App* new_verb = program.add_subcommand("new", "Make a case that runs from the geometry of a casting");
+  new_verb->add_option("PART", fresh.geometry, "A STEP, BREP or IGES file")->required();
+  new_verb->add_option("--alloy", fresh.alloy, "What is cast: a material of the library, or a file")
+      ->required();
+  new_verb->add_option("--process", fresh.process, "sand, shell, gravity_die or high_pressure; default sand");
+  new_verb->add_option("--riser", fresh.riser, "auto: put a riser on the thickest place");
+  new_verb->add_option("--symmetry", fresh.symmetry, "x, y or z: keep half of the part, below its middle");
+  new_verb
+      ->add_option("--as", fresh.as, "What a body of the file is, NAME=ROLE, for example --as Box_2=chill")
+      ->allow_extra_args(false);
+  new_verb->add_option("--unit", fresh.unit,
+                       "Unit of length of the file; default mm, in which STEP files come");
+  new_verb->add_option("--fineness", fresh.fineness,
+                       "So many times as many elements along each edge; default 1");
+  new_verb->add_option("-o,--output", fresh.folder, "Folder for the case; default the file's name, here");
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
   const PythonVerbs python(program);
   std::string verb_name, shell, editor_folder;
@@ -257,6 +278,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*scheil_verb) return solidification_path(freezing);
   if (*materials_verb) return materials(name, arguments.output);
   if (*export_verb) return export_state(exported);
+  if (*new_verb) return new_case(fresh);
   if (*version_verb) return version();
   if (*help_verb) {
     // help() of the program itself would tell of this verb, which was asked for.

@@ -20,6 +20,8 @@ struct CaseArguments {
   bool restart = false;          ///< go on from the checkpoint
   bool profile = false;          ///< show at the end where the time went
   bool trust_script = false;     ///< run a .geo script whatever it says
+  bool heat_only = false;        ///< heat alone, whatever the case says
+  bool coupled = false;          ///< heat and mechanics, whatever the case says
 };
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).
@@ -67,6 +69,14 @@ struct ExportArguments {
   bool trust_script = false;     ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);
+struct NewArguments {
+  std::string geometry, alloy, folder, symmetry, riser;
+  std::string process = "sand", unit = "mm";
+  std::vector<std::string> as;  ///< "NAME=role"
+  double fineness = 1;
+};
+/// From the geometry of a casting to a case that runs.
+ExitCode new_case(const NewArguments& arguments);
 ExitCode version();
 /// Writes schemas and rules for editors into a folder; empty: the present one.
 ExitCode init_editor(const std::string& folder);

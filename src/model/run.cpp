@@ -230,7 +230,7 @@ void check_restart(const CaseSpec& spec, const RunOptions& options) {
 
 }  // namespace
 
-CheckedRun check_run(const Case& c) {
+CheckedRun check_run(Case c) {
   Assembly a;
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
@@ -246,7 +246,7 @@ CheckedRun check_run(const Case& c) {
   return checked;
 }
 
-RunResult run_case(const Case& c, const RunOptions& options) {
+RunResult run_case(Case c, const RunOptions& options) {
   const double start = MPI_Wtime();
   check_restart(c.spec, options);
   Assembly a;

@@ -30,7 +30,7 @@ struct RunResult {
 /// Loads materials and mesh, builds the phases, runs and writes the results. Collective. Throws InputError
 /// for what the case or the place for the results has wrong, before anything is computed where that can be
 /// known.
-RunResult run_case(const Case& c, const RunOptions& options);
+RunResult run_case(Case c, const RunOptions& options);
 
 /// What a look at a case shows.
 struct CheckedRun {
@@ -41,6 +41,6 @@ struct CheckedRun {
 
 /// Everything that run_case does before it computes, but for the results folder. Collective. Throws
 /// InputError.
-CheckedRun check_run(const Case& c);
+CheckedRun check_run(Case c);
 
 }  // namespace solidus::model
