@@ -145,6 +145,13 @@ ExitCode parse_and_run(int argc, char** argv) {
   export_verb->add_option("--abaqus", exported.abaqus, "File for Abaqus: stress of the elements");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
   add_trust(*export_verb, exported.trust_script);
+  ReportArguments reported;
+  CLI::App* report_verb =
+      program.add_subcommand("report", "Write what runs left as one page that opens in any browser");
+  report_verb->add_option("RUN", reported.folders, "Folders of results; two are shown side by side")
+      ->required();
+  report_verb->add_option("-o,--output", reported.output,
+                          "The page; default report.html in the first folder");
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
   for (CLI::App* verb : program.get_subcommands({})) verb->fallthrough();
 
@@ -176,6 +183,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*mesh_verb) return mesh_info(arguments, unit);
   if (*materials_verb) return materials(name, arguments.output);
   if (*export_verb) return export_state(exported);
+  if (*report_verb) return write_report(reported);
   if (*version_verb) return version();
   return k_our_bug;
 }

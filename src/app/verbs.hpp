@@ -48,6 +48,12 @@ struct ExportArguments {
   bool trust_script = false;     ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);
+struct ReportArguments {
+  std::vector<std::string> folders;  ///< of runs
+  std::string output;                ///< the page; empty: report.html in the first folder
+};
+/// Not collective: one process reads and writes.
+ExitCode write_report(const ReportArguments& arguments);
 ExitCode version();
 
 }  // namespace solidus::app
