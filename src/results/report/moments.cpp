@@ -20,19 +20,21 @@ namespace {
 constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 
 /// Criteria of a casting: what they say at the end holds for the whole run (docs/guide/criteria.md).
-constexpr std::array<std::string_view, 13> k_at_end = {"solidified_at",
-                                                       "local_solidification_time",
-                                                       "cooling_rate",
-                                                       "thermal_gradient",
-                                                       "front_speed",
-                                                       "secondary_arm_spacing",
-                                                       "niyama",
-                                                       "dimensionless_niyama",
-                                                       "shrinkage_porosity",
-                                                       "distortion",
-                                                       "strain_in_liquid",
-                                                       "strain_since_coherency",
-                                                       "brittle_strain"};
+constexpr std::array<std::string_view, 13> k_criteria = {"solidified_at",
+                                                         "local_solidification_time",
+                                                         "cooling_rate",
+                                                         "thermal_gradient",
+                                                         "front_speed",
+                                                         "secondary_arm_spacing",
+                                                         "niyama",
+                                                         "dimensionless_niyama",
+                                                         "shrinkage_porosity",
+                                                         "distortion",
+                                                         "strain_in_liquid",
+                                                         "strain_since_coherency",
+                                                         "brittle_strain"};
+/// Fields of which the last moment is enough: they follow from others that the page has at every moment.
+constexpr std::array<std::string_view, 3> k_last_alone = {"conductance", "dissipation", "flow_stress"};
 /// Those among them in which zero is a value.
 constexpr std::array<std::string_view, 4> k_zero_counts = {"distortion", "strain_in_liquid",
                                                            "strain_since_coherency", "brittle_strain"};
@@ -56,10 +58,11 @@ void add_columns(const FieldFile::Piece& piece, bool of_elements, const std::set
     column.unit = results::array_unit(array);
     column.n_components = array.get<int>("<xmlattr>.NumberOfComponents", 1);
     column.of_elements = of_elements;
-    column.at_end = is_one_of(k_at_end, name);
+    const bool criterion = is_one_of(k_criteria, name);
+    column.at_end = criterion || is_one_of(k_last_alone, name);
     column.none_below_zero = name == "solidified_at";
-    column.none_at_zero = (column.at_end && !column.none_below_zero && !is_one_of(k_zero_counts, name)) ||
-                          name == "liquid_pool";
+    column.none_at_zero =
+        (criterion && !column.none_below_zero && !is_one_of(k_zero_counts, name)) || name == "liquid_pool";
     column.of_contact = contact_fields.contains(name);
     if (column.n_components == 1) {
       columns.push_back(column);
@@ -187,8 +190,8 @@ PackedValues pack(const std::vector<std::vector<float>>& moments, Blocks& blocks
   const Packed16 packed = pack16(moments);
   if (!packed.any) return {-2, -1, 0, 0};
   if (packed.uniform) return {-1, -1, packed.low, packed.high};
-  return {blocks.add(packed.words), packed.mask.empty() ? -1 : blocks.add(packed.mask), packed.low,
-          packed.high};
+  return {blocks.add(packed.words, Bytes::noise),
+          packed.mask.empty() ? -1 : blocks.add(packed.mask, Bytes::mask), packed.low, packed.high};
 }
 
 }  // namespace

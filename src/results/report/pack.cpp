@@ -13,11 +13,10 @@ namespace solidus::report {
 
 namespace {
 
-constexpr int k_level = 6;  // zlib's own default; 9 takes four times as long for a percent
-
-std::string deflated(std::string_view bytes) {
+std::string deflated(std::string_view bytes, Bytes like) {
   z_stream stream{};
-  if (deflateInit2(&stream, k_level, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY) != Z_OK)
+  if (deflateInit2(&stream, like == Bytes::mask ? 9 : 6, Z_DEFLATED, -MAX_WBITS, 9,
+                   like == Bytes::noise ? Z_RLE : Z_FILTERED) != Z_OK)
     throw std::bad_alloc();
   std::string out;
   std::vector<unsigned char> part(std::size_t{1} << 16);
@@ -73,8 +72,8 @@ Word zigzag(Word difference) {
 
 }  // namespace
 
-std::string packed_text(std::string_view bytes) {
-  return base64(deflated(bytes));
+std::string packed_text(std::string_view bytes, Bytes like) {
+  return base64(deflated(bytes, like));
 }
 
 std::string small_bytes(std::span<const std::int32_t> values) {
@@ -142,10 +141,13 @@ Packed16 pack16(const std::vector<std::vector<float>>& moments) {
   return out;
 }
 
-int Blocks::add(const std::string& bytes) {
-  texts_.push_back(packed_text(bytes));
-  size_ += texts_.back().size();
-  return static_cast<int>(texts_.size()) - 1;
+int Blocks::add(const std::string& bytes, Bytes like) {
+  std::string text = packed_text(bytes, like);
+  const auto [found, is_new] = number_.try_emplace(text, static_cast<int>(texts_.size()));
+  if (!is_new) return found->second;
+  size_ += text.size();
+  texts_.push_back(std::move(text));
+  return found->second;
 }
 
 }  // namespace solidus::report

@@ -62,7 +62,7 @@ function options(spec: ChartSpec, width: number): uPlot.Options {
     legend: { live: true },
     axes: [
       { ...axis, label: `${spec.xLabel ?? "Time"} [${spec.xUnit ?? "s"}]`, size: 28 },
-      { ...axis, size: 58, values: (_u, ticks) => ticks.map((v) => (v === null ? "" : short(v))) },
+      { ...axis, size: (_u, ticks) => 16 + 6.6 * Math.max(3, ...(ticks ?? []).map((t) => t.length)), values: (_u, ticks) => ticks.map((v) => (v === null ? "" : short(v))) },
     ],
     series: [
       { label: spec.xLabel ?? "Time", value: (_u, v) => (v === null || v === undefined ? "–" : `${short(v)} ${spec.xUnit ?? "s"}`) },
@@ -122,14 +122,33 @@ export function chart(spec: ChartSpec): HTMLElement {
     entry = { plot: new uPlot(options(spec, width), joined(spec.lines), box), spec };
     made.add(entry);
   };
-  redraws.add(draw);
+  let near = false;
+  const sight = new IntersectionObserver((seen) => {
+    if (!seen.some((e) => e.isIntersecting)) return;
+    near = true;
+    sight.disconnect();
+    draw();
+  }, { rootMargin: "600px" });
+  sight.observe(box);
   new ResizeObserver(() => {
-    if (!entry) draw();
-    else if (box.clientWidth > 10 && Math.abs(entry.plot.width - box.clientWidth) > 1)
+    if (near && !entry) draw();
+    else if (entry && box.clientWidth > 10 && Math.abs(entry.plot.width - box.clientWidth) > 1)
       entry.plot.setSize({ width: box.clientWidth, height: spec.height ?? 230 });
   }).observe(box);
+  const redraw = () => {
+    if (near) draw();
+  };
+  redraws.add(redraw);
+  const atOnce = () => {
+    if (entry) return;
+    near = true;
+    draw();
+  };
+  everything.add(atOnce);
   drop.set(card, () => {
-    redraws.delete(draw);
+    redraws.delete(redraw);
+    everything.delete(atOnce);
+    sight.disconnect();
     if (entry) {
       made.delete(entry);
       entry.plot.destroy();
@@ -137,9 +156,13 @@ export function chart(spec: ChartSpec): HTMLElement {
   });
   return card;
 }
-const redraws = new Set<() => void>();
+const redraws = new Set<() => void>(), everything = new Set<() => void>();
 const drop = new WeakMap<HTMLElement, () => void>();
 
+/** Everything, for the printer. */
+export function drawAllCharts(): void {
+  for (const draw of everything) draw();
+}
 /** Colours follow the theme. */
 export function redrawCharts(): void {
   for (const draw of redraws) draw();

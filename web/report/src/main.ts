@@ -1,6 +1,6 @@
 /** The page: reads its data, builds the sections, joins picture, curves and keys. */
 import { byId, h } from "./dom";
-import { onTimePicked, redrawCharts } from "./charts";
+import { drawAllCharts, onTimePicked, redrawCharts } from "./charts";
 import { Page } from "./run";
 import { Workbench } from "./workbench";
 import { buildHead, buildSections } from "./sections";
@@ -38,6 +38,7 @@ function start(): void {
   const page = new Page();
   const bench = new Workbench(page);
   buildHead(page, bench);
+  bench.begin();
   const nav: [string, string][] = [["top", "Summary"]];
   if (bench.ready) nav.push(["view", "Picture"]);
   nav.push(...buildSections(page, bench));
@@ -56,12 +57,17 @@ function start(): void {
     bench.update();
   });
   byId("print").addEventListener("click", () => window.print());
-  addEventListener("beforeprint", () => document.querySelectorAll<HTMLDetailsElement>("main details").forEach((d) => (d.open = true)));
+  addEventListener("beforeprint", () => {
+    document.querySelectorAll<HTMLDetailsElement>("main details").forEach((d) => (d.open = true));
+    drawAllCharts();
+  });
   (window as unknown as { solidus: unknown }).solidus = { page, bench };
 }
 
 try {
+  performance.mark("start");
   start();
+  performance.mark("built");
 } catch (error) {
   const box = byId("failure");
   box.hidden = false;

@@ -65,7 +65,7 @@ export function labelOf(name: string): string {
 
 /** Groups of fields in their menu. */
 export function groupOf(name: string, atEnd: boolean): string {
-  if (atEnd || name === "liquid_pool") return "Criteria";
+  if ((atEnd && !/conductance|dissipation|flow_stress/.test(name)) || name === "liquid_pool") return "Criteria";
   if (/temperature|solid_fraction/.test(name)) return "Heat";
   if (/gap|contact|conductance|friction|slip|wear|internal_variable|interface/.test(name)) return "Contact";
   return "Mechanics";
@@ -103,7 +103,7 @@ export function duration(seconds: number): string {
 
 /** Coordinates in mm. */
 export function place(x: ArrayLike<number>, dimension = 3): string {
-  return `(${Array.from(x).slice(0, dimension).map((v) => String(+(v * 1e3).toPrecision(4)).replace("-", "−")).join(", ")}) mm`;
+  return `(${Array.from(x).slice(0, dimension).map((v) => String(+(v * 1e3).toPrecision(3)).replace("-", "−")).join(", ")}) mm`;
 }
 
 /** "degC" of the tables as "°C". */

@@ -78,6 +78,11 @@ export class Body {
     });
     return (this.kept.x = x);
   }
+  /** Least and greatest coordinates: those of the packed axes. */
+  get box(): [[number, number, number], [number, number, number]] {
+    const axes = this.meta.points.map((axis) => new Values(axis, this.n, 1));
+    return [axes.map((a) => a.low), axes.map((a) => a.high)] as [[number, number, number], [number, number, number]];
+  }
   /** Numbers of the nodes in the mesh file. */
   get numbers(): Int32Array {
     return (this.kept.numbers ??= risingNumbers(this.meta.numbers));

@@ -58,23 +58,23 @@ function figures(): Figure[] {
   };
   return [
     { label: "Freezes last", ...of("solidified_at", "max", (v) => duration(v)) },
-    { label: "Longest local solidification", ...of("local_solidification_time", "max", (v) => duration(v)) },
+    { label: "Longest local freezing", ...of("local_solidification_time", "max", (v) => duration(v)) },
     { label: "Least Niyama", ...of("niyama", "min", (v, u) => withUnit(v, u)) },
-    { label: "Largest porosity (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
+    { label: "Porosity, largest (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
     { label: "Pools closed off", text: (r) => (typeof r.summary.criteria?.closed_off_pools === "number" ? String(r.summary.criteria.closed_off_pools) : undefined) },
-    { label: "Largest von Mises at the end", ...largest("von_mises") },
-    { label: "Largest plastic strain", ...largest("equivalent_plastic_strain") },
-    { label: "Temperatures at the end", text: (r) => {
+    { label: "Von Mises at the end", ...largest("von_mises") },
+    { label: "Plastic strain at the end", ...largest("equivalent_plastic_strain") },
+    { label: "At the end", text: (r) => {
       const low = final(r, "T_min[degC]"), high = final(r, "T_max[degC]");
       return low !== undefined && high !== undefined ? `${short(low)} … ${short(high)} °C` : undefined;
     } },
-    { label: "First law, missing", text: (r) => (typeof r.summary.relative_energy_defect === "number" ? short(r.summary.relative_energy_defect) : undefined) },
-    { label: "Steps", text: (r) => (r.summary.steps !== undefined ? `${r.summary.steps}${r.summary.rejected_steps ? ` + ${r.summary.rejected_steps} rejected` : ""}` : undefined) },
-    { label: "Computing time", text: (r) => {
-      const total = r.summary["profile[s]"]?.total ?? r.summary.seconds?.run;
-      return total === undefined ? undefined : duration(total);
-    } },
   ];
+}
+
+/** "178.5 MPa" with a small unit; times stay as they are. */
+function bold(text: string): HTMLElement {
+  const match = /^([−\d.…·⁰¹²³⁴⁵⁶⁷⁸⁹⁻ ]+) (\D.*)$/.exec(text);
+  return match && !/ (min|h) /.test(text) ? h("b", {}, match[1], h("i", {}, ` ${match[2]}`)) : h("b", {}, text);
 }
 
 function reached(run: Run): number {
@@ -93,7 +93,7 @@ export function buildHead(page: Page, bench: Workbench): void {
     const size = run.bodies.reduce((n, b) => n + b.n, 0);
     head.append(h("p", { class: "run-line" },
       h("span", { class: `badge ${finished ? "good" : "bad"}` }, outcome === undefined ? "not ended" : finished ? "finished" : "stopped"), " ",
-      [run.meta.name, kindText(run), `${duration(reached(run))} simulated`, size ? `${size.toLocaleString("en")} nodes` : ""].filter(Boolean).join(" · ")));
+      [run.meta.name, kindText(run), `${duration(reached(run))} simulated`, computed(run), size ? `${size.toLocaleString("en")} nodes` : ""].filter(Boolean).join(" · ")));
     if (outcome !== undefined && !finished) head.append(h("div", { class: "notice bad" }, `${run.meta.name}: ${outcome}`));
   }
   const box = h("div", { class: "figures" });
@@ -101,7 +101,7 @@ export function buildHead(page: Page, bench: Workbench): void {
     const texts = page.runs.map((r) => figure.text(r));
     if (texts.every((t) => t === undefined)) continue;
     const at = figure.place?.(page.runs[0]);
-    const content: Node_[] = [h("span", {}, figure.label), ...texts.map((t) => h("b", {}, t ?? "–"))];
+    const content: Node_[] = [h("span", {}, figure.label), ...texts.map((t) => bold(t ?? "–"))];
     if (at && bench.ready)
       box.append(h("button", { class: "figure", title: "Show it in the picture", click: () => bench.fly(at.at, at.label) }, ...content, h("em", {}, `${place(at.at, page.runs[0].dimension)}  ↗`)));
     else box.append(h("div", { class: "figure" }, ...content));
@@ -111,9 +111,19 @@ export function buildHead(page: Page, bench: Workbench): void {
     const warnings = [...(run.summary.warnings ?? []), ...run.meta.notes];
     if (!warnings.length) continue;
     head.append(h("div", { class: "notice", id: run === page.runs[0] ? "warnings" : undefined },
-      h("b", {}, page.runs.length > 1 ? `${run.meta.name}: ` : "", warnings.length === 1 ? "One warning" : `${warnings.length} warnings`),
-      h("ul", {}, ...warnings.map((w) => h("li", {}, w)))));
+      h("details", { open: warnings.length === 1 },
+        h("summary", {}, h("b", {}, page.runs.length > 1 ? `${run.meta.name}: ` : "", warnings.length === 1 ? "One warning" : `${warnings.length} warnings`)),
+        h("ul", {}, ...warnings.map((w) => h("li", {}, w))))));
   }
+}
+
+/** What it took, and how well the first law held. */
+function computed(run: Run): string {
+  const s = run.summary, total = s["profile[s]"]?.total ?? s.seconds?.run, defect = s.relative_energy_defect;
+  return [
+    s.steps !== undefined ? `${s.steps} steps${s.rejected_steps ? ` and ${s.rejected_steps} rejected` : ""}${total !== undefined ? ` in ${duration(total)}` : ""}` : "",
+    typeof defect === "number" ? `first law right to ${short(Math.abs(defect))}` : "",
+  ].filter(Boolean).join(" · ");
 }
 
 function kindText(run: Run): string {
@@ -174,7 +184,7 @@ function linesOf(page: Page, tableName: string, header: string, colour: number, 
 }
 
 function headersOf(page: Page, tableName: string): string[] {
-  return [...new Set(page.runs.flatMap((r) => r.table(tableName)?.headers ?? []))].filter((x) => !x.startsWith("time["));
+  return [...new Set(page.runs.flatMap((r) => r.table(tableName)?.headers ?? []))].filter((x) => !/^(time|stage|cycle)\[/.test(x));
 }
 
 function curves(page: Page): Node_[] {
@@ -303,7 +313,7 @@ function gantt(pools: { number: number; from: number; to: number; closed: number
   const height = shown.length * row + 30;
   const ticks = [0, 0.25, 0.5, 0.75, 1].map((s) => s * end);
   return svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "gantt", role: "img", "aria-label": "Life of the pools: orange fed, red closed off" },
-    ...ticks.flatMap((t) => [svg("line", { x1: at(t), x2: at(t), y1: 0, y2: height - 22 }), svg("text", { x: at(t), y: height - 6, class: "axis", "text-anchor": "middle" }, duration(t))]),
+    ...ticks.flatMap((t) => [svg("line", { x1: at(t), x2: at(t), y1: 0, y2: height - 22 }), svg("text", { x: at(t), y: height - 6, class: "axis", "text-anchor": t === end ? "end" : "middle" }, duration(t))]),
     ...shown.flatMap((p, i) => {
       const y = i * row + 4, stop = p.frozen >= 0 ? p.frozen : p.to, open = p.closed >= 0 ? Math.min(p.closed, stop) : stop;
       return [

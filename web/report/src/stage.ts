@@ -164,7 +164,7 @@ export class Stage {
     const length = [5, 2, 1].map((k) => k * power).find((l) => l <= wish) ?? power;
     const width = length / metres;
     this.rule.style.width = `${width}px`;
-    this.rule.textContent = `${short(length * 1e3)} mm`;
+    this.rule.replaceChildren(h("span", {}, `${short(length * 1e3)} mm`));
   }
 
   /** The scale of colours, with its title, unit and what the elements say. */

@@ -1,7 +1,7 @@
 /** The picture of one run. */
 import {
   BufferAttribute, BufferGeometry, DataTexture, DoubleSide, GLSL3, LineSegments, Mesh, RGBAFormat, Scene, ShaderMaterial,
-  Vector3, Vector4, WebGLRenderer,
+  Vector2, Vector3, Vector4, WebGLRenderer,
 } from "three";
 import { Camera } from "./camera";
 import { colourTable } from "./colours";
@@ -213,11 +213,9 @@ export class View {
     const consider = (any: boolean) =>
       this.run.bodies.forEach((body, b) => {
         if (!any && this.state(b) === "hidden") return;
-        const x = body.x;
-        for (let i = 0; i < x.length; i += 3) {
-          low.min(new Vector3(x[i], x[i + 1], x[i + 2]));
-          high.max(new Vector3(x[i], x[i + 1], x[i + 2]));
-        }
+        const [l, u] = body.box;
+        low.min(new Vector3(...l));
+        high.max(new Vector3(...u));
       });
     consider(false);
     if (!(low.x <= high.x)) consider(true);
@@ -319,6 +317,8 @@ export class View {
 
   resize(): void {
     const box = this.canvas.parentElement!.getBoundingClientRect();
+    const size = this.renderer.getSize(new Vector2());
+    if (size.x === Math.max(1, box.width) && size.y === Math.max(1, box.height)) return;
     this.renderer.setSize(Math.max(1, box.width), Math.max(1, box.height), false);
     this.request();
   }
@@ -334,6 +334,7 @@ export class View {
     const w = this.canvas.clientWidth, h = this.canvas.clientHeight;
     this.camera.apply(w, h);
     this.renderer.render(this.scene, this.camera.three);
+    performance.mark("drawn");
     this.drawn();
   }
 

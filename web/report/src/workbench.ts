@@ -24,7 +24,8 @@ export class Workbench {
   private playing = 0;
   private times: number[] = [];
   private fixedRange = false;
-  private ofMoment = false;
+  private ofMoment = true;
+  private scaleChosen = false;
   private panelParts: { refresh(): void }[] = [];
   private probeCards: HTMLElement[] = [];
   private lastHit?: { run: number; hit: Hit };
@@ -44,12 +45,17 @@ export class Workbench {
       this.stages.push(stage);
       byId("stages").append(stage.root);
     }
-    this.camera.flat = this.flat;
-    this.fit();
     this.timebar();
     this.panel();
     this.keys();
+  }
+  /** The first picture, once the page has the room for it. */
+  begin(): void {
+    if (!this.ready) return;
+    for (const stage of this.stages) stage.view.resize();
+    this.fit();
     this.update();
+    for (const stage of this.stages) stage.view.render();
   }
 
   get run(): Run {
@@ -75,8 +81,7 @@ export class Workbench {
     c.time = this.times[Math.max(0, this.firstTelling())];
     const field = ["temperature", "von_mises", "displacement"].find((id) => this.run.fields.some((f) => f.id === id)) ?? this.run.fields[0]?.id ?? "";
     c.field = field;
-    const [low, high] = this.run.displacement.length ? this.displacementRange() : [0, 0];
-    void low;
+    const high = this.run.displacement.length ? this.displacementRange()[1] : 0;
     const size = this.sizeOfBodies();
     // Drawn as it is unless that cannot be seen: then so that the largest is a thirtieth of the body.
     const wanted = high > 0 ? size / 30 / high : 0;
@@ -120,13 +125,14 @@ export class Workbench {
     let low = Infinity, high = -Infinity;
     for (const run of this.runs)
       for (const b of this.visibleBodies(run)) {
-        const x = run.bodies[b].x;
-        for (let i = axis; i < x.length; i += 3) {
-          if (x[i] < low) low = x[i];
-          if (x[i] > high) high = x[i];
-        }
+        const [l, u] = run.bodies[b].box;
+        low = Math.min(low, l[axis]);
+        high = Math.max(high, u[axis]);
       }
     return low <= high ? [low, high] : [0, 1];
+  }
+  private extents(): string {
+    return [0, 1, 2].map((i) => this.extent(i).join()).join();
   }
   private visibleBodies(run: Run): number[] {
     const some = run.bodies.flatMap((b, i) => ((this.choice.shown.get(b.name) ?? "shown") !== "hidden" ? [i] : []));
@@ -185,7 +191,7 @@ export class Workbench {
   private legendNote(stage: Stage): (Node | string)[] {
     const field = stage.view.field, run = stage.view.run;
     if (!field) return [];
-    if (field.atEnd) return ["of the whole run: the same at every moment"];
+    if (field.atEnd) return [field.group === "Criteria" ? "of the whole run: the same at every moment" : "at the end of the run alone"];
     if (!field.ofElements) return [];
     const bodies = this.shownBodies(run);
     const all = field.extremes(stage.view.moment).filter((e) => bodies.includes(e.body));
@@ -223,6 +229,8 @@ export class Workbench {
       clearInterval(this.playing);
       this.playing = 0;
     } else {
+      // What moves is read on a scale that stands still.
+      if (!this.scaleChosen) this.ofMoment = false;
       if (this.timeIndex() === this.times.length - 1) this.goTo(this.times[0]);
       this.playing = window.setInterval(() => {
         if (this.timeIndex() === this.times.length - 1) this.play();
@@ -444,6 +452,7 @@ export class Workbench {
     const how = ["Run", "Moment"].map((text, i) => h("button", { title: i ? "Scale of the present moment" : "Scale of the whole run", click: () => {
       this.fixedRange = false;
       this.ofMoment = i === 1;
+      this.scaleChosen = true;
       this.update();
     } }, text));
     const log = h("input", { type: "checkbox", change: () => this.change((ch) => (ch.log = log.checked)) });
@@ -467,7 +476,11 @@ export class Workbench {
     const names = [...new Set(this.runs.flatMap((r) => r.bodies.map((b) => b.name)))];
     const states: [Shown, string][] = [["shown", "Show"], ["ghost", "Ghost"], ["hidden", "Hide"]];
     const rows = names.map((name) => {
-      const buttons = states.map(([state, text]) => h("button", { "data-body": name, "data-state": state, click: () => this.change((ch) => ch.shown.set(name, state)) }, text));
+      const buttons = states.map(([state, text]) => h("button", { "data-body": name, "data-state": state, click: () => {
+        const before = this.extents();
+        this.change((ch) => ch.shown.set(name, state));
+        if (this.extents() !== before) this.fit();
+      } }, text));
       const material = this.runs.flatMap((r) => r.bodies).find((b) => b.name === name)?.material ?? "";
       return { name, buttons, row: h("div", {}, h("span", { title: `${name}: ${material}` }, name), h("div", { class: "choice" }, ...buttons)) };
     });
