@@ -66,7 +66,7 @@ function figures(): Figure[] {
     { label: "Plastic strain at the end", ...largest("equivalent_plastic_strain") },
     { label: "At the end", text: (r) => {
       const low = final(r, "T_min[degC]"), high = final(r, "T_max[degC]");
-      return low !== undefined && high !== undefined ? `${short(low)} … ${short(high)} °C` : undefined;
+      return low !== undefined && high !== undefined ? (Math.abs(high - low) < 0.5 ? `${short(Math.round(high))} °C` : `${+low.toFixed(1)} … ${+high.toFixed(1)} °C`.replace(/-/g, "−")) : undefined;
     } },
   ];
 }
@@ -164,7 +164,7 @@ export function buildSections(page: Page, bench: Workbench): [string, string][] 
 
 const ENERGIES = new Set(["stored_heat", "heat_in", "structural_energy", "work", "contact_energy", "numerical_dissipation", "kinetic_energy", "viscous_dissipation", "plastic_work", "plastic_dissipation", "hardening_energy", "heat_exchanged"]);
 const OTHER_AUDITS = new Set(["energy_defect", "lyapunov", "lyapunov_mechanical", "lyapunov_thermal", "entropy", "entropy_production"]);
-const QUANTITY: Record<string, string> = { degC: "Temperatures", K: "Temperatures", mm: "Lengths", um: "Lengths", m: "Lengths", W: "Heat flow", N: "Forces", kN: "Forces", "1": "Fractions", percent: "Strains and shares", MPa: "Stresses", Pa: "Stresses", J: "Energies", "N m": "Moments" };
+const QUANTITY: Record<string, string> = { degC: "Temperatures", K: "Temperatures", mm: "Lengths", um: "Lengths", m: "Lengths", W: "Heat flow", N: "Forces", kN: "Forces", "1": "Fractions", counts: "Numbers", percent: "Strains and shares", MPa: "Stresses", Pa: "Stresses", J: "Energies", "N m": "Moments" };
 
 function split(header: string): { name: string; unit: string } {
   const match = /^(.*)\[(.*)\]$/.exec(header);
@@ -199,14 +199,17 @@ function curves(page: Page): Node_[] {
       silent.push(name.replace(/_/g, " "));
       continue;
     }
-    groups.set(unit, [...(groups.get(unit) ?? []), header]);
+    // Numbers of things would flatten shares.
+    const counts = unit === "1" && columns.some((c) => Array.prototype.some.call(c, (v: number) => Math.abs(v) > 1.5));
+    const group = counts ? "counts" : unit;
+    groups.set(group, [...(groups.get(group) ?? []), header]);
   }
   const cards: Node[] = [];
   for (const [unit, headers] of groups) {
     const size = unit === "N" || unit === "J" || unit === "N m" ? 5 : 8;
     for (let i = 0; i < headers.length; i += size) {
       const lines = headers.slice(i, i + size).flatMap((header, k) => linesOf(page, "history", header, k, unit === "degC" && /^T_(min|max)\[/.test(header) && headers.length > 4));
-      cards.push(chart({ title: QUANTITY[unit] ?? unitText(unit), unit: unitText(unit), lines, time: true }));
+      cards.push(chart({ title: QUANTITY[unit] ?? unitText(unit), unit: unit === "counts" ? "" : unitText(unit), lines, time: true }));
     }
   }
   return cards.length ? [

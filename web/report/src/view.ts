@@ -58,7 +58,7 @@ out vec4 colour;
 void main() {
   if (cutting && dot(vPlace, cut.xyz) > cut.w) discard;
   bool there = vThere > 0.999;
-  if (onlyOn && style != 3 && (!there || vValue < only.x || vValue > only.y)) discard;
+  if (onlyOn && style != 2 && style != 3 && (!there || vValue < only.x || vValue > only.y)) discard;
   if (style == 4) { colour = vec4(plain, opacity); return; }
   if (style == 3) {
     float rim = 1.0 - abs(normalize(vNormal).z);
@@ -383,7 +383,8 @@ export class View {
         if (cutting && !isCap && place[0] * c.cut.normal[0] + place[1] * c.cut.normal[1] + place[2] * c.cut.normal[2] > c.cut.at) continue;
         const there = corners.every((q) => d.value[q] > NONE / 10);
         const value = there ? mix((q) => d.value[q]) : NaN;
-        if (c.only.on && !(value >= c.only.low && value <= c.only.high)) continue;
+        const isLevel = (object as Mesh).material === this.materials[2];
+        if (c.only.on && !isLevel && !(value >= c.only.low && value <= c.only.high)) continue;
         let node = d.shape.a[i], least = Infinity;
         const x = this.run.bodies[d.body].x;
         for (const q of corners)

@@ -180,7 +180,7 @@ export class Workbench {
     for (const stage of this.stages) {
       stage.marks = this.marks;
       stage.view.update();
-      stage.showLegend(this.fixedRange ? "as set" : this.ofMoment ? "of this moment" : "of the run", this.legendNote(stage));
+      stage.showLegend(this.fixedRange ? "as set" : this.ofMoment && !stage.view.field?.atEnd ? "of this moment" : "of the run", this.legendNote(stage));
     }
     const index = this.timeIndex();
     byId<HTMLInputElement>("time").value = String(index);
@@ -271,9 +271,9 @@ export class Workbench {
     }
     const stage = this.stages[0].root.getBoundingClientRect();
     const aspect = stage.width > 0 ? stage.width / Math.max(1, stage.height) : 1.5;
-    c.half = Math.max(halfHeight * 1.22, (halfWidth / aspect) * 1.12) || 1;
+    c.half = Math.max(halfHeight * 1.3, (halfWidth / aspect) * 1.1) || 1;
     // The legend lies below: what is shown moves up by a little.
-    c.target.add(new Vector3(0, -c.half * 0.08, 0).applyQuaternion(c.turn));
+    c.target.add(new Vector3(0, -c.half * 0.12, 0).applyQuaternion(c.turn));
     this.redraw();
   }
   look(direction: [number, number, number]): void {
