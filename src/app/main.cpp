@@ -229,6 +229,13 @@ ExitCode parse_and_run(int argc, char** argv) {
   new_verb->add_option("--fineness", fresh.fineness,
                        "So many times as many elements along each edge; default 1");
   new_verb->add_option("-o,--output", fresh.folder, "Folder for the case; default the file's name, here");
+  ReportArguments reported;
+  CLI::App* report_verb =
+      program.add_subcommand("report", "Write what runs left as one page that opens in any browser");
+  report_verb->add_option("RUN", reported.folders, "Folders of results; two are shown side by side")
+      ->required();
+  report_verb->add_option("-o,--output", reported.output,
+                          "The page; default report.html in the first folder");
   CLI::App* version_verb = program.add_subcommand("version", "Print versions");
   const PythonVerbs python(program);
   std::string verb_name, shell, editor_folder;
@@ -279,6 +286,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*materials_verb) return materials(name, arguments.output);
   if (*export_verb) return export_state(exported);
   if (*new_verb) return new_case(fresh);
+  if (*report_verb) return write_report(reported);
   if (*version_verb) return version();
   if (*help_verb) {
     // help() of the program itself would tell of this verb, which was asked for.

@@ -77,6 +77,12 @@ struct NewArguments {
 };
 /// From the geometry of a casting to a case that runs.
 ExitCode new_case(const NewArguments& arguments);
+struct ReportArguments {
+  std::vector<std::string> folders;  ///< of runs
+  std::string output;                ///< the page; empty: report.html in the first folder
+};
+/// Not collective: one process reads and writes.
+ExitCode write_report(const ReportArguments& arguments);
 ExitCode version();
 /// Writes schemas and rules for editors into a folder; empty: the present one.
 ExitCode init_editor(const std::string& folder);
