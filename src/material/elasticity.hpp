@@ -62,15 +62,20 @@ PointDerivatives<T> derivatives_at(const Material& material, const T& temperatur
 template <class T>
 PointCurvatures<T> curvatures_at(const Material& material, const T& temperature);
 
-/// R(Θ) = ½ k (e^θ)², which completes the square W + M + R = ½ k (tr ε − e^θ)² + ... of a material whose
-/// specific heat is that at constant pressure: free of stress nothing but sensible heat is left. Zero where
-/// it is that at constant strain. A function of the temperature alone: no stress depends on it.
+/// The part of W + M + R that holds the volume: the square ½ k (tr ε − e^θ)² of a material whose specific
+/// heat is that at constant pressure, R(Θ) = ½ k (e^θ)², so that what is free of stress stores nothing but
+/// sensible heat; ½ k tr² − k e^θ tr where it is that at constant strain, R = 0 (2.49a, 2.49b). R depends on
+/// the temperature alone: stresses are the same in both.
 /// @param bulk, thermal_strain  k and e^θ, T a number or a Jet in temperature
-template <class T>
-[[gnu::always_inline]] inline T expansion_energy(const Material& material, const T& bulk,
-                                                 const T& thermal_strain) {
-  if (material.specific_heat_at == SpecificHeatAt::constant_strain) return T(0.0);
-  return T(0.5) * bulk * thermal_strain * thermal_strain;
+/// @param trace                 tr ε
+template <class T, class Trace>
+[[gnu::always_inline]] inline T volumetric_energy(const Material& material, const T& bulk,
+                                                  const T& thermal_strain, const Trace& trace) {
+  const T tr(trace), half(0.5);
+  if (material.specific_heat_at == SpecificHeatAt::constant_strain)
+    return bulk * tr * (half * tr - thermal_strain);
+  const T elastic = tr - thermal_strain;
+  return half * bulk * elastic * elastic;
 }
 
 }  // namespace solidus::material

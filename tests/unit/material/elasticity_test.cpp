@@ -84,7 +84,8 @@ template <class T>
 T free_energy(const Material& m, const T& temperature, double strain_trace, double deviator_norm_squared) {
   const auto p = properties_at(m, temperature, T(k_initial));
   const T w = 0.5 * p.bulk * strain_trace * strain_trace + p.shear / p.solid_fraction * deviator_norm_squared;
-  return w - p.bulk * p.thermal_strain * strain_trace + expansion_energy(m, p.bulk, p.thermal_strain);
+  return w - 0.5 * p.bulk * strain_trace * strain_trace +
+         volumetric_energy(m, p.bulk, p.thermal_strain, strain_trace);
 }
 
 TEST(StructuralState, EntropyEnergyAndCapacityAreDerivativesOfTheFreeEnergyAtFixedElasticStrain) {

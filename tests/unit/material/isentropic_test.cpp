@@ -111,9 +111,7 @@ double frozen_entropy(const Material& m, const Viscoplastic::State<double>& stat
     const auto p = properties_at(solid, t, T(k_start_temperature));
     const T spring = f > 0 ? T(p.shear * T(1.0 / f)) : T(0.0);
     const T tr(trace(strain));
-    return T(T(0.5) * p.bulk * tr * tr + spring * T(dot(e, e)) -
-             p.bulk * (p.thermal_strain + T(straining)) * tr +
-             expansion_energy(m, p.bulk, T(p.thermal_strain + T(straining))) +
+    return T(volumetric_energy(m, p.bulk, T(p.thermal_strain + T(straining)), tr) + spring * T(dot(e, e)) +
              hardening_potential<T>(*m.flow, flow_properties_at(*m.flow, t), T(state.hardening),
                                     T(dot(state.back_strain, state.back_strain))));
   };

@@ -275,6 +275,29 @@ TEST_F(MaterialOnDisk, TakesFromTheMaterialThatItIsLikeWhatItDoesNotGive) {
   EXPECT_EQ(m.phase_changes.size(), 1u);
 }
 
+TEST_F(MaterialOnDisk, RefusesASpecificHeatThatExpansionAloneExceeds) {
+  const std::string card = R"(
+density = "7800 kg/m3"
+conductivity = "40 W/m/K"
+specific_heat = "500 J/kg/K"
+young_modulus = "200 GPa"
+poisson_ratio = 0.3
+expansion = "1.2e-4 1/K"
+)";
+  write("swelling.toml", card);  // ten times that of steel
+  try {
+    load_material(folder_ / "swelling.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is less than what expansion against its stiffness takes up"),
+              std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("[[phase_change]]"), std::string::npos) << error.what();
+  }
+  write("held.toml", card + "specific_heat_at = \"constant_strain\"\n");
+  EXPECT_EQ(load_material(folder_ / "held.toml").specific_heat_at, SpecificHeatAt::constant_strain);
+}
+
 const std::string k_plastic_child = "like = \"aluminium_99_7_plastic\"\n[plasticity]\n";
 
 TEST_F(MaterialOnDisk, TakesPlasticityKeyByKey) {
