@@ -32,16 +32,39 @@ def _axes(title, clock, y_label):
 BESIDE = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0), "borderaxespad": 0}
 
 
-def _legend(axes, count):
-    axes.legend(**(BESIDE if count > 5 else {"loc": "best"}))
+MOST_LINES = 7  # in a panel
+SMALL = 0.03  # share of the largest line of a panel below which another one would be flat
+SAME = 0.004  # share of a panel's range within which lines hide each other
 
 
-def _by_size(history, headers):
-    """Columns that would be flat lines beside the largest ones get a panel of their own."""
+def _panels(history, headers):
+    """Columns of a unit in panels in which none hides: lists of columns that are of one size, each a list of those
+    that are the same line."""
     peak = {header: np.abs(history[header]).max(initial=0.0) for header in headers}
-    small = [header for header in headers if 0 < peak[header] < 0.03 * max(peak.values())]
-    large = [header for header in headers if header not in small]
-    return [large, small] if small else [large]
+    left, panels = list(headers), []
+    while left:
+        largest = max(peak[header] for header in left)
+        taken = [header for header in left if peak[header] >= SMALL * largest or peak[header] == 0.0]
+        left = [header for header in left if header not in taken]
+        values = np.concatenate([history[header] for header in taken])
+        reach, lines = SAME * (np.ptp(values) if values.size else 0.0), []
+        for header in taken:
+            same = next((line for line in lines
+                         if np.abs(history[line[0]] - history[header]).max(initial=0.0) <= reach), None)
+            if same is not None:
+                same.append(header)
+            else:
+                lines.append([header])
+        count = -(-len(lines) // MOST_LINES)  # panels of about as many lines each
+        size = -(-len(lines) // count)
+        panels += [lines[start:start + size] for start in range(0, len(lines), size)]
+    return panels
+
+
+def _together(headers):
+    """The name of a line that stands for several columns."""
+    names = [Table.name(header).replace("_", " ") for header in headers]
+    return " = ".join(names[:3]) + (f" = … ({len(names)})" if len(names) > 3 else "")
 
 
 def unit_groups(history, folder):
@@ -49,16 +72,16 @@ def unit_groups(history, folder):
     files, clock = [], Clock(history["time[s]"])
     for unit, headers in history.by_unit().items():
         quantity = style.QUANTITY.get(unit, "Value")
-        panels = _by_size(history, headers)
+        panels = _panels(history, headers)
         figure, axes = plt.subplots(len(panels), 1, figsize=(5.6, 1.2 + 2.4 * len(panels)), sharex=True,
                                     squeeze=False)
-        for panel, members in zip(axes[:, 0], panels):
-            for header in members:
-                panel.plot(clock(history["time[s]"]), history[header], label=Table.name(header).replace("_", " "),
-                           **style.line_style(headers.index(header)))
+        for panel, lines in zip(axes[:, 0], panels):
+            for index, members in enumerate(lines):
+                panel.plot(clock(history["time[s]"]), history[members[0]], label=_together(members),
+                           **style.line_style(index))
             panel.set_ylabel(style.axis_label(quantity, unit))
             panel.margins(x=0)
-            _legend(panel, len(headers))
+            panel.legend(**BESIDE)
         axes[0, 0].set_title(f"History: {quantity.lower()}", loc="left")
         axes[-1, 0].set_xlabel(clock.label)
         figure.align_ylabels()

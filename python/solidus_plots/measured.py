@@ -110,7 +110,7 @@ def main(arguments=None):
         if spec_file is None:
             summary = json.loads((options.results / "summary.json").read_text())
             spec_file = find_spec(options.results, summary)
-        for spec in read_spec(spec_file).get("measured", []):
+        for spec in read_spec(spec_file)[0].get("measured", []):
             comparison = Comparison(spec, options.results, spec_file)
             best, used = comparison.best_shift(), spec.get("shift", 0.0)
             print(f"{spec['file']}: shift {used:g}: {comparison.total(used):.2f} over all points; "

@@ -60,7 +60,7 @@ class Moments:
 
 def values(grid, spec, cells=None):
     """Values of the field that a picture asks for, in its unit: "point_data" or "cell_data", and the array; nan
-    where they are not `above` what it says. `smooth`: values of the cells of a mask averaged at their nodes."""
+    where they are not `above` or `below` what it says. `smooth`: values of the cells of a mask averaged at their nodes."""
     name, component = spec["field"], spec.get("component")
     for kind in ("point_data", "cell_data"):
         if name in getattr(grid, kind):
@@ -72,8 +72,10 @@ def values(grid, spec, cells=None):
                 found = np.linalg.norm(found, axis=1) if component is None else found[:, component]
             if spec.get("smooth", False) and kind == "cell_data":
                 kind, found = "point_data", _at_nodes(grid, found, cells)
-            found = style.convert(found, _written_unit(grid, name), spec.get("unit", ""))
-            return kind, np.where(found > spec["above"], found, np.nan) if "above" in spec else found
+            found = style.convert(found, _written_unit(grid, name), unit(grid, spec))
+            if "above" in spec:
+                found = np.where(found > spec["above"], found, np.nan)
+            return kind, np.where(found < spec["below"], found, np.nan) if "below" in spec else found
     known = [name for data in (grid.point_data, grid.cell_data) for name in data]
     raise ResultError(f"plots.toml: no field '{name}' was written; there are {', '.join(known)}")
 
@@ -103,7 +105,8 @@ def _written_unit(grid, name):
 
 def unit(grid, spec):
     """The unit of the values of a picture."""
-    return spec.get("unit") or _written_unit(grid, spec["field"])
+    written = _written_unit(grid, spec["field"])
+    return spec.get("unit") or style.SHOWN_UNITS.get(written, written)
 
 
 def limits(grids, masks, spec):

@@ -1,7 +1,7 @@
 """Draws the results of a run: python3 -m solidus_plots RESULTS_DIR.
 
-Every case gets one picture per unit of history.csv and one of its steps. What else is drawn stands in the
-`plots.toml` beside the case file; docs/guide/plots.md describes it. Pictures go to RESULTS_DIR/plots.
+Every case gets curves of history.csv by unit, one picture of its steps and an overview of each field that matters
+(automatic.py). What else is drawn stands in the `plots.toml` beside the case file; docs/guide/plots.md describes it. Pictures go to RESULTS_DIR/plots.
 """
 
 import argparse
@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 import sys
 
-from solidus_plots import curves, graphs, maps, measured, point, sections, style, surfaces
+from solidus_plots import automatic, curves, graphs, maps, measured, overview, point, sections, style, surfaces
 from solidus_plots.history import read_table
 from solidus_plots.moments import Moments
 from solidus_plots.plots_file import find_spec, read_spec, star
@@ -43,7 +43,8 @@ def draw(results, spec_file=None):
     if summary.get("kind") == "point":
         return point.draw(results, summary)
     spec_file = spec_file or find_spec(results, summary)
-    spec = read_spec(spec_file) if spec_file else {}
+    spec, problems = read_spec(spec_file) if spec_file else ({}, [])
+    wishes = spec.pop("automatic", {})
     variant = summary.get("variant") or results.resolve().name
     spec = {section: [picture for picture in pictures
                       if star(picture.get("only", [variant]), variant) is not None]
@@ -51,7 +52,7 @@ def draw(results, spec_file=None):
     folder = results / "plots"
     folder.mkdir(exist_ok=True)
     history = read_table(results / "history.csv")
-    files, problems = curves.unit_groups(history, folder), []
+    files = curves.unit_groups(history, folder)
     if (results / "steps.csv").exists():
         files += curves.steps(read_table(results / "steps.csv"), folder)
 
@@ -69,23 +70,36 @@ def draw(results, spec_file=None):
         attempt(graphs.draw, picture, results)
     for picture in spec.get("measured", []):
         attempt(measured.draw, picture, results, spec_file)
-    tasks = [(kind, picture) for kind in FIELD_PICTURES for picture in spec.get(kind, [])]
-    if tasks:
-        times, moments = read_collection(results / "fields.pvd")
-        run = Moments(times, moments, list(summary.get("mesh", {}).get("bodies", {})),
-                      read_points(results / "case.toml"))
-        with ProcessPoolExecutor(min(len(tasks), len(os.sched_getaffinity(0))), initializer=_begin,
-                                 initargs=(run, folder)) as pool:
-            for drawn, missing in pool.map(_draw_field, tasks):
-                files += drawn
-                problems += [problem for problem in missing if problem not in problems]
+    if (results / "fields.pvd").exists() or any(spec.get(kind) for kind in FIELD_PICTURES):
+        attempt(lambda _: draw_fields(spec, wishes, results, summary, history, folder, problems))
     return files, problems
 
 
-def _begin(run, folder):
+def draw_fields(spec, wishes, results, summary, history, folder, problems):
+    """The pictures of fields, those that plots.toml asks for and those that every run gets; files written."""
+    tasks = [(kind, picture) for kind in FIELD_PICTURES for picture in spec.get(kind, [])]
+    times, written = read_collection(results / "fields.pvd")
+    run = Moments(times, written, list(summary.get("mesh", {}).get("bodies", {})),
+                  read_points(results / "case.toml"))
+    case, sheets = None, []
+    if wishes.get("draw", True) and len(times):
+        case, sheets = automatic.plan(run, times, summary, history, results, wishes)
+        tasks += [("overview", sheet) for sheet in sheets]
+    files = []
+    if not tasks:
+        return files
+    with ProcessPoolExecutor(min(len(tasks), len(os.sched_getaffinity(0))), initializer=_begin,
+                             initargs=(run, case, folder)) as pool:
+        for drawn, missing in pool.map(_draw_field, tasks):
+            files += drawn
+            problems += [problem for problem in missing if problem not in problems]
+    return files
+
+
+def _begin(run, case, folder):
     """A process that draws pictures of fields keeps the moments that it has read."""
-    global _run, _folder
-    _run, _folder = run, folder
+    global _run, _case, _folder
+    _run, _case, _folder = run, case, folder
     style.setup()
 
 
@@ -94,6 +108,8 @@ def _draw_field(task):
     kind, picture = task
     _run.missing.clear()
     try:
+        if kind == "overview":
+            return overview.draw(picture, _run, _case, _folder), list(_run.missing)
         return FIELD_PICTURES[kind](picture, _run, _folder), list(_run.missing)
     except (ResultError, ValueError) as error:
         return [], [*_run.missing, str(error)]

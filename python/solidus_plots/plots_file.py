@@ -7,7 +7,7 @@ from solidus_plots.vtu import ResultError
 
 # What plots.toml may say; anything else is a typo.
 FIELD_KEYS = {"quantity", "field", "component", "unit", "contours", "levels", "bands", "colours", "range",
-              "above", "smooth"}
+              "above", "below", "smooth"}
 SHEET_KEYS = {"file", "only", "title", "times", "columns", "bodies", "magnification", "probes"}
 KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "moments", "name",
                    "compare"},
@@ -24,6 +24,7 @@ KEYS = {"curves": {"file", "only", "title", "quantity", "lines", "levels", "mome
 REQUIRED = {"curves": ("file", "lines"), "graphs": ("file", "x", "lines"),
             "measured": ("file", "table", "each", "x", "lines"), "maps": ("file", "field"),
             "deformed": ("file",), "sections": ("file", "field", "planes"), "surfaces": ("file",)}
+AUTOMATIC = {"draw", "niyama"}  # of the section of pictures that nobody asked for
 # Keys of a picture that change nothing without another one.
 NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(FIELD_KEYS - {"field"}, "field")}}
 
@@ -55,7 +56,7 @@ VALUES = [
     (("times",), lambda v: _all(v, _moment) and v, 'a list of moments [s], "first", "last"'),
     (("time",), _moment, 'a moment [s], "first" or "last"'),
     (("component", "columns", "bands"), lambda v: _number(v) and v == int(v) and v >= 0, "a whole number"),
-    (("magnification", "above", "shift"), _number, "a number"),
+    (("magnification", "above", "below", "shift"), _number, "a number"),
     (("range", "view"), lambda v: _all(v, _number) and len(v) == 2, "two numbers"),
     (("contours",), lambda v: _number(v) or _all(v, _number), "a number of lines, or a list of values"),
     (("planes",), lambda v: _all(v, _table) and v, "a list of planes"),
@@ -86,26 +87,57 @@ def find_spec(results, summary):
 
 
 def read_spec(path):
+    """What a plots.toml asks for, and its mistakes: a picture with a mistake is left out, the others stay."""
     try:
-        spec = tomllib.loads(path.read_text())
-    except tomllib.TOMLDecodeError as error:
-        raise ResultError(f"{path}: {error}") from error
-    for section, pictures in spec.items():
-        if section not in KEYS:
-            raise ResultError(f"{path}: unknown section '{section}'; there are {', '.join(KEYS)}")
+        wanted = tomllib.loads(path.read_text())
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        return {}, [f"{path}: {error}"]
+    spec, mistakes = {}, []
+    for section, pictures in wanted.items():
+        try:
+            if section == "automatic":
+                _check_automatic(path, pictures)
+                spec[section] = pictures
+                continue
+            if section not in KEYS:
+                raise ResultError(f"{path}: unknown section '{section}'; there are automatic, {', '.join(KEYS)}")
+            if not _all(pictures, _table):
+                raise ResultError(f"{path}: '{section}' is a list of pictures; write [[{section}]]")
+        except ResultError as error:
+            mistakes.append(str(error))
+            continue
+        spec[section] = []
         for picture in pictures:
-            unknown = set(picture) - KEYS[section]
-            if unknown:
-                raise ResultError(f"{path}: unknown key '{unknown.pop()}' in [[{section}]]; there are "
-                                  f"{', '.join(sorted(KEYS[section]))}")
-            for key in REQUIRED[section]:
-                if key not in picture:
-                    raise ResultError(f"{path}: a [[{section}]] lacks its '{key}'")
-            for key, needed in NEEDS.get(section, {}).items():
-                if key in picture and needed not in picture:
-                    raise ResultError(f"{path}: [[{section}]] '{picture['file']}': '{key}' needs '{needed}'")
-            _check_values(path, section, picture)
-    return spec
+            try:
+                _check_picture(path, section, picture)
+                spec[section].append(picture)
+            except ResultError as error:
+                mistakes.append(str(error))
+    return spec, mistakes
+
+
+def _check_picture(path, section, picture):
+    unknown = set(picture) - KEYS[section]
+    if unknown:
+        raise ResultError(f"{path}: unknown key '{sorted(unknown)[0]}' in [[{section}]]; there are "
+                          f"{', '.join(sorted(KEYS[section]))}")
+    for key in REQUIRED[section]:
+        if key not in picture:
+            raise ResultError(f"{path}: a [[{section}]] lacks its '{key}'")
+    for key, needed in NEEDS.get(section, {}).items():
+        if key in picture and needed not in picture:
+            raise ResultError(f"{path}: [[{section}]] '{picture['file']}': '{key}' needs '{needed}'")
+    _check_values(path, section, picture)
+
+
+def _check_automatic(path, wishes):
+    unknown = set(wishes) - AUTOMATIC if _table(wishes) else {"list"}
+    if unknown:
+        raise ResultError(f"{path}: [automatic] knows {', '.join(sorted(AUTOMATIC))}, not '{sorted(unknown)[0]}'")
+    if not isinstance(wishes.get("draw", True), bool):
+        raise ResultError(f"{path}: [automatic] 'draw' must be true or false")
+    if not (_number(wishes.get("niyama", 1)) and wishes.get("niyama", 1) > 0):
+        raise ResultError(f"{path}: [automatic] 'niyama' must be a number above zero")
 
 
 def star(patterns, variant):

@@ -59,7 +59,7 @@ def _panel(grid, mask, plane, spec):
     return Panel(grid, part, MM * plane.place(points), kind, values)
 
 
-def _frame(panels):
+def frame_of(panels):
     """Lower and upper corner [mm] of what the panels of a plane show, with a margin."""
     places = np.concatenate([panel.place for panel in panels])
     low, high = places.min(axis=0), places.max(axis=0)
@@ -80,7 +80,7 @@ def _fill(axes, panel, frame, colours, shape):
     axes.imshow(image, extent=(low[0], high[0], low[1], high[1]), interpolation="antialiased", aspect="equal")
 
 
-def _draw(axes, panel, frame, colours, shape, mesh):
+def draw_panel(axes, panel, frame, colours, shape, mesh):
     """Colours and lines of a panel."""
     _fill(axes, panel, frame, colours, shape)
     place, part = panel.place, panel.part
@@ -139,7 +139,7 @@ def draw(spec, run, folder):
             raise ResultError(f"plots.toml: '{spec['file']}': the plane {name} does not meet the bodies")
     shown = np.concatenate([panel.values for row in panels for panel in row])
     colours = paint.Paint(spec, moments.unit(grids[0], spec), shown)
-    frames = [_frame([panel for panel in row if panel.place.size]) for row in panels]
+    frames = [frame_of([panel for panel in row if panel.place.size]) for row in panels]
     sizes = [tuple(high - low) for low, high in frames]
     rows = _rows(spec, frames, len(grids))
     labelled = [[not _same_plane(rows, r, c, r + 1, c) for c in range(len(rows[0]))] for r in range(len(rows))]
@@ -151,7 +151,7 @@ def draw(spec, run, folder):
         if rows[r][c] is None:
             continue
         (p, m), axes, (plane, name) = rows[r][c], sheet.axes[r][c], planes[rows[r][c][0]]
-        _draw(axes, panels[p][m], frames[p], colours, sheet.pixels(sizes[p]), spec.get("mesh", False))
+        draw_panel(axes, panels[p][m], frames[p], colours, sheet.pixels(sizes[p]), spec.get("mesh", False))
         _mark_probes(axes, plane, run, spec)
         axes.set_title(", ".join([name] * (len(planes) > 1) + [times[m]] * (len(times) > 1)), fontsize=9)
         left = not _same_plane(rows, r, c, r, c - 1)

@@ -3,10 +3,12 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
+from solidus_plots.style import REMARK
+
 WIDTH, HEIGHT = 10.0, 9.0  # largest size of a figure [in]
 PANEL = 6.5  # largest side of a panel [in]
 LEFT, TOP, BOTTOM = 0.75, 0.55, 0.45  # margins [in]
-BAR, LEGEND = 1.1, 0.3  # room for them [in]
+BAR, LEGEND, LINE = 1.1, 0.3, 0.17  # room for them, and for a line of the footer [in]
 FINER = 1.6  # pixels of a picture per dot of the figure, each way
 ASPECT = 1.4  # width over height that looks best
 
@@ -27,14 +29,14 @@ def wrap(entries, columns, width, height):
 
 class Sheet:
     """`sizes`: [row][column] width and height of the panels in one unit (None: no panel there). `beside`: room
-    between columns, `below`: below each row [in]."""
+    between columns, `below`: below each row [in]. `footer`: lines of text at the lower edge."""
 
-    def __init__(self, sizes, title, beside, below, bar=True, legend=()):
+    def __init__(self, sizes, title, beside, below, bar=True, legend=(), footer=()):
         columns = range(len(sizes[0]))
         widths = np.array([max(row[c][0] for row in sizes if row[c]) for c in columns])
         heights = np.array([max(size[1] for size in row if size) for row in sizes])
         below = np.append(below[:-1], 0.0)
-        right, bottom = BAR if bar else 0.1, BOTTOM + (LEGEND if legend else 0.0)
+        right, bottom = BAR if bar else 0.1, BOTTOM + (LEGEND if legend else 0.0) + LINE * len(footer)
         across, along = LEFT + right + beside * (len(widths) - 1), TOP + bottom + below.sum()
         # Inches per unit of the sizes.
         self.scale = min((WIDTH - across) / widths.sum(), (HEIGHT - along) / heights.sum(),
@@ -46,7 +48,10 @@ class Sheet:
         self.figure.suptitle(title, fontsize=10, va="top", x=middle / self._size[0], y=1 - 0.12 / self._size[1])
         if legend:
             self.figure.legend(handles=legend, ncol=len(legend), loc="lower center",
-                               bbox_to_anchor=(middle / self._size[0], 0.0))
+                               bbox_to_anchor=(middle / self._size[0], LINE * len(footer) / self._size[1]))
+        for line, text in enumerate(reversed(footer)):
+            self.figure.text(0.08 / self._size[0], (0.05 + LINE * line) / self._size[1], text, ha="left",
+                             va="bottom", **REMARK)
         lefts = LEFT + np.cumsum(widths + beside) - widths - beside
         tops = self._size[1] - TOP - np.cumsum(heights + below) + heights + below
         self.axes = [[self._panel(lefts[c] + 0.5 * widths[c], tops[r], row[c]) for c in columns]

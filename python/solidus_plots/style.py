@@ -24,6 +24,8 @@ QUANTITY = {"degC": "Temperature", "K": "Temperature", "mm": "Length", "m": "Len
 
 # Fields whose unit UDUNITS cannot name: the files say 1.
 ROOT_UNITS = {"niyama": "K0.5 s0.5/m"}
+# What is shown instead of SI where a picture names no unit: one unit of Niyama everywhere.
+SHOWN_UNITS = {"K0.5 s0.5/m": "K0.5 s0.5/mm"}
 
 # Units a picture may ask for: (SI unit, unit) -> (factor, offset).
 CONVERSIONS = {("K", "degC"): (1.0, -273.15), ("m", "mm"): (1e3, 0.0), ("m", "um"): (1e6, 0.0),

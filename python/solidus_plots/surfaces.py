@@ -41,7 +41,7 @@ def _clipped(grid, cells, points, field, clip, eye):
     return [outer(grid, cells, points, field, level), cap(grid, part, points, field, normal)]
 
 
-def _surface(grid, run, spec, eye):
+def surface_of(grid, run, spec, eye):
     """What a picture shows of a moment."""
     points, others = _points(grid, spec), spec.get("plain", []) + spec.get("ghost", [])
     names = spec.get("bodies") or [name for name in run.bodies if name not in others]
@@ -100,7 +100,7 @@ def _through_glass(image, depth, view, grid):
     image[edges] = GLASS_EDGE
 
 
-def _image(view, grid, colours, spec):
+def image_of(view, grid, colours, spec):
     light = view.light()
     if colours is not None:  # colours that are read off a bar are shaded less
         light = np.where(np.isfinite(view.values()), 0.42 + 0.58 * light, light)
@@ -121,7 +121,7 @@ def _image(view, grid, colours, spec):
     return image
 
 
-def _frame(surfaces, camera):
+def frame_of(surfaces, camera):
     places = [camera.project(surface.points_shown())[:, :2] for surface in surfaces]
     places = [place for place in places if place.size]
     low = np.min([place.min(axis=0) for place in places], axis=0)
@@ -145,13 +145,13 @@ def draw(spec, run, folder):
     camera = _camera(spec)
     grids = run.those_of(spec.get("times", ["last"]))
     times = style.time_texts([grid.time for grid in grids])
-    surfaces = [_surface(grid, run, spec, camera.eye) for grid in grids]
+    surfaces = [surface_of(grid, run, spec, camera.eye) for grid in grids]
     colours = None
     if "field" in spec:
         shown = [surface.values[surface.triangles_shown()].ravel() for surface in surfaces]
         colours = paint.Paint({"contours": 0, **spec}, moments.unit(grids[0], spec), np.concatenate(shown))
     ghosts = [_ghost(grid, run, spec) for grid in grids] if spec.get("ghost") else []
-    frame = _frame(surfaces + ghosts, camera)
+    frame = frame_of(surfaces + ghosts, camera)
     size = tuple(MM * (frame[1] - frame[0]))
     rows = wrap(list(range(len(grids))), spec.get("columns"), *size)
     title = heading(spec, times[0] if len(times) == 1 and colours else "")
@@ -162,7 +162,7 @@ def draw(spec, run, folder):
             continue
         moment, axes = rows[r][c], sheet.axes[r][c]
         view = View(surfaces[moment], camera, frame, sheet.pixels(size))
-        image = _image(view, grids[moment], colours, spec)
+        image = image_of(view, grids[moment], colours, spec)
         if ghosts:
             glass = View(ghosts[moment], camera, frame, sheet.pixels(size))
             _through_glass(image, view.picture.depth, glass, grids[moment])

@@ -4,7 +4,10 @@
 namespace solidus::app {
 
 model::Case load_case(const CaseArguments& arguments) {
-  model::Case c = model::load_case(arguments.path, arguments.set);
+  std::optional<model::Physics> physics;
+  if (arguments.heat_only) physics = model::Physics::heat;
+  if (arguments.coupled) physics = model::Physics::thermomechanical;
+  model::Case c = model::load_case(arguments.path, arguments.set, physics);
   c.spec.mesh.trust_script = arguments.trust_script;
   return c;
 }

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <numbers>
 
 #include "app/verbs.hpp"
 #include "base/errors.hpp"
 #include "base/units.hpp"
+#include "mesh/face_rules.hpp"
 #include "mesh/quality.hpp"
 #include "model/case_file.hpp"
 #include "model/mesh_input.hpp"
@@ -38,7 +40,15 @@ RawMesh read(const CaseArguments& arguments, const std::string& unit) {
 
 ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit) {
   std::string text;
-  results::on_first_process([&] { text = mesh::to_text(mesh::assess(read(arguments, unit))); });
+  results::on_first_process([&] {
+    const RawMesh mesh = read(arguments, unit);
+    text = mesh::to_text(mesh::assess(mesh));
+    std::vector<std::string> bodies;
+    for (const auto& [name, group] : mesh.groups)
+      if (group.dimension == mesh.dimension) bodies.push_back(name);
+    constexpr double k_edge = std::numbers::pi / 6;  // neighbours that bend by more begin a face
+    text += mesh::to_text(mesh::skin_patches(mesh, bodies, k_edge));
+  });
   print(text);
   return k_done;
 }

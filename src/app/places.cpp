@@ -18,6 +18,11 @@ fs::path results_root() {
   return here;
 }
 
+fs::path shared_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share/solidus";
+}
+
 void note_folder(const fs::path& folder) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

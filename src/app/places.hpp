@@ -8,6 +8,9 @@ namespace solidus::app {
 /// The repository that the present folder belongs to, else the present folder.
 std::filesystem::path results_root();
 
+/// What an installed program brings with it, share/solidus of its prefix; it need not be there.
+std::filesystem::path shared_folder();
+
 /// Tells a script where the results are: the path goes to the file that SOLIDUS_RESULTS_NOTE names, because a
 /// terminal's output cannot be piped without losing the progress bar.
 void note_folder(const std::filesystem::path& folder);

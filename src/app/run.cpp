@@ -11,6 +11,7 @@
 #include "app/places.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
+#include "base/terminal.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
 
@@ -38,13 +39,16 @@ ExitCode run(const CaseArguments& arguments) {
   options.progress = rank == 0 ? &std::cout : nullptr;
   options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
   options.restart = arguments.restart;
+  options.profile = arguments.profile;
   options.stop_asked = stop_asked;
   algebra::interrupt_when(stop_asked);
   const model::RunResult result = model::run_case(c, options);
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
   if (!result.finished) {
-    if (rank == 0) std::cerr << "solidus: " << result.reason << std::endl;
-    return k_cannot_go_on;
+    if (rank == 0)
+      std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason
+                << std::endl;
+    return interrupted() ? k_interrupted : k_cannot_go_on;
   }
   print("Results in " + options.folder.lexically_normal().string() + "\n");
   return k_done;

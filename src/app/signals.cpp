@@ -7,15 +7,19 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "algebra/parallel.hpp"
+
 namespace solidus::app {
 
 namespace {
 
 volatile std::sig_atomic_t asked = 0;
-volatile std::sig_atomic_t speaks = 0;  ///< this is process 0
+volatile std::sig_atomic_t by_keyboard = 0;  ///< with SIGINT
+volatile std::sig_atomic_t speaks = 0;       ///< this is process 0
 
 extern "C" void ask_to_stop(int signal) {
   asked = 1;
+  if (signal == SIGINT) by_keyboard = 1;
   if (speaks == 0 || signal == SIGPIPE) return;
   static constexpr char k_text[] =
       "\ninfo: asked to stop: the run ends with a checkpoint as soon as its step or a factorisation in it "
@@ -53,6 +57,10 @@ void listen_to_signals() {
 
 bool stop_asked() {
   return asked != 0;
+}
+
+bool interrupted() {
+  return algebra::any_process(by_keyboard != 0);
 }
 
 }  // namespace solidus::app

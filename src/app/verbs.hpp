@@ -10,7 +10,7 @@
 namespace solidus::app {
 
 /// What a shell sees (design.md section 6).
-enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_go_on = 2, k_our_bug = 3 };
+enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_go_on = 2, k_our_bug = 3, k_interrupted = 130 };
 
 struct CaseArguments {
   std::string path;              ///< a case file, or a folder with a case.toml
@@ -18,7 +18,10 @@ struct CaseArguments {
   std::string output;            ///< results folder; empty: by the case
   bool progress_bar = true;      ///< on a terminal
   bool restart = false;          ///< go on from the checkpoint
+  bool profile = false;          ///< show at the end where the time went
   bool trust_script = false;     ///< run a .geo script whatever it says
+  bool heat_only = false;        ///< heat alone, whatever the case says
+  bool coupled = false;          ///< heat and mechanics, whatever the case says
 };
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).
@@ -39,6 +42,24 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit);
 /// @param name   a material of the library or a file; empty: the list
 /// @param output a folder for its tables (CSV); empty: none
 ExitCode materials(const std::string& name, const std::string& output);
+struct MaterialImportArguments {
+  std::string file;    ///< a table, CSV or JSON
+  std::string output;  ///< the material file to write; empty: stdout
+  std::string like, title, source;
+  std::string latent_heat, volume_change, molar_mass;  ///< quantities with units; empty: not given
+  std::vector<std::string> columns;                    ///< "QUANTITY=HEADER" or "QUANTITY=HEADER:UNIT"
+};
+/// A material card from the table of a thermodynamic program.
+ExitCode import_material(const MaterialImportArguments& arguments);
+struct SolidificationArguments {
+  std::string alloy;         ///< "Al-9Si-3Cu-0.3Mg"
+  bool lever = false;        ///< the lever rule instead of Scheil's equation
+  std::string system;        ///< a file with the liquidus; empty: that of the library
+  double tolerance = 0.002;  ///< of the chords, in solid fraction
+  std::string output;        ///< a file; empty: stdout
+};
+/// The fraction curve of an alloy by Scheil's equation or the lever rule.
+ExitCode solidification_path(const SolidificationArguments& arguments);
 /// A case as the command line changes it. Throws InputError.
 model::Case load_case(const CaseArguments& arguments);
 struct ExportArguments {
@@ -48,6 +69,22 @@ struct ExportArguments {
   bool trust_script = false;     ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);
+struct NewArguments {
+  std::string geometry, alloy, folder, symmetry, riser;
+  std::string process = "sand", unit = "mm";
+  std::vector<std::string> as;  ///< "NAME=role"
+  double fineness = 1;
+};
+/// From the geometry of a casting to a case that runs.
+ExitCode new_case(const NewArguments& arguments);
+struct ReportArguments {
+  std::vector<std::string> folders;  ///< of runs
+  std::string output;                ///< the page; empty: report.html in the first folder
+};
+/// Not collective: one process reads and writes.
+ExitCode write_report(const ReportArguments& arguments);
 ExitCode version();
+/// Writes schemas and rules for editors into a folder; empty: the present one.
+ExitCode init_editor(const std::string& folder);
 
 }  // namespace solidus::app

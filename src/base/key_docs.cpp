@@ -279,7 +279,23 @@ void manual_of_section(const SectionInfo& info, const std::string& title, const 
   }
 }
 
+void add_paths(const SectionInfo& section, const std::string& path, std::vector<std::string>& out) {
+  for (const Key& key : section.keys) {
+    const std::string inner = child_path(path, key);
+    if (!is_section(key))
+      out.push_back(inner);
+    else
+      add_paths(*key.section, key.kind == Key::Kind::section ? inner : inner + ".NAME", out);
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> key_paths(const SectionInfo& root) {
+  std::vector<std::string> paths;
+  add_paths(root, "", paths);
+  return paths;
+}
 
 std::string explain(const SectionInfo& root, const std::string& path) {
   std::string out;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/keys.hpp"
 
@@ -20,5 +21,9 @@ std::string json_schema(const SectionInfo& root, const std::string& title);
 
 /// The reference manual of a file in Markdown: one table of keys a section.
 std::string reference_manual(const SectionInfo& root, const std::string& title);
+
+/// The paths of all keys that --set can change, "time.step", in the order of their declaration; keys of
+/// sections that have names of the user's stand under NAME.
+std::vector<std::string> key_paths(const SectionInfo& root);
 
 }  // namespace solidus

@@ -3,11 +3,13 @@
 #include <mpi.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "base/input_file.hpp"
+#include "base/terminal.hpp"
 
 namespace solidus::logging {
 namespace {
@@ -22,6 +24,9 @@ struct Log {
       : terminal(std::make_shared<spdlog::logger>("solidus",
                                                   std::make_shared<spdlog::sinks::stderr_color_sink_mt>())) {
     terminal->set_pattern("%^%l:%$ %v");
+    using Sink = spdlog::sinks::stderr_color_sink_mt;
+    if (!has_colours(STDERR_FILENO))
+      static_cast<Sink*>(terminal->sinks().front().get())->set_color_mode(spdlog::color_mode::never);
     terminal->set_level(spdlog::level::debug);  // what is printed is decided by `level` alone
     terminal->flush_on(spdlog::level::info);
   }

@@ -372,7 +372,10 @@ void ContactPair::wear_master(const PointMotion& motion, const PointState& now, 
 
 HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
                                   const PointForces& forces) const {
-  HeatPoint point{.penetration = seen_by_heat(now.penetration, now.suction),
+  // What is pressed together is closed: a multiplier may carry the pressure where penetration and gap are of
+  // the size of the tolerance.
+  const double penetration = now.pressure > 0 ? std::max(now.penetration, 0.0) : now.penetration;
+  HeatPoint point{.penetration = seen_by_heat(penetration, now.suction),
                   .pressure = now.pressure,
                   .pressure_slope = now.pressure >= 0 ? forces.normal.tangent : 0.0,
                   .has_temperature = law_.friction && step_.dt > 0 && from.temperature > 0,
@@ -501,6 +504,32 @@ double ContactPair::excess() const {
   double largest = 0;
   for (const double g : nodal_penetration()) largest = std::max(largest, std::abs(g));
   return algebra::global_max(largest) / allowed_penetration_;
+}
+
+std::string ContactPair::worst_penetration() const {
+  const std::vector<double> penetration = nodal_penetration();
+  struct {
+    double value;
+    int rank;
+  } worst{-1.0, 0}, winner{};
+  MPI_Comm_rank(PETSC_COMM_WORLD, &worst.rank);
+  std::size_t node = 0;
+  for (std::size_t i = 0; i < penetration.size(); ++i) {
+    if (std::abs(penetration[i]) <= worst.value) continue;
+    worst.value = std::abs(penetration[i]);
+    node = i;
+  }
+  MPI_Allreduce(&worst, &winner, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
+  char text[160] = {};
+  if (winner.rank == worst.rank && !penetration.empty()) {
+    const mesh::Point& x = mesh_.x[node];
+    const auto end =
+        fmt::format_to_n(text, sizeof text - 1, "node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m",
+                         mesh_.input_node[node], x[0], x[1], x[2], penetration[node]);
+    *end.out = '\0';
+  }
+  MPI_Bcast(text, sizeof text, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
+  return text;
 }
 
 std::string ContactPair::trouble() const {

@@ -153,6 +153,8 @@ class ContactPair {
   /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a
   /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
   double excess() const;
+  /// Where the largest one is, for messages. Collective.
+  std::string worst_penetration() const;
 
   /// Drops what the pattern of matrices remembers (coupling/scheme.hpp, forget()).
   void forget() { graph_->forget(); }

@@ -15,6 +15,7 @@
 #include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
+#include "heat/worst_node.hpp"
 
 namespace solidus::coupling {
 
@@ -176,16 +177,28 @@ void BlockIterative::require_progress(const Iterate& it) const {
   if (changes_.back().temperature > k_diverged * changes_.front().temperature)
     diverged(it, "the phases drive each other away");
   if (it.number < options_.max_iterations) return;
-  throw StepRejected(fmt::format("coupling: no convergence in {} iterations", it.number),
-                     fmt::format("the last iteration changed temperatures by {:.3g} K and displacements by "
-                                 "{:.3g} m",
-                                 changes_.back().temperature, changes_.back().displacement));
+  throw StepRejected(fmt::format("coupling: no convergence in {} iterations, the last of which changed "
+                                 "temperatures by {:.3g} K and displacements by {:.3g} m",
+                                 it.number, changes_.back().temperature, changes_.back().displacement),
+                     largest_change(it));
 }
 
 void BlockIterative::diverged(const Iterate& it, const std::string& how) const {
-  throw StepRejected(fmt::format("coupling: the iteration between the phases diverges ({})", how),
-                     fmt::format("the change of temperature grew from {:.3g} K to {:.3g} K in {} iterations",
-                                 changes_.front().temperature, changes_.back().temperature, it.number));
+  throw StepRejected(fmt::format("coupling: the iteration between the phases diverges ({}); the change of "
+                                 "temperature grew from {:.3g} K to {:.3g} K in {} iterations",
+                                 how, changes_.front().temperature, changes_.back().temperature, it.number),
+                     largest_change(it));
+}
+
+/// The node whose temperature the last iteration has changed most.
+std::string BlockIterative::largest_change(const Iterate& it) const {
+  const std::vector<double>&now = it.now.heat.temperature, &before = answered(it);
+  heat::WorstNode worst;
+  for (Index i = 0; i < phases_.heat->mesh().n_owned_nodes; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    if (n < now.size() && n < before.size()) worst.look(n, std::abs(now[n] - before[n]));
+  }
+  return worst.text(phases_.heat->mesh(), now, {});
 }
 
 // The mechanical pass that follows sees a relaxed temperature; the thermal one knows its own.

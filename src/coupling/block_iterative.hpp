@@ -69,6 +69,7 @@ class BlockIterative final : public CouplingScheme {
   bool agrees(const State& old, const Iterate& it) const;
   void require_progress(const Iterate& it) const;
   [[noreturn]] void diverged(const Iterate& it, const std::string& how) const;
+  std::string largest_change(const Iterate& it) const;
   void relax(Iterate& it);
 
   Phases phases_;

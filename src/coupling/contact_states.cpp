@@ -114,7 +114,7 @@ bool penetrations_small(const Phases& phases, int turn) {
         fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations {:.3g} times as "
                     "large as allowed",
                     worst->spec().name, turn, excess),
-        "a larger penalty, a larger penetration_tolerance or a smaller Newton tolerance");
+        worst->worst_penetration());
   for (contact::ContactPair* pair : phases.contacts) pair->augment();
   return false;
 }

@@ -38,10 +38,11 @@ double length(const mesh::Point& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-std::vector<char> freezing_bodies(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage) {
+std::vector<char> freezing_bodies(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage,
+                                  const std::vector<char>& wanted) {
   std::vector<char> chosen;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
-    chosen.push_back(storage.can_melt(static_cast<int>(b)) ? 1 : 0);
+    chosen.push_back(storage.can_melt(static_cast<int>(b)) && (wanted.empty() || wanted[b] != 0) ? 1 : 0);
   return chosen;
 }
 
@@ -68,7 +69,10 @@ struct Freezing::PatchGradient {
 
 Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalEnthalpy& storage,
                    FreezingOptions options)
-    : mesh_(mesh), storage_(storage), patches_(mesh, kind, freezing_bodies(mesh, storage)), ghosts_(mesh) {
+    : mesh_(mesh),
+      storage_(storage),
+      patches_(mesh, kind, freezing_bodies(mesh, storage, options.bodies)),
+      ghosts_(mesh) {
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     const material::Material& material = storage.material(static_cast<int>(b));
     feeding_.push_back(FeedingLaw::of(material));

@@ -40,7 +40,8 @@
 namespace solidus::criteria {
 
 struct FreezingOptions {
-  double evaluation = 0.1;  ///< x, at least 0 and below 1
+  double evaluation = 0.1;        ///< x, at least 0 and below 1
+  std::vector<char> bodies = {};  ///< [body] that are followed; empty: all that can melt
 };
 
 class Freezing : public Criterion {

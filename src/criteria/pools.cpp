@@ -47,10 +47,11 @@ Pool pool_of(const double* r) {
           r[13] != 0};
 }
 
-std::vector<char> melting_bodies(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage) {
+std::vector<char> melting_bodies(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage,
+                                 const std::vector<char>& wanted) {
   std::vector<char> chosen;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
-    chosen.push_back(storage.can_melt(static_cast<int>(b)) ? 1 : 0);
+    chosen.push_back(storage.can_melt(static_cast<int>(b)) && (wanted.empty() || wanted[b] != 0) ? 1 : 0);
   return chosen;
 }
 
@@ -60,10 +61,11 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
     : mesh_(mesh),
       storage_(storage),
       options_(std::move(options)),
+      followed_(melting_bodies(mesh, storage, options_.bodies)),
       feeder_(mesh.x.size(), 0),
       body_(static_cast<std::size_t>(mesh.n_owned_nodes), -1),
       ghosts_(mesh),
-      connectivity_(mesh, ghosts_, melting_bodies(mesh, storage)) {
+      connectivity_(mesh, ghosts_, followed_) {
   for (const std::string& group : options_.feeders) {
     const auto nodes = mesh.node_sets.find(group);
     if (nodes == mesh.node_sets.end())
@@ -76,7 +78,8 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
   for (std::size_t i = 0; i < body_.size(); ++i) {
     double most = 0;
     for (int b = 0; b < n_bodies; ++b) {
-      const double volume = storage.can_melt(b) ? storage.volume(static_cast<Index>(i), b) : 0.0;
+      const bool followed = followed_[static_cast<std::size_t>(b)] != 0;
+      const double volume = followed ? storage.volume(static_cast<Index>(i), b) : 0.0;
       if (volume > most) body_[i] = b;
       most = std::max(most, volume);
       own += volume;
@@ -88,8 +91,7 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
 double Pools::volume(std::size_t node) const {
   double volume = 0;
   for (std::size_t b = 0; b < levels_.size(); ++b)
-    if (const auto body = static_cast<int>(b); storage_.can_melt(body))
-      volume += storage_.volume(static_cast<Index>(node), body);
+    if (followed_[b] != 0) volume += storage_.volume(static_cast<Index>(node), static_cast<int>(b));
   return volume;
 }
 

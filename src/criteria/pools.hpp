@@ -21,6 +21,7 @@ namespace solidus::criteria {
 struct PoolOptions {
   double limit = 0.7;                ///< solid fraction, above 0 and at most 1
   std::vector<std::string> feeders;  ///< groups of the mesh (Mesh::node_sets)
+  std::vector<char> bodies = {};     ///< [body] that are followed; empty: all that can melt
 };
 
 /// A row of the table "pools" of the record.
@@ -68,6 +69,7 @@ class Pools : public Criterion {
   const mesh::Mesh& mesh_;
   const heat::NodalEnthalpy& storage_;
   PoolOptions options_;
+  std::vector<char> followed_;          ///< [body]
   std::vector<char> feeder_;            ///< [local node]
   std::vector<int> body_;               ///< [owned node]: that of which it holds most among them, else −1
   std::vector<FreezingLevels> levels_;  ///< per body

@@ -61,7 +61,7 @@ enum class ThermalStepping { backward_euler, sdirk2 };
 /// Default tolerances. Nodes that hold heat take up what the iteration leaves (ThermalPhase::book), so that
 /// theirs is one of accuracy; in the open rule and in a steady state the residual is heat lost or gained
 /// (docs/decisions/0013).
-inline constexpr double k_nodal_tolerance = 1e-5, k_point_tolerance = 1e-9;
+inline constexpr double k_nodal_tolerance = 1e-6, k_point_tolerance = 1e-9;
 
 struct HeatOptions {
   Integration integration = Integration::closed;

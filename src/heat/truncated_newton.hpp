@@ -47,7 +47,7 @@
 namespace solidus::heat {
 
 struct TruncatedNewtonOptions {
-  double tolerance = 1e-5;  ///< Σ|F_i| <= tolerance × heat moved per time
+  double tolerance = 1e-6;  ///< Σ|F_i| <= tolerance × heat moved per time
   int max_iterations = 50;
 };
 

@@ -13,7 +13,9 @@ CouplingNumber coupling_number(const Material& material, double temperature) {
   const double bulk = young / (3 * (1 - 2 * poisson)), shear = solid ? young / (2 * (1 + poisson)) : 0;
   const auto alpha = material.expansion.line(temperature);
   const double slope = 3 * (alpha.value + alpha.slope * (temperature - material.expansion_reference));
-  const double capacity = material.density * material.specific_heat.value(temperature);
+  double capacity = material.density * material.specific_heat.value(temperature);
+  if (material.specific_heat_at == SpecificHeatAt::constant_pressure)
+    capacity -= bulk * slope * slope * temperature;
   const double stored = bulk * slope * bulk * slope * temperature / capacity;  // β²Θ/C
   return {stored / (bulk + 4 * shear / 3), stored / (bulk + shear / 3), stored / bulk};
 }

@@ -62,60 +62,20 @@ PointDerivatives<T> derivatives_at(const Material& material, const T& temperatur
 template <class T>
 PointCurvatures<T> curvatures_at(const Material& material, const T& temperature);
 
-/// The part of entropy and internal energy that couples deformation and temperature, from W + M of 2.49:
-/// S = −(W_Θ + M_Θ), E = W + M + Θ S, per unit volume. With the sensible and the latent part it makes up S^E
-/// and E.
-template <class T>
-struct StructuralState {
-  T entropy;          ///< [J/(m³ K)]
-  T internal_energy;  ///< [J/m³]
-};
-
-/// 2.49a, 2.49b, 2.53, 2.54 (errata: with the full e^θ) written through the stress deviator s = 2 (G/f_S) dev
-/// ε^E, so that nothing divides by f_S:
-///
-///   W = ½ k tr² + f_S/(4G) s:s,   M = −k e^θ tr
-///   W_Θ = ½ k_Θ tr² + (f_S G_Θ/G − f_S,Θ)/(4G) s:s,   M_Θ = −(k e^θ)_Θ tr        (derivatives at fixed ε^E)
-///
-/// @param p, d              at the temperature
-/// @param temperature       Θ [K]
-/// @param strain_trace      tr ε^E = tr ε (inelastic strains are deviatoric)
-/// @param deviator_squared  s:s [Pa²]
-template <class T>
-StructuralState<T> structural_state(const PointProperties<T>& p, const PointDerivatives<T>& d,
-                                    const T& temperature, const T& strain_trace, const T& deviator_squared) {
-  const T s2_over_4g = T(0.25) * deviator_squared / p.shear;
-  const T w_theta = T(0.5) * d.bulk * strain_trace * strain_trace +
-                    (p.solid_fraction * d.shear / p.shear - d.solid_fraction) * s2_over_4g;
-  const T m_theta = -(d.bulk * p.thermal_strain + p.bulk * d.thermal_strain) * strain_trace;
-  const T w = T(0.5) * p.bulk * strain_trace * strain_trace + p.solid_fraction * s2_over_4g;
-  const T m = -p.bulk * p.thermal_strain * strain_trace;
-  StructuralState<T> r;
-  r.entropy = -(w_theta + m_theta);
-  r.internal_energy = w + m + temperature * r.entropy;
-  return r;
-}
-
-/// Θ ∂S/∂Θ = −Θ (W_ΘΘ + M_ΘΘ) at fixed elastic strain [J/(m³ K)], the difference of the capacity to C_v
-/// in 2.127a; it is ∂E/∂Θ too. Arguments as of structural_state.
-///
-/// In the mushy zone it holds −Θ f_S,Θ² s:s/(2 G f_S), which is unbounded for f_S → 0 (melting a spring of
-/// stiffness G/f_S that is kept strained): a Newton iteration that crosses the zone freezes the solid
-/// fraction, d.solid_fraction = 0.
-template <class T>
-T structural_capacity(const PointProperties<T>& p, const PointDerivatives<T>& d, const PointCurvatures<T>& c,
-                      const T& temperature, const T& strain_trace, const T& deviator_squared) {
-  const T tiny(1e-300);  // where f_S = 0 the elastic deviator is zero, and so is its energy
-  const T mushy =
-      select(p.solid_fraction > tiny,
-             d.solid_fraction * d.solid_fraction / select(p.solid_fraction > tiny, p.solid_fraction, T(1.0)),
-             T(0.0));
-  const T w = T(0.5) * c.bulk * strain_trace * strain_trace +
-              (p.solid_fraction * c.shear - T(2.0) * d.shear * d.solid_fraction + T(2.0) * p.shear * mushy) *
-                  T(0.25) * deviator_squared / (p.shear * p.shear);
-  const T m = -(c.bulk * p.thermal_strain + T(2.0) * d.bulk * d.thermal_strain + p.bulk * c.thermal_strain) *
-              strain_trace;
-  return -temperature * (w + m);
+/// The part of W + M + R that holds the volume: the square ½ k (tr ε − e^θ)² of a material whose specific
+/// heat is that at constant pressure, R(Θ) = ½ k (e^θ)², so that what is free of stress stores nothing but
+/// sensible heat; ½ k tr² − k e^θ tr where it is that at constant strain, R = 0 (2.49a, 2.49b). R depends on
+/// the temperature alone: stresses are the same in both.
+/// @param bulk, thermal_strain  k and e^θ, T a number or a Jet in temperature
+/// @param trace                 tr ε
+template <class T, class Trace>
+[[gnu::always_inline]] inline T volumetric_energy(const Material& material, const T& bulk,
+                                                  const T& thermal_strain, const Trace& trace) {
+  const T tr(trace), half(0.5);
+  if (material.specific_heat_at == SpecificHeatAt::constant_strain)
+    return bulk * tr * (half * tr - thermal_strain);
+  const T elastic = tr - thermal_strain;
+  return half * bulk * elastic * elastic;
 }
 
 }  // namespace solidus::material

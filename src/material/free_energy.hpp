@@ -3,7 +3,7 @@
 ///
 ///   Ψ(ε^E, ξ, ζ, Θ) = W + M + T + K + Ψ^pc                                              (2.48, 2.67)
 ///   W = ½ k tr² ε^E + Ḡ dev ε^E : dev ε^E                                               (2.49a)
-///   M = −k e^θ tr ε^E                                                                   (2.49b)
+///   M = −k e^θ tr ε^E + R(Θ)                                                            (2.49b)
 ///   T, Ψ^pc: thermal_potential.hpp (2.49c, 2.68);  K: hardening_heat.hpp                (2.49d)
 ///
 ///   σ = ∂Ψ/∂ε^E,  q = −∂Ψ/∂ξ,  q = −∂Ψ/∂ζ                                               (2.45a, 2.59)
@@ -14,7 +14,9 @@
 ///
 /// Every parameter follows the temperature. The spring of the liquid models: maxwell Ḡ = G/f_S (2.50),
 /// modified_shear Ḡ = f_S G(Θ_S) (2.77), degenerated Ḡ = G. 2.127b omits the back strain; the chain rule of
-/// 2.125 has it. C_v is the capacity at ε^E = 0, and C = C_v holds only without strain and hardening.
+/// 2.125 has it. R = ½ k (e^θ)² where the specific heat is that at constant pressure (volumetric_energy),
+/// else 0 as printed: then C_v is the capacity at ε^E = 0, and C = C_v holds only without strain and
+/// hardening.
 ///
 /// Symbols: k bulk modulus, Ḡ spring [Pa], e^θ thermal strain with the straining of phase changes (2.76a), ξ
 /// equivalent plastic strain, ζ back strain, Θ temperature, Θ_0 initial temperature [K].
@@ -70,7 +72,8 @@ FreeEnergy<T> free_energy(const Viscoplastic& law, const StateVariables<T>& stat
   FreeEnergy<T> r;
   r.elastic = T(0.5) * p.elastic.bulk * tr * tr +
               spring_modulus(material, p.elastic) * dot(deviator, deviator);  // 2.49a
-  r.coupling = -p.elastic.bulk * p.elastic.thermal_strain * tr;               // 2.49b
+  r.coupling = volumetric_energy(material, p.elastic.bulk, p.elastic.thermal_strain, tr) -
+               T(0.5) * p.elastic.bulk * tr * tr;  // 2.49b
   r.thermal = sensible_heat(material, initial_temperature, temperature).potential(temperature);
   r.latent = latent_heat(material, initial_temperature, temperature).potential(temperature);
   r.hardening = material.flow ? hardening_potential(*material.flow, p.flow, state.hardening,

@@ -233,7 +233,8 @@ T Isentropic::entropy(const Properties<T>& p, const Sym<T>& strain, const State<
       break;
     }
   }
-  T s = elastic_entropy(at, one, trace(strain), spring);
+  T s = elastic_entropy(volumetric_energy(law_.material(), at.bulk, at.thermal_strain, T(trace(strain))), one,
+                        spring);
   if (law_.material().flow)
     s -= hardening_potential<J>(*law_.material().flow, flow_jets(p, p.temperature), J(state.hardening),
                                 J(dot(state.back_strain, state.back_strain)))

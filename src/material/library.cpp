@@ -1,10 +1,13 @@
 #include "material/library.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "base/document.hpp"
+#include "material/elasticity.hpp"
 
 namespace solidus::material {
 namespace {
@@ -114,6 +117,35 @@ void check_liquid_model(const Material& m, const MaterialData& data) {
                      "[plasticity] with rate_dependence = \"perzyna\"");
 }
 
+/// C_v = C_p − 9 α² k Θ must be positive, α the slope of the expansion: no material stores less at fixed
+/// strain than nothing. A change of volume in a narrow range belongs to a phase change, whose straining is
+/// held in a step.
+void check_heat_of_expansion(const Material& m, const MaterialData& data) {
+  if (!m.mechanical() || m.specific_heat_at == SpecificHeatAt::constant_strain) return;
+  std::vector<double> points;
+  for (const Table* table : {&m.young_modulus, &m.poisson_ratio, &m.expansion, &m.specific_heat})
+    points.insert(points.end(), table->x().begin(), table->x().end());
+  for (const double at : points) {
+    if (!(at > 0)) continue;
+    for (const double temperature : {at * (1 - 1e-9), at * (1 + 1e-9)}) {
+      const auto p = properties_at(m, temperature, temperature, PhaseState<double>{1.0, 0.0});
+      const auto alpha = m.expansion.line(temperature);
+      const double slope = 3 * (alpha.value + alpha.slope * (temperature - m.expansion_reference));
+      const double expansion = p.bulk * slope * slope * temperature / m.density,
+                   measured = m.specific_heat.value(temperature);
+      if (expansion < measured) continue;
+      throw InputError(
+          data.where,
+          fmt::format("the specific heat of '{}', {:.4g} J/kg/K at {:.4g} degC, is less than what expansion "
+                      "against its stiffness takes up there, {:.4g} J/kg/K (9 alpha^2 k T/rho)",
+                      m.name, measured, temperature - k_zero_celsius, expansion),
+          "usual are 1 to 8 %: look at the units of expansion and young_modulus; a change of volume in a "
+          "narrow "
+          "range of temperature is a [[phase_change]] with a volume_change, no steep piece of expansion");
+    }
+  }
+}
+
 void add_casting(Material& m, const MaterialData& data) {
   const Casting& casting = data.casting;
   if (!(casting.brittle_range[0] < casting.brittle_range[1]))
@@ -148,6 +180,7 @@ Material make_material(std::string name, const MaterialData& data) {
   m.density = note("density", data.density).value(0);
   m.conductivity = note("conductivity", data.conductivity);
   m.specific_heat = note("specific_heat", data.specific_heat);
+  m.specific_heat_at = data.specific_heat_at;
   for (const PhaseChangeData& change : data.phase_changes) add_phase_change(m, change);
 
   const bool elastic[] = {data.young_modulus.has_value(), data.poisson_ratio.has_value(),
@@ -170,6 +203,7 @@ Material make_material(std::string name, const MaterialData& data) {
   if (data.plasticity) add_flow(m, *data.plasticity);
   add_casting(m, data);
   check_liquid_model(m, data);
+  check_heat_of_expansion(m, data);
   return m;
 }
 

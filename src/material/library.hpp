@@ -37,6 +37,7 @@ struct PhaseChangeData {
 struct MaterialData {
   std::string title, like;
   Function density, conductivity, specific_heat;
+  SpecificHeatAt specific_heat_at = SpecificHeatAt::constant_pressure;
   std::vector<PhaseChangeData> phase_changes;
   std::optional<Function> young_modulus, poisson_ratio, expansion, twice_shear_viscosity;
   double expansion_reference = 0;  ///< [K]

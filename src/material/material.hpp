@@ -20,11 +20,18 @@ struct PropertyNote {
   double valid_from = 0, valid_to = 0;  ///< [K]; both zero: no range stated
 };
 
+/// What a specific heat was measured at (docs/theory/constitutive.md, "Two specific heats").
+enum class SpecificHeatAt {
+  constant_pressure,  ///< free of stress: C_p of calorimeters and handbooks
+  constant_strain,    ///< at ε = 0: C_v of the monograph (2.49c)
+};
+
 struct Material {
   std::string name, title;
   double density = 0;   ///< ρ of the reference configuration [kg/m³]
   Table conductivity;   ///< k(Θ) [W/(m K)]
   Table specific_heat;  ///< C(Θ) [J/(kg K)]
+  SpecificHeatAt specific_heat_at = SpecificHeatAt::constant_pressure;
   std::vector<PhaseChange> phase_changes;
 
   Table young_modulus;                  ///< E(Θ) [Pa]

@@ -116,6 +116,15 @@ Section<MaterialData> material_keys() {
       .positive()
       .of(temperature)
       .doc("Without the latent heat of the phase changes that are given below.");
+  s.choice(
+       "specific_heat_at", &MaterialData::specific_heat_at,
+       {{"constant_pressure", SpecificHeatAt::constant_pressure,
+         "free of stress, as calorimeters and handbooks have it: C_p"},
+        {"constant_strain", SpecificHeatAt::constant_strain,
+         "at zero strain: C_v of the monograph (2.49c), below C_p by 9 k alpha^2 T/rho, some 4 to 8 % of a "
+         "hot metal"}})
+      .initially("constant_pressure")
+      .doc("What specific_heat was measured at. Where only heat is computed it makes no difference.");
   s.function("young_modulus", &MaterialData::young_modulus, "Pa")
       .positive()
       .of(temperature)

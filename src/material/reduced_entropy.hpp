@@ -4,13 +4,13 @@
 ///
 ///   β̂ = s ê + m ζ*,  s = 2Ĝ,  m = ⅔wK B,  B = 1/(1 + b γ),  ν = ‖β̂‖,  n = β̂/ν
 ///   Φ = ν − (s + w m) γ − w√⅔ [σ_0 + K_ξ(ξ, Θ)],  ξ = ξ* + w√⅔ γ                        (4.138, errata)
-///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − ½ s_Θ a:a − K_Θ(ξ, Θ) − ⅓ K_Θ ζ:ζ                   (2.52b)
+///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − R_Θ − ½ s_Θ a:a − K_Θ(ξ, Θ) − ⅓ K_Θ ζ:ζ             (2.52b)
 ///   a:a = ê:ê − 2γ n:ê + γ²,  ζ:ζ = B² (ζ*:ζ* − 2wγ n:ζ* + w²γ²)
 ///
-/// K with arguments is the hardening potential, alone the kinematic modulus; other symbols are those of
-/// viscoplastic.hpp. S is S^E without its sensible part. What is frozen keeps its value while Θ varies, the
-/// rest follows its line; then S_γ = Φ_Θ, but for Armstrong–Frederick (b > 0). Included by isentropic.hpp
-/// only.
+/// R is that of volumetric_energy(); K with arguments is the hardening potential, alone the kinematic
+/// modulus; other symbols are those of viscoplastic.hpp. S is S^E without its sensible part. What is frozen
+/// keeps its value while Θ varies, the rest follows its line; then S_γ = Φ_Θ, but for Armstrong–Frederick (b
+/// > 0). Included by isentropic.hpp only.
 #pragma once
 
 #include "material/isentropic_lines.hpp"
@@ -18,12 +18,13 @@
 namespace solidus::material {
 
 /// The elastic part of S.
+/// @param volumetric     volumetric_energy()
 /// @param spring_slope   ½ s_Θ
 /// @param squared        a:a
 template <class T>
-[[gnu::always_inline]] inline T elastic_entropy(const ElasticAlong<T>& e, const T& spring_slope,
-                                                const T& trace, const T& squared) {
-  return e.pull_theta() * trace - T(0.5) * e.bulk.d * trace * trace - spring_slope * squared;
+[[gnu::always_inline]] inline T elastic_entropy(const Jet<T>& volumetric, const T& spring_slope,
+                                                const T& squared) {
+  return T(0.0) - volumetric.d - spring_slope * squared;
 }
 
 namespace detail {
@@ -106,10 +107,11 @@ class ReducedEntropy {
       curvature = T(2.0) * shear.viscous_share * inverse;
     }
     const T s = shear.twice_shear, s_theta = share * t.d, s_theta2 = share * (t.dd - curvature * t.d * t.d);
-    const T volumetric_theta = e.pull_theta2() * trace_ - half * e.bulk.dd * trace_ * trace_;
+    const Jet<T> volumetric = volumetric_energy(law_.material(), e.bulk, e.thermal_strain, trace_);
+    const T volumetric_theta = T(0.0) - volumetric.dd;
     const T pressure_theta = e.bulk.d * trace_ - e.pull_theta();
     if (flow_ == nullptr)
-      return {elastic_entropy(e, T(half * s_theta), trace_, ee_),
+      return {elastic_entropy(volumetric, T(half * s_theta), ee_),
               volumetric_theta - half * s_theta2 * ee_,
               pressure_theta,
               s,
@@ -120,7 +122,7 @@ class ReducedEntropy {
     const Flowing f =
         any(gamma > zero) ? flowing(p, temperature, s, s_theta, shear.strength, hardening, gamma) : none();
     const T squared = ee_ + f.squared, back_squared = zz_ + f.back_squared;
-    return {elastic_entropy(e, T(half * s_theta), trace_, squared) + hardening.entropy -
+    return {elastic_entropy(volumetric, T(half * s_theta), squared) + hardening.entropy -
                 T(1.0 / 3.0) * p.flow_slope.kinematic_modulus * back_squared,
             volumetric_theta - half * s_theta2 * squared + hardening.entropy_theta + f.entropy_theta,
             pressure_theta,

@@ -1,13 +1,13 @@
 /// The structural entropy S = −(W_Θ + M_Θ + K_Θ) and energy E = W + M + K + Θ S as functions of what
 /// they depend on, with their partial derivatives: the tangent of the heat balance (monograph 2.52b, 2.55).
 ///
-///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − G_Θ a:a − K_Θ(ξ, Θ) − ⅓ K_Θ ζ:ζ
-///   E = ½ k tr² − k e^θ tr + G a:a + K(ξ, Θ) + ⅓ K ζ:ζ + Θ S,   E_Θ = Θ S_Θ
+///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − R_Θ − G_Θ a:a − K_Θ(ξ, Θ) − ⅓ K_Θ ζ:ζ
+///   E = ½ k tr² − k e^θ tr + R + G a:a + K(ξ, Θ) + ⅓ K ζ:ζ + Θ S,   E_Θ = Θ S_Θ
 ///
-/// Symbols: tr = tr ε, a = dev ε^E of a solid (elsewhere its energy is left out), k, G moduli [Pa], e^θ
-/// thermal strain, ξ equivalent plastic strain, ζ back strain, K(ξ, Θ) the potential of hardening, alone the
-/// kinematic modulus. Solid fraction and straining of phase changes are held (4.81), so f_S = 1 wherever a
-/// counts.
+/// Symbols: R = ½ k (e^θ)² with the specific heat at constant pressure, else 0 (volumetric_energy); tr = tr
+/// ε, a = dev ε^E of a solid (elsewhere its energy is left out), k, G moduli [Pa], e^θ thermal strain, ξ
+/// equivalent plastic strain, ζ back strain, K(ξ, Θ) the potential of hardening, alone the kinematic modulus.
+/// Solid fraction and straining of phase changes are held (4.81), so f_S = 1 wherever a counts.
 #pragma once
 
 #include "material/hardening.hpp"
@@ -27,19 +27,20 @@ StructuralPartials<T> structural_partials(const Material& material, const Viscop
                                           const T& temperature, const T& trace, const T& elastic_squared,
                                           const Mask& solid, const T& hardening, const T& back_squared) {
   using J = Jet<T>;
-  const T zero(0.0), half(0.5);
+  const T zero(0.0);
   const J &k = p.elastic.bulk, &g = p.elastic.shear;
   const J pull = k * p.elastic.thermal_strain;
+  const J volumetric = volumetric_energy(material, k, p.elastic.thermal_strain, trace);
   const T squared = select(solid, elastic_squared, zero);
 
   StructuralPartials<T> r;
   StatePartials<T>&s = r.entropy, &e = r.internal_energy;
-  s.value = pull.d * trace - half * k.d * trace * trace - g.d * squared;
-  s.temperature = pull.dd * trace - half * k.dd * trace * trace - g.dd * squared;
+  s.value = zero - volumetric.d - g.d * squared;
+  s.temperature = zero - volumetric.dd - g.dd * squared;
   s.strain_trace = pull.d - k.d * trace;
   s.elastic_squared = select(solid, T(zero - g.d), zero);
   s.hardening = s.back_squared = zero;
-  e.value = half * k.v * trace * trace - pull.v * trace + g.v * squared;
+  e.value = volumetric.v + g.v * squared;
   e.strain_trace = k.v * trace - pull.v;
   e.elastic_squared = select(solid, g.v, zero);
   e.hardening = e.back_squared = zero;

@@ -3,7 +3,7 @@
 ///
 ///   γ(Θ, ε) solves Φ(γ, Θ, ε) = x(γ, Θ):  γ_Θ = D⁻¹ (Φ_Θ − x_Θ),  γ_ε = D⁻¹ Φ_ε,  D = x_γ − Φ_γ
 ///   a = ê − γ n,  s = 2Ĝ a,  n = β̂/‖β̂‖:  a_Θ = −γ_Θ n − γ n_Θ,  n_Θ = (I − n⊗n) β̂_Θ/‖β̂‖
-///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − Q a:a − K_Θ(ξ) − ⅓ K_Θ ζ:ζ                            (2.52b)
+///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − R_Θ − Q a:a − K_Θ(ξ) − ⅓ K_Θ ζ:ζ                            (2.52b)
 ///   D_mech = [2Ĝ v a:a + γ (x + w √⅔ σ_0 + ⅔ K b ζ:ζ)]/Δt                               (2.114–2.117)
 ///
 /// Q = W_Θ/(a:a) at fixed elastic strain: maxwell (f_S G_Θ − f_S,Θ G) (Ĝ/G)², otherwise Ḡ_Θ; nothing divides

@@ -62,13 +62,14 @@ class Variation {
   [[gnu::always_inline]] Derivatives<T> entropy(bool in_strain = true) const {
     const J& k = p_.elastic.bulk;
     const J pull = k * p_.elastic.thermal_strain;
+    const J volumetric_part = volumetric_energy(law_.material(), k, p_.elastic.thermal_strain, trace_);
     const J q = spring_slope();
-    const T squared = dot(elastic_, elastic_), tr2 = T(0.5) * trace_ * trace_;
+    const T squared = dot(elastic_, elastic_);
     const T volumetric = k.d * trace_ - pull.d;
     Derivatives<T> s;
-    s.value = -(k.d * tr2) + pull.d * trace_ - q.v * squared;
+    s.value = T(0.0) - volumetric_part.d - q.v * squared;
     s.temperature =
-        -(k.dd * tr2) + pull.dd * trace_ - q.d * squared - T(2.0) * q.v * dot(elastic_, elastic_theta_);
+        T(0.0) - volumetric_part.dd - q.d * squared - T(2.0) * q.v * dot(elastic_, elastic_theta_);
     if (!law_.material().flow) {
       if (in_strain) s.strain = T(-2.0 * q.v) * elastic_;
     } else {

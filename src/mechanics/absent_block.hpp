@@ -25,6 +25,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   BlockWork finish(std::span<const double>, std::span<const double>, BlockHistory&) override { return {}; }
   void rest(const StepStart&) override {}
   std::string failure(std::span<const double>) const override { return {}; }
+  FlowingVolume flowing(std::span<const double>) const override { return {}; }
   void get_field(ElementField which, std::span<double> out) const override;
   void keep_fields() override { kept_.reset(); }
   void add_nodal_volume(double, std::span<double>) const override {}

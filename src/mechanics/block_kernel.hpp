@@ -49,6 +49,11 @@ struct BlockWork {
   double least_dissipation = 0, largest_dissipation = 0;  ///< [W/m³]
 };
 
+/// [m³], in two dimensions per depth or radian.
+struct FlowingVolume {
+  double flowing = 0, all = 0;
+};
+
 class BlockKernel {
  public:
   virtual ~BlockKernel() = default;
@@ -74,6 +79,8 @@ class BlockKernel {
   virtual void rest(const StepStart& start) = 0;
   /// The first element whose law finds no state at u, with its inputs; empty if there is none.
   virtual std::string failure(std::span<const double> u) const = 0;
+  /// How much of the block flows plastically at u; counted elements only.
+  virtual FlowingVolume flowing(std::span<const double> u) const = 0;
   /// out[element][component]: averages over the elements, of the last finish() or of the one that is kept.
   virtual void get_field(ElementField which, std::span<double> out) const = 0;
   /// get_field() stays with the last finish() until the next call.

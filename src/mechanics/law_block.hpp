@@ -141,6 +141,16 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     return {};
   }
 
+  FlowingVolume flowing(std::span<const double> u) const override {
+    FlowingVolume volume;
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Vectors displacement = gather(u, batch);
+      for (int q = 0; q < geometry_.n_points; ++q)
+        this->add_flowing(batch, q, at_point(batch, q).strain(displacement), volume);
+    }
+    return volume;
+  }
+
  protected:  // for the kernel of the simultaneous scheme (coupled_block.hpp)
   Operator at_point(Index batch, int point) const {
     if constexpr (b_bar) {

@@ -14,7 +14,32 @@ namespace solidus::mechanics {
 void MechanicalPhase::reject(const std::string& reason, std::span<const double> x) {
   if (const std::string failure = law_failure(x); !failure.empty())
     throw StepRejected("mechanics: a constitutive law asks for a smaller step", failure);
-  throw StepRejected("mechanics: " + reason, worst_place(x));
+  throw StepRejected("mechanics: " + reason + flowing_body(x), worst_place(x));
+}
+
+/// The body that flows in the largest part of its volume at x, where that is more than k_mechanism: its
+/// forces have a limit, beyond which there is no equilibrium. Empty where none does.
+std::string MechanicalPhase::flowing_body(std::span<const double> x) const {
+  constexpr double k_mechanism = 0.25;
+  std::vector<double> sums(2 * mesh_.bodies.size(), 0.0);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const FlowingVolume volume = blocks_[b]->flowing(x.first(n_displacements()));
+    const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
+    sums[2 * body] += volume.flowing;
+    sums[2 * body + 1] += volume.all;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  double largest = k_mechanism;
+  std::string text;
+  for (std::size_t body = 0; body < mesh_.bodies.size(); ++body) {
+    const double share = sums[2 * body + 1] > 0 ? sums[2 * body] / sums[2 * body + 1] : 0.0;
+    if (share <= largest) continue;
+    largest = share;
+    text = fmt::format("; {:.0f} % of body '{}' flows plastically: at its limit load?", 100 * share,
+                       mesh_.bodies[body].name);
+  }
+  return text;
 }
 
 std::string MechanicalPhase::worst_place(std::span<const double> x) {

@@ -262,6 +262,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// Moves the start to the guess of the pass where that is nearer to equilibrium; whether it did.
   bool look_ahead(const MechanicalPass& pass, std::vector<double>& x);
   std::string law_failure(std::span<const double> x) const;
+  std::string flowing_body(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;
   MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums,

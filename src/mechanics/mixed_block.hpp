@@ -168,6 +168,14 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     return {};
   }
 
+  FlowingVolume flowing(std::span<const double> u) const override {
+    FlowingVolume volume;
+    for (Index batch = 0; batch < n_batches(); ++batch)
+      this->add_flowing(batch, 0, strain(at_point(batch).strain(gather(u, batch)), volume_[at(batch)]),
+                        volume);
+    return volume;
+  }
+
   /// ∫ N_a dV: in axisymmetry exact, as the pressure's forces are, so that a liquid column rests.
   void add_nodal_volume(double factor, std::span<double> out) const override {
     for (Index batch = 0; batch < n_batches(); ++batch) {

@@ -294,6 +294,16 @@ class PointBlock : public BlockKernel {
     return work;
   }
 
+  /// Adds a point of strain `strain` to the volume that flows.
+  void add_flowing(Index batch, int q, const Sym<Lane>& strain, FlowingVolume& volume) const {
+    const Lane share = counted(batch) * geometry_.weight_at(batch, q);
+    volume.all += sum(share);
+    if constexpr (RankOneTangent<Response>) {
+      const Response response = update(batch, q, strain);
+      volume.flowing += sum(select(response.flow_increment > Lane(0.0), share, Lane(0.0)));
+    }
+  }
+
   /// The first element of a batch whose law finds no state at these strains, with its inputs.
   std::string failure_at(Index batch, int q, const Sym<Lane>& strain) const {
     for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane) {

@@ -16,6 +16,7 @@
 #include "base/errors.hpp"
 #include "base/keys.hpp"
 #include "mesh/abaqus_input.hpp"
+#include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_script.hpp"
 #include "mesh/raw_mesh.hpp"
@@ -287,12 +288,28 @@ void name_groups(const std::string& path, const GeometryChoice& geometry, double
   }
 }
 
+/// With the CAD kernel's own exceptions as messages.
+void make_casting(const MeshSource& source, const CastingGeometry& casting) {
+  try {
+    make_casting_mesh(source, casting);
+  } catch (const std::exception&) {
+    throw;
+  } catch (const std::string& complaint) {
+    throw InputError({source.path}, "the geometry cannot be meshed: " + complaint);
+  } catch (...) {
+    throw InputError({source.path}, "the geometry cannot be meshed: the CAD kernel gave up");
+  }
+}
+
 }  // namespace
 
-RawMesh read_mesh_here(const MeshSource& source) {
+RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting) {
   const std::string& path = source.path;
   check_readable(path);
   const FileFormat format = file_format(path);
+  if (casting != nullptr && !is_cad(format))
+    throw InputError({path}, "[[mesh.size]], [mesh.mould], [mesh.riser] and [mesh.symmetry] are for solids",
+                     "a STEP, BREP or IGES file");
   if (!source.geometry.groups.empty() && !is_geometry(format))
     throw InputError({path}, "the file holds a mesh, whose groups are its own",
                      "a STEP, BREP, IGES or .geo file");
@@ -306,7 +323,9 @@ RawMesh read_mesh_here(const MeshSource& source) {
   if (format == FileFormat::abaqus) return read_abaqus_input(path, source.unit_in_metres);
   const Session session(source.constants);
   open(path, format);
-  if (is_geometry(format)) {
+  if (casting != nullptr) {
+    make_casting(source, *casting);
+  } else if (is_geometry(format)) {
     name_groups(path, source.geometry, source.unit_in_metres, format);
     generate(path, source.element_size / source.unit_in_metres, source.element_order);
   }

@@ -122,6 +122,55 @@ MeshSource take_source(const TakeBytes& take) {
   return source;
 }
 
+void put_casting(const CastingGeometry& casting, const PutBytes& put) {
+  put_number(casting.sizes.size(), put);
+  for (const BodySize& s : casting.sizes) {
+    put_text(s.body, put);
+    put_number(std::array{s.size, s.smallest, s.across, s.growth}, put);
+  }
+  put_number(casting.mould.has_value(), put);
+  if (casting.mould) {
+    put_text(casting.mould->name, put);
+    put_text(casting.mould->core, put);
+    put_number(casting.mould->walls, put);
+  }
+  put_number(casting.riser.has_value(), put);
+  if (casting.riser) {
+    put_text(casting.riser->name, put);
+    put_number(casting.riser->foot, put);
+    put_number(std::array{casting.riser->diameter, casting.riser->height}, put);
+  }
+  put_number(casting.symmetry.has_value(), put);
+  if (casting.symmetry) put_number(*casting.symmetry, put);
+  put_number(casting.attempt, put);
+}
+
+CastingGeometry take_casting(const TakeBytes& take) {
+  CastingGeometry casting;
+  for (auto n = take_number<std::size_t>(take); n > 0; --n) {
+    BodySize& s = casting.sizes.emplace_back();
+    s.body = take_text(take);
+    const auto numbers = take_number<std::array<double, 4>>(take);
+    s.size = numbers[0], s.smallest = numbers[1], s.across = numbers[2], s.growth = numbers[3];
+  }
+  if (take_number<bool>(take)) {
+    MouldBlock& mould = casting.mould.emplace();
+    mould.name = take_text(take);
+    mould.core = take_text(take);
+    mould.walls = take_number<std::array<double, 6>>(take);
+  }
+  if (take_number<bool>(take)) {
+    RiserCylinder& riser = casting.riser.emplace();
+    riser.name = take_text(take);
+    riser.foot = take_number<Point>(take);
+    const auto sizes = take_number<std::array<double, 2>>(take);
+    riser.diameter = sizes[0], riser.height = sizes[1];
+  }
+  if (take_number<bool>(take)) casting.symmetry = take_number<HalfSpace>(take);
+  casting.attempt = take_number<int>(take);
+  return casting;
+}
+
 void put_mesh(const RawMesh& mesh, const PutBytes& put) {
   put_number(mesh.dimension, put);
   put_list(mesh.x, put);

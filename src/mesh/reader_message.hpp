@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "mesh/casting_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
@@ -18,6 +19,9 @@ using TakeBytes = std::function<void(void* bytes, std::size_t n)>;
 
 void put_source(const MeshSource& source, const PutBytes& put);
 MeshSource take_source(const TakeBytes& take);
+
+void put_casting(const CastingGeometry& casting, const PutBytes& put);
+CastingGeometry take_casting(const TakeBytes& take);
 
 void put_mesh(const RawMesh& mesh, const PutBytes& put);
 /// Throws std::runtime_error for what is no mesh: an unknown shape, a node that is not there, more than

@@ -89,12 +89,16 @@ int serve() {
   const TakeBytes take = [](void* bytes, std::size_t n) { take_all(k_request, bytes, n); };
   const auto say = [&](Answer answer) { put(&answer, sizeof answer); };
   const MeshSource source = take_source(take);
+  bool of_casting = false;
+  take(&of_casting, sizeof of_casting);
+  std::optional<CastingGeometry> casting;
+  if (of_casting) casting = take_casting(take);
   double memory = 0;
   take(&memory, sizeof memory);
   limit_memory(k_limits_memory ? memory : 0);
   if (!source.trust_script) forbid_all_but_reading();
   try {
-    const RawMesh mesh = read_mesh_here(source);
+    const RawMesh mesh = read_mesh_here(source, casting ? &*casting : nullptr);
     say(Answer::mesh);
     put_mesh(mesh, put);
   } catch (const InputError& error) {
@@ -114,7 +118,7 @@ int serve() {
 /// A reader at work; it does not outlive this.
 class Reader {
  public:
-  Reader(const MeshSource& source, const ReaderLimits& limits);
+  Reader(const MeshSource& source, const CastingGeometry* casting, const ReaderLimits& limits);
   ~Reader() {
     if (pid_ > 0) {
       ::kill(pid_, SIGKILL);
@@ -150,7 +154,8 @@ class Reader {
   int to_ = -1, from_ = -1;
 };
 
-Reader::Reader(const MeshSource& source, const ReaderLimits& limits) : source_(source), limits_(limits) {
+Reader::Reader(const MeshSource& source, const CastingGeometry* casting, const ReaderLimits& limits)
+    : source_(source), limits_(limits) {
   std::array<int, 2> request{}, answer{};
   if (pipe2(request.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to a reader of meshes");
   if (pipe2(answer.data(), O_CLOEXEC) != 0) {
@@ -188,6 +193,9 @@ Reader::Reader(const MeshSource& source, const ReaderLimits& limits) : source_(s
   try {
     const PutBytes put = [this](const void* bytes, std::size_t n) { put_all(to_, bytes, n); };
     put_source(source, put);
+    const bool of_casting = casting != nullptr;
+    put(&of_casting, sizeof of_casting);
+    if (of_casting) put_casting(*casting, put);
     put(&limits_.memory, sizeof limits_.memory);
   } catch (const std::runtime_error&) {  // NOLINT: take() finds the reader gone and says why
   }
@@ -249,9 +257,9 @@ void Reader::ended() {
       "larger elements, or more memory: SOLIDUS_MESH_MEMORY=\"8 GB\"");
 }
 
-RawMesh read_in_own_process(const MeshSource& source) {
+RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* casting) {
   const ReaderLimits limits = reader_limits(source);
-  Reader reader(source, limits);
+  Reader reader(source, casting, limits);
   const TakeBytes take = [&](void* bytes, std::size_t n) { reader.take(bytes, n); };
   Answer answer = Answer::internal;
   take(&answer, sizeof answer);
@@ -332,8 +340,12 @@ ReaderLimits reader_limits(const MeshSource& source) {
   return limits;
 }
 
+RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting) {
+  return starts_readers ? read_in_own_process(source, casting) : read_mesh_here(source, casting);
+}
+
 RawMesh read_mesh(const MeshSource& source) {
-  return starts_readers ? read_in_own_process(source) : read_mesh_here(source);
+  return read_in_one_way(source, nullptr);
 }
 
 }  // namespace solidus::mesh

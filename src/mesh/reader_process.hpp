@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "mesh/casting_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
 
 namespace solidus::mesh {
@@ -30,6 +31,10 @@ struct ReaderLimits {
 ReaderLimits reader_limits(const MeshSource& source);
 
 /// Reads in this process, whatever happens.
-RawMesh read_mesh_here(const MeshSource& source);
+RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting = nullptr);
+
+/// Reads a mesh, or with `casting` makes one in the way that its `attempt` says, in a reader where there are
+/// readers. Throws InputError.
+RawMesh read_in_one_way(const MeshSource& source, const CastingGeometry* casting);
 
 }  // namespace solidus::mesh

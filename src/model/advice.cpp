@@ -18,6 +18,13 @@ bool something_is_held(const CaseSpec& spec) {
                      [](const auto& c) { return c.kind == MechanicalConditionSpec::Kind::displacement; });
 }
 
+bool carries_loads(const CaseSpec& spec) {
+  return std::any_of(spec.mechanical_conditions.begin(), spec.mechanical_conditions.end(), [](const auto& c) {
+    return c.kind == MechanicalConditionSpec::Kind::pressure ||
+           c.kind == MechanicalConditionSpec::Kind::traction;
+  });
+}
+
 /// Another solver than the iterative one that was asked for.
 std::vector<std::string> solver_advice(const CaseSpec& spec) {
   const bool unsymmetric = std::any_of(spec.contacts.begin(), spec.contacts.end(),
@@ -32,6 +39,10 @@ std::vector<std::string> solver_advice(const CaseSpec& spec) {
 }
 
 std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  if (says(stop, "limit load"))
+    return {
+        "beyond its limit load a body that yields has no equilibrium: are loads and strength in the right "
+        "unit? Hardening, rate dependence, or displacements in place of forces carry it further"};
   std::vector<std::string> advice;
   if (says(stop, "linear solver")) advice = solver_advice(spec);
   if (spec.dynamics)
@@ -65,7 +76,17 @@ std::vector<std::string> guard_advice(const CaseSpec& spec) {
   advice.emplace_back("a heat transfer that changes less steeply with gap and pressure: [contact.heat]");
   if (spec.coupling.scheme == CouplingSpec::Scheme::simultaneous)
     advice.emplace_back("coupling.scheme = \"isentropic\", whose thermal phase has one solution");
+  if (carries_loads(spec))
+    advice.emplace_back(
+        "loads beyond the limit load of a body that yields: it flows on and on, and flow heats");
   return advice;
+}
+
+/// Of the augmented Lagrangian (coupling/contact_states.hpp).
+std::vector<std::string> contact_advice() {
+  return {"normal = \"penalty\" in that [[contact]], which needs no turns",
+          "a larger penetration_tolerance, or a larger penalty_factor, of that contact",
+          "a smaller mechanics.tolerance: turns cannot gain what Newton's iteration leaves"};
 }
 
 std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseSpec& spec) {
@@ -143,9 +164,11 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
         "\"isentropic\" "
         "is stable for every step. Shorter steps do not help",
         model::text(*unstable));
-  const bool mechanics = stop.reason.starts_with("mechanics"), coupling = stop.reason.starts_with("coupling");
+  const bool mechanics = stop.reason.starts_with("mechanics"), coupling = stop.reason.starts_with("coupling"),
+             contact = stop.reason.starts_with("contact");
   for (const std::string& advice : coupling    ? coupling_advice(stop, spec)
                                    : mechanics ? mechanics_advice(stop, spec)
+                                   : contact   ? contact_advice()
                                                : heat_advice(stop, spec))
     text += fmt::format("\n    - {}", advice);
   if (!steps) return text;

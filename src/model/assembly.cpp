@@ -183,7 +183,7 @@ void build(const CaseSpec& spec, Assembly& a) {
   if (spec.has_heat()) build_heat(spec, start, a);
   if (spec.coupled())
     a.phases.ambient_temperature = admissibility(spec, a.coldest_start()).ambient_temperature;
-  a.criteria = make_criteria(spec, a.mesh, a.materials, a.phases);
+  a.criteria = make_criteria(spec, a.mesh, a.materials, a.start, a.phases);
   if (a.criteria == nullptr) return;
   a.phases.criteria = a.criteria.get();
   a.initial.criteria = a.criteria->initial({a.initial.time, a.initial.heat, a.initial.mechanics});

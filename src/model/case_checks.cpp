@@ -69,6 +69,44 @@ double product(const std::vector<int>& divisions) {
   return n;
 }
 
+/// A rule for faces chooses surfaces, and its points have three coordinates.
+void check_face_rule(const MeshGroupSpec& g) {
+  const auto refuse = [&](const std::string& what, const std::string& allowed) {
+    throw InputError(g.where, fmt::format("the group '{}' of the mesh: {}", g.name, what), allowed);
+  };
+  if (g.kind == MeshGroupSpec::Kind::body || !g.numbers.empty() || !g.label.empty())
+    refuse("a rule chooses faces of the mesh", "no kind = \"body\", numbers or label beside a rule");
+  for (const std::vector<double>* point : {&g.normal, &g.plane, &g.nearest})
+    if (!point->empty() && point->size() != 3)
+      refuse("a rule has a point or direction that is none", "three coordinates");
+  if (!g.plane.empty() && g.normal.empty())
+    refuse("'plane' is a point of a plane without its normal", "normal = [0, 0, 1] beside it");
+  if (!g.normal.empty() && !(std::hypot(g.normal[0], g.normal[1], g.normal[2]) > 0))
+    refuse("'normal' has no length", "a direction");
+}
+
+/// Names of bodies, and that a friction has heat.
+void check_interfaces(const CaseSpec& spec) {
+  const std::vector<std::string> bodies = names_of(spec.bodies);
+  std::set<std::string> seen;
+  for (const BodyInterfaceSpec& i : spec.interfaces) {
+    if (!i.name.empty() && !seen.insert(i.name).second)
+      throw InputError(i.where, fmt::format("the name '{}' is used by two [[interface]] sections", i.name),
+                       "each needs a name of its own");
+    if (!i.all() && i.bodies.size() != 2)
+      throw InputError(i.where, "an interface is between two bodies",
+                       "bodies = [\"casting\", \"mould\"], or bodies = \"all\"");
+    if (i.all()) continue;
+    for (const std::string& body : i.bodies)
+      if (std::find(bodies.begin(), bodies.end(), body) == bodies.end())
+        throw InputError(i.where, fmt::format("an interface names the unknown body '{}'", body),
+                         one_of(bodies, body));
+    if (i.bodies[0] == i.bodies[1])
+      throw InputError(i.where, fmt::format("an interface of the body '{}' with itself", i.bodies[0]),
+                       "two bodies");
+  }
+}
+
 void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   if (m.shape.has_value() == m.file.has_value())
     throw InputError(m.where,
@@ -79,19 +117,33 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
                      "\"mm\", \"m\", \"inch\", ...");
   check_names(m.groups, "[[mesh.group]]");
   check_names(m.layers, "[[mesh.layers]]");
+  if (m.mould && m.mould->walls.size() != 1 && m.mould->walls.size() != 6)
+    throw InputError(m.mould->where, fmt::format("'walls' has {} lengths", m.mould->walls.size()),
+                     "one, or six: lowest and highest x, y and z");
+  if (m.riser && m.riser->foot.size() != 3)
+    throw InputError(m.riser->where, fmt::format("'foot' has {} coordinates", m.riser->foot.size()), "three");
   for (const MeshGroupSpec& g : m.groups) {
     const bool box = !g.lowest.empty() || !g.highest.empty();
-    if ((g.numbers.empty() ? 0 : 1) + (g.label.empty() ? 0 : 1) + (box ? 1 : 0) != 1)
+    if (g.by_rule())
+      check_face_rule(g);
+    else if ((g.numbers.empty() ? 0 : 1) + (g.label.empty() ? 0 : 1) + (box ? 1 : 0) != 1)
       throw InputError(g.where, fmt::format("the group '{}' of the mesh is not chosen in one way", g.name),
-                       "numbers, label, or lowest and highest");
+                       "numbers, label, or lowest and highest; or owner, normal, plane, nearest");
     if (box && (g.lowest.size() != 3 || g.highest.size() != 3))
       throw InputError(g.where, fmt::format("the box of the group '{}' has no two corners", g.name),
                        "lowest and highest of three coordinates each");
   }
   if (!m.shape) return;
-  if (!m.groups.empty() || m.conforming)
+  const bool rules_alone =
+      std::all_of(m.groups.begin(), m.groups.end(), [](const MeshGroupSpec& g) { return g.by_rule(); });
+  if (!rules_alone || m.conforming)
     throw InputError(m.where,
-                     "[[mesh.group]] and 'conforming' are for files, and the mesh is a built-in shape");
+                     "[[mesh.group]] without a rule and 'conforming' are for files, and the mesh is a "
+                     "built-in shape");
+  if (!m.sizes.empty() || m.mould || m.riser || m.symmetry)
+    throw InputError(m.where,
+                     "[[mesh.size]], [mesh.mould], [mesh.riser] and [mesh.symmetry] are for files that hold "
+                     "a geometry, and the mesh is a built-in shape");
   if (!m.constants.empty())
     throw InputError(m.where, "[[mesh.constant]] is for .geo scripts, and the mesh is a built-in shape");
   const bool solid = analysis.kind == AnalysisKind::solid;
@@ -284,7 +336,8 @@ void check_probes(const CaseSpec& spec) {
     if (p.body && std::find(bodies.begin(), bodies.end(), *p.body) == bodies.end())
       throw InputError(p.where, fmt::format("the probe '{}' is on an unknown body '{}'", p.name, *p.body),
                        one_of(bodies, *p.body));
-    if (!p.field.empty() && field_info(p.field).of_contact && spec.contacts.empty())
+    if (!p.field.empty() && field_info(p.field).of_contact && spec.contacts.empty() &&
+        spec.interfaces.empty())
       throw InputError(
           p.where,
           fmt::format("the probe '{}' reads the field '{}', but nothing is in contact", p.name, p.field),
@@ -401,6 +454,7 @@ void check_case(const CaseSpec& spec) {
   check_names(spec.bodies, "[[body]]");
   check_conditions(spec);
   check_contacts(spec);
+  check_interfaces(spec);
   check_stage_names(spec);
   check_bodies(spec);
   check_coupling(spec);

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/log.hpp"
 #include "model/case_keys.hpp"
 #include "model/overrides.hpp"
+#include "model/physics_switch.hpp"
+#include "model/roles.hpp"
 #include "model/stage_input.hpp"
 
 namespace solidus::model {
@@ -108,18 +111,23 @@ std::string Case::toml() const {
                      fs::absolute(file).lexically_normal().string(), to_toml(document));
 }
 
-Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+               std::optional<Physics> physics) {
   Case result;
   std::error_code error;
   result.file = fs::is_directory(path, error) ? path / "case.toml" : path;
   Includes includes;
   Value document = load_with_includes(result.file, includes);
   for (const std::string& assignment : overrides) apply_override(document, assignment);
+  if (physics)
+    if (const std::string left_out = switch_physics(document, *physics); !left_out.empty())
+      logging::info("heat alone, without {}", left_out);
   resolve_paths(document);
   result.document = case_keys().info().completed(document, "");
   case_keys().assign(result.spec, result.document);
   resolve_stages(result.spec);
   check_case(result.spec);
+  decide_physics(result.spec);
   return result;
 }
 

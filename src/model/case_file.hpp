@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,10 @@ struct Case {
 /// checks every key and what can be checked between keys without the mesh. Throws InputError with the place
 /// of the first thing wrong.
 /// @param overrides "path=value" as given to --set
-Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+/// @param physics   what is computed in place of what the case says; the rest of the case follows
+///                  (model/physics_switch.hpp)
+Case load_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+               std::optional<Physics> physics = {});
 
 /// Checks between keys, as part of load_case: names used twice, components that the analysis does not have,
 /// ...

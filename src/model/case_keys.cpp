@@ -37,11 +37,27 @@ Section<BodySpec> body_keys() {
       .anywhere(Key::Place::position)
       .positive()
       .doc("At the start; the body is free of thermal strain there.");
+  s.choice("role", &BodySpec::role,
+           {{"automatic", std::nullopt, "a casting where the material can melt, else what its name says"},
+            {"casting", Role::casting, "what is poured"},
+            {"riser", Role::riser, "metal that feeds the casting"},
+            {"mould", Role::mould, "what is broken off or shaken out"},
+            {"core", Role::core, "a mould inside the casting"},
+            {"chill", Role::chill, "a piece that draws heat, whatever it is made of"},
+            {"sleeve", Role::sleeve, "keeps a riser warm"},
+            {"die", Role::die, "a mould that is used again"},
+            {"insulation", Role::insulation, "a layer or board that holds heat back"}})
+      .initially("automatic")
+      .doc(
+          "What the body is to the foundry. Solid fraction, criteria and summary are those of castings and "
+          "risers.");
   s.choice("physics", &BodySpec::physics,
-           {{"all", BodySpec::Physics::all, "those of the analysis"},
+           {{"automatic", BodySpec::Physics::automatic,
+             "heat where the body is no casting and its material has no elastic properties, else all"},
+            {"all", BodySpec::Physics::all, "those of the analysis"},
             {"heat", BodySpec::Physics::heat,
              "in a thermomechanical analysis it conducts heat and stands still"}})
-      .initially("all")
+      .initially("automatic")
       .doc(
           "What the body takes part in. One that only conducts heat (a sand mould) costs no mechanics: nodes "
           "that it shares with others move with them, and in contact it is a rigid wall.");
@@ -79,6 +95,7 @@ const Section<CaseSpec>& case_keys() {
     s.sections("thermal_condition", &CaseSpec::thermal_conditions, thermal_condition_keys());
     s.sections("mechanical_condition", &CaseSpec::mechanical_conditions, mechanical_condition_keys());
     s.sections("contact", &CaseSpec::contacts, contact_keys());
+    s.sections("interface", &CaseSpec::interfaces, body_interface_keys());
     s.sections("rigid_surface", &CaseSpec::rigid_surfaces, rigid_surface_keys());
     s.section("heat", &CaseSpec::heat, heat_keys());
     s.section("mechanics", &CaseSpec::mechanics, mechanics_keys());

@@ -19,6 +19,9 @@ Section<BodySpec> body_keys();
 Section<ThermalConditionSpec> thermal_condition_keys();
 Section<MechanicalConditionSpec> mechanical_condition_keys();
 Section<ContactSpec> contact_keys();
+/// [contact.heat] and [interface.heat].
+Section<contact::HeatTransferSpec> contact_heat_keys();
+Section<BodyInterfaceSpec> body_interface_keys();
 Section<RigidSurfaceSpec> rigid_surface_keys();
 Section<heat::HeatOptions> heat_keys();
 Section<MechanicsSpec> mechanics_keys();

@@ -8,6 +8,7 @@
 #include "base/types.hpp"
 #include "material/library.hpp"
 #include "model/body_input.hpp"
+#include "model/roles.hpp"
 
 namespace solidus::model {
 
@@ -41,6 +42,9 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
   std::vector<material::Material> materials;
   for (const BodySpec& body : spec.bodies) {
     materials.push_back(material::find_material(body.material, folders, body.where));
+    // What a chill or a die is made of may melt, but that is no casting that solidifies.
+    if (const Role role = role_of(body, materials.back()); role != Role::casting && role != Role::riser)
+      for (material::PhaseChange& change : materials.back().phase_changes) change.solidification = false;
     if (spec.has_mechanics() && !only_conducts(body) && !materials.back().mechanical())
       throw InputError(
           body.where,

@@ -61,7 +61,8 @@ struct MeshConstantSpec {
   double value = 0;
 };
 
-/// Volumes or surfaces of a geometry file that get a name (mesh/geometry_groups.hpp).
+/// Volumes or surfaces that get a name: of a geometry file by numbers, label or box
+/// (mesh/geometry_groups.hpp); faces of any mesh by a rule (mesh/face_rules.hpp).
 struct MeshGroupSpec {
   enum class Kind { body, surface };
   std::string name;
@@ -69,6 +70,48 @@ struct MeshGroupSpec {
   std::vector<int> numbers;
   std::string label;
   std::vector<double> lowest, highest;  ///< corners of a box [m]
+  std::string owner;                    ///< the body whose faces are meant
+  std::vector<double> normal;           ///< outward, of any length
+  double angle = 0;                     ///< between a face's normal and it, at most [rad]
+  std::vector<double> plane;            ///< a point of the plane in which the faces lie [m]
+  std::vector<double> nearest;          ///< a point [m]: the smooth part of the skin that is nearest to it
+  SourceLocation where;
+  /// Whether faces of the mesh are chosen, in place of surfaces of the geometry.
+  bool by_rule() const {
+    return !owner.empty() || !normal.empty() || !plane.empty() || !nearest.empty();
+  }
+};
+
+/// How large the elements of a body are (mesh/casting_geometry.hpp).
+struct MeshSizeSpec {
+  std::string body;                ///< group of the mesh
+  double size = 0;                 ///< the largest [m]
+  std::optional<double> smallest;  ///< [m]; absent: a quarter of `size`
+  double across = 0;               ///< elements through the thickness of a wall, about
+  double growth = 0;               ///< of the size for each length away from smaller elements
+  SourceLocation where;
+};
+
+/// A block of mould around what the geometry holds (mesh/casting_geometry.hpp).
+struct MouldBlockSpec {
+  std::string name;
+  std::vector<double> walls;  ///< [m], one, or six: x lowest, x highest, y …, z …
+  std::string core;           ///< name of the mould in closed cavities of the parts
+  SourceLocation where;
+};
+
+/// A cylindrical riser on top of a casting (mesh/casting_geometry.hpp). All in metres.
+struct RiserBlockSpec {
+  std::string name;
+  std::vector<double> foot;  ///< centre of its foot
+  double diameter = 0, height = 0;
+  SourceLocation where;
+};
+
+/// The half of the geometry that is kept.
+struct SymmetrySpec {
+  std::string axis;  ///< "x", "y" or "z", normal to the plane
+  double at = 0;     ///< the coordinate of the plane [m]; the lower half is kept
   SourceLocation where;
 };
 
@@ -91,6 +134,10 @@ struct MeshSpec {
   std::vector<MeshGroupSpec> groups;        ///< of files that are meshed here
   std::vector<MeshLayersSpec> layers;
   bool conforming = false;  ///< bodies that touch share nodes, of STEP, BREP, IGES
+  std::vector<MeshSizeSpec> sizes;
+  std::optional<MouldBlockSpec> mould;
+  std::optional<RiserBlockSpec> riser;
+  std::optional<SymmetrySpec> symmetry;
   /// Run a .geo script whatever it says. Never a key: who runs a case trusts its scripts, not who wrote it.
   bool trust_script = false;
   std::string element;  ///< of the built-in shapes: "tri3", ...
@@ -134,12 +181,17 @@ struct CycleSpec {
 /// What functions of time count from: the start of the run, or that of the stage.
 enum class Clock { run, stage };
 
+/// What a body is to the foundry. Criteria, solid fraction and summary are of castings and risers.
+enum class Role { casting, riser, mould, core, chill, sleeve, die, insulation };
+
 struct BodySpec {
   std::string name;
   std::optional<std::string> group;  ///< of the mesh; absent: as `name`
   std::string material;              ///< name in the library, or a file
   Function initial_temperature;      ///< [K], of position
-  enum class Physics { all, heat };
+  std::optional<Role> role;              ///< absent: deduced (model/roles.hpp)
+  /// automatic: heat where it is no casting and its material has no elastic properties, else all
+  enum class Physics { automatic, all, heat };
   Physics physics = Physics::all;
   std::vector<std::string> stages;       ///< in which it is there; empty: all
   std::vector<double> initial_velocity;  ///< [m/s]; empty: at rest
@@ -202,7 +254,23 @@ struct ContactSpec {
   std::optional<WearSpec> wear;
   InterfaceSpec interface;
   std::vector<std::string> stages;  ///< in which it holds; empty: all
+  std::string law;                  ///< of an interface: the card of its heat transfer
   SourceLocation where;
+};
+
+/// Contacts between bodies whose faces are found by themselves (model/interfaces.hpp).
+struct BodyInterfaceSpec {
+  std::string name;
+  std::vector<std::string> bodies;         ///< names of two, or "all"
+  std::optional<double> distance;          ///< up to which faces face each other [m]
+  std::optional<double> touching;          ///< as of a contact [m]
+  std::string law;                         ///< name of a card of the library; empty: by the pair
+  bool wet = true;                         ///< as of a contact
+  std::optional<contact::HeatTransferSpec> heat;  ///< in place of the library
+  std::optional<FrictionSpec> friction;
+  std::vector<std::string> stages;  ///< in which it holds; empty: all
+  SourceLocation where;
+  bool all() const { return bodies.size() == 1 && bodies[0] == "all"; }
 };
 
 /// A tool without a mesh; model/rigid_surface_input.hpp makes the contact room's surface of it.
@@ -331,7 +399,8 @@ struct CaseSpec {
   std::vector<BodySpec> bodies;
   std::vector<ThermalConditionSpec> thermal_conditions;
   std::vector<MechanicalConditionSpec> mechanical_conditions;
-  std::vector<ContactSpec> contacts;
+  std::vector<ContactSpec> contacts;  ///< with those of the interfaces, once the mesh is loaded
+  std::vector<BodyInterfaceSpec> interfaces;
   std::vector<RigidSurfaceSpec> rigid_surfaces;
   heat::HeatOptions heat;
   MechanicsSpec mechanics;

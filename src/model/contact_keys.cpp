@@ -46,6 +46,8 @@ Section<contact::HeatTransferSpec::AtTemperature> heat_table_keys() {
   return s;
 }
 
+}  // namespace
+
 Section<contact::HeatTransferSpec> contact_heat_keys() {
   using H = contact::HeatTransferSpec;
   Section<H> s("heat", "Heat through the interface; without this section it is insulated.");
@@ -124,7 +126,45 @@ Section<contact::HeatTransferSpec> contact_heat_keys() {
   return s;
 }
 
-}  // namespace
+Section<BodyInterfaceSpec> body_interface_keys() {
+  using I = BodyInterfaceSpec;
+  Section<I> s(
+      "interface",
+      "Contact between bodies, whose facing surfaces are found by themselves: each pair A, B becomes a "
+      "[[contact]] between the groups `A_to_B` and `B_to_A`. What of a skin faces no other body is "
+      "the group `A_free`, for films; what lies in a plane of symmetry is `A_symmetry`. Nodes that two such "
+      "bodies share are split.");
+  s.key("name", &I::name).initially("").doc("A name of your choice, that of the contact; without it `A_B`.");
+  s.key("bodies", &I::bodies)
+      .or_one()
+      .doc(
+          "Names of two bodies, or \"all\": every two bodies that face each other and have no interface or "
+          "contact of their own. Castings and risers that share nodes stay one.");
+  s.quantity("distance", &I::distance, "m")
+      .positive()
+      .doc(
+          "How far apart faces may be that face each other; without it a quarter of the mean edge of the "
+          "finer of the two skins.");
+  s.quantity("touching", &I::touching, "m")
+      .at_least(0)
+      .doc(
+          "Initial gaps and penetrations up to this size count as touching; without it what facets of curved "
+          "faces leave: `distance`, and at most a quarter of the mean edge.");
+  s.key("law", &I::law)
+      .initially("")
+      .doc(
+          "The card in the library of interface laws (`interfaces/`); without it the one that fits "
+          "materials and roles best.");
+  s.key("wet", &I::wet).initially(true).doc("As of a [[contact]].");
+  s.section("heat", &I::heat, contact_heat_keys());
+  s.section("friction", &I::friction, friction_keys());
+  s.key("stages", &I::stages)
+      .or_one()
+      .initially(Value::list())
+      .doc("The stages in which it holds; empty: in all.");
+  s.place(&I::where);
+  return s;
+}
 
 Section<ContactSpec> contact_keys() {
   using C = ContactSpec;

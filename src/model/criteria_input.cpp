@@ -5,11 +5,13 @@
 #include "criteria/freezing.hpp"
 #include "criteria/pools.hpp"
 #include "criteria/strain_criteria.hpp"
+#include "model/cast_bodies.hpp"
 
 namespace solidus::model {
 
 std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
+                                                  const std::vector<TemperatureRange>& start,
                                                   const coupling::Phases& phases) {
   const bool melts = std::any_of(materials.begin(), materials.end(),
                                  [](const material::Material& m) { return m.solidification() != nullptr; });
@@ -17,13 +19,15 @@ std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const me
   auto all = std::make_unique<criteria::Criteria>(phases.heat);
   if (phases.heat != nullptr) {
     const heat::NodalEnthalpy& storage = phases.heat->storage();
+    const std::vector<char> followed = followed_bodies(spec, materials, start);
     all->add(std::make_unique<criteria::Freezing>(
         mesh, spec.analysis.kind, storage,
-        criteria::FreezingOptions{.evaluation = spec.criteria.evaluation}));
+        criteria::FreezingOptions{.evaluation = spec.criteria.evaluation, .bodies = followed}));
     try {
       all->add(std::make_unique<criteria::Pools>(
           mesh, storage,
-          criteria::PoolOptions{.limit = spec.criteria.feeding_limit, .feeders = spec.criteria.feeders}));
+          criteria::PoolOptions{
+              .limit = spec.criteria.feeding_limit, .feeders = spec.criteria.feeders, .bodies = followed}));
     } catch (const InputError& error) {
       throw InputError(spec.criteria.where, error.what(), "groups of the mesh: `solidus mesh` lists them");
     }

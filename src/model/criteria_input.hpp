@@ -5,14 +5,17 @@
 
 #include "coupling/phases.hpp"
 #include "model/case_spec.hpp"
+#include "model/initial_temperature.hpp"
 
 namespace solidus::model {
 
 /// What is followed of this case; null: nothing, because nothing can freeze or the case says so. Collective.
+/// @param start      temperatures, [body]: what is poured is followed (cast_bodies.hpp)
 /// @param phases     without criteria yet; it, mesh and materials outlive the criteria
 /// Throws InputError for a feeder that is no group of the mesh.
 std::unique_ptr<criteria::Criteria> make_criteria(const CaseSpec& spec, const mesh::Mesh& mesh,
                                                   const std::vector<material::Material>& materials,
+                                                  const std::vector<TemperatureRange>& start,
                                                   const coupling::Phases& phases);
 
 }  // namespace solidus::model

@@ -156,7 +156,7 @@ std::vector<std::vector<Index>> tied_entries(const algebra::Ties& ties, std::siz
 }  // namespace
 
 ExportReport export_state(const Case& c, const ExportOptions& options) {
-  const CaseSpec& spec = c.spec;
+  CaseSpec spec = c.spec;  // with the contacts that its interfaces make
   check_exportable(spec);
   Assembly a;
   a.materials = load_materials(spec);

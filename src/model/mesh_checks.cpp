@@ -111,6 +111,11 @@ void warn_of_loose_faces(const CaseSpec& spec, const RawMesh& mesh) {
 
 }  // namespace
 
+void check_bodies_of(const CaseSpec& spec, const mesh::RawMesh& mesh) {
+  for (const BodySpec& body : spec.bodies)
+    require(mesh, body.mesh_group(), spec.dimension(), body.where, "body '" + body.name + "'");
+}
+
 void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
   check_radius(spec, mesh);
   const int dimension = spec.dimension(), surface = dimension - 1;
@@ -120,9 +125,9 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
         fmt::format("{}: the mesh has {} dimensions, the analysis {}",
                     spec.mesh.file ? *spec.mesh.file : *spec.mesh.shape, mesh.dimension, dimension),
         "another `kind` in [analysis], or another mesh");
+  check_bodies_of(spec, mesh);
   std::vector<std::string> bodies;
   for (const BodySpec& body : spec.bodies) {
-    require(mesh, body.mesh_group(), dimension, body.where, "body '" + body.name + "'");
     if (std::find(bodies.begin(), bodies.end(), body.mesh_group()) != bodies.end())
       throw InputError(body.where, fmt::format("the group '{}' belongs to two bodies", body.mesh_group()));
     bodies.push_back(body.mesh_group());

@@ -1,5 +1,7 @@
 #include "model/mesh_input.hpp"
 
+#include <petscsys.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -8,9 +10,12 @@
 #include "base/log.hpp"
 #include "base/profile.hpp"
 #include "base/units.hpp"
+#include "mesh/casting_geometry.hpp"
 #include "mesh/distribute.hpp"
+#include "mesh/message.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/wall_layers.hpp"
+#include "model/interfaces.hpp"
 #include "model/mesh_checks.hpp"
 #include "results/output_error.hpp"
 
@@ -43,6 +48,7 @@ mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
   mesh::GeometryChoice choice;
   choice.conforming = m.conforming;
   for (const MeshGroupSpec& g : m.groups) {
+    if (g.by_rule()) continue;
     mesh::GeometryGroup& group = choice.groups.emplace_back();
     group.name = g.name;
     group.bodies = g.kind == MeshGroupSpec::Kind::body;
@@ -54,6 +60,25 @@ mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
     std::copy_n(g.highest.begin(), 3, (*group.box)[1].begin());
   }
   return choice;
+}
+
+mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
+  mesh::CastingGeometry geometry;
+  for (const MeshSizeSpec& s : m.sizes)
+    geometry.sizes.push_back({s.body, s.size, s.smallest.value_or(s.size / 4), s.across, s.growth});
+  if (m.mould) {
+    mesh::MouldBlock& mould = geometry.mould.emplace();
+    mould.name = m.mould->name;
+    mould.core = m.mould->core;
+    for (std::size_t i = 0; i < 6; ++i)
+      mould.walls[i] = m.mould->walls.size() == 6 ? m.mould->walls[i] : m.mould->walls[0];
+  }
+  if (m.riser) {
+    const std::vector<double>& foot = m.riser->foot;
+    geometry.riser = {m.riser->name, {foot[0], foot[1], foot[2]}, m.riser->diameter, m.riser->height};
+  }
+  if (m.symmetry) geometry.symmetry = {m.symmetry->axis[0] - 'x', m.symmetry->at};
+  return geometry;
 }
 
 void add_layers(const MeshLayersSpec& l, const std::string& source, mesh::RawMesh& mesh) {
@@ -68,17 +93,19 @@ void add_layers(const MeshLayersSpec& l, const std::string& source, mesh::RawMes
         report.n_bare + report.n_columns);
 }
 
-}  // namespace
-
-mesh::RawMesh raw_mesh(const CaseSpec& spec) {
+/// The mesh of a case on process 0, and the contacts that its interfaces make.
+mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) {
   const MeshSpec& m = spec.mesh;
+  const std::string name = m.file ? *m.file : *m.shape;
   mesh::RawMesh result;
   if (m.file) {
     mesh::MeshSource source{*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order};
     for (const MeshConstantSpec& constant : m.constants) source.constants[constant.name] = constant.value;
     source.geometry = geometry_choice(m);
     source.trust_script = m.trust_script;
-    result = mesh::read_mesh(source);
+    result = m.sizes.empty() && !m.mould && !m.riser && !m.symmetry
+                 ? mesh::read_mesh(source)
+                 : mesh::mesh_casting(source, casting_geometry(m));
   } else {
     try {
       result = built_in_shape(m);
@@ -86,16 +113,68 @@ mesh::RawMesh raw_mesh(const CaseSpec& spec) {
       throw InputError(m.where, "the shape '" + *m.shape + "': " + error.what());
     }
   }
+  if (!spec.interfaces.empty() || std::ranges::any_of(m.groups, &MeshGroupSpec::by_rule)) {
+    check_bodies_of(spec, result);
+    add_rule_groups(spec, result, name);
+    found = find_interfaces(spec, result, name);
+    add_contacts(found, spec);
+  }
   check_groups(spec, result);
   for (const MeshLayersSpec& layers : m.layers)
-    if (layers.number > 0) add_layers(layers, m.file ? *m.file : *m.shape, result);
-  mesh::validate_and_orient(result, m.file ? *m.file : *m.shape);
+    if (layers.number > 0) add_layers(layers, name, result);
+  mesh::validate_and_orient(result, name);
   return result;
 }
 
-mesh::Mesh load_mesh(const CaseSpec& spec) {
+/// What process 0 has found, on all.
+std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found) {
+  mesh::Packer packer;
+  packer.put_size(found.size());
+  for (const FoundInterface& f : found) {
+    packer.put(std::vector<GlobalIndex>{static_cast<GlobalIndex>(f.section), f.a, f.b});
+    packer.put(f.surface_a);
+    packer.put(f.surface_b);
+    packer.put(std::vector<double>{f.distance, f.facets});
+  }
+  std::vector<char> buffer = std::move(packer).buffer();
+  long size = static_cast<long>(buffer.size());
+  MPI_Bcast(&size, 1, MPI_LONG, 0, PETSC_COMM_WORLD);
+  buffer.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(buffer.data(), static_cast<int>(size), MPI_CHAR, 0, PETSC_COMM_WORLD);
+  mesh::Unpacker unpacker(buffer);
+  std::vector<FoundInterface> all(unpacker.size());
+  for (FoundInterface& f : all) {
+    const auto numbers = unpacker.vector<GlobalIndex>();
+    f.section = static_cast<std::size_t>(numbers[0]);
+    f.a = static_cast<int>(numbers[1]);
+    f.b = static_cast<int>(numbers[2]);
+    f.surface_a = unpacker.string();
+    f.surface_b = unpacker.string();
+    const auto lengths = unpacker.vector<double>();
+    f.distance = lengths[0];
+    f.facets = lengths[1];
+  }
+  return all;
+}
+
+}  // namespace
+
+mesh::RawMesh raw_mesh(CaseSpec spec) {
+  std::vector<FoundInterface> found;
+  return make_raw_mesh(spec, found);
+}
+
+mesh::Mesh load_mesh(CaseSpec& spec) {
   mesh::RawMesh raw;
-  {
+  if (!spec.interfaces.empty()) {
+    const profile::Part part("reading and meshing");
+    std::vector<FoundInterface> found;
+    results::on_first_process([&] {
+      CaseSpec own = spec;
+      raw = make_raw_mesh(own, found);
+    });
+    add_contacts(everywhere(found), spec);
+  } else {
     const profile::Part part("reading and meshing");
     results::on_first_process([&] { raw = raw_mesh(spec); });
   }

@@ -82,7 +82,8 @@ Section<MeshGroupSpec> group_keys() {
   Section<G> s(
       "group",
       "A name for volumes or surfaces of a geometry file (STEP, BREP, IGES, .geo), chosen by numbers, by "
-      "label, or by a box that they lie in. `solidus mesh-info` lists them.");
+      "label, or by a box that they lie in; or for faces of any mesh, chosen by the rules `owner`, `normal`, "
+      "`plane`, `nearest` and the box, all that are given together. `solidus mesh-info` lists them.");
   s.key("name", &G::name).doc("The name of the group, for bodies, conditions, contact.");
   s.choice("kind", &G::kind,
            {{"body", G::Kind::body, "volumes; of a plane geometry its surfaces"},
@@ -100,7 +101,87 @@ Section<MeshGroupSpec> group_keys() {
       .initially(Value::list())
       .doc("Three coordinates: the corner of a box where they are smallest.");
   s.quantity("highest", &G::highest, "m").initially(Value::list()).doc("The corner where they are largest.");
+  s.key("owner", &G::owner)
+      .initially("")
+      .doc("A rule for faces: those on the skin of this body (its group).");
+  s.key("normal", &G::normal)
+      .initially(Value::list())
+      .doc("A rule for faces: those whose outward normal points there, a direction of any length.");
+  s.quantity("angle", &G::angle, "rad")
+      .initially("10 degree")
+      .range(0, 3.15)
+      .doc("By how much their normal may differ from `normal`.");
+  s.quantity("plane", &G::plane, "m")
+      .initially(Value::list())
+      .doc("A rule for faces, with `normal`: those in the plane through this point.");
+  s.quantity("nearest", &G::nearest, "m")
+      .initially(Value::list())
+      .doc(
+          "A rule for faces: those of the smooth part of a skin (up to edges of more than 30 degrees) that "
+          "comes nearest to this point.");
   s.place(&G::where);
+  return s;
+}
+
+Section<MeshSizeSpec> size_keys() {
+  using S = MeshSizeSpec;
+  Section<S> s(
+      "size",
+      "How large the elements of a body are, of a file that holds a geometry. With any of these sections "
+      "sizes follow the thickness of walls and grow away from thin ones, bodies that touch are meshed "
+      "together, and meshing is tried in other ways until the least quality is above 0.15.");
+  s.key("body", &S::body).doc("The group of the mesh.");
+  s.quantity("size", &S::size, "m").positive().doc("The largest size.");
+  s.quantity("smallest", &S::smallest, "m")
+      .positive()
+      .doc("The smallest size, in thin walls; without it a quarter of `size`.");
+  s.key("across", &S::across)
+      .initially(2.0)
+      .range(0, 20)
+      .doc("Elements through the thickness of a wall, about; 0: thickness does not count.");
+  s.key("growth", &S::growth)
+      .initially(0.4)
+      .range(0.05, 2)
+      .doc("By how much sizes grow for each length away from smaller elements.");
+  s.place(&S::where);
+  return s;
+}
+
+Section<MouldBlockSpec> mould_keys() {
+  using M = MouldBlockSpec;
+  Section<M> s("mould", "A block of mould around everything that the geometry holds.");
+  s.key("name", &M::name).initially("mould").doc("Its name, as a group of the mesh.");
+  s.quantity("walls", &M::walls, "m")
+      .or_one()
+      .at_least(0)
+      .doc(
+          "Thickness of its walls beyond the box around the parts: one for all, or six: lowest and highest "
+          "x, y and z. 0: the parts end where the mould does.");
+  s.key("core", &M::core)
+      .initially("core")
+      .doc("What is mould in closed cavities of the parts gets this name, several core_1, core_2, ...");
+  s.place(&M::where);
+  return s;
+}
+
+Section<RiserBlockSpec> riser_keys() {
+  using R = RiserBlockSpec;
+  Section<R> s("riser",
+               "An upright cylinder of metal on the geometry: what of it lies outside of the parts.");
+  s.key("name", &R::name).initially("riser").doc("Its name, as a group of the mesh.");
+  s.quantity("foot", &R::foot, "m").doc("Centre of its foot, three coordinates; it may lie inside a part.");
+  s.quantity("diameter", &R::diameter, "m").positive().doc("Its diameter.");
+  s.quantity("height", &R::height, "m").positive().doc("Its height above the foot, along z.");
+  s.place(&R::where);
+  return s;
+}
+
+Section<SymmetrySpec> symmetry_keys() {
+  using S = SymmetrySpec;
+  Section<S> s("symmetry", "Only the half of the geometry below a plane is kept.");
+  s.key("axis", &S::axis).choices({"x", "y", "z"}).doc("The axis normal to the plane.");
+  s.quantity("at", &S::at, "m").doc("Where the plane crosses it.");
+  s.place(&S::where);
   return s;
 }
 
@@ -162,6 +243,10 @@ Section<MeshSpec> mesh_keys() {
       .doc(
           "For STEP, BREP and IGES: bodies that touch share the faces between them, and so the nodes. Else "
           "each has its own, for contact.");
+  s.sections("size", &MeshSpec::sizes, size_keys());
+  s.section("mould", &MeshSpec::mould, mould_keys());
+  s.section("riser", &MeshSpec::riser, riser_keys());
+  s.section("symmetry", &MeshSpec::symmetry, symmetry_keys());
   s.section("cylinder_in_mould", &MeshSpec::cylinder_in_mould, cylinder_in_mould_keys())
       .when("shape", {"cylinder_in_mould"});
   s.section("block", &MeshSpec::block, block_keys()).when("shape", {"block"});

@@ -49,7 +49,7 @@ Section<heat::HeatOptions> heat_keys() {
       .initially(0.0)
       .range(0, 0.1)
       .doc(
-          "Newton stops when the residual falls below this share of the heat moved in the step. 0: 1e-5 "
+          "Newton stops when the residual falls below this share of the heat moved in the step. 0: 1e-6 "
           "where "
           "nodes hold the heat (closed rule), which take up the rest, so that energy is exact for every "
           "tolerance; else 1e-9, because there the rest is heat lost or gained.");
@@ -70,11 +70,13 @@ Section<heat::HeatOptions> heat_keys() {
 Section<MechanicsSpec> mechanics_keys() {
   Section<MechanicsSpec> s("mechanics", "Numerics of the mechanical phase.");
   s.key("tolerance", &MechanicsSpec::tolerance)
-      .initially(1e-3)
+      .initially(1e-5)
       .range(1e-14, 0.1)
-      .doc("Newton stops when the residual falls below this share of the forces.");
+      .doc(
+          "Newton stops when the residual falls below this share of the forces that a body exchanges; the "
+          "monograph has 1e-3 (chapter 7).");
   s.key("displacement_tolerance", &MechanicsSpec::displacement_tolerance)
-      .initially(1e-2)
+      .initially(1e-3)
       .range(0, 1)
       .doc(
           "And when the next step would change the displacement by less than this share of what the time "

@@ -11,6 +11,7 @@
 #include "contact/heat_transfer.hpp"
 #include "model/body_input.hpp"
 #include "model/mechanics_input.hpp"
+#include "model/scheme_input.hpp"
 
 namespace solidus::model {
 
@@ -166,6 +167,10 @@ results::Overview overview(const CaseSpec& spec, const Assembly& a, const CaseMe
   if (spec.has_mechanics() && spec.analysis.gravity != 0) o.gravity = gravity(spec.analysis);
   for (const Pour& pour : m.pours) o.pours.push_back(pour_overview(spec, a, pour, m.bodies[pour.body]));
   o.effort = {m.effort.steps, m.effort.steps_known, m.effort.seconds, m.effort.bytes};
+  if (lags_a_step(spec, a.phases.coherency != nullptr)) {
+    o.lag = spec.time.adaptive ? 0.0 : spec.time.step.value_or(0);
+    o.end = spec.time.end.value_or(0);
+  }
   return o;
 }
 

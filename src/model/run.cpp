@@ -21,6 +21,7 @@
 #include "model/audit_watch.hpp"
 #include "model/bounds_watch.hpp"
 #include "model/case_materials.hpp"
+#include "model/cast_bodies.hpp"
 #include "model/coupling_estimate.hpp"
 #include "model/findings.hpp"
 #include "model/fingerprint.hpp"
@@ -92,6 +93,8 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.stages = !spec.stages.empty();
   r.steady = spec.time.steady;
   r.progress = options.progress;
+  r.profile = options.profile;
+  r.castings = cast_bodies(spec, a.materials, a.start);
   r.progress_options.end = spec.time.end.value_or(0);
   r.progress_options.heat = spec.has_heat();
   r.progress_options.mechanics = spec.has_mechanics();
@@ -168,6 +171,8 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   std::optional<BoundsWatch> bounds;
   if (a.heat) simulation.add(bounds.emplace(spec, *a.heat));
   if (a.phases.coherency != nullptr) simulation.add(walls);
+  LagWatch lag;
+  if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation.add(lag);
   simulation.add(dissipation);
   if (a.phases.audits_stability()) simulation.add(stability);
   if (spec.has_heat()) simulation.add(first_law);
@@ -225,7 +230,7 @@ void check_restart(const CaseSpec& spec, const RunOptions& options) {
 
 }  // namespace
 
-CheckedRun check_run(const Case& c) {
+CheckedRun check_run(Case c) {
   Assembly a;
   a.materials = load_materials(c.spec);
   a.mesh = load_mesh(c.spec);
@@ -241,7 +246,7 @@ CheckedRun check_run(const Case& c) {
   return checked;
 }
 
-RunResult run_case(const Case& c, const RunOptions& options) {
+RunResult run_case(Case c, const RunOptions& options) {
   const double start = MPI_Wtime();
   check_restart(c.spec, options);
   Assembly a;

@@ -18,6 +18,7 @@ struct RunOptions {
   std::ostream* progress = nullptr;  ///< where steps are shown; null: nowhere (process 0 only)
   bool terminal = false;             ///< draw a progress bar
   bool restart = false;              ///< go on from the checkpoint in `folder`
+  bool profile = false;              ///< show at the end where the wall time went
   std::function<bool()> stop_asked;  ///< asked before each step; true on any process ends the run there
 };
 
@@ -29,7 +30,7 @@ struct RunResult {
 /// Loads materials and mesh, builds the phases, runs and writes the results. Collective. Throws InputError
 /// for what the case or the place for the results has wrong, before anything is computed where that can be
 /// known.
-RunResult run_case(const Case& c, const RunOptions& options);
+RunResult run_case(Case c, const RunOptions& options);
 
 /// What a look at a case shows.
 struct CheckedRun {
@@ -40,6 +41,6 @@ struct CheckedRun {
 
 /// Everything that run_case does before it computes, but for the results folder. Collective. Throws
 /// InputError.
-CheckedRun check_run(const Case& c);
+CheckedRun check_run(Case c);
 
 }  // namespace solidus::model

@@ -42,6 +42,13 @@ coupling::PhaseOrder phase_order(const CaseSpec& spec, bool melts) {
   return (rubs && !melts) || printed || spec.dynamics ? PhaseOrder::mechanics_first : PhaseOrder::heat_first;
 }
 
+bool lags_a_step(const CaseSpec& spec, bool melts) {
+  using Scheme = CouplingSpec::Scheme;
+  const Scheme scheme = spec.coupling.scheme;
+  return spec.coupled() && !spec.dynamics && (scheme == Scheme::isentropic || scheme == Scheme::isothermal) &&
+         phase_order(spec, melts) == coupling::PhaseOrder::mechanics_first;
+}
+
 namespace {
 
 std::unique_ptr<coupling::CouplingScheme> bare_scheme(const CaseSpec& spec, const coupling::Phases& phases) {

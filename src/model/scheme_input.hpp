@@ -15,6 +15,9 @@ namespace solidus::model {
 /// inertia or a printed form of structural heat speaks against it.
 /// @param melts  something that deforms does
 coupling::PhaseOrder phase_order(const CaseSpec& spec, bool melts);
+/// Whether displacements and stresses of a step belong to the temperatures at its start: a sequential split
+/// that does mechanics first, without inertia.
+bool lags_a_step(const CaseSpec& spec, bool melts);
 
 /// @param phases must outlive the scheme
 std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,

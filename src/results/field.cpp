@@ -28,7 +28,13 @@ const Field* FieldSet::find(std::string_view name) const {
 }
 
 FieldSet FieldSet::select(const std::vector<std::string>& names) const {
-  if (names.empty()) return *this;
+  if (names.empty()) {
+    FieldSet usual;
+    usual.presence_ = presence_;
+    for (const Field& field : fields_)
+      if (!field.on_request) usual.add(field);
+    return usual;
+  }
   std::string known;
   for (const Field& field : fields_) known += (known.empty() ? "" : ", ") + field.name;
   for (const std::string& name : names)

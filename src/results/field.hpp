@@ -29,6 +29,7 @@ struct Field {
   /// The part of the surface around a node that its value holds for, [local node]: what means and integrals
   /// over a group count it with. Empty: all of it.
   std::span<const double> covered = {};
+  bool on_request = false;  ///< written to files only where it is named
 
   /// The values, computed ones in `storage`. Who reads several times keeps what it got.
   std::span<const double> read(std::vector<double>& storage) const;
@@ -41,8 +42,8 @@ class FieldSet {
   /// Null when there is no such field.
   const Field* find(std::string_view name) const;
   const std::vector<Field>& all() const { return fields_; }
-  /// Only the fields named, in this set's order; an empty list means all. Throws InputError for a name that
-  /// is not there.
+  /// Only the fields named, in this set's order; an empty list means all but those on request. Throws
+  /// InputError for a name that is not there.
   FieldSet select(const std::vector<std::string>& names) const;
 
   /// Bodies have left: their cells are hidden, and they take no part in minima and maxima. Null: nobody has.

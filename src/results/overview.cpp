@@ -170,6 +170,15 @@ Json json(const PourOverview& p) {
   return j;
 }
 
+std::string lag_line(double step, double end) {
+  std::string text =
+      "\n  lag         displacements and stresses belong to the temperatures a step before (mechanics_first)";
+  if (step > 0 && end > 0)
+    text += fmt::format(": {} of {}, {} % of what changes evenly", duration(step), duration(end),
+                        number(100 * step / end));
+  return text;
+}
+
 }  // namespace
 
 std::string text(const Overview& o) {
@@ -180,6 +189,7 @@ std::string text(const Overview& o) {
       fmt::format("\n  effort      {}{} steps, about {} and {:.2g} GB", o.effort.steps_known ? "" : "about ",
                   number(o.effort.steps_known ? o.effort.steps : rounded(o.effort.steps)),
                   duration(rounded(o.effort.seconds)), 1e-9 * o.effort.bytes);
+  if (o.lag) text += lag_line(*o.lag, o.end);
   return text;
 }
 

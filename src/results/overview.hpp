@@ -71,6 +71,10 @@ struct Overview {
   std::optional<mesh::Point> gravity;  ///< [m/s²]; absent: no weight
   std::vector<PourOverview> pours;
   EffortOverview effort;
+  /// How long displacements and stresses are behind the temperatures of their time, where the scheme does
+  /// that: the step [s]; zero: as long as the step that is chosen.
+  std::optional<double> lag;
+  double end = 0;  ///< of the run [s]
 };
 
 /// The table that `check` prints: aligned lines, each beginning with a line break and two blanks.

@@ -1,9 +1,6 @@
 #include "results/pool_table.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <string_view>
+#include <vector>
 
 #include "base/types.hpp"
 #include "criteria/pools.hpp"
@@ -30,19 +27,6 @@ CsvTable make_table(const std::filesystem::path& path, std::optional<double> fro
   return from ? CsvTable(path, pool_columns(), *from) : CsvTable(path, pool_columns());
 }
 
-/// What people read first, and the names that the summary has for it.
-struct Line {
-  std::string_view text, finding, unit;
-  double factor;
-};
-constexpr Line k_lines[] = {{"freezes last", "solidified_at_max", "s", 1},
-                            {"longest local solidification time", "local_solidification_time_max", "s", 1},
-                            {"largest arm spacing", "secondary_arm_spacing_max", "um", 1e6},
-                            {"least Niyama", "niyama_min", "K0.5 s0.5/mm", 1e-3},
-                            {"least dimensionless Niyama", "dimensionless_niyama_min", "", 1},
-                            {"largest estimate of shrinkage porosity", "shrinkage_porosity_max", "%", 100},
-                            {"closed-off pools of melt", "closed_off_pools", "", 1}};
-
 }  // namespace
 
 PoolTable::PoolTable(const std::filesystem::path& path, std::optional<double> from)
@@ -67,22 +51,6 @@ void PoolTable::add(const coupling::State& state) {
       table_.add(row);
     }
   }
-}
-
-std::string findings_text(const std::vector<criteria::Finding>& found) {
-  std::string text;
-  for (const Line& line : k_lines) {
-    const auto f = std::find_if(found.begin(), found.end(), [&](const criteria::Finding& finding) {
-      return finding.name == line.finding;
-    });
-    if (f == found.end()) continue;
-    text += fmt::format("  {:<40}{:>10.4g} {}", line.text, f->value * line.factor, line.unit);
-    if (f->somewhere)
-      text += fmt::format("  at ({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * f->where[0], 1e3 * f->where[1],
-                          1e3 * f->where[2]);
-    text += '\n';
-  }
-  return text;
 }
 
 }  // namespace solidus::results

@@ -1,13 +1,9 @@
-/// pools.csv: every pool of melt at every step, and what the run says of the criteria at its end.
+/// pools.csv: every pool of melt at every step.
 #pragma once
 
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
-
 #include "coupling/state.hpp"
-#include "criteria/criterion.hpp"
 #include "results/csv.hpp"
 
 namespace solidus::results {
@@ -27,9 +23,5 @@ class PoolTable {
  private:
   CsvTable table_;
 };
-
-/// Where the casting freezes last and the extremes of the criteria, a few lines for people; empty where
-/// nothing froze.
-std::string findings_text(const std::vector<criteria::Finding>& found);
 
 }  // namespace solidus::results

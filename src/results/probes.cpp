@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "algebra/parallel.hpp"
+#include "mesh/block_geometry.hpp"
 #include "mesh/locate.hpp"
 #include "results/output_error.hpp"
 
@@ -59,6 +60,26 @@ double element_size(const Mesh& mesh, const mesh::Block& block, Index e) {
     size = std::max(size, high - low);
   }
   return size;
+}
+
+/// The share of each counted element in the volume of its body.
+std::vector<std::pair<std::size_t, double>> cell_weights(const Mesh& mesh, AnalysisKind kind, int body) {
+  std::vector<std::pair<std::size_t, double>> weights;
+  double all = 0;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const mesh::Block& block = mesh.blocks[b];
+    if (block.body != body) continue;
+    const mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
+    for (Index e = 0; e < block.n_counted; ++e) {
+      double volume = 0;
+      for (int q = 0; q < g.n_points; ++q) volume += g.weight_at(e / k_lanes, q)[e % k_lanes];
+      weights.emplace_back(cell_offset(mesh, b) + static_cast<std::size_t>(e), volume);
+      all += volume;
+    }
+  }
+  all = algebra::global_sum(all);
+  for (auto& [cell, weight] : weights) weight /= all;
+  return weights;
 }
 
 /// @param values  of the field
@@ -167,9 +188,9 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
   const auto nodes = mesh.node_sets.find(probe.group);
   if (nodes == mesh.node_sets.end())
     refuse(fmt::format("there is no group '{}'", probe.group), "groups: " + group_names(mesh));
-  if (field.place == Place::cell && (body < 0 || !extreme))
+  if (field.place == Place::cell && body < 0)
     refuse(fmt::format("the field '{}' belongs to elements", probe.field),
-           "it has a minimum and a maximum over a body, and values at points");
+           "it has a mean, an integral, a minimum and a maximum over a body, and values at points");
 
   Sample sample;
   sample.field = probe.field;
@@ -187,6 +208,8 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
     }
     if (!algebra::any_process(!sample.weights.empty()))
       refuse(fmt::format("the group '{}' is empty", probe.group), {});
+  } else if (field.place == Place::cell) {
+    sample.weights = cell_weights(mesh, kind, body);
   } else {
     const mesh::NodalFunctional mean = mesh::group_mean(mesh, probe.group, kind);
     for (std::size_t a = 0; a < mean.nodes.size(); ++a)

@@ -43,8 +43,8 @@ enum class Statistic {
   integral  ///< the unit shown is the field's times m³ (bodies) or m² (surfaces)
 };
 
-/// Group: a body, a surface, or a set of nodes (which has plain means and no integral). Fields of cells have
-/// a minimum and a maximum, over bodies.
+/// Group: a body, a surface, or a set of nodes (which has plain means and no integral). Fields of cells are
+/// those of bodies.
 struct GroupProbe : Sampled {
   std::string group;
   Statistic statistic = Statistic::mean;

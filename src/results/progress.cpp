@@ -1,5 +1,4 @@
 #include "results/progress.hpp"
-#include "coupling/energy_scale.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/terminal.hpp"
 #include "coupling/energy_scale.hpp"
 
 namespace solidus::results {
@@ -79,7 +79,9 @@ void Progress::step(const coupling::StepRecord& record) {
 }
 
 void Progress::end(const std::string& outcome, const std::string& profile) {
-  line(fmt::format("{} after {}", outcome, duration_text(options_.clock() - began_)));
+  const Colour colour = outcome == "finished" ? Colour::green : Colour::red;
+  const std::string text = painted(outcome, colour, options_.terminal && has_colours(STDOUT_FILENO));
+  line(fmt::format("{} after {}", text, duration_text(options_.clock() - began_)));
   out_ << profile << std::flush;
 }
 

@@ -211,14 +211,24 @@ void Recorder::stopped(const coupling::Stop& stop, const coupling::State& state)
   // Without a step of this run there are no stresses to show.
   const bool moved = !options_.continue_from || state.time > options_.continue_from->state.time;
   if (moved) write_fields(state);
-  if (progress_) progress_->end("stopped: " + reason, profile::text());
-  write_summary_file("stopped: " + reason, state);
+  conclude("stopped: " + reason, state, moved);
 }
 
 void Recorder::end(const coupling::State& state) {
-  if (progress_) progress_->end("finished", profile::text());
-  write_summary_file("finished", state);
-  if (progress_) *options_.progress << findings_text(options_.summary.criteria);
+  conclude("finished", state, true);
+}
+
+void Recorder::conclude(const std::string& outcome, const coupling::State& state, bool mechanical) {
+  if (progress_) progress_->end(outcome, options_.profile ? profile::text() : "");
+  Summary& s = options_.summary;
+  if (!options_.steady) {
+    fields_.update_criteria(state);
+    s.answers = answers(mesh_, phases_, state, options_.castings, fields_.bodies(), mechanical);
+    if (!criteria_probed_) fields_.release_criteria();
+    if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();
+  }
+  write_summary_file(outcome, state);
+  if (progress_ && s.answers) *options_.progress << text(*s.answers, s.criteria) << std::flush;
 }
 
 std::vector<double> Recorder::history_row(double time) {

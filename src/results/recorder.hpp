@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coupling/phases.hpp"
+#include "results/answers.hpp"
 #include "results/checkpoint.hpp"
 #include "results/field_output.hpp"
 #include "results/pool_table.hpp"
@@ -31,6 +32,8 @@ struct RecorderOptions {
   bool melting = true;                      ///< a material can melt
   bool stages = false;                      ///< the run has stages
   bool steady = false;                      ///< one state without a time: fields of it alone
+  bool profile = false;                     ///< print where the wall time went
+  std::vector<CastBody> castings;           ///< what is poured
   Fingerprint fingerprint;                  ///< of the case, for checkpoints
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
   Summary summary;  ///< what is known before the run: names, mesh, seconds of setting up
@@ -59,6 +62,9 @@ class Recorder : public coupling::Observer {
   void write_fields(const coupling::State& state);
   void add_pools(const coupling::State& state);
   void note_left_walls(const coupling::StepRecord& record);
+  /// What the end of a run, or its stop, says and writes.
+  /// @param mechanical  stresses and gaps are those of the state
+  void conclude(const std::string& outcome, const coupling::State& state, bool mechanical);
   void write_summary_file(const std::string& outcome, const coupling::State& state);
 
   const RunFolder& folder_;

@@ -6,7 +6,9 @@
 #include <iterator>
 #include <string_view>
 
+#include "heat/nodal_enthalpy.hpp"
 #include "mesh/block_geometry.hpp"
+#include "results/heat_flux.hpp"
 
 namespace solidus::results {
 
@@ -32,7 +34,8 @@ using mechanics::ElementField;
 struct ElementFieldName {
   const char *name, *unit;
   ElementField which;
-  bool plastic;  ///< of bodies that flow plastically
+  bool plastic;             ///< of bodies that flow plastically
+  bool on_request = false;  ///< Field::on_request
 };
 constexpr ElementFieldName k_elements[] = {
     {"stress", "Pa", ElementField::stress, false},
@@ -43,7 +46,12 @@ constexpr ElementFieldName k_elements[] = {
     {"plastic_strain", "1", ElementField::plastic_strain, true},
     {"equivalent_plastic_strain", "1", ElementField::equivalent_plastic_strain, true},
     {"back_stress", "Pa", ElementField::back_stress, true},
-    {"flow_stress", "Pa", ElementField::flow_stress, true}};
+    {"flow_stress", "Pa", ElementField::flow_stress, true},
+    {"strain", "1", ElementField::strain, false, true},
+    {"intermediate_temperature", "K", ElementField::intermediate_temperature, false, true}};
+
+/// Of the recovered stress, the largest first.
+constexpr const char* k_principal[] = {"principal_stress_1", "principal_stress_2", "principal_stress_3"};
 
 bool rubs(const contact::ContactPair* pair) {
   return pair->spec().friction.has_value();
@@ -75,11 +83,12 @@ bool with_friction(const coupling::Phases& phases) {
 }  // namespace
 
 StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases, AnalysisKind kind)
-    : mesh_(mesh), phases_(phases), ghosts_(mesh) {
+    : mesh_(mesh), phases_(phases), kind_(kind), ghosts_(mesh) {
   find_side_areas(kind);
   if (phases.heat != nullptr) {
     add("temperature", "K", 1, Place::node);
     add("solid_fraction", "1", 1, Place::node);
+    add_heat_flux();
   }
   if (phases.mechanics != nullptr) {
     add("displacement", "m", phases.mechanics->components(), Place::node);
@@ -88,16 +97,17 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
       add("acceleration", "m/s2", phases.mechanics->components(), Place::node);
     }
     add_elements();
+    add_nodal_stress();
   }
   const std::size_t n_of_phases = values_.size();
   add_criteria();
   for (const auto& v : values_)
-    bodies_.add({v->name, v->unit, v->components, v->place, v->values, v->compute});
+    bodies_.add({v->name, v->unit, v->components, v->place, v->values, v->compute, {}, v->on_request});
   if (phases.contacts.empty()) return;
 
   FieldSet contact;
   for (std::size_t i = 0; i < n_of_phases; ++i)
-    if (const auto& v = values_[i]; v->place == Place::node)
+    if (const auto& v = values_[i]; v->place == Place::node && !v->compute)
       contact.add({v->name, v->unit, v->components, v->place, v->values});
   const auto add_everywhere = [&](const FieldName& field, int components) {
     const std::vector<double>& values = add(field.name, field.unit, components, Place::node);
@@ -165,12 +175,46 @@ std::vector<double>& StateFields::add(std::string name, std::string unit, int co
 void StateFields::add_elements() {
   for (const ElementFieldName& field : k_elements) {
     if (field.plastic && !phases_.mechanics->plastic()) continue;
+    const bool isentropic = phases_.mechanics->mapping() == mechanics::Mapping::isentropic;
+    if (field.which == ElementField::intermediate_temperature && !isentropic) continue;
     const auto compute = [phase = phases_.mechanics, which = field.which] {
       return phase->element_field(which);
     };
-    values_.push_back(std::make_unique<Values>(
-        Values{field.name, field.unit, component_count(field.which), Place::cell, {}, false, compute}));
+    values_.push_back(std::make_unique<Values>(Values{field.name,
+                                                      field.unit,
+                                                      component_count(field.which),
+                                                      Place::cell,
+                                                      {},
+                                                      false,
+                                                      compute,
+                                                      field.on_request}));
   }
+}
+
+void StateFields::add_heat_flux() {
+  const auto compute = [this] {
+    return element_heat_flux(
+        mesh_, kind_,
+        [this](int body) -> const material::Material& { return phases_.heat->storage().material(body); },
+        *by_name_.at("temperature"));
+  };
+  values_.push_back(std::make_unique<Values>(
+      Values{"heat_flux", "W/m2", mesh_.dimension, Place::cell, {}, false, compute, true}));
+}
+
+void StateFields::add_nodal_stress() {
+  const auto nodal = [this] {
+    if (!recovery_) recovery_ = std::make_unique<StressRecovery>(mesh_, kind_);
+    return recovery_->at_nodes(phases_.mechanics->element_field(ElementField::stress));
+  };
+  const auto add = [this](const char* name, int components, std::function<std::vector<double>()> compute) {
+    values_.push_back(std::make_unique<Values>(
+        Values{name, "Pa", components, Place::node, {}, false, std::move(compute), true}));
+  };
+  add("nodal_stress", 6, nodal);
+  add("nodal_von_mises", 1, [nodal] { return von_mises_values(nodal()); });
+  for (int rank = 0; rank < 3; ++rank)
+    add(k_principal[rank], 1, [nodal, rank] { return principal_values(nodal(), rank); });
 }
 
 void StateFields::add_criteria() {

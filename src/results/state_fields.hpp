@@ -2,20 +2,24 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "algebra/parallel.hpp"
 #include "coupling/phases.hpp"
 #include "results/field.hpp"
+#include "results/recovered_stress.hpp"
 
 namespace solidus::results {
 
 /// temperature [K], solid_fraction, displacement [m], with inertia velocity [m/s] and acceleration [m/s²] at
 /// nodes; stress, von_mises, pressure [Pa], viscous_strain, dissipation [W/m³] in elements, where a material
-/// flows plastically also plastic_strain, equivalent_plastic_strain, back_stress, flow_stress [Pa]; and on
-/// contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)], with heat contact_heat_flux into
-/// the body that has the node and frictional_heat_flux [W/m²], the part by friction, and with friction
+/// flows plastically also plastic_strain, equivalent_plastic_strain, back_stress, flow_stress [Pa]; on
+/// request heat_flux [W/m²] and strain in elements, nodal_stress, nodal_von_mises and principal_stress_1 to
+/// _3 [Pa] at nodes (recovered_stress.hpp), with the isentropic mapping intermediate_temperature Θ̄ [K]; and
+/// on contact surfaces gap [m], contact_pressure [Pa], conductance [W/(m² K)], with heat contact_heat_flux
+/// into the body that has the node and frictional_heat_flux [W/m²], the part by friction, and with friction
 /// friction_traction [Pa] on the master, contact_status (0 open, 1 sticks, 2 slips), interface_temperature
 /// [K], and what surfaces remember: slip, wear_depth [m], internal_variable ζ_c [N/m] (of work; slip is
 /// `slip`), friction_coefficient, friction_dissipation [J/m²]; and what the criteria of the run show
@@ -47,10 +51,13 @@ class StateFields {
     std::vector<double> values;
     bool of_contact;
     std::function<std::vector<double>()> compute;  ///< instead of values
+    bool on_request = false;                       ///< Field::on_request
   };
   std::vector<double>& add(std::string name, std::string unit, int components, Place place);
   void find_side_areas(AnalysisKind kind);
   void add_elements();
+  void add_heat_flux();
+  void add_nodal_stress();
   void add_criteria();
   void update_contacts(std::span<const double> temperature);
   /// @param closest  of each node of the fields: it shows this pair
@@ -59,6 +66,8 @@ class StateFields {
 
   const mesh::Mesh& mesh_;
   const coupling::Phases& phases_;
+  AnalysisKind kind_;
+  std::unique_ptr<StressRecovery> recovery_;  ///< from its first use on
   algebra::GhostExchange ghosts_;
   std::vector<std::unique_ptr<Values>> values_;  // stable addresses: the sets hold views
   std::map<std::string, std::vector<double>*> by_name_;

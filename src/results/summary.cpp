@@ -125,6 +125,7 @@ std::string summary_json(const Summary& s) {
       .add("tables[bytes]", object(s.table_bytes));
   if (s.relative_energy_defect) json.add("relative_energy_defect", *s.relative_energy_defect);
   json.add("final", object(s.final_values)).add("criteria", findings(s.criteria));
+  if (s.answers) json.add("answers", results::json(*s.answers));
   if (!s.melt.empty()) json.add("melt", melts(s.melt));
   if (!s.left_walls.empty()) json.add("liquid_metal_left_its_wall", left_walls(s.left_walls));
   if (s.overview) json.add("understood", results::json(*s.overview));

@@ -11,6 +11,7 @@
 
 #include "criteria/criterion.hpp"
 #include "mesh/mesh.hpp"
+#include "results/answers.hpp"
 #include "results/balance.hpp"
 #include "results/overview.hpp"
 
@@ -67,6 +68,7 @@ struct Summary {
   std::optional<double> relative_energy_defect;                  ///< absent without heat
   std::vector<std::pair<std::string, double>> final_values;
   std::vector<criteria::Finding> criteria;
+  std::optional<Answers> answers;  ///< absent in steady runs
   std::vector<ChosenMelt> melt;
   std::vector<LeftWall> left_walls;
   std::optional<Overview> overview;  ///< what the case was understood to be

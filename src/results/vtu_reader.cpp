@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "base/keys.hpp"
-#include "results/vtu.hpp"
 #include "results/vtu_arrays.hpp"
+#include "results/vtu_pieces.hpp"
 
 namespace solidus::results {
 
@@ -20,66 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using boost::property_tree::ptree;
 using mesh::Shape;
-
-/// A cell of a file as shapes of ours: each by the file's corners in our order.
-struct CellParts {
-  Shape shape;
-  std::vector<std::vector<int>> corners;
-};
-
-std::optional<CellParts> parts_of(int type) {
-  for (const Shape shape : {Shape::point1, Shape::line2, Shape::line3, Shape::tri3, Shape::tri6, Shape::quad4,
-                            Shape::quad8, Shape::tet4, Shape::tet10, Shape::hex8, Shape::hex20}) {
-    if (vtk_cell_type(shape) != type) continue;
-    CellParts parts{shape, {std::vector<int>(static_cast<std::size_t>(mesh::node_count(shape)))}};
-    const std::span<const int> order = vtk_node_order(shape);
-    for (std::size_t i = 0; i < order.size(); ++i)
-      parts.corners[0][static_cast<std::size_t>(order[i])] = static_cast<int>(i);
-    return parts;
-  }
-  if (type == 8) return CellParts{Shape::quad4, {{0, 1, 3, 2}}};
-  if (type == 11) return CellParts{Shape::hex8, {{0, 1, 3, 2, 4, 5, 7, 6}}};
-  if (type == 13) return CellParts{Shape::tet4, {{0, 1, 2, 5}, {0, 1, 5, 4}, {0, 4, 5, 3}}};
-  if (type == 14) return CellParts{Shape::tet4, {{0, 1, 2, 4}, {0, 2, 3, 4}}};
-  return std::nullopt;
-}
-
-std::string name_of(const ptree& array) {
-  return array.get<std::string>("<xmlattr>.Name", "");
-}
-
-const ptree* find_array(const ptree& piece, const char* section, const std::string& name) {
-  const auto group = piece.get_child_optional(section);
-  if (!group) return nullptr;
-  for (const auto& [tag, child] : *group)
-    if (tag == "DataArray" && name_of(child) == name) return &child;
-  return nullptr;
-}
-
-std::vector<std::string> array_names(const ptree& piece, const char* section) {
-  std::vector<std::string> names;
-  if (const auto group = piece.get_child_optional(section))
-    for (const auto& [tag, child] : *group)
-      if (tag == "DataArray") names.push_back(name_of(child));
-  return names;
-}
-
-std::string unit_of(const ptree& array) {
-  for (const auto& [tag, child] : array)
-    if (tag == "InformationKey" && child.get<std::string>("<xmlattr>.name", "") == "UNITS_LABEL") {
-      std::string text = child.get<std::string>("Value", child.data());
-      text.erase(0, text.find_first_not_of(" \n\r\t"));
-      text.erase(text.find_last_not_of(" \n\r\t") + 1);
-      return text;
-    }
-  return {};
-}
-
-const ptree& children(const VtuFile& file, const char* name) {
-  const auto found = file.root().get_child_optional(name);
-  if (!found) file.fail(fmt::format("the file has no <{}>", name));
-  return *found;
-}
 
 class Reader {
  public:
@@ -127,15 +67,8 @@ class Reader {
 
  private:
   void add_piece(const VtuFile& file, const ptree& piece) {
-    const auto n_points = piece.get<std::size_t>("<xmlattr>.NumberOfPoints", 0);
-    const auto n_cells = piece.get<std::size_t>("<xmlattr>.NumberOfCells", 0);
-    constexpr std::size_t k_most = std::size_t{1} << 31U;
-    if (n_points >= k_most || n_cells >= k_most) file.fail("the file has more points or cells than are read");
-    const ptree* points = nullptr;
-    if (const auto group = piece.get_child_optional("Points"))
-      for (const auto& [tag, child] : *group)
-        if (tag == "DataArray") points = &child;
-    if (points == nullptr) file.fail("the file has no points");
+    const auto [n_points, n_cells] = piece_size(file, piece);
+    const ptree& points = points_array(file, piece);
     const ptree* field = find_array(piece, "PointData", field_);
     if (field == nullptr)
       throw InputError(where_, fmt::format("the file has no field '{}' at its points", field_),
@@ -143,9 +76,9 @@ class Reader {
     if (field->get<int>("<xmlattr>.NumberOfComponents", 1) != 1)
       throw InputError(where_, fmt::format("the field '{}' of the file has several components", field_),
                        "a field of one component");
-    read_.unit = unit_of(*field);
+    read_.unit = array_unit(*field);
     const std::size_t first = read_.mesh.x.size();
-    const std::vector<double> x = file.numbers(*points, 3 * n_points);
+    const std::vector<double> x = file.numbers(points, 3 * n_points);
     for (std::size_t i = 0; i < n_points; ++i)
       read_.mesh.x.push_back({length_ * x[3 * i], length_ * x[3 * i + 1], length_ * x[3 * i + 2]});
     const std::vector<double> values = file.numbers(*field, n_points);
@@ -155,17 +88,7 @@ class Reader {
 
   void add_cells(const VtuFile& file, const ptree& piece, std::size_t n_cells, std::size_t first,
                  std::size_t n_points) {
-    const ptree* arrays[3] = {};
-    const char* const names[3] = {"offsets", "types", "connectivity"};
-    for (std::size_t k = 0; k < 3; ++k) {
-      arrays[k] = find_array(piece, "Cells", names[k]);
-      if (arrays[k] == nullptr) file.fail(fmt::format("the cells of the file have no '{}'", names[k]));
-    }
-    const std::vector<double> offsets = file.numbers(*arrays[0], n_cells);
-    const std::vector<double> types = file.numbers(*arrays[1], n_cells);
-    const double n_corners = n_cells == 0 ? 0 : offsets.back();
-    if (!(n_corners >= 0 && n_corners <= 1e10)) file.fail("the file is damaged: its offsets make no sense");
-    const std::vector<double> corners = file.numbers(*arrays[2], static_cast<std::size_t>(n_corners));
+    const CellTable cells = read_cells(file, piece, n_cells, n_points);
     const std::vector<double> bodies = cell_data(file, piece, "body", n_cells);
     const std::vector<double> ghosts = cell_data(file, piece, "vtkGhostType", n_cells);
     if (body_ >= 0 && bodies.empty() && n_cells > 0)
@@ -174,18 +97,17 @@ class Reader {
     for (std::size_t c = 0; c < n_cells; ++c) {
       if (body_ >= 0 && bodies[c] != body_) continue;
       if (!ghosts.empty() && ghosts[c] != 0) continue;
-      const std::optional<CellParts> parts = parts_of(static_cast<int>(types[c]));
+      const std::optional<CellParts> parts = parts_of(cells.types[c]);
       if (!parts)
-        file.fail(fmt::format("cells of VTK's type {} are not read", types[c]),
+        file.fail(fmt::format("cells of VTK's type {} are not read", cells.types[c]),
                   "triangles, quadrilaterals, tetrahedra, hexahedra, linear or quadratic, wedges, pyramids");
-      const double begin = c == 0 ? 0 : offsets[c - 1];
+      const std::size_t begin = c == 0 ? 0 : cells.offsets[c - 1];
       for (const std::vector<int>& part : parts->corners)
         for (const int corner : part) {
-          const double at = begin + corner;
-          const double node = at >= 0 && at < offsets[c] ? corners[static_cast<std::size_t>(at)] : -1;
-          if (!(node >= 0 && node < static_cast<double>(n_points)))
+          const std::size_t at = begin + static_cast<std::size_t>(corner);
+          if (at >= cells.offsets[c])
             file.fail(fmt::format("the file is damaged: cell {} has a corner that is no point", c));
-          cells_[parts->shape].push_back(static_cast<Index>(first + static_cast<std::size_t>(node)));
+          cells_[parts->shape].push_back(static_cast<Index>(first) + cells.corners[at]);
         }
     }
   }

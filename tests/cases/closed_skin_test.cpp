@@ -137,7 +137,7 @@ Skin pour(const std::string& name, bool solid, const std::string& material,
   k_here.write("plate.geo", k_plate);
   k_here.write("box.geo", k_box);
   k_here.write("range.toml", k_range);
-  const model::Case c = model::load_case(k_here.write(name + ".toml", casting(solid, material)), overrides);
+  model::Case c = model::load_case(k_here.write(name + ".toml", casting(solid, material)), overrides);
   model::Assembly a;
   a.materials = model::load_materials(c.spec);
   a.mesh = model::load_mesh(c.spec);

@@ -47,6 +47,33 @@ class Folders(unittest.TestCase):
         for text in ("no fields were written at 20 s", "does not meet the bodies", "T_b[degC]"):
             self.assertTrue(any(text in problem for problem in problems), (text, problems))
 
+    def test_a_mistake_in_plots_toml_costs_the_picture_that_has_it(self):
+        names, problems = self.drawn('''
+            [[map]]
+            file = "misspelt"
+            [[maps]]
+            file = "wrong"
+            field = "temperature"
+            times = "last"
+            [[maps]]
+            file = "right"
+            field = "temperature"
+            [automatic]
+            niyama = "low"''')
+        self.assertIn("right.png", names)
+        self.assertIn("overview_temperature.png", names)
+        self.assertFalse({"misspelt.png", "wrong.png"} & names)
+        for text in ("unknown section 'map'", "'times' must be a list of moments", "'niyama' must be a number"):
+            self.assertTrue(any(text in problem for problem in problems), (text, problems))
+        names, problems = self.drawn("[[maps]\n")
+        self.assertIn("overview_temperature.png", names)
+        self.assertIn("plots.toml", problems[0])
+
+    def test_the_pictures_that_every_run_gets_can_be_left_out(self):
+        names, problems = self.drawn("[automatic]\ndraw = false")
+        self.assertFalse([name for name in names if name.startswith("overview")])
+        self.assertEqual(problems, [])
+
     def test_pictures_of_other_variants_are_left_out(self):
         names, problems = self.drawn('''
             [[maps]]

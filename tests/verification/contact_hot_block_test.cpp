@@ -65,6 +65,7 @@ Coupled hot_block(bool rigid) {
   const double poisson = rigid ? 0 : 0.3, expansion = rigid ? 0 : 1.2e-5;
   c.materials = {test::elastic(k_young, poisson, expansion, k_conductivity),
                  test::elastic(k_young, poisson, expansion, k_conductivity)};
+  for (material::Material& m : c.materials) m.specific_heat_at = material::SpecificHeatAt::constant_strain;
   c.start = {k_cold, k_hot};
   for (int i = 0; i < 2; ++i) c.hold(rigid ? "lower" : "lower_y_min", i);
   c.hold(rigid ? "upper" : "upper_y_max", 0, Table({0, k_end}, {0, k_speed * k_end}));

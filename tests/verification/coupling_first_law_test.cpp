@@ -24,6 +24,13 @@ CoupledRun run(Coupled c, std::optional<StructuralForm> form, int n_steps) {
 struct Defects {
   std::vector<double> sum, worst;
 };
+/// With the specific heat at constant pressure structural entropy is that of stresses alone, and the defect
+/// of the entropy form so small that it has no order.
+Coupled at_constant_strain(Coupled c) {
+  for (material::Material& m : c.materials) m.specific_heat_at = material::SpecificHeatAt::constant_strain;
+  return c;
+}
+
 Defects defects_of_entropy_form(const Coupled& c, const std::vector<int>& n_steps) {
   Defects d;
   for (int n : n_steps) {
@@ -36,8 +43,8 @@ Defects defects_of_entropy_form(const Coupled& c, const std::vector<int>& n_step
 
 TEST(EntropyForm, HasADefectOfSecondOrderPerStepAndOfFirstOrderInSum) {
   const std::vector<int> n_steps{8, 16, 32, 64, 128};
-  const Defects of_bar = defects_of_entropy_form(bar(), n_steps),
-                of_casting = defects_of_entropy_form(casting(0), n_steps);
+  const Defects of_bar = defects_of_entropy_form(at_constant_strain(bar()), n_steps),
+                of_casting = defects_of_entropy_form(at_constant_strain(casting(0)), n_steps);
   auto out = verification::table("coupling_first_law_order",
                                  "step[s],bar: sum,bar: worst step,casting: sum,casting: worst step");
   for (std::size_t i = 0; i < n_steps.size(); ++i) {
@@ -104,7 +111,8 @@ TEST(WithoutStructuralHeat, TheBalanceClosesForAnyStepAcrossTheInterfaceToo) {
 TEST(BothForms, TendToTheSameTemperaturesAtFirstOrder) {
   std::vector<double> difference;
   for (int n : {8, 16, 32, 64}) {
-    const CoupledRun a = run(bar(), StructuralForm::entropy, n), b = run(bar(), StructuralForm::energy, n);
+    const Coupled c = at_constant_strain(bar());
+    const CoupledRun a = run(c, StructuralForm::entropy, n), b = run(c, StructuralForm::energy, n);
     double worst = 0;
     for (std::size_t i = 0; i < a.end.heat.temperature.size(); ++i)
       worst = std::max(worst, std::abs(a.end.heat.temperature[i] - b.end.heat.temperature[i]));

@@ -58,6 +58,7 @@ Coupled cube(const Kind& body, StructuralForm form) {
   c.integration = body.integration;
   c.materials = {test::elastic_material(k_young, k_poisson, k_alpha)};
   c.materials[0].expansion_reference = k_start;
+  c.materials[0].specific_heat_at = material::SpecificHeatAt::constant_strain;
   c.start = {k_start};
   c.form = form;
   c.hold("bottom", 1);

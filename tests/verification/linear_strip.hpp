@@ -32,6 +32,7 @@ struct LinearSolid {
     m.name = "linear";
     m.density = k_stiffness;  // c = 1 m/s
     m.specific_heat = k_capacity / m.density;
+    m.specific_heat_at = material::SpecificHeatAt::constant_strain;
     m.conductivity = k_capacity;  // a = 1 m²/s
     m.young_modulus = young;
     m.poisson_ratio = poisson;

@@ -80,7 +80,7 @@ formula = "q/(2*pi*s^2)*exp(-((x - start)^2 + y^2)/(2*s^2))"
 constants = { q = "100 kW/m", s = "6 mm", start = "60 mm" }
 moving = ["5 mm/s", "0 mm/s"]
 )~";
-  const model::Case c = model::load_case(folder / "case.toml");
+  model::Case c = model::load_case(folder / "case.toml");
   model::Assembly a;
   a.materials = model::load_materials(c.spec);
   a.mesh = model::load_mesh(c.spec);

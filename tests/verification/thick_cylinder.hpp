@@ -25,6 +25,7 @@ inline material::Material steel(double expansion_factor, bool plastic) {
   m.density = 7800;
   m.conductivity = Table({273, 673}, {45.29, 39.42}, k_on);
   m.specific_heat = Table({273, 673}, {340, 390}, k_on);
+  m.specific_heat_at = material::SpecificHeatAt::constant_strain;  // 2.49c
   m.young_modulus = Table({273, 673}, {221.9e9, 183.9e9}, k_on);
   m.poisson_ratio = 0.3;
   m.expansion = Table({273, 673}, {expansion_factor * 1.19e-5, expansion_factor * 1.39e-5}, k_on);

@@ -38,6 +38,11 @@ Material random_material(Random& random) {
   const double poisson = uniform(random, 0, 0.33);
   m.poisson_ratio = Table({300, 1100}, {poisson, poisson + uniform(random, 0, 0.04)});
   m.expansion = any_way(random, uniform(random, 0.5e-5, 3e-5));
+  // C_p − C_v = 9 α² k Θ is a tenth of a metal's capacity at most; these numbers know nothing of each other
+  const double bulk = m.young_modulus.max_value() / (3 * (1 - 2 * m.poisson_ratio.max_value()));
+  const double alpha = 3 * m.expansion.max_value();  // with the slope of a mean coefficient
+  const bool possible = 9 * alpha * alpha * bulk * 1100 < 0.3 * m.density * m.specific_heat.min_value();
+  m.specific_heat_at = possible ? SpecificHeatAt::constant_pressure : SpecificHeatAt::constant_strain;
   Flow& f = *m.flow;
   if (c.isotropic != IsotropicHardening::table) f.flow_stress = falling(random, decades(random, 6, 9));
   const double young = m.young_modulus.max_value();

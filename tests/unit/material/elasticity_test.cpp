@@ -6,6 +6,7 @@
 
 #include "dual.hpp"
 #include "sample_material.hpp"
+#include "structural_state.hpp"
 
 namespace solidus::material {
 namespace {
@@ -77,33 +78,36 @@ TEST(Elasticity, DerivativesAndCurvaturesAgreeWithAutomaticDifferentiation) {
   }
 }
 
-/// Ψ = W + M by 2.49 with Ḡ = G/f_S, at any number type.
+/// Ψ = W + M + R by 2.49 with Ḡ = G/f_S, at any number type.
 template <class T>
 T free_energy(const Material& m, const T& temperature, double strain_trace, double deviator_norm_squared) {
   const auto p = properties_at(m, temperature, T(k_initial));
   const T w = 0.5 * p.bulk * strain_trace * strain_trace + p.shear / p.solid_fraction * deviator_norm_squared;
-  return w - p.bulk * p.thermal_strain * strain_trace;
+  return w - 0.5 * p.bulk * strain_trace * strain_trace +
+         volumetric_energy(m, p.bulk, p.thermal_strain, strain_trace);
 }
 
 TEST(StructuralState, EntropyEnergyAndCapacityAreDerivativesOfTheFreeEnergyAtFixedElasticStrain) {
-  const Material m = sample_material();
+  Material m = sample_material();
   const double tr = -3e-3, e2 = 4e-6;  // tr ε^E, dev ε^E : dev ε^E
-  for (const double t : k_temperatures) {
-    if (properties_at(m, t, k_initial).solid_fraction == 0) continue;  // 2.50 has no elastic deviator there
-    const Ad psi = free_energy(m, variable(t), tr, e2);
-    const auto p = properties_at(m, variable(t), Ad(k_initial));
-    const auto d = derivatives_at(m, variable(t), Ad(k_initial));
-    const Ad stiffness = Ad(2.0) * p.shear / p.solid_fraction;
-    const Ad s2 = stiffness * stiffness * e2;
-    const auto state = structural_state<Ad>(p, d, variable(t), Ad(tr), s2);
-    expect_near_relative(state.entropy.value(), -slope(psi), 1e-11);
-    expect_near_relative(state.internal_energy.value(), psi.value() - t * slope(psi), 1e-11);
-    const double capacity =
-        structural_capacity(properties_at(m, t, k_initial), derivatives_at(m, t, k_initial),
-                            curvatures_at(m, t), t, tr, s2.value());
-    expect_near_relative(capacity, t * slope(state.entropy), 1e-10);
-    expect_near_relative(capacity, slope(state.internal_energy), 1e-9);  // dE = Θ dS at fixed strain
-  }
+  for (const auto measured : {SpecificHeatAt::constant_pressure, SpecificHeatAt::constant_strain})
+    for (const double t : k_temperatures) {
+      m.specific_heat_at = measured;
+      if (properties_at(m, t, k_initial).solid_fraction == 0) continue;  // 2.50 has no elastic deviator there
+      const Ad psi = free_energy(m, variable(t), tr, e2);
+      const auto p = properties_at(m, variable(t), Ad(k_initial));
+      const auto d = derivatives_at(m, variable(t), Ad(k_initial));
+      const Ad stiffness = Ad(2.0) * p.shear / p.solid_fraction;
+      const Ad s2 = stiffness * stiffness * e2;
+      const auto state = structural_state<Ad>(m, p, d, variable(t), Ad(tr), s2);
+      expect_near_relative(state.entropy.value(), -slope(psi), 1e-11);
+      expect_near_relative(state.internal_energy.value(), psi.value() - t * slope(psi), 1e-11);
+      const double capacity =
+          structural_capacity(m, properties_at(m, t, k_initial), derivatives_at(m, t, k_initial),
+                              curvatures_at(m, t), t, tr, s2.value());
+      expect_near_relative(capacity, t * slope(state.entropy), 1e-10);
+      expect_near_relative(capacity, slope(state.internal_energy), 1e-9);  // dE = Θ dS at fixed strain
+    }
 }
 
 TEST(StructuralState, StaysFiniteInTheLiquid) {
@@ -111,22 +115,27 @@ TEST(StructuralState, StaysFiniteInTheLiquid) {
   const double t = 940;
   const auto p = properties_at(m, t, k_initial);
   const auto d = derivatives_at(m, t, k_initial);
-  const auto state = structural_state(p, d, t, 1e-3, 1e12);
+  const auto state = structural_state(m, p, d, t, 1e-3, 1e12);
   EXPECT_TRUE(std::isfinite(state.entropy) && std::isfinite(state.internal_energy));
-  EXPECT_TRUE(std::isfinite(structural_capacity(p, d, curvatures_at(m, t), t, 1e-3, 1e12)));
-  EXPECT_EQ(structural_state(p, d, t, 1e-3, 1e12).entropy, structural_state(p, d, t, 1e-3, 0.0).entropy);
+  EXPECT_TRUE(std::isfinite(structural_capacity(m, p, d, curvatures_at(m, t), t, 1e-3, 1e12)));
+  EXPECT_EQ(structural_state(m, p, d, t, 1e-3, 1e12).entropy,
+            structural_state(m, p, d, t, 1e-3, 0.0).entropy);
 }
 
-TEST(StructuralState, OfAFreelyExpandingSolidHoldsItsVolumetricPartOnly) {
+TEST(StructuralState, OfAFreelyExpandingSolidIsNothingWhereTheSpecificHeatIsThatAtConstantPressure) {
   Material m = sample_material();
   m.phase_changes.clear();
   m.young_modulus = Table(70e9);
   m.poisson_ratio = Table(0.3);
   m.expansion = Table(2e-5);
   const double t = 500, strain = 3 * 2e-5 * (500 - 300), k = 70e9 / 1.2;
-  const auto state =
-      structural_state(properties_at(m, t, 300.0), derivatives_at(m, t, 300.0), t, strain, 0.0);
-  expect_near_relative(state.entropy, k * 6e-5 * strain, 1e-13);  // 3 α k e^θ
+  const auto state = [&] {
+    return structural_state(m, properties_at(m, t, 300.0), derivatives_at(m, t, 300.0), t, strain, 0.0);
+  };
+  EXPECT_NEAR(state().entropy, 0, 1e-13 * k * 6e-5 * strain);
+  EXPECT_NEAR(state().internal_energy, 0, 1e-13 * k * 6e-5 * strain * t);
+  m.specific_heat_at = SpecificHeatAt::constant_strain;
+  expect_near_relative(state().entropy, k * 6e-5 * strain, 1e-13);  // 3 α k e^θ
 }
 
 TEST(Elasticity, LanesAnswerAsNumbersDo) {
@@ -136,8 +145,8 @@ TEST(Elasticity, LanesAnswerAsNumbersDo) {
   const auto p = properties_at(m, t, Lane(k_initial));
   const auto d = derivatives_at(m, t, Lane(k_initial));
   const auto c = curvatures_at(m, t);
-  const auto state = structural_state(p, d, t, Lane(1e-3), Lane(1e12));
-  const Lane capacity = structural_capacity(p, d, c, t, Lane(1e-3), Lane(1e12));
+  const auto state = structural_state(m, p, d, t, Lane(1e-3), Lane(1e12));
+  const Lane capacity = structural_capacity(m, p, d, c, t, Lane(1e-3), Lane(1e12));
   for (int i = 0; i < k_lanes; ++i) {
     const auto pi = properties_at(m, t[i], k_initial);
     const auto di = derivatives_at(m, t[i], k_initial);
@@ -149,10 +158,10 @@ TEST(Elasticity, LanesAnswerAsNumbersDo) {
     EXPECT_DOUBLE_EQ(p.viscosity[i], pi.viscosity);
     EXPECT_DOUBLE_EQ(d.bulk[i], di.bulk);
     EXPECT_DOUBLE_EQ(c.shear[i], ci.shear);
-    const auto si = structural_state(pi, di, t[i], 1e-3, 1e12);
+    const auto si = structural_state(m, pi, di, t[i], 1e-3, 1e12);
     expect_near_relative(state.entropy[i], si.entropy, 1e-13);
     expect_near_relative(state.internal_energy[i], si.internal_energy, 1e-13);
-    expect_near_relative(capacity[i], structural_capacity(pi, di, ci, t[i], 1e-3, 1e12), 1e-13);
+    expect_near_relative(capacity[i], structural_capacity(m, pi, di, ci, t[i], 1e-3, 1e12), 1e-13);
   }
 }
 

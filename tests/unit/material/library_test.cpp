@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -30,9 +31,11 @@ TEST(MaterialLibrary, EveryPropertyOfEveryFileHasASourceAndEveryTableAValidityRa
     EXPECT_GE(m.notes.size(), 3u);
     for (const PropertyNote& note : m.notes) {
       EXPECT_FALSE(note.source.empty()) << name << " " << note.property;
-      const bool always = note.property == "density" || note.property == "poisson_ratio" ||
-                          note.property == "twice_shear_viscosity" || note.property == "solidification" ||
-                          note.property == "graphite" || note.property == "plasticity.rate_exponent" ||
+      const bool change = std::any_of(m.phase_changes.begin(), m.phase_changes.end(),
+                                      [&](const PhaseChange& one) { return one.name == note.property; });
+      const bool always = change || note.property == "density" || note.property == "poisson_ratio" ||
+                          note.property == "twice_shear_viscosity" ||
+                          note.property == "plasticity.rate_exponent" ||
                           note.property == "plasticity.drag_stress" || note.property == "casting";
       EXPECT_TRUE(always || note.valid_to > note.valid_from) << name << " " << note.property;
     }
@@ -271,6 +274,29 @@ TEST_F(MaterialOnDisk, TakesFromTheMaterialThatItIsLikeWhatItDoesNotGive) {
   EXPECT_EQ(m.poisson_ratio.value(300), 0.25);
   EXPECT_EQ(m.density, base.density);
   EXPECT_EQ(m.phase_changes.size(), 1u);
+}
+
+TEST_F(MaterialOnDisk, RefusesASpecificHeatThatExpansionAloneExceeds) {
+  const std::string card = R"(
+density = "7800 kg/m3"
+conductivity = "40 W/m/K"
+specific_heat = "500 J/kg/K"
+young_modulus = "200 GPa"
+poisson_ratio = 0.3
+expansion = "1.2e-4 1/K"
+)";
+  write("swelling.toml", card);  // ten times that of steel
+  try {
+    load_material(folder_ / "swelling.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is less than what expansion against its stiffness takes up"),
+              std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("[[phase_change]]"), std::string::npos) << error.what();
+  }
+  write("held.toml", card + "specific_heat_at = \"constant_strain\"\n");
+  EXPECT_EQ(load_material(folder_ / "held.toml").specific_heat_at, SpecificHeatAt::constant_strain);
 }
 
 const std::string k_plastic_child = "like = \"aluminium_99_7_plastic\"\n[plasticity]\n";

@@ -42,6 +42,7 @@ material::Material strongly_coupled(material::Material m) {
   m.young_modulus = Table({300, 500}, {2e11, 1.5e11});
   m.poisson_ratio = Table({300, 500}, {0.3, 0.35});
   m.expansion = Table({300, 500}, {4e-5, 5e-5});
+  m.specific_heat_at = material::SpecificHeatAt::constant_strain;  // as C_p it would be less than C_p − C_v
   return m;
 }
 /// Half solid at 350 K.
@@ -156,7 +157,11 @@ void expect_temperature(const mechanics::MechanicalPhase& phase, double exact, d
 
 constexpr double k_alpha = 4e-5, k_capacity = 7800 * 500.0;  // [1/K], [J/(m³ K)]
 constexpr double k_bulk = 7e10 / (3 * (1 - 2 * 0.33));       // [Pa]
-const auto k_soft = test::elastic_material(7e10, 0.33, k_alpha);
+const auto k_soft = [] {
+  material::Material m = test::elastic_material(7e10, 0.33, k_alpha);
+  m.specific_heat_at = material::SpecificHeatAt::constant_strain;
+  return m;
+}();
 
 /// Prescribed on the whole boundary: the same strain everywhere, tr ε = 3 × size.
 Body dilated(const Element& element, const material::Material& material) {

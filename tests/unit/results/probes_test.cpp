@@ -117,6 +117,31 @@ TEST_F(Block, ExtremesAreThoseOfTheNodesOfTheGroup) {
   EXPECT_GE(value(cells), 80);  // 8 × 5 cells cut in two
 }
 
+TEST_F(Block, MeanAndIntegralOfAFieldOfElementsWeighByVolume) {
+  FieldSet of_cells;
+  of_cells.add({"x", "m", 1, Place::cell, {}, [&] {
+                  std::vector<double> centres;
+                  for (const mesh::Block& b : mesh.blocks)
+                    for (Index e = 0; e < b.size(); ++e) {
+                      double sum = 0;
+                      for (int a = 0; a < 3; ++a)
+                        sum += mesh.x[static_cast<std::size_t>(b.element(e)[a])][0] / 3;
+                      centres.push_back(sum);
+                    }
+                  return centres;
+                }});
+  const auto asked = [](Statistic statistic, const char* unit) {
+    return std::vector<Probe>{GroupProbe{{{"x", unit}, "x", 0, {}}, "block", statistic}};
+  };
+  const auto value_of = [&](AnalysisKind kind, const std::vector<Probe>& probes) {
+    return Probes(mesh, kind, probes, of_cells).values(of_cells)[0];
+  };
+  EXPECT_NEAR(value_of(AnalysisKind::plane_strain, asked(Statistic::mean, "m")), 2, 1e-12);
+  EXPECT_NEAR(value_of(AnalysisKind::plane_strain, asked(Statistic::integral, "m m3")), 4, 1e-12);
+  // ∫ r² dr/∫ r dr, but for what elements of 0.25 m average out
+  EXPECT_NEAR(value_of(AnalysisKind::axisymmetric, asked(Statistic::mean, "m")), 26. / 12, 2e-3);
+}
+
 // Not held in between: the next row computes it anew, and sees what has changed.
 TEST_F(Block, ComputedFieldIsComputedOnceARow) {
   const auto in_cells = [](const char* name, Statistic statistic) {

@@ -1,0 +1,31 @@
+# What `cmake --install` brings beside the program: materials, the Python modules that draw, schemas, completion for shells,
+# the manual page and the documents. The program finds them relative to itself, so that the prefix may be moved.
+include(GNUInstallDirs)
+install(TARGETS solidus)
+install(DIRECTORY materials interfaces DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus)
+install(DIRECTORY python DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+install(FILES README.md CHANGELOG.md LICENSE SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# The program that was just installed writes them, from its own declarations.
+install(CODE "
+  set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
+  set(program \"\${prefix}/${CMAKE_INSTALL_BINDIR}/solidus\")
+  function(solidus_writes file)
+    message(STATUS \"Installing: \${prefix}/\${file}\")
+    get_filename_component(folder \"\${prefix}/\${file}\" DIRECTORY)
+    file(MAKE_DIRECTORY \"\${folder}\")
+    execute_process(COMMAND \"\${program}\" \${ARGN} OUTPUT_FILE \"\${prefix}/\${file}\" RESULT_VARIABLE failed)
+    if(failed)
+      message(FATAL_ERROR \"\${program} \${ARGN}: \${failed}\")
+    endif()
+  endfunction()
+  solidus_writes(${CMAKE_INSTALL_DATADIR}/bash-completion/completions/solidus completion bash)
+  solidus_writes(${CMAKE_INSTALL_DATADIR}/zsh/site-functions/_solidus completion zsh)
+  solidus_writes(${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d/solidus.fish completion fish)
+  solidus_writes(${CMAKE_INSTALL_MANDIR}/man1/solidus.1 man)
+  solidus_writes(${CMAKE_INSTALL_DATADIR}/solidus/schema/case.schema.json schema)
+  solidus_writes(${CMAKE_INSTALL_DATADIR}/solidus/schema/material.schema.json schema --material)
+  solidus_writes(${CMAKE_INSTALL_DATADIR}/solidus/schema/point.schema.json schema --point)
+")

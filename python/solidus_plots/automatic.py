@@ -1,0 +1,114 @@
+"""Pictures that every run gets without being asked: which fields, of which bodies, at which moments."""
+
+from pathlib import Path
+import tomllib
+
+import numpy as np
+
+from solidus_plots import hot_spots
+from solidus_plots.cells import VOLUME
+from solidus_plots.overview import Case
+
+NIYAMA = 0.775  # sqrt(K s)/mm
+NIYAMA_REMARK = ("grey: at or above {:g} √(K s)/mm, the limit of Niyama et al. (1982) for steel, "
+                 "1 °C^½ min^½/cm; other alloys have others ([automatic] niyama)")
+BEYOND = 0.3  # K
+FREEZING = (0.3, 0.8)  # solid fractions of the casting that say most
+
+
+def read_case(results):
+    """The case as it was run; empty where it is not there."""
+    file = results / "case.toml"
+    return tomllib.loads(file.read_text()) if file.exists() else {}
+
+
+def castings(run, summary, grid):
+    """The bodies that are poured: as the run says, else those that show a time of freezing, else all."""
+    named = [name for name in summary.get("answers", {}).get("castings", {}) if name in run.bodies]
+    return named or list(run.bodies)
+
+
+def _moments(times, history):
+    """Two written moments while it freezes (the last one where it does not), and the last one."""
+    last = float(times[-1])
+    if "solid_fraction[1]" not in history:
+        return [last], last
+    solid = np.interp(times, history["time[s]"], history["solid_fraction[1]"])
+    during = np.flatnonzero((solid > 0.02) & (solid < 0.98))
+    if not during.size:
+        return [last], last
+    chosen = {int(during[np.abs(solid[during] - wanted).argmin()]) for wanted in FREEZING}
+    return [float(times[index]) for index in sorted(chosen)], last
+
+
+def _levels(summary):
+    """Liquidus and solidus of what is poured [degC], those of one alloy alone; lines stand a little beyond, because on
+    the plateau of an eutectic all temperatures are the solidus but for rounding."""
+    pours = summary.get("understood", {}).get("poured", [])
+    pairs = {(pour["solidus[K]"], pour["liquidus[K]"]) for pour in pours if "solidus[K]" in pour}
+    if len(pairs) != 1:
+        return []
+    solidus, liquidus = (kelvin - 273.15 for kelvin in pairs.pop())
+    if solidus == liquidus:
+        return [{"value": solidus - BEYOND, "label": f"melting point {solidus:.4g} °C"}]
+    return [{"value": solidus - BEYOND, "label": f"solidus {solidus:.4g} °C"},
+            {"value": liquidus + BEYOND, "label": f"liquidus {liquidus:.4g} °C"}]
+
+
+def plan(run, times, summary, history, results, wishes):
+    """The case and the list of sheets. `wishes`: [automatic] of plots.toml."""
+    toml, grid = read_case(results), run.at("last")
+    cast = castings(run, summary, grid)
+    mask = run.body_mask(grid, cast)
+    if not mask.any():  # it has left
+        return None, []
+    kind = toml.get("analysis", {}).get("kind", "solid")
+    materials = {body["name"]: Path(body["material"]).stem for body in toml.get("body", [])}
+    alloy = ", ".join(dict.fromkeys(materials[name] for name in cast if name in materials))
+    title = summary.get("title") or results.resolve().parent.name
+    case = Case(" · ".join(filter(None, [title, alloy, summary.get("variant", ""), summary.get("solidus") and
+                                         f"Solidus {summary['solidus']}"])),
+                bool(np.isin(grid.cell_types, VOLUME).any()), ("r", "z") if kind == "axisymmetric" else ("x", "y"),
+                hot_spots.hottest(grid, mask), hot_spots.all_of(grid, mask))
+    during, last = _moments(times, history)
+    others = [name for name in run.bodies if name not in cast]
+    limit = wishes.get("niyama", NIYAMA)
+    sheets, written = [], {*grid.point_data, *grid.cell_data}
+
+    def add(field, file=None, **spec):
+        if field in written:
+            sheets.append({"file": file or f"overview_{field}", "field": field, "times": [last], "bodies": cast, **spec})
+
+    add("temperature", title="Temperature of the casting" if others else "Temperature", unit="degC", times=during,
+        levels=_levels(summary))
+    if during != [last] or others:
+        add("temperature", "overview_temperature_end", title="Temperature at the end", unit="degC",
+            bodies=list(run.bodies))
+    if during != [last] or _melt(grid, mask):
+        add("solid_fraction", title="Solid fraction", unit="%", times=during, range=[0, 100], levels=[])
+    if "solidified_at" in written and (grid.point_data["solidified_at"] >= 0).any():
+        add("solidified_at", title="Time of solidification, with hot spots", quantity="Solid after", above=-0.5,
+            hot_spots=True, timeless=True)
+        niyama = grid.point_data["niyama"] if "niyama" in written else np.zeros(1)
+        if ((niyama > 0) & (1e-3 * niyama < limit)).any():
+            add("niyama", title=f"Niyama below {limit:g} √(K s)/mm", quantity="Niyama", above=0, below=limit, timeless=True,
+                remark=NIYAMA_REMARK.format(limit))
+        if "shrinkage_porosity" in written and (grid.point_data["shrinkage_porosity"] > 0).any():
+            add("shrinkage_porosity", title="Estimate of shrinkage porosity", unit="%",
+                timeless=True)
+    if case.solid and "gap" in written and (grid.point_data["gap"] > 0).any():
+        add("gap", title="Gap between casting and mould", unit="mm", skin_alone=True, contours=0)
+    if "distortion" in written and np.any(grid.point_data["distortion"]):
+        add("distortion", title="Distortion", unit="mm")
+    elif "displacement" in written and "distortion" not in written:
+        add("displacement", title="Displacement", unit="mm")
+    if "von_mises" in written and grid.cell_data["von_mises"][mask].any():
+        add("von_mises", title="Residual stress, von Mises" if cast != list(run.bodies) or case.spots
+            else "Stress, von Mises", quantity="von Mises stress", unit="MPa", smooth=True,
+            remark="averaged at the nodes; the largest and least values are those of elements")
+    return case, sheets
+
+
+def _melt(grid, mask):
+    solid = grid.point_data.get("solid_fraction")
+    return solid is not None and solid.min() < 1.0

@@ -1,0 +1,179 @@
+"""One field of a run on one sheet: the skin of the bodies and cuts through the hottest spot, or a whole plane
+section, with the least and largest value, their places, alloy and case."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from solidus_plots import hot_spots, moments, paint, style
+from solidus_plots.annotations import mark, triad
+from solidus_plots.cells import Refined
+from solidus_plots.cut import Cut, Plane, cut
+from solidus_plots.scene import Camera, View
+from solidus_plots.sections import MM, Panel, draw_panel, frame_of
+from solidus_plots.sheet import Sheet, wrap
+from solidus_plots.surfaces import frame_of as frame_of_surfaces
+from solidus_plots.surfaces import image_of, surface_of
+from solidus_plots.vtu import ResultError
+
+NEAR = 0.02  # of the extent: spots so near to a cut are marked in it
+
+
+@dataclass
+class Case:
+    """What every sheet of a run shares."""
+
+    corner: str  # case and alloy
+    solid: bool  # three-dimensional
+    names: tuple  # of the axes of a plane section
+    hottest: np.ndarray  # [3] m
+    spots: list = field(default_factory=list)  # hot spots, the last first
+    up: str = "z"
+
+
+def _number(value):
+    return f"{value:.4g}"
+
+
+def _place(point, names):
+    shown = ", ".join(_number(0.0 if abs(x) < 1e-9 else MM * x) for x in point[:len(names)])
+    return f"({shown}) mm"
+
+
+def _extremes(grid, mask, spec, names):
+    """A line with the least and the largest value of the bodies shown, and where."""
+    kind, found = moments.values(grid, {key: value for key, value in spec.items() if key != "smooth"}, mask)
+    if kind == "point_data":
+        where = moments.nodes_of(grid, mask)
+        points = grid.points
+    else:
+        where, points = np.flatnonzero(mask), hot_spots.centres(grid)
+    where = where[np.isfinite(found[where])]
+    if not where.size:
+        return "no value"
+    unit = style.unit_text(moments.unit(grid, spec))
+    unit = "" if unit in ("", "1") else f" {unit}"
+    low, high = where[found[where].argmin()], where[found[where].argmax()]
+    if found[low] == found[high]:
+        return f"{_number(found[low])}{unit} everywhere"
+    return (f"largest {_number(found[high])}{unit} at {_place(points[high], names)},  "
+            f"least {_number(found[low])}{unit} at {_place(points[low], names)}")
+
+
+class _Skin:
+    """A look at the surface of the bodies."""
+
+    def __init__(self, name, grids, run, spec, camera):
+        self.name, self._grids, self._spec, self.camera = name, grids, spec, camera
+        self._surfaces = [surface_of(grid, run, spec, camera.eye) for grid in grids]
+        self._frame = frame_of_surfaces(self._surfaces, camera)
+        self.size = tuple(MM * (self._frame[1] - self._frame[0]))
+
+    def values(self):
+        return np.concatenate([surface.values[surface.triangles_shown()].ravel() for surface in self._surfaces])
+
+    def draw(self, axes, moment, colours, shape, case):
+        view = View(self._surfaces[moment], self.camera, self._frame, shape)
+        image = image_of(view, self._grids[moment], colours, self._spec)
+        extent = (MM * np.array(self._frame)).T.ravel()
+        axes.imshow(image, extent=extent, interpolation="antialiased", aspect="equal")
+        axes.axis("off")
+
+
+class _Section:
+    """A plane of the bodies: a cut, or all of them where they are plane themselves."""
+
+    def __init__(self, name, grids, run, spec, plane, whole):
+        self.name, self.plane, self._panels = name, plane, []
+        for grid in grids:
+            mask = run.body_mask(grid, spec.get("bodies"))
+            part = _whole(grid, mask) if whole else cut(grid, mask, plane)
+            kind, found = moments.values(grid, spec, mask)
+            values = part.at_points(found) if kind == "point_data" else found[part.cells]
+            self._panels.append(Panel(grid, part, MM * plane.place(part.at_points(grid.points)), kind, values))
+        filled = [panel for panel in self._panels if panel.place.size]
+        if not filled:
+            raise ResultError(f"the plane {name} does not meet the bodies")
+        self._frame = frame_of(filled)
+        self.size = tuple(self._frame[1] - self._frame[0])
+
+    def values(self):
+        return np.concatenate([panel.values for panel in self._panels])
+
+    def draw(self, axes, moment, colours, shape, case):
+        draw_panel(axes, self._panels[moment], self._frame, colours, shape, False)
+        axes.tick_params(labelsize=6.5)
+        axes.set_xlabel(f"{self.plane.names[0]} [mm]", fontsize=7.5, labelpad=1)
+        axes.set_ylabel(f"{self.plane.names[1]} [mm]", fontsize=7.5, labelpad=1)
+        reach = NEAR * max(self.size) / MM
+        near = [(str(rank + 1), spot.point) for rank, spot in enumerate(case.spots)
+                if abs(self.plane.distance(spot.point)) <= reach]
+        if near:
+            mark(axes, np.array([MM * self.plane.place(point) for _, point in near]), [name for name, _ in near])
+        elif abs(self.plane.distance(case.hottest)) <= reach:
+            x, y = MM * self.plane.place(case.hottest)
+            axes.plot([x], [y], "+", markersize=8, markeredgewidth=2.6, color="white", zorder=8)
+            axes.plot([x], [y], "+", markersize=7, markeredgewidth=1.1, color="black", zorder=9)
+
+
+def _whole(grid, mask):
+    """All plane cells of a mask as a cut that goes through every node."""
+    triangles, cells = grid.triangles()
+    taken = mask[cells]
+    nodes = np.arange(len(grid.points))
+    used, triangles = np.unique(triangles[taken], return_inverse=True)
+    return Cut(np.stack([nodes[used]] * 2, axis=1), np.zeros(len(used)), triangles.reshape(-1, 3), cells[taken],
+               Refined(len(grid.points)))
+
+
+def _views(grids, run, spec, case):
+    if not case.solid:
+        plane = Plane(np.zeros(3), np.eye(3)[2], np.eye(3)[0], np.eye(3)[1], case.names)
+        return [_Section("", grids, run, spec, plane, True)]
+    around = [_Skin("skin", grids, run, spec, Camera(-60, 25, case.up))]
+    if spec.get("skin_alone"):
+        return around + [_Skin("from behind and below", grids, run, spec, Camera(120, -25, case.up))]
+    planes = [(Plane.axis(axis, case.hottest["xyz".index(axis)]),
+               f"{axis} = {_number(MM * case.hottest['xyz'.index(axis)])} mm") for axis in "xyz"]
+    return around + [_Section(name, grids, run, spec, plane, False) for plane, name in planes]
+
+
+def draw(spec, run, case, folder):
+    """One sheet. `spec` is that of [[sections]], with `skin_alone`: no cuts; `hot_spots`: they are marked; `timeless`:
+    of the whole run; `remark`: a line below."""
+    grids = run.those_of(spec["times"])
+    times = style.time_texts([grid.time for grid in grids])
+    views = _views(grids, run, spec, case)
+    shown = np.concatenate([view.values() for view in views])
+    colours = paint.Paint({"contours": 8, **spec}, moments.unit(grids[0], spec), shown)
+    entries = [(view, moment) for moment in range(len(grids)) for view in views]
+    if len(grids) == 1 or len(views) == 1:
+        rows = wrap(entries, None, *np.max([view.size for view in views], axis=0))
+    else:
+        rows = [entries[start:start + len(views)] for start in range(0, len(entries), len(views))]
+    names = "xyz" if case.solid else case.names
+    masks = [run.body_mask(grid, spec.get("bodies")) for grid in grids]
+    timeless = spec.get("timeless", False)  # of the whole run
+    footer = [("" if timeless else f"{time}: ") + _extremes(grid, mask, spec, names)
+              for grid, mask, time in zip(grids, masks, times)]
+    if spec.get("hot_spots") and case.spots:
+        footer.append("hot spots: " + ";  ".join(f"{rank + 1}: {_number(spot.value)} s at {_place(spot.point, names)}"
+                                                 for rank, spot in enumerate(case.spots)))
+    footer += [spec["remark"]] if "remark" in spec else []
+    footer.append(case.corner)
+    title = spec["title"] + (f", {times[0]}" if len(times) == 1 and not timeless else "")
+    # Narrow panels get room for their titles.
+    least = 0.22 * max(view.size[0] for view in views)
+    sheet = Sheet([[entry and (max(entry[0].size[0], least), entry[0].size[1]) for entry in row] for row in rows], title, 0.55, [0.62] * len(rows),
+                  legend=colours.legend(), footer=footer)
+    marks = case if spec.get("hot_spots") else Case(case.corner, case.solid, case.names, case.hottest, [], case.up)
+    for axes_row, row in zip(sheet.axes, rows):
+        for axes, entry in zip(axes_row, row):
+            if entry is None:
+                continue
+            view, moment = entry
+            view.draw(axes, moment, colours, sheet.pixels(view.size), marks)
+            first = len(times) > 1 and view is views[0]  # the moment stands over the first view of its row
+            axes.set_title(", ".join([view.name] * bool(view.name) + [times[moment]] * first), fontsize=8.5)
+    colours.bar(sheet.bar, bool(colours.contours))
+    return style.save(sheet.figure, folder, spec["file"], vector=False)

@@ -1,0 +1,35 @@
+/// The command line as it is declared, without the library that parses it: what completion and the manual
+/// page are written from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace solidus::app {
+
+struct OptionInfo {
+  std::vector<std::string> names;  ///< "-o", "--output"; of a positional argument none
+  std::string value;               ///< what follows it: "CASE", "FOLDER", "KEY=VALUE" ...; of a flag empty
+  std::string doc;
+  bool required = false, many = false;
+  bool positional() const { return names.empty(); }
+};
+
+struct VerbInfo {
+  std::string name, doc;
+  std::vector<OptionInfo> options;  ///< those of the program itself are not repeated
+};
+
+struct CommandTree {
+  std::string doc, footer;
+  std::vector<OptionInfo> options;  ///< in front of every verb or behind it
+  std::vector<VerbInfo> verbs;
+};
+
+CommandTree command_tree(const CLI::App& program);
+
+}  // namespace solidus::app

@@ -1,0 +1,96 @@
+/// The verb `init-editor`: what an editor needs to check and complete the files of a folder.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/verbs.hpp"
+#include "base/errors.hpp"
+#include "base/key_docs.hpp"
+#include "material/library.hpp"
+#include "model/case_keys.hpp"
+#include "point/spec.hpp"
+#include "results/output_file.hpp"
+
+namespace solidus::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_marker = "# Written by `solidus init-editor`";
+
+/// Even Better TOML (VS Code), Taplo's server (Neovim, Helix, Zed, Emacs) and `taplo check` read this file.
+std::string taplo_rules(const fs::path& folder) {
+  // Paths of patterns and schemas are those of the tool's working folder unless they are absolute.
+  const std::string root = fs::canonical(folder).string();
+  std::string text = std::string(k_marker) + ": schemas of the files below this folder.\n";
+  const auto rule = [&](const char* comment, const std::vector<std::string>& include,
+                        const std::vector<std::string>& exclude, const char* schema) {
+    const auto list = [&](const std::vector<std::string>& patterns) {
+      std::string items;
+      for (const std::string& pattern : patterns)
+        items += (items.empty() ? "" : ", ") + fmt::format("\"**/{}\"", pattern);
+      return items;
+    };
+    text += fmt::format("\n# {}\n[[rule]]\ninclude = [{}]\n", comment, list(include));
+    if (!exclude.empty()) text += fmt::format("exclude = [{}]\n", list(exclude));
+    text += fmt::format("[rule.schema]\npath = \"file://{}/.solidus/{}.schema.json\"\nenabled = true\n", root,
+                        schema);
+  };
+  rule("Material files: in a folder named materials", {"materials/*.toml"}, {}, "material");
+  rule("Point files: in a folder named point, or point.toml", {"point/*.toml", "point.toml"}, {}, "point");
+  rule("Cases: everything else", {"*.toml"},
+       {"materials/*.toml", "point/*.toml", "point.toml", "plots.toml", "study.toml", ".taplo.toml",
+        "taplo.toml", "pyproject.toml"},
+       "case");
+  return text;
+}
+
+bool ours(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  return std::getline(in, line) && line.starts_with(k_marker);
+}
+
+}  // namespace
+
+ExitCode init_editor(const std::string& wanted) {
+  const fs::path folder = wanted.empty() ? fs::path(".") : fs::path(wanted);
+  if (!fs::is_directory(folder))
+    throw InputError({}, fmt::format("there is no folder '{}'", folder.string()), "the folder of your cases");
+  const fs::path rules = folder / ".taplo.toml";
+  if (fs::exists(rules) && !ours(rules))
+    throw InputError({rules.string(), 0, 0}, "this file is there already and is yours",
+                     "to add these rules to it yourself:\n" + taplo_rules(folder));
+  std::string said;
+  results::on_first_process([&] {
+    fs::create_directories(folder / ".solidus");
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {".solidus/case.schema.json", json_schema(model::case_keys().info(), "Solidus case")},
+        {".solidus/material.schema.json",
+         json_schema(material::material_section().info(), "Solidus material")},
+        {".solidus/point.schema.json", json_schema(point::point_section().info(), "Solidus point")},
+        {".taplo.toml", taplo_rules(folder)},
+    };
+    for (const auto& [name, text] : files) results::write_file(folder / name, text);
+    for (const auto& [name, text] : files) said += "  " + (folder / name).lexically_normal().string() + "\n";
+    // VS Code proposes the extension; a list that is there already is the user's.
+    const fs::path extensions = folder / ".vscode/extensions.json";
+    if (!fs::exists(extensions)) {
+      fs::create_directories(extensions.parent_path());
+      results::write_file(extensions, "{\n  \"recommendations\": [\"tamasfe.even-better-toml\"]\n}\n");
+      said += "  " + extensions.lexically_normal().string() + "\n";
+    }
+  });
+  print(
+      "Written:\n" + said +
+      "Open this folder in VS Code with the extension Even Better TOML (tamasfe.even-better-toml), or in an\n"
+      "editor with the language server Taplo: keys are completed, explained and checked as you type.\n");
+  return k_done;
+}
+
+}  // namespace solidus::app

@@ -1,0 +1,91 @@
+#include "app/python_tools.hpp"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "app/places.hpp"
+#include "base/errors.hpp"
+
+extern char** environ;
+
+namespace solidus::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string>& environment() {
+  static std::vector<std::string> kept;
+  return kept;
+}
+
+/// Where the modules lie.
+fs::path modules() {
+  for (const fs::path& folder : {shared_folder() / "python", fs::path(SOLIDUS_PYTHON_DIR)})
+    if (std::error_code error; fs::is_directory(folder / "solidus_plots", error)) return folder;
+  throw InputError({}, "the Python modules of Solidus are not where the program was installed",
+                   "`cmake --install`, which brings them, or the folder python/ of the sources");
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> list;
+  for (std::string& text : texts) list.push_back(text.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+}  // namespace
+
+void keep_environment() {
+  environment().clear();
+  for (char** entry = environ; *entry != nullptr; ++entry) environment().emplace_back(*entry);
+}
+
+ExitCode run_python(const std::string& module, const std::vector<std::string>& arguments) {
+  int processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &processes);
+  if (processes > 1) throw InputError({}, "this verb runs on one process", "solidus without mpirun");
+  const char* chosen = std::getenv("SOLIDUS_PYTHON");
+  const std::string python = chosen != nullptr && *chosen != '\0' ? chosen : "/usr/bin/python3";
+  std::vector<std::string> command = {python, "-m", module};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> inherited;
+  std::string path = modules().string();
+  for (const std::string& entry : environment()) {
+    if (entry.starts_with("PYTHONPATH="))
+      path += ":" + entry.substr(std::strlen("PYTHONPATH="));
+    else
+      inherited.push_back(entry);
+  }
+  inherited.push_back("PYTHONPATH=" + path);
+  inherited.push_back("SOLIDUS_PROGRAM=" + fs::read_symlink("/proc/self/exe").string());
+  std::vector<char*> argv = pointers(command), envp = pointers(inherited);
+  pid_t child = 0;
+  if (const int error = posix_spawnp(&child, python.c_str(), nullptr, nullptr, argv.data(), envp.data());
+      error != 0)
+    throw InputError({}, fmt::format("'{}' cannot be started: {}", python, std::strerror(error)),
+                     "a Python with numpy and matplotlib; SOLIDUS_PYTHON names another one");
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return k_our_bug;
+  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGINT ? k_interrupted : k_cannot_go_on;
+  switch (WEXITSTATUS(status)) {
+    case 0:
+      return k_done;
+    case k_interrupted:
+      return k_interrupted;
+    default:
+      return k_bad_input;
+  }
+}
+
+}  // namespace solidus::app

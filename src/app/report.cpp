@@ -1,0 +1,90 @@
+/// The verb `report`: what runs left, as one page for the browser.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <span>
+#include <utility>
+
+#include "app/verbs.hpp"
+#include "base/errors.hpp"
+#include "material/library.hpp"
+#include "model/case_materials.hpp"
+#include "results/report/report.hpp"
+
+namespace solidus::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using results::Json;
+
+Json numbers(std::span<const double> values) {
+  Json::Array out;
+  for (const double value : values) out.emplace_back(value);
+  return out;
+}
+
+Json card(const material::Material& m) {
+  Json out;
+  out.add("title", m.title).add("density[kg/m3]", m.density);
+  Json::Array properties, changes, sources;
+  for (const material::Property& p : m.properties()) {
+    Json property;
+    property.add("name", p.name).add("unit", p.unit);
+    property.add("temperature[K]", numbers(p.table->x())).add("values", numbers(p.table->y()));
+    properties.push_back(std::move(property));
+  }
+  for (const material::PhaseChange& change : m.phase_changes) {
+    Json c;
+    c.add("name", change.name).add("solidus[K]", change.fraction.solidus());
+    c.add("liquidus[K]", change.fraction.liquidus()).add("latent_heat[J/kg]", change.latent_heat);
+    c.add("volume_change[1]", change.volume_change);
+    changes.push_back(std::move(c));
+  }
+  for (const material::PropertyNote& note : m.notes) {
+    Json source;
+    source.add("property", note.property).add("source", note.source);
+    if (note.valid_to > note.valid_from)
+      source.add("valid_from[K]", note.valid_from).add("valid_to[K]", note.valid_to);
+    sources.push_back(std::move(source));
+  }
+  out.add("properties", std::move(properties)).add("phase_changes", std::move(changes));
+  out.add("sources", std::move(sources));
+  return out;
+}
+
+/// One card a body. A material that is not there any more is no reason to have no report.
+Json::Array cards(const fs::path& folder) {
+  Json::Array out;
+  for (const auto& [body, name] : report::body_materials(folder)) {
+    Json entry;
+    entry.add("body", body).add("material", fs::path(name).stem().string());
+    try {
+      entry.add("card", card(material::find_material(name, model::material_folders())));
+    } catch (const InputError& error) {
+      entry.add("missing", std::string(error.what()));
+    }
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
+}  // namespace
+
+ExitCode write_report(const ReportArguments& arguments) {
+  std::vector<report::ReportedRun> runs;
+  for (const std::string& folder : arguments.folders) {
+    runs.push_back({folder});
+    if (fs::exists(fs::path(folder) / "case.toml")) runs.back().materials = cards(folder);
+  }
+  const fs::path page = arguments.output.empty() ? fs::path(arguments.folders.front()) / "report.html"
+                                                 : fs::path(arguments.output);
+  const report::WrittenReport written = report::write_report(runs, page);
+  for (const std::string& note : written.notes) std::cerr << "solidus: " << note << "\n";
+  print(fmt::format("Report in {} ({:.1f} MB); it opens in any browser\n", page.lexically_normal().string(),
+                    1e-6 * static_cast<double>(written.bytes)));
+  return k_done;
+}
+
+}  // namespace solidus::app

@@ -1,0 +1,186 @@
+#include "mesh/body_interfaces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "mesh/faces.hpp"
+#include "mesh/skin.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The bodies at each node, in rising order. [raw node]
+std::vector<std::vector<int>> bodies_at_nodes(const RawMesh& mesh, const std::vector<std::string>& bodies) {
+  std::vector<std::vector<int>> here(mesh.x.size());
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
+    for (const RawBlock& block : mesh.groups.at(bodies[at(b)]).blocks)
+      for (const Index node : block.nodes)
+        if (here[at(node)].empty() || here[at(node)].back() != b) here[at(node)].push_back(b);
+  return here;
+}
+
+/// Which of the bodies at a node stay together: the number of the part of each, parts from zero.
+std::vector<int> parts_of(const std::vector<int>& bodies, const std::set<BodyPair>& apart) {
+  std::vector<int> part(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) part[i] = static_cast<int>(i);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (apart.contains({bodies[k], bodies[i]}) || part[i] == part[k]) continue;
+      const int from = std::max(part[i], part[k]), to = std::min(part[i], part[k]);
+      std::replace(part.begin(), part.end(), from, to);
+    }
+  return part;
+}
+
+/// Owners of the faces of all surface groups, before nodes are split.
+FaceOwners owners_of_surfaces(const RawMesh& mesh, const std::vector<std::string>& bodies) {
+  FaceOwners owners;
+  for (const auto& [name, group] : mesh.groups) {
+    if (group.dimension != mesh.dimension - 1) continue;
+    for (const RawBlock& block : group.blocks) {
+      const int nn = node_count(block.shape), nv = vertex_count(block.shape);
+      for (std::size_t f = 0; f < block.nodes.size(); f += static_cast<std::size_t>(nn))
+        owners.emplace(face_key(block.nodes.data() + f, nv), FaceOwner{});
+    }
+  }
+  find_face_owners(mesh, bodies, owners);
+  return owners;
+}
+
+/// A body's side of one pair.
+struct Side {
+  std::vector<const SkinFace*> faces;
+  double area = 0, covered = 0, gap = 0, largest = 0;
+};
+
+bool lies_in(const std::optional<HalfSpace>& plane, const SkinFace& face) {
+  constexpr double k_flat = 0.999, k_near = 1e-3;  // of the face's size
+  if (!plane || face.normal[static_cast<std::size_t>(plane->axis)] < k_flat) return false;
+  return std::abs(face.centre[static_cast<std::size_t>(plane->axis)] - plane->at) <
+         k_near * std::sqrt(face.area);
+}
+
+}  // namespace
+
+std::vector<SplitNodes> shared_by(const RawMesh& mesh, const std::vector<std::string>& bodies) {
+  std::map<BodyPair, std::size_t> count;
+  for (const std::vector<int>& here : bodies_at_nodes(mesh, bodies))
+    for (std::size_t i = 0; i < here.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) ++count[{here[k], here[i]}];
+  std::vector<SplitNodes> shared;
+  for (const auto& [pair, nodes] : count) shared.push_back({pair, nodes});
+  return shared;
+}
+
+void split_nodes(RawMesh& mesh, const std::vector<std::string>& bodies, const std::set<BodyPair>& pairs) {
+  const std::vector<std::vector<int>> here = bodies_at_nodes(mesh, bodies);
+  const FaceOwners owners = owners_of_surfaces(mesh, bodies);
+  GlobalIndex next = 0;
+  for (const GlobalIndex number : mesh.input_node) next = std::max(next, number);
+  std::map<std::pair<Index, int>, Index> copy;  // of a node for a body
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    if (here[i].size() < 2) continue;
+    const std::vector<int> part = parts_of(here[i], pairs);
+    std::map<int, Index> of_part;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      if (part[k] == 0) continue;
+      const auto found = of_part.find(part[k]);
+      Index node = found != of_part.end() ? found->second : static_cast<Index>(mesh.x.size());
+      if (found == of_part.end()) {
+        const Point x = mesh.x[i];
+        mesh.x.push_back(x);
+        mesh.input_node.push_back(++next);
+        of_part[part[k]] = node;
+      }
+      copy[{static_cast<Index>(i), here[i][k]}] = node;
+    }
+  }
+  if (copy.empty()) return;
+  const auto renumber = [&](Index& node, int body) {
+    if (const auto found = copy.find({node, body}); found != copy.end()) node = found->second;
+  };
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b)
+    for (RawBlock& block : mesh.groups.at(bodies[at(b)]).blocks)
+      for (Index& node : block.nodes) renumber(node, b);
+  for (auto& [name, group] : mesh.groups) {
+    if (group.dimension != mesh.dimension - 1) continue;
+    for (RawBlock& block : group.blocks) {
+      const int nn = node_count(block.shape), nv = vertex_count(block.shape);
+      for (std::size_t f = 0; f < block.nodes.size(); f += static_cast<std::size_t>(nn)) {
+        const FaceOwner& owner = owners.at(face_key(block.nodes.data() + f, nv));
+        if (owner.body < 0) continue;
+        for (std::size_t k = f; k < f + static_cast<std::size_t>(nn); ++k)
+          renumber(block.nodes[k], owner.body);
+      }
+    }
+  }
+}
+
+std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& bodies,
+                                const std::vector<std::string>& names, const std::vector<FacingWish>& wishes,
+                                const std::optional<HalfSpace>& cut, const std::string& source) {
+  std::vector<std::vector<SkinFace>> skins;
+  std::vector<std::vector<char>> faces_somebody;
+  for (const std::string& body : bodies) {
+    skins.push_back(skin_of(mesh, body));
+    faces_somebody.emplace_back(skins.back().size(), 0);
+  }
+  std::vector<Facing> found;
+  for (const FacingWish& wish : wishes) {
+    const std::array<int, 2> pair = {wish.bodies.first, wish.bodies.second};
+    constexpr double k_share_of_edge = 0.25;
+    const double facets =
+        k_share_of_edge * std::min(mean_edge(skins[at(pair[0])]), mean_edge(skins[at(pair[1])]));
+    const double distance = wish.distance > 0 ? wish.distance : facets;
+    std::array<Side, 2> sides;
+    for (std::size_t s = 0; s < 2; ++s) {
+      const std::vector<SkinFace>& own = skins[at(pair[s])];
+      const FaceSearch search(skins[at(pair[1 - s])], distance);
+      for (std::size_t f = 0; f < own.size(); ++f) {
+        const std::vector<Point> points = sample_points(own[f]);
+        const double share = own[f].area / static_cast<double>(points.size());
+        double covered = 0;
+        for (const Point& p : points)
+          if (const auto partner = search.facing(p, own[f].normal)) {
+            covered += share;
+            sides[s].gap += share * partner->distance;
+            sides[s].largest = std::max(sides[s].largest, partner->distance);
+          }
+        if (!(covered > 0)) continue;
+        sides[s].faces.push_back(&own[f]);
+        sides[s].area += own[f].area;
+        sides[s].covered += covered;
+        faces_somebody[at(pair[s])][f] = 1;
+      }
+    }
+    if (sides[0].faces.empty() || sides[1].faces.empty()) continue;
+    Facing facing{wish.bodies, names[at(pair[0])] + "_to_" + names[at(pair[1])],
+                  names[at(pair[1])] + "_to_" + names[at(pair[0])], distance, std::min(facets, distance)};
+    facing.area_a = sides[0].area;
+    facing.area_b = sides[1].area;
+    facing.covered_a = sides[0].covered;
+    facing.covered_b = sides[1].covered;
+    facing.mean_gap = sides[0].covered > 0 ? sides[0].gap / sides[0].covered : 0;
+    facing.largest_gap = sides[0].largest;
+    add_surface(mesh, facing.surface_a, sides[0].faces, source);
+    add_surface(mesh, facing.surface_b, sides[1].faces, source);
+    found.push_back(std::move(facing));
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::vector<const SkinFace*> free, symmetric;
+    for (std::size_t f = 0; f < skins[b].size(); ++f)
+      if (faces_somebody[b][f] == 0) (lies_in(cut, skins[b][f]) ? symmetric : free).push_back(&skins[b][f]);
+    if (!symmetric.empty()) add_surface(mesh, names[b] + "_symmetry", symmetric, source);
+    if (!free.empty()) add_surface(mesh, names[b] + "_free", free, source);
+  }
+  return found;
+}
+
+}  // namespace solidus::mesh

@@ -1,0 +1,78 @@
+#include "mesh/casting_geometry.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "base/errors.hpp"
+#include "base/log.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/reader_process.hpp"
+#include "mesh/shape.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+/// The least quality of the elements of all bodies, inverted ones turned.
+double least_quality(const RawMesh& mesh) {
+  double least = 1;
+  for (const auto& [name, group] : mesh.groups) {
+    if (group.dimension != mesh.dimension) continue;
+    for (const RawBlock& block : group.blocks) {
+      const auto n = static_cast<std::size_t>(node_count(block.shape));
+      for (std::size_t e = 0; e < block.nodes.size(); e += n)
+        least = std::min(least, std::abs(element_quality(mesh, block.shape, block.nodes.data() + e)));
+    }
+  }
+  return least;
+}
+
+/// What the reader says, without the file, which stands before the whole message.
+std::string complaint_of(const InputError& error, const std::string& path) {
+  std::string text = error.what();
+  if (const std::size_t at = text.find(path); at == 0) text = text.substr(path.size());
+  while (!text.empty() && (text.front() == ':' || text.front() == ' ')) text.erase(0, 1);
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough) {
+  std::optional<RawMesh> best;
+  double best_quality = 0;
+  int best_way = 0;
+  std::vector<std::string> complaints;
+  for (geometry.attempt = 0; geometry.attempt < n_meshing_attempts(); ++geometry.attempt) {
+    try {
+      RawMesh mesh = read_in_one_way(source, &geometry);
+      const double quality = least_quality(mesh);
+      if (quality > best_quality) {
+        best = std::move(mesh);
+        best_quality = quality;
+        best_way = geometry.attempt;
+      }
+      if (best_quality >= enough) break;
+      complaints.push_back(meshing_attempt(geometry.attempt) + ": least quality " +
+                           std::to_string(quality).substr(0, 5));
+    } catch (const InputError& error) {
+      complaints.push_back(meshing_attempt(geometry.attempt) + ": " + complaint_of(error, source.path));
+    }
+    logging::debug("meshing '{}', {}", source.path, complaints.back());
+  }
+  if (!best) {
+    std::string all;
+    for (const std::string& complaint : complaints) all += "\n    " + complaint;
+    throw InputError({source.path}, "the geometry could not be meshed in any of these ways:" + all,
+                     "a geometry whose faces neither cross nor nearly touch there; other element sizes");
+  }
+  if (best_quality < enough)
+    logging::warn("the best of {} ways to mesh '{}' has elements of quality {:.2g}; 0.15 is sound",
+                  n_meshing_attempts(), source.path, best_quality);
+  else if (best_way > 0 && enough > 0)
+    logging::info("meshed in way {} ({}), after: {}", best_way + 1, meshing_attempt(best_way),
+                  complaints.back());
+  return std::move(*best);
+}
+
+}  // namespace solidus::mesh

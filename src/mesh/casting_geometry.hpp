@@ -1,0 +1,69 @@
+/// From the geometry of parts to a mesh of parts and mould that can be computed with: a block of mould around
+/// them, a riser on them, half of them; sizes that follow the thickness of walls. Rank 0 only.
+///
+/// Bodies that touch share the faces between them, and so their nodes (the model splits them where there is
+/// an interface). What is mould within closed cavities of the parts is a core.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/raw_mesh.hpp"
+
+namespace solidus::mesh {
+
+/// How large the elements of a body are. All in metres.
+struct BodySize {
+  std::string body;
+  double size = 0, smallest = 0;
+  double across = 2;    ///< elements through the thickness of a wall; 0: thickness does not count
+  double growth = 0.4;  ///< of the size for each length away from smaller elements
+};
+
+struct MouldBlock {
+  std::string name, core;         ///< of the groups; several cores are core_1, core_2, …
+  std::array<double, 6> walls{};  ///< x lowest, x highest, y …, z … beyond the box around the parts [m]
+};
+
+struct RiserCylinder {
+  std::string name;
+  Point foot{};                     ///< centre of its foot [m]; it stands along z
+  double diameter = 0, height = 0;  ///< [m]
+};
+
+/// What lies above `at` along an axis is cut off.
+struct HalfSpace {
+  int axis = 0;
+  double at = 0;  ///< [m]
+};
+
+struct CastingGeometry {
+  std::vector<BodySize> sizes;  ///< bodies without one take that of the first
+  std::optional<MouldBlock> mould;
+  std::optional<RiserCylinder> riser;
+  std::optional<HalfSpace> symmetry;
+  /// Which of the ways to mesh is taken, from zero: mesh_casting() tries them in turn.
+  int attempt = 0;
+};
+
+/// Least quality (mesh/quality.hpp) of a mesh that is taken at once.
+inline constexpr double k_sound_quality = 0.15;
+/// How many ways to mesh there are: as the file is, with HXT, healed, finer, …
+int n_meshing_attempts();
+/// What a way does, for messages: "healed, elements of 0.7 of the size".
+std::string meshing_attempt(int attempt);
+
+/// Meshes a STEP, BREP, IGES or STL file in one way after the other until every body has elements and the
+/// least quality is k_sound_quality; else takes the best of those that gave a mesh, with a warning. The first
+/// way of those that succeeds is said where it is not the first of all. Each way is a reader process of its
+/// own. Throws InputError with the complaints of each way where none gives a mesh.
+/// @param enough  the least quality, 0 where any mesh will do
+RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough = k_sound_quality);
+
+/// One way, in the reader's process; Gmsh has the file open.
+/// Makes mould, riser and groups, and meshes. Throws InputError.
+void make_casting_mesh(const MeshSource& source, const CastingGeometry& geometry);
+
+}  // namespace solidus::mesh

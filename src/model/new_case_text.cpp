@@ -1,0 +1,144 @@
+#include "model/new_case_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/roles.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+std::string mm(double metres) {
+  return fmt::format("\"{:.6g} mm\"", 1e3 * metres);
+}
+
+/// A TOML text with its quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+bool is_metal(const DraftBody& body) {
+  return body.role == Role::casting || body.role == Role::riser;
+}
+
+std::string mesh_text(const Draft& d) {
+  std::string t =
+      fmt::format("[mesh]\nfile = {}\nunit = {}\n\n", quoted(d.geometry.filename().string()), quoted(d.unit));
+  t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
+       "time.\n";
+  for (const DraftBody& b : d.bodies) {
+    if (is_metal(b))
+      t += fmt::format(
+          "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
+          quoted(b.group), mm(d.size), mm(d.smallest));
+    else
+      t += fmt::format(
+          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = 0.6  # away from the metal\n\n",
+          quoted(b.group), mm(d.mould_size));
+  }
+  if (d.mould) {
+    const auto& w = d.mould->walls;
+    const bool even = std::all_of(w.begin(), w.end(), [&](double x) { return x == w[0]; });
+    t += fmt::format("[mesh.mould]   # a block around the parts\nname = {}\nwalls = ", quoted(d.mould->name));
+    t += even ? mm(w[0]) + "\n\n"
+              : fmt::format(
+                    "[{}, {}, {}, {}, {}, {}]   # lowest and highest x, y, z; 0: the parts end there\n\n",
+                    mm(w[0]), mm(w[1]), mm(w[2]), mm(w[3]), mm(w[4]), mm(w[5]));
+  }
+  if (d.riser)
+    t += fmt::format(
+        "[mesh.riser]   # 1.2 times the modulus of the thickest place, on top of it\nname = {}\n"
+        "foot = [{}, {}, {}]\ndiameter = {}\nheight = {}\n\n",
+        quoted(d.riser->name), mm(d.riser->foot[0]), mm(d.riser->foot[1]), mm(d.riser->foot[2]),
+        mm(d.riser->diameter), mm(d.riser->height));
+  if (d.symmetry)
+    t += fmt::format("[mesh.symmetry]   # the half below this plane\naxis = \"{}\"\nat = {}\n\n",
+                     "xyz"[d.symmetry->axis], mm(d.symmetry->at));
+  if (d.layers && d.mould)
+    for (const DraftBody& b : d.bodies)
+      if (b.role == Role::casting)
+        t += fmt::format(
+            "[[mesh.layers]]   # at first the warm sand is thinner than an element\nname = \"sand_on_{0}\"\n"
+            "surface = \"{1}_to_{0}\"\nbody = {2}\n\n",
+            b.name, d.mould->name, quoted(d.mould->name));
+  return t;
+}
+
+std::string body_text(const DraftBody& b) {
+  std::string t = fmt::format("[[body]]\nname = {}\n", quoted(b.name));
+  if (b.group != b.name) t += fmt::format("group = {}\n", quoted(b.group));
+  t += fmt::format("role = \"{}\"\nmaterial = {}\ninitial_temperature = \"{:g} degC\"{}\n", name(b.role),
+                   quoted(b.material), b.start, b.comment.empty() || b.heat_only ? "" : "   # " + b.comment);
+  if (b.heat_only) t += fmt::format("physics = \"heat\"{}\n", b.comment.empty() ? "" : "   # " + b.comment);
+  return t + "\n";
+}
+
+std::string interface_text(const Draft& d) {
+  std::string t;
+  if (!d.law.empty() && d.mould)
+    for (const DraftBody& b : d.bodies)
+      if (is_metal(b))
+        t += fmt::format(
+            "[[interface]]   # the process decides the law: {1} says where its numbers come from\n"
+            "bodies = [{2}, {3}]\nlaw = \"{0}\"\n\n",
+            d.law, "interfaces/" + d.law + ".toml", quoted(b.name), quoted(d.mould->name));
+  t += "[[interface]]   # between all bodies that touch; laws from the library by materials and roles\n"
+       "bodies = \"all\"\n\n";
+  return t;
+}
+
+}  // namespace
+
+std::string case_text(const Draft& d) {
+  std::string t = fmt::format(
+      "# Made by `solidus new`. Change what you know better; `solidus check` reads it.\n"
+      "title = {}\n\n",
+      quoted(d.geometry.stem().string() + " of " + d.alloy + ", " + d.process));
+  t += "[analysis]\nkind = \"solid\"\n"
+       "physics = \"thermomechanical\"   # `solidus run --heat-only` computes heat alone\n"
+       "gravity = \"9.81 m/s2\"            # along -z\n\n";
+  t += mesh_text(d);
+  t += fmt::format(
+      "[time]\nend = \"{:g} s\"    # 1.8 times an estimate of the time to freeze\nstep = \"{:g} s\"\n"
+      "adaptive = true\n\n",
+      d.end, d.step);
+  for (const DraftBody& b : d.bodies) t += body_text(b);
+  t += interface_text(d);
+  for (const std::string& body : d.films)
+    t += fmt::format(
+        "[[thermal_condition]]   # {}\nname = \"air_on_{}\"\ngroup = \"{}_free\"\nkind = \"film\"\n"
+        "coefficient = \"{:g} W/m2/K\"\nambient = \"20 degC\"\n\n",
+        d.film_source, body, body, d.film);
+  for (const std::string& body : d.symmetric)
+    t += fmt::format(
+        "[[mechanical_condition]]\nname = \"symmetry_of_{0}\"\ngroup = \"{0}_symmetry\"\n"
+        "kind = \"displacement\"\nu{1} = \"0 mm\"\n\n",
+        body, "xyz"[d.symmetry->axis]);
+  if (!d.hot_spots.empty()) t += "# In the centres of the largest spheres that the metal holds.\n";
+  for (std::size_t i = 0; i < d.hot_spots.size(); ++i) {
+    const mesh::InscribedSphere& s = d.hot_spots[i];
+    t += fmt::format(
+        "[[probe]]\nname = \"T_hot_spot_{}\"   # a sphere of {:.3g} mm\nkind = \"point\"\n"
+        "field = \"temperature\"\nunit = \"degC\"\npoint = [{}, {}, {}]\n\n",
+        i + 1, 2e3 * s.radius, mm(s.centre[0]), mm(s.centre[1]), mm(s.centre[2]));
+  }
+  if (std::any_of(d.bodies.begin(), d.bodies.end(),
+                  [](const DraftBody& b) { return b.role == Role::riser; })) {
+    t += "[criteria]\nfeeders = [";
+    bool first = true;
+    for (const DraftBody& b : d.bodies)
+      if (b.role == Role::riser) t += fmt::format("{}{}", first ? "" : ", ", quoted(b.group)), first = false;
+    t += "]\n\n";
+  }
+  t += fmt::format("[output]\nevery = \"{:g} s\"\n", d.end / 20);
+  return t;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,58 @@
+/// The case file that `solidus new` writes: a draft as commented TOML.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/hot_spots.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+struct DraftBody {
+  std::string name, group, material, comment;
+  Role role = Role::casting;
+  double start = 20;       ///< [°C]
+  bool heat_only = false;  ///< physics = "heat", though the material has elastic properties
+};
+
+struct DraftMould {
+  std::string name;
+  std::array<double, 6> walls{};  ///< [m]
+};
+
+struct DraftRiser {
+  std::string name = "riser";
+  mesh::Point foot{};
+  double diameter = 0, height = 0;  ///< [m]
+};
+
+struct DraftSymmetry {
+  int axis = 0;
+  double at = 0;  ///< [m]
+};
+
+/// What was measured and chosen; SI but for temperatures in °C.
+struct Draft {
+  std::filesystem::path folder, geometry;
+  std::string unit, process, alloy, law;
+  double pouring = 0, liquidus = 0, superheat = 0;
+  double size = 0, smallest = 0, mould_size = 0;
+  std::vector<DraftBody> bodies;
+  std::optional<DraftMould> mould;
+  std::optional<DraftRiser> riser;
+  std::optional<DraftSymmetry> symmetry;
+  bool layers = false;
+  std::vector<std::string> films, symmetric;  ///< bodies with skins in air, in the plane of symmetry
+  double film = 0;                            ///< [W/(m² K)]
+  std::string film_source;
+  std::vector<mesh::InscribedSphere> hot_spots;
+  double end = 0, step = 0;
+};
+
+std::string case_text(const Draft& draft);
+
+}  // namespace solidus::model

@@ -1,0 +1,26 @@
+/// What bodies are to the foundry, and what follows from it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "material/material.hpp"
+#include "model/case_spec.hpp"
+
+namespace solidus::model {
+
+std::string_view name(Role role);  ///< "casting"
+
+/// The role that a name tells, in English or German ("riser_2", "Kern"); nothing where it tells none.
+std::optional<Role> role_in_name(const std::string& name);
+
+/// As the user says; else a casting where the material can melt, what the names of body and material tell, or
+/// a mould.
+Role role_of(const BodySpec& body, const material::Material& material);
+
+/// Decides bodies with physics = "automatic": those that are no castings and whose material has no elastic
+/// properties only conduct heat, where the case couples heat with mechanics and another body deforms. A
+/// material that cannot be read is left to load_materials(). Says in one line what it has decided.
+void decide_physics(CaseSpec& spec);
+
+}  // namespace solidus::model

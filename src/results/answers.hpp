@@ -1,0 +1,77 @@
+/// What a run answers to a foundry engineer: is it solid, where was the last melt, did the riser outlive the
+/// part, which pools were cut off, gaps, distortion, stress, and whether energy is closed. Printed at the end
+/// of a run, also of one that stops, and "answers" of summary.json.
+///
+/// Every body is there from the start of a run, so that its clock counts from pouring.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/phases.hpp"
+#include "coupling/state.hpp"
+#include "criteria/criterion.hpp"
+#include "results/field.hpp"
+#include "results/json.hpp"
+
+namespace solidus::results {
+
+/// A body that is poured as melt. Everything else, a chill of the same iron included, is no casting.
+struct CastBody {
+  int body = 0;  ///< in Mesh::bodies
+  std::string name;
+  bool feeds = false;  ///< it is a riser: it should be the last to freeze
+};
+
+/// A value and where it is.
+struct ValueAt {
+  double value = 0;
+  mesh::Point where{};  ///< of the nominal shape [m]
+};
+
+/// How far a cast body has come.
+struct CastAnswer {
+  CastBody cast;
+  bool there = true;               ///< false: it has left by now
+  double solid_fraction = 0;       ///< by volume
+  std::optional<ValueAt> froze;    ///< when and where its last melt froze [s since pouring]
+  std::optional<ValueAt> hottest;  ///< where it is not solid: temperature of the least solid node [K]
+};
+
+struct GapAnswer {
+  std::string contact;
+  ValueAt gap;  ///< the largest now [m]
+};
+
+struct Answers {
+  double time = 0;  ///< of the state [s]
+  std::vector<CastAnswer> castings;
+  /// Pools that were closed off from what feeds them; absent where no pools are followed.
+  struct CutOffPools {
+    int number = 0;
+    double largest = 0;            ///< volume [m³]
+    mesh::Point where{};           ///< of the largest: its last melt
+    std::optional<double> frozen;  ///< when that one froze [s]
+  };
+  std::optional<CutOffPools> pools;
+  std::vector<GapAnswer> gaps;        ///< by contact, those that are open somewhere
+  std::optional<ValueAt> distortion;  ///< of what is cast, the largest [m]
+  std::optional<ValueAt> stress;      ///< von Mises, the largest: of what is cast, else of all bodies [Pa]
+  std::string stressed_body;
+  std::optional<double> energy_defect;  ///< relative, as relative_energy_defect of the summary
+};
+
+/// Collective; the same on every process.
+/// @param fields      of the bodies, those of criteria up to date
+/// @param mechanical  whether fields of deformation are those of the state
+Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const coupling::State& state,
+                const std::vector<CastBody>& castings, const FieldSet& fields, bool mechanical);
+
+/// Lines for people: temperatures in degC, lengths in mm, stresses in MPa.
+/// @param criteria  what the criteria found, for the lines on solidification times, arm spacing and Niyama
+std::string text(const Answers& answers, const std::vector<criteria::Finding>& criteria);
+/// For summary.json, SI.
+Json json(const Answers& answers);
+
+}  // namespace solidus::results

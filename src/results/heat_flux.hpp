@@ -1,0 +1,21 @@
+/// The heat flux q = −k(Θ) ∇Θ in elements (Fourier's law, monograph 2.35).
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::results {
+
+/// Means over the elements, [cell][dimension] [W/m²] (axisymmetric: radial, axial).
+/// @param material_of  of a body
+/// @param temperature  [local node] [K]
+std::vector<double> element_heat_flux(const mesh::Mesh& mesh, AnalysisKind kind,
+                                      const std::function<const material::Material&(int)>& material_of,
+                                      std::span<const double> temperature);
+
+}  // namespace solidus::results

@@ -1,0 +1,52 @@
+/// What stands in a VTK XML file of an unstructured grid: its pieces, their arrays and cells.
+#pragma once
+
+#include <boost/property_tree/ptree.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/shape.hpp"
+#include "results/vtu_arrays.hpp"
+
+namespace solidus::results {
+
+/// A cell of a file as shapes of ours: each by the file's corners in our order.
+struct CellParts {
+  mesh::Shape shape;
+  std::vector<std::vector<int>> corners;
+};
+/// Shapes that Solidus has are taken as they are; voxels, pixels, wedges and pyramids as hexahedra,
+/// quadrilaterals and tetrahedra. Nothing for other cells.
+/// @param type  VTK's number of the cell type
+std::optional<CellParts> parts_of(int type);
+
+/// The array of a section ("PointData", "CellData", "Cells") of a <Piece>; null where there is none.
+const boost::property_tree::ptree* find_array(const boost::property_tree::ptree& piece, const char* section,
+                                              const std::string& name);
+std::vector<std::string> array_names(const boost::property_tree::ptree& piece, const char* section);
+/// Its UNITS_LABEL; empty where the file does not say it.
+std::string array_unit(const boost::property_tree::ptree& array);
+/// The element below <VTKFile>. Throws InputError where the file has none of that name.
+const boost::property_tree::ptree& children(const VtuFile& file, const char* name);
+/// The array of the points. Throws InputError where there is none.
+const boost::property_tree::ptree& points_array(const VtuFile& file,
+                                                const boost::property_tree::ptree& piece);
+
+/// The cells of a piece as the file has them.
+struct CellTable {
+  std::vector<int> types;            ///< VTK's numbers
+  std::vector<std::size_t> offsets;  ///< the end of each cell in `corners`
+  std::vector<Index> corners;        ///< numbers of points, each below n_points
+};
+/// Throws InputError where the table is missing or damaged.
+CellTable read_cells(const VtuFile& file, const boost::property_tree::ptree& piece, std::size_t n_cells,
+                     std::size_t n_points);
+
+/// The numbers of points and cells of a piece. Throws InputError where they are beyond what is read.
+struct PieceSize {
+  std::size_t points = 0, cells = 0;
+};
+PieceSize piece_size(const VtuFile& file, const boost::property_tree::ptree& piece);
+
+}  // namespace solidus::results

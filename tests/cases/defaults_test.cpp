@@ -1,0 +1,194 @@
+/// What someone gets who sets no numerics: small problems with a known answer, scheme, order, tolerances and
+/// element as they come.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case_folder.hpp"
+
+namespace {
+
+using solidus::testing::at;
+using solidus::testing::CaseFolder;
+using solidus::testing::CaseRun;
+
+/// A bar that is held in length is heated, 1 K a second; flow stress 400 − 4 T, linear hardening
+/// (code_aster V7.22.100, HSNV100): σ = −(400 − 4 T + H p), 2 T = |σ| + E p in N/mm² and °C, E = 200 000,
+/// H = 200 000/3. At 80 °C −100 N/mm² and p = 3e-4, at 90 °C −75 and 5.25e-4.
+const std::string k_bar = R"(
+title = "A bar held in length"
+[analysis]
+kind = "solid"
+physics = "thermomechanical"
+[mesh]
+shape = "block"
+element = "hex8"
+[mesh.block]
+size = ["10 mm", "10 mm", "10 mm"]
+divisions = [1, 1, 1]
+[time]
+end = "90 s"
+step = "1 s"
+[criteria]
+follow = false
+[[body]]
+name = "block"
+material = "softening.toml"
+initial_temperature = "0 degC"
+[[thermal_condition]]
+name = "left"
+group = "x_min"
+kind = "temperature"
+temperature = { of = "time", argument_unit = "s", unit = "degC", points = [[0, 0], [100, 100]] }
+[[thermal_condition]]
+name = "right"
+group = "x_max"
+kind = "temperature"
+temperature = { of = "time", argument_unit = "s", unit = "degC", points = [[0, 0], [100, 100]] }
+[[mechanical_condition]]
+name = "bottom"
+group = "z_min"
+kind = "displacement"
+uz = "0 mm"
+[[mechanical_condition]]
+name = "top"
+group = "z_max"
+kind = "displacement"
+uz = "0 mm"
+[[mechanical_condition]]
+name = "symmetry_x"
+group = "x_min"
+kind = "displacement"
+ux = "0 mm"
+[[mechanical_condition]]
+name = "symmetry_y"
+group = "y_min"
+kind = "displacement"
+uy = "0 mm"
+[[probe]]
+name = "stress"
+unit = "MPa"
+kind = "mean"
+field = "stress"
+component = "zz"
+group = "block"
+[[probe]]
+name = "plastic"
+unit = "1"
+kind = "mean"
+field = "equivalent_plastic_strain"
+group = "block"
+)";
+
+const std::string k_softening = R"(
+density = "7800 kg/m3"
+conductivity = "40 W/m/K"
+specific_heat = "500 J/kg/K"
+young_modulus = "200 GPa"
+poisson_ratio = 0.3
+expansion = "1e-5 1/K"
+expansion_reference = "0 degC"
+[plasticity]
+isotropic_hardening = "linear"
+hardening_modulus = "66666.6666667 MPa"
+[plasticity.flow_stress]
+of = "temperature"
+unit = "MPa"
+argument_unit = "degC"
+points = [[0, 400], [95, 20], [100, 1]]
+)";
+
+TEST(Defaults, AHeldBarWhoseFlowStressFallsWhileItIsHeatedHasTheStressOfItsTime) {
+  const CaseFolder folder("defaults_bar");
+  folder.write("softening.toml", k_softening);
+  const CaseRun run = folder.run("bar", k_bar);
+  ASSERT_TRUE(run.finished) << run.reason;
+  EXPECT_NEAR(at(run.history, "stress[MPa]", 80), -100, 0.015);
+  EXPECT_NEAR(at(run.history, "stress[MPa]", 90), -75, 0.015);
+  EXPECT_NEAR(at(run.history, "plastic[1]", 80), 3e-4, 2e-7);
+  EXPECT_NEAR(at(run.history, "plastic[1]", 90), 5.25e-4, 2e-7);
+}
+
+/// Two bars between fixed ends that are heated until the gap between them has closed.
+const std::string k_bars = R"(
+title = "Two bars whose gap closes"
+[analysis]
+kind = "plane_strain"
+physics = "thermomechanical"
+[mesh]
+shape = "two_blocks"
+element = "quad4"
+[mesh.two_blocks]
+gap = "10 um"
+lower = ["10 mm", "50 mm"]
+lower_divisions = [2, 10]
+upper = ["10 mm", "50 mm"]
+upper_divisions = [2, 10]
+[time]
+end = "100 s"
+step = "2 s"
+[criteria]
+follow = false
+[[body]]
+name = "upper"
+material = "h13_tool_steel"
+initial_temperature = "20 degC"
+[[body]]
+name = "lower"
+material = "h13_tool_steel"
+initial_temperature = "20 degC"
+[[thermal_condition]]
+name = "above"
+group = "upper_y_max"
+kind = "temperature"
+temperature = { of = "time", argument_unit = "s", unit = "degC", points = [[0, 20], [100, 120]] }
+[[thermal_condition]]
+name = "below"
+group = "lower_y_min"
+kind = "temperature"
+temperature = { of = "time", argument_unit = "s", unit = "degC", points = [[0, 20], [100, 120]] }
+[[mechanical_condition]]
+name = "foot"
+group = "lower_y_min"
+kind = "displacement"
+uy = "0 mm"
+[[mechanical_condition]]
+name = "head"
+group = "upper_y_max"
+kind = "displacement"
+uy = "0 mm"
+[[mechanical_condition]]
+name = "symmetry_lower"
+group = "lower_x_min"
+kind = "displacement"
+ux = "0 mm"
+[[mechanical_condition]]
+name = "symmetry_upper"
+group = "upper_x_min"
+kind = "displacement"
+ux = "0 mm"
+[[contact]]
+name = "interface"
+slave = "upper_bottom"
+master = "lower_top"
+[contact.heat]
+conductance = "2000 W/m2/K"
+gap_law = "gas"
+gas_conductivity = "0.03 W/m/K"
+)";
+
+TEST(Defaults, TheForceBetweenBarsWhoseGapClosesIsThatOfATightTolerance) {
+  const CaseFolder folder("defaults_bars");
+  const CaseRun usual = folder.run("usual", k_bars),
+                tight = folder.run("tight", k_bars,
+                                   {"mechanics.tolerance=1e-10", "mechanics.displacement_tolerance=1e-7",
+                                    "heat.tolerance=1e-11"});
+  ASSERT_TRUE(usual.finished && tight.finished) << usual.reason << tight.reason;
+  const auto &found = usual.history.at("contact_force[N]"), &exact = tight.history.at("contact_force[N]");
+  ASSERT_EQ(found.size(), exact.size());
+  EXPECT_GT(exact.back(), 1e5);  // of a metre of depth
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], exact[i], 1e-3 * exact[i]) << i;
+}
+
+}  // namespace

@@ -1,0 +1,170 @@
+"""The command line: help, versions, completion in its shells, the manual page, editors, colours, signals."""
+
+import json
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import time
+import tomllib
+import unittest
+
+from program import PROGRAM, ProgramTest, solidus
+
+VERBS = {"run", "check", "explain", "schema", "point", "mesh-info", "materials", "export", "version", "plot", "compare",
+         "study", "init-editor", "completion", "man", "help"}
+LONG_CASE = """
+title = "A block that cools for ever"
+[analysis]
+kind = "plane_strain"
+physics = "heat"
+[mesh]
+shape = "block"
+element = "quad4"
+[mesh.block]
+size = ["40 mm", "20 mm"]
+divisions = [40, 20]
+[time]
+end = "1000000 s"
+step = "1 s"
+[[body]]
+name = "block"
+material = "steel_mould"
+initial_temperature = "200 degC"
+[output]
+every = "100000 s"
+"""
+
+
+def on_terminal(*command, env=None):
+    """What a command writes on a terminal."""
+    master, slave = pty.openpty()
+    process = subprocess.Popen(command, stdin=slave, stdout=slave, stderr=slave,
+                               env={**os.environ, "TERM": "xterm", **(env or {})})
+    os.close(slave)
+    text = b""
+    while True:
+        try:
+            read = os.read(master, 65536)
+        except OSError:  # the other end is closed
+            break
+        if not read:
+            break
+        text += read
+    os.close(master)
+    process.wait()
+    return text.decode()
+
+
+class CommandLine(ProgramTest):
+    def test_help_and_version_are_where_people_look_for_them(self):
+        self.assertRegex(self.done("--version"), r"^Solidus \d+\.\d+\.\d+\n$")
+        everything = self.done("help")
+        for verb in VERBS:
+            self.assertRegex(everything, rf"(?m)^  {verb} ")
+        self.assertEqual(self.done("help", "run"), self.done("run", "--help").replace(PROGRAM, "solidus"))
+        wrong = solidus("help", "rum")
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("did you mean 'run'?", wrong.stderr)
+
+    def test_bash_completes_verbs_options_keys_and_materials(self):
+        script = self.write("solidus.bash", self.done("completion", "bash"))
+
+        def completed(*words):
+            text = f"source {script}; COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; " \
+                   "compopt() { :; }; _solidus; printf '%s\\n' \"${COMPREPLY[@]}\""
+            return subprocess.run(["bash", "-c", text], capture_output=True, text=True, check=True).stdout.split()
+
+        self.assertLessEqual(VERBS, set(completed("solidus", "''")))
+        self.assertEqual(completed("solidus", "mesh"), ["mesh-info"])
+        self.assertEqual(completed("solidus", "run", "--re"), ["--restart"])
+        self.assertIn("time.step=", completed("solidus", "run", "--set", "time.st"))
+        self.assertIn("time.step", completed("solidus", "explain", "time.st"))
+        self.assertEqual(completed("solidus", "materials", "green"), ["green_sand"])
+        self.assertEqual(completed("solidus", "completion", "z"), ["zsh"])
+
+    def test_zsh_and_fish_complete_too(self):
+        zsh = self.write("_solidus", self.done("completion", "zsh"))
+        master, slave = pty.openpty()
+        shell = subprocess.Popen(["zsh", "-f", "-i"], stdin=slave, stdout=slave, stderr=slave, start_new_session=True,
+                                 env={**os.environ, "TERM": "dumb", "ZDOTDIR": str(self.folder)})
+        os.close(slave)
+
+        def shown_after(keys, wanted):
+            os.write(master, keys.encode())
+            seen, end = "", time.monotonic() + 20
+            while wanted not in seen and time.monotonic() < end:
+                if select.select([master], [], [], 0.2)[0]:
+                    seen += os.read(master, 65536).decode(errors="replace").replace("\a", "")  # no bell
+            return seen
+
+        prepare = f"unset zle_bracketed_paste; fpath=({zsh.parent} $fpath); autoload -Uz compinit; " \
+                  "compinit -u -D; echo is''ready\n"
+        self.assertIn("isready", shown_after(prepare, "isready"))
+        self.assertIn("--restart", shown_after("solidus run --resta\t", "--restart"))
+        self.assertIn("mesh-info", shown_after("\x15solidus mesh-\t", "mesh-info"))
+        shell.kill()
+        shell.wait()
+        os.close(master)
+        fish = self.write("solidus.fish", self.done("completion", "fish"))
+
+        def completed(line):
+            text = f"source {fish}; complete -C {line!r}"
+            found = subprocess.run(["fish", "--no-config", "-c", text], capture_output=True, text=True, check=True)
+            return [row.split("\t")[0] for row in found.stdout.splitlines()]
+
+        self.assertLessEqual(VERBS, set(completed("solidus ")))
+        self.assertEqual(completed("solidus run --resta"), ["--restart"])
+        self.assertIn("time.step=", completed("solidus run --set time.st"))
+
+    def test_the_manual_page_has_every_verb_and_no_mistake(self):
+        page = self.write("solidus.1", self.done("man"))
+        shown = subprocess.run(["groff", "-man", "-Tutf8", "-ww", page], capture_output=True, text=True, check=True)
+        self.assertEqual(shown.stderr, "")
+        text = re.sub(".\x08", "", shown.stdout)  # letters struck twice are bold
+        for verb in VERBS:
+            self.assertTrue(f"solidus {verb}" in text, verb)
+        self.assertTrue("130" in text)
+
+    def test_an_editor_learns_which_schema_a_file_has(self):
+        self.done("init-editor")
+        rules = tomllib.loads((self.folder / ".taplo.toml").read_text())["rule"]
+        schemas = [json.loads((self.folder / rule["schema"]["path"].removeprefix(f"file://{self.folder}/")).read_text())
+                   for rule in rules]
+        self.assertEqual([schema["title"] for schema in schemas], ["Solidus material", "Solidus point", "Solidus case"])
+        self.assertIn("**/plots.toml", rules[-1]["exclude"])
+        self.assertIn("even-better-toml", (self.folder / ".vscode/extensions.json").read_text())
+        self.done("init-editor")  # again: its own files are replaced
+        self.write(".taplo.toml", "# mine\n")
+        refused = solidus("init-editor", cwd=self.folder)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("is yours", refused.stderr)
+        self.assertEqual((self.folder / ".taplo.toml").read_text(), "# mine\n")
+
+    def test_colours_are_for_terminals_and_no_color_is_heeded(self):
+        wrong = [PROGRAM, "run", "nowhere"]
+        self.assertIn("\x1b[1;31msolidus:\x1b[0m", on_terminal(*wrong))
+        self.assertNotIn("\x1b[", on_terminal(*wrong, env={"NO_COLOR": "1"}))
+        self.assertNotIn("\x1b[", on_terminal(*wrong, env={"TERM": "dumb"}))
+        self.assertNotIn("\x1b[", solidus("run", "nowhere").stderr)
+
+    def test_ctrl_c_ends_a_run_with_130_and_a_checkpoint_other_signals_with_2(self):
+        self.write("case.toml", LONG_CASE)
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 2), (signal.SIGHUP, 2)):
+            folder = self.folder / number.name
+            run = subprocess.Popen([PROGRAM, "run", ".", "-o", folder, "--no-progress"], cwd=self.folder, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            for line in run.stdout:  # until steps are taken
+                if line.split()[:1] == ["5"]:
+                    break
+            run.send_signal(number)
+            _, said = run.communicate(timeout=60)
+            self.assertEqual(run.returncode, code, said)
+            self.assertIn("--restart", said)
+            self.assertTrue((folder / "checkpoint/state.h5").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

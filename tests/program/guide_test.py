@@ -1,0 +1,185 @@
+"""Every page of the guide and the README: what they tell to type is typed, what they print as a file is checked, from the
+page itself. Runs that take long are checked (`solidus check`) instead; the newcomer's bracket runs its first second."""
+
+import functools
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import unittest
+
+from fragments import fits
+from pages import blocks, commands, is_pattern
+from program import SOURCES, ProgramTest, solidus
+from solidus_plots.plots_file import read_spec
+#from solidus_plots.study import read_study
+
+PAGES = [SOURCES / "README.md", *sorted((SOURCES / "docs/guide").glob("*.md"))]
+DEV = {"help"} | set(re.findall(r"^  (\w+) ", subprocess.run([SOURCES / "dev", "help"], capture_output=True, text=True,
+                                                  check=True).stdout, re.M))
+# What is typed as it stands: quick, and it writes nothing but into the present folder.
+TYPED = {"help", "explain", "schema", "version", "materials", "completion", "man", "init-editor", "check"}
+
+
+def is_case(text):
+    return "[analysis]" in text and "[mesh]" in text and "[[body]]" in text
+
+
+@functools.cache
+def schemas():
+    return [json.loads(solidus("schema", *kind).stdout) for kind in ([], ["--material"], ["--point"])]
+
+
+@functools.cache
+def options():
+    """Verb -> the options that it has, by the manual page."""
+    page = solidus("man").stdout.replace("\\-", "-")
+    verbs = re.split(r"^\.SS \\fBsolidus ", page, flags=re.M)[1:]
+    return {re.match(r"[a-z-]+", verb)[0]: set(re.findall(r"\\fB(--?[a-z][a-z-]*)", verb)) for verb in verbs}
+
+
+class Guide(ProgramTest):
+
+    def type(self, words):
+        """Types a command, or as much of it as can be typed: verbs and options must be there in any case."""
+        if words[0] == "./dev":
+            self.assertTrue(len(words) == 1 or words[1] in DEV, words)
+            if words[1:2] not in (["run"], ["point"]):
+                return
+        arguments = [word for word in words[1:] if word not in ("...", "…")]
+        if not arguments:
+            return
+        verb = next((word for word in arguments if not word.startswith("-") and word not in ("debug", "warn")), None)
+        if verb is not None and not is_pattern(verb):
+            for word in arguments:
+                if re.match(r"^--?[a-z]", word) and word != "--":
+                    self.assertIn(word, options()[verb] | {"--log", "-heat_ksp_monitor"}, words)
+        if any(map(is_pattern, arguments)):
+            return
+        if verb == "run":
+            arguments = ["check", *self.without_run_options(arguments)]
+            verb = "check"
+        if verb is not None and verb not in TYPED:
+            return
+        paths = [word for word in arguments if word.startswith("cases/")]
+        places = [word for word in arguments if word.endswith(".toml") and word not in paths]
+        if any(not (self.folder / place).exists() for place in places) or (verb == "check" and not paths + places):
+            return
+        if tuple(arguments) not in self.typed:
+            self.typed.add(tuple(arguments))
+            self.done(*arguments, cwd=SOURCES if paths else self.folder)
+
+    @staticmethod
+    def without_run_options(arguments):
+        kept, skip = [], False
+        for word in arguments[arguments.index("run") + 1:]:
+            if skip:
+                skip = False
+            elif word in ("-o", "--output"):
+                skip = True
+            elif word not in ("--restart", "--no-progress", "--profile"):
+                kept.append(word)
+        return kept
+
+    def test_commands_of_every_page_are_understood(self):
+        self.typed, found = set(), set()
+        for page in PAGES:
+            for words in commands(page.read_text()):
+                if tuple(words) in found:
+                    continue
+                found.add(tuple(words))
+                with self.subTest(page=page.name, command=" ".join(words)):
+                    self.type(words)
+        self.assertGreater(len(found), 30)  # they are found at all
+        self.assertGreater(len(self.typed), 10)
+
+    def test_texts_of_files_on_every_page_have_keys_and_values_that_there_are(self):
+        count = 0
+        for page in PAGES:
+            for block in blocks(page.read_text()):
+                if block.language != "toml":
+                    continue
+                count += 1
+                with self.subTest(page=page.name, block=block.text.splitlines()[0]):
+                    fragment = tomllib.loads(self.without_second_values(block.text))
+                    if page.name == "plots.md":
+                        self.assertEqual(read_spec(self.write("plots.toml", block.text))[1], [])
+                    elif page.name == "study.md":
+                        pass  #                         read_study(self.write("study.toml", block.text))
+                    else:
+                        self.assertEqual(fits(fragment, schemas()), [])
+        self.assertGreater(count, 40)
+
+    @staticmethod
+    def without_second_values(text):
+        """Pages show several ways to write one key, one below the other: TOML allows the last of them alone."""
+        lines, last = [], None
+        for line in text.splitlines():
+            key = re.match(r"^(\w+) = ", line)
+            if key and key[1] == last:
+                lines.pop()
+            lines.append(line)
+            last = key[1] if key else None
+        return "\n".join(lines)
+
+    def test_whole_cases_on_every_page_are_in_order(self):
+        found = 0
+        for page in PAGES:
+            for number, block in enumerate(blocks(page.read_text())):
+                if block.language != "toml" or not is_case(block.text):
+                    continue
+                found += 1
+                with self.subTest(page=page.name):
+                    folder = self.folder / f"{page.stem}_{number}"
+                    folder.mkdir()
+                    self.provide(folder, block.text)
+                    (folder / "case.toml").write_text(block.text)
+                    self.assertIn("The case is in order.", self.done("check", "case.toml", cwd=folder))
+        self.assertGreaterEqual(found, 2)
+
+    def provide(self, folder, text):
+        for name in re.findall(r'^file = "([\w.]+)"', text, re.M):
+            source, = SOURCES.glob(f"cases/*/{name}")
+            shutil.copy(source, folder)
+
+    def test_a_newcomer_gets_from_the_first_page_to_results(self):
+        """The commands of docs/guide/getting_started.md one after the other, in an empty folder, as they stand there but
+        for the end of the run; then the Python of docs/guide/results.md reads what they left."""
+        page = (SOURCES / "docs/guide/getting_started.md").read_text()
+        case, = (block.text for block in blocks(page) if block.language == "toml")
+        lines = [line for block in blocks(page) if block.language == "sh" for line in block.text.splitlines()]
+        self.assertEqual(lines[0], "cp ~/solidus/cases/bracket/bracket.geo .")
+        shutil.copy(SOURCES / "cases/bracket/bracket.geo", self.folder)
+        self.assertIn("part_surface", self.done("mesh-info", "bracket.geo", "--unit", "mm"))
+        self.assertTrue(lines[1].startswith("solidus mesh-info bracket.geo --unit mm"))
+        self.write("case.toml", case)
+        self.assertTrue(lines[2].startswith("~/solidus/dev run case.toml"))
+        said = self.done("run", "case.toml", "--set", "time.end=1 s", "--set", "output.every=1 s", "-o",
+                         "results/crankshaft/default")
+        self.assertRegex(said, r"casting 'part' +\d+\.\d % solid 1 s after pouring")
+        self.done("run", SOURCES / "cases/aluminium_cylinder", "--set", "time.end=1 s", "-o",
+                  "results/aluminium_cylinder/default")
+        for name in ("results.md", "plots.md"):
+            for block in blocks((SOURCES / "docs/guide" / name).read_text()):
+                if block.language == "python":
+                    done = subprocess.run([sys.executable, "-c", block.text], cwd=self.folder, capture_output=True,
+                                          text=True, env={**os.environ, "PYTHONPATH": str(SOURCES / "python")})
+                    self.assertEqual(done.returncode, 0, f"{name}: {done.stderr}")
+                    self.assertTrue(done.stdout.strip())
+
+    def test_the_table_of_check_stands_on_its_page_as_it_is_printed(self):
+        page = (SOURCES / "docs/guide/findings.md").read_text()
+        shown = next(block for block in blocks(page) if "`solidus check cases/bracket` prints" in block.before)
+        printed = self.done("check", "cases/bracket", cwd=SOURCES)
+
+        def words(text):  # numbers depend on Gmsh's mesh and on the machine
+            return [re.sub(r"[\d.]+(e-?\d+)?", "#", line).split() for line in text.splitlines() if line.strip()]
+
+        self.assertEqual(words(shown.text), words(printed)[:len(words(shown.text))])
+
+
+if __name__ == "__main__":
+    unittest.main()

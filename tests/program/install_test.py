@@ -1,0 +1,56 @@
+"""An installed program, moved to another folder, finds what it brought; ./dev works from any folder."""
+
+from pathlib import Path
+import subprocess
+import unittest
+
+from program import PROGRAM, SOURCES, ProgramTest
+
+
+class Installed(ProgramTest):
+    def test_a_prefix_holds_all_of_it_and_may_be_moved(self):
+        prefix = self.folder / "prefix"
+        build = Path(PROGRAM).parent
+        subprocess.run(["cmake", "--install", build, "--prefix", prefix], check=True, capture_output=True)
+        moved = prefix.rename(self.folder / "moved")
+        for file in ("bin/solidus", "share/bash-completion/completions/solidus", "share/zsh/site-functions/_solidus",
+                     "share/fish/vendor_completions.d/solidus.fish", "share/man/man1/solidus.1",
+                     "share/solidus/schema/case.schema.json", "share/solidus/python/solidus_plots/plot_case.py",
+                     "share/doc/solidus/README.md", "share/doc/solidus/docs/guide/getting_started.md",
+                     "share/solidus/cases/hot_spots/case.toml"):
+            self.assertGreater((moved / file).stat().st_size, 0, file)
+
+        # Only the moved prefix has this material and this greeting.
+        shared = moved / "share/solidus"
+        text = (shared / "materials/green_sand.toml").read_text()
+        (shared / "materials/my_sand.toml").write_text(text)
+        with (shared / "python/solidus_plots/__init__.py").open("a") as module:
+            module.write('\nprint("the installed one")\n')
+        self.write("results/history.csv", "time[s],T_a[degC]\n0,20\n10,30\n")
+
+        def said(*arguments):
+            return subprocess.run([moved / "bin/solidus", *arguments], cwd=self.folder, capture_output=True, text=True,
+                                  check=True).stdout
+
+        self.assertIn("my_sand", said("materials"))
+        drawn = said("plot", "results")
+        self.assertIn("the installed one", drawn)
+        self.assertTrue((self.folder / "results/plots/history_degC.png").exists())
+        (moved / "bin/solidus").unlink()  # it is large
+
+    def test_dev_sees_files_from_the_folder_of_the_call(self):
+        self.write("mine/history.csv", "time[s],T_a[degC]\n0,20\n10,30\n")
+        dev = [SOURCES / "dev", "plot", "mine"]
+        subprocess.run(dev, cwd=self.folder, check=True, capture_output=True)
+        self.assertTrue((self.folder / "mine/plots/history_degC.png").exists())
+        dev[-1] = "yours"
+        wrong = subprocess.run(dev, cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("there is no folder 'yours'", wrong.stderr)
+        # `run` finds the case that lies there, and says so before anything is built where it finds none.
+        wrong = subprocess.run([SOURCES / "dev", "run", "nowhere.toml"], cwd=self.folder, capture_output=True, text=True)
+        self.assertIn("there is no case 'nowhere.toml'", wrong.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

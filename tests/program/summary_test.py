@@ -1,0 +1,103 @@
+"""The end of a run, in the words of a foundry engineer."""
+
+import unittest
+
+from program import ProgramTest
+
+# A plate with a riser on it, a chill of the same metal beside it; the plate cools at its lower edge. The bodies share
+# their nodes.
+GEOMETRY = """
+Point(1) = {0, 0, 0, 5}; Point(2) = {40, 0, 0, 5}; Point(3) = {40, 20, 0, 5}; Point(4) = {0, 20, 0, 5};
+Point(5) = {0, 60, 0, 5}; Point(6) = {40, 60, 0, 5}; Point(7) = {60, 0, 0, 5}; Point(8) = {60, 20, 0, 5};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Line(5) = {3, 6}; Line(6) = {6, 5}; Line(7) = {5, 4}; Line(8) = {2, 7}; Line(9) = {7, 8}; Line(10) = {8, 3};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(2) = {2};
+Curve Loop(3) = {8, 9, 10, -2}; Plane Surface(3) = {3};
+Physical Surface("plate") = {1}; Physical Surface("top") = {2}; Physical Surface("chill") = {3};
+Physical Curve("below") = {1}; Physical Curve("sides") = {4, 5, 7, 9};
+"""
+CASE = """
+title = "Plate, riser and chill"
+[analysis]
+kind = "plane_strain"
+physics = "heat"
+[mesh]
+file = "plate.geo"
+unit = "mm"
+[time]
+end = "{end} s"
+step = "5 s"
+[criteria]
+feeders = ["{feeders}"]
+[[body]]
+name = "plate"
+material = "aluminium_alsi7mg"
+initial_temperature = "700 degC"
+[[body]]
+name = "riser"
+group = "top"
+material = "aluminium_alsi7mg"
+initial_temperature = "700 degC"
+[[body]]
+name = "chill"
+material = "aluminium_alsi7mg"
+initial_temperature = "20 degC"
+[[thermal_condition]]
+name = "below"
+group = "below"
+kind = "film"
+coefficient = "1500 W/m2/K"
+ambient = "20 degC"
+[[thermal_condition]]
+name = "sides"
+group = "sides"
+kind = "film"
+coefficient = "100 W/m2/K"
+ambient = "20 degC"
+"""
+
+
+class Summary(ProgramTest):
+    def run_case(self, end, feeders="top", *arguments):
+        self.write("plate.geo", GEOMETRY)
+        self.write("case.toml", CASE.format(end=end, feeders=feeders))
+        text = self.done("run", ".", "-o", "out", "--no-progress", *arguments)
+        return text[text.index("finished after"):], self.summary(self.folder / "out")["answers"]
+
+    def test_a_run_that_ends_before_all_is_solid_says_how_much_is_and_where_the_melt_is(self):
+        text, answers = self.run_case(60)
+        riser = answers["castings"]["riser"]
+        self.assertLess(riser["solid_fraction"], 0.9)
+        self.assertNotIn("last_melt_froze", riser)
+        self.assertIn(f"{100 * riser['solid_fraction']:.1f} % solid 60 s after pouring; the melt is hottest", text)
+        self.assertGreater(riser["hottest_melt"]["at[m]"][1], 0.02)  # in the riser, away from what cools
+        self.assertNotIn("freezes last", text)
+
+    def test_a_chill_of_the_same_metal_is_no_casting(self):
+        text, answers = self.run_case(20)
+        self.assertEqual(set(answers["castings"]), {"plate", "riser"})
+        self.assertNotIn("chill", text)
+        # Criteria follow what is poured: the chill's nodes away from the plate never froze.
+        self.assertLess(answers["castings"]["plate"]["solid_fraction"], 1)
+
+    def test_a_riser_that_outlives_the_part_is_told_from_one_that_does_not(self):
+        text, answers = self.run_case(400)
+        froze = {name: body["last_melt_froze"]["value[s]"] for name, body in answers["castings"].items()}
+        self.assertIn(f"riser 'riser'                       outlived the part by {froze['riser'] - froze['plate']:.4g} s",
+                      text)
+        self.assertTrue(answers["castings"]["riser"]["riser"])
+        text, answers = self.run_case(400, "plate")  # what the plate would feed is frozen later
+        self.assertIn(f"froze {froze['riser'] - froze['plate']:.4g} s before the part: it could not feed to the end",
+                      text)
+
+    def test_the_profile_of_the_solver_is_printed_where_it_is_asked_for(self):
+        text, _ = self.run_case(10)
+        self.assertNotIn("start of the program", text)
+        text, _ = self.run_case(10, "top", "--profile")
+        self.assertIn("start of the program", text)
+        self.assertIn("start of the program", self.summary(self.folder / "out")["profile[s]"])
+
+
+if __name__ == "__main__":
+    unittest.main()

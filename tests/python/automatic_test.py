@@ -1,0 +1,104 @@
+"""The pictures that every run gets: what is drawn of which run, hot spots, curves that do not hide each other."""
+
+from pathlib import Path
+import tempfile
+import unittest
+
+from blocks import box, everything
+import numpy as np
+
+from solidus_plots import automatic, hot_spots, overview, style
+from solidus_plots.cells import HEX
+from solidus_plots.curves import _panels
+from solidus_plots.history import Table
+from solidus_plots.moments import Moments
+
+SIZE = (0.04, 0.02, 0.02)
+
+
+def frozen(grid):
+    """A casting whose right half froze last at (0.035, 0.01, 0.01), its left half at (0.005, 0.01, 0.01)."""
+    distance = [np.linalg.norm(grid.points - point, axis=1) for point in ([0.035, 0.01, 0.01], [0.005, 0.01, 0.01])]
+    time = np.maximum(100 - 4e3 * distance[0], 80 - 4e3 * distance[1])
+    grid.point_data = {"temperature": 500 + time, "solid_fraction": np.ones(len(time)), "solidified_at": time,
+                       "niyama": np.where(grid.points[:, 0] > 0.02, 500.0, 2000.0), "gap": 1e-4 * grid.points[:, 0],
+                       "distortion": 0.01 * grid.points}
+    grid.cell_data["von_mises"] = 1e6 * np.arange(1.0, 1 + len(grid.cell_types))
+    grid.units = {"temperature": "K", "solid_fraction": "1", "solidified_at": "s", "niyama": "1", "gap": "m",
+                  "distortion": "m", "von_mises": "Pa"}
+    return grid
+
+
+class Run(Moments):
+    """One moment, not read from files."""
+
+    def __init__(self, grid):
+        super().__init__(np.array([grid.time]), [None], ["part"])
+        self._grids[0] = grid
+
+
+class HotSpots(unittest.TestCase):
+    def test_the_hottest_spot_is_where_it_froze_last_or_is_least_solid(self):
+        grid = frozen(box(HEX, SIZE, (8, 4, 4)))
+        np.testing.assert_allclose(hot_spots.hottest(grid, everything(grid)), [0.035, 0.01, 0.01])
+        solid = grid.point_data["solid_fraction"]
+        solid[np.linalg.norm(grid.points - [0.01, 0.01, 0.01], axis=1) < 1e-9] = 0.2
+        np.testing.assert_allclose(hot_spots.hottest(grid, everything(grid)), [0.01, 0.01, 0.01])
+
+    def test_every_place_that_froze_after_its_surroundings_is_a_hot_spot(self):
+        grid = frozen(box(HEX, SIZE, (8, 4, 4)))
+        spots = hot_spots.all_of(grid, everything(grid))
+        self.assertEqual([round(spot.value) for spot in spots], [100, 80])
+        np.testing.assert_allclose(spots[1].point, [0.005, 0.01, 0.01])
+
+
+class Sheets(unittest.TestCase):
+    def setUp(self):
+        style.setup()
+        style.plt.rcParams["savefig.dpi"] = 60  # quick
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_a_casting_gets_every_field_that_matters_without_plots_toml(self):
+        run = Run(frozen(box(HEX, SIZE, (8, 4, 4))))
+        summary = {"title": "A block", "answers": {"castings": {"part": {}}}}
+        history = {"time[s]": np.array([0.0]), "solid_fraction[1]": np.array([1.0])}
+        case, sheets = automatic.plan(run, np.array([0.0]), summary, history, self.folder, {})
+        self.assertEqual([sheet["field"] for sheet in sheets],
+                         ["temperature", "solidified_at", "niyama", "gap", "distortion", "von_mises"])
+        niyama = sheets[2]
+        self.assertEqual(niyama["below"], 0.775)
+        self.assertIn("A block", case.corner)
+        for sheet in sheets:
+            file, = overview.draw(sheet, run, case, self.folder)
+            self.assertGreater(file.stat().st_size, 5_000, file)
+
+    def test_least_and_largest_values_are_told_with_their_places(self):
+        grid = frozen(box(HEX, SIZE, (8, 4, 4)))
+        text = overview._extremes(grid, everything(grid), {"field": "solidified_at"}, "xyz")
+        self.assertTrue(text.startswith("largest 100 s at (35, 10, 10) mm"), text)
+        text = overview._extremes(grid, everything(grid), {"field": "von_mises", "unit": "MPa"}, "xyz")
+        self.assertIn("least 1 MPa at (2.5, 2.5, 2.5) mm", text)
+        text = overview._extremes(grid, everything(grid), {"field": "niyama", "below": 0.775}, "xyz")
+        self.assertIn("0.5 √(K s)/mm everywhere", text)
+
+
+class Curves(unittest.TestCase):
+    def panels(self, **lines):
+        return _panels(Table({name: np.array(values, float) for name, values in lines.items()}), list(lines))
+
+    def test_lines_of_other_sizes_get_panels_of_their_own(self):
+        self.assertEqual(self.panels(a=[0, 1000], b=[0, 20], c=[0, 0.1], d=[500, 0]),
+                         [[["a"], ["d"]], [["b"]], [["c"]]])
+
+    def test_lines_that_hide_each_other_are_one_with_both_names(self):
+        self.assertEqual(self.panels(a=[0, 1000], b=[0, 1001], c=[0, 500]), [[["a", "b"], ["c"]]])
+
+    def test_no_panel_has_more_lines_than_one_can_tell_apart(self):
+        panels = self.panels(**{f"T_{i}": [20, 100 + 50 * i] for i in range(15)})
+        self.assertEqual([len(panel) for panel in panels], [5, 5, 5])
+
+
+if __name__ == "__main__":
+    unittest.main()

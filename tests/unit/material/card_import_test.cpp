@@ -1,0 +1,235 @@
+#include "material/card_import.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "material/library.hpp"
+
+namespace solidus::material {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::array<fs::path, 1> k_library{fs::path(SOLIDUS_SOURCE_DIR) / "materials"};
+
+struct Row {
+  double celsius, solid, enthalpy;  ///< enthalpy in J/g
+};
+
+/// An alloy as a Scheil calculation prints it, from the melt down: primary solid with 380 J/g, then a
+/// eutectic with 510 J/g whose rest freezes at one temperature.
+std::vector<Row> scheil_rows() {
+  std::vector<Row> rows;
+  const auto solid = [](double t) { return t >= 614 ? 0.0 : 1 - std::pow((660 - t) / 46.0, -1 / 0.87); };
+  double h = 1000;
+  for (double t = 650; t >= 577; t -= 1) {
+    rows.push_back({t, solid(t), h});
+    h -= 1.1 + 2e-4 * (t - 577) + 380 * (solid(t - 1) - solid(t)) * (t > 577 ? 1 : 0);
+  }
+  const double eutectic = rows.back().enthalpy - 510 * (1 - solid(577));
+  rows.push_back({577, 1, eutectic});
+  for (double t = 576; t >= 500; t -= 1)
+    rows.push_back({t, 1, eutectic - 1.15 * (577 - t) + 3e-4 * std::pow(577 - t, 2)});
+  return rows;
+}
+
+std::string csv(const std::vector<Row>& rows) {
+  std::string text =
+      "Alloy: Al-7Si\n# by a program\nTemperature [C],Mass fraction of all solid phases,Enthalpy [J/g]\n";
+  for (const Row& r : rows) text += fmt::format("{},{},{}\n", r.celsius, r.solid, r.enthalpy);
+  return text;
+}
+
+ImportedCard imported(const std::string& text, const ImportOptions& options) {
+  Material base;
+  if (!options.like.empty()) base = find_material(options.like, k_library);
+  return import_card(parse_column_table(text, "table.csv"), options, options.like.empty() ? nullptr : &base);
+}
+
+/// The card as a run reads it: written, read again, completed by the card that it is like.
+Material card_of(const ImportedCard& card) {
+  const fs::path file = fs::temp_directory_path() / fmt::format("solidus_import_{}.toml", ::getpid());
+  std::ofstream(file) << to_toml(card.document);
+  const Material m = load_material(file, k_library);
+  fs::remove(file);
+  return m;
+}
+
+ImportOptions like_a356() {
+  ImportOptions options;
+  options.like = "aluminium_alsi7mg";
+  return options;
+}
+
+/// Compares the card with the rows: enthalpies to 1e-6 J/kg, fractions to 1e-12.
+void expect_rows(const Material& m, const std::vector<Row>& rows) {
+  const EnthalpyCurve h = m.enthalpy();
+  const double rho = m.density;
+  const Row& coldest = rows.back();
+  const double zero = h.lower(coldest.celsius + 273.15) / rho - 1e3 * coldest.enthalpy;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double t = rows[i].celsius + 273.15;
+    const bool cold_side = i > 0 && rows[i - 1].celsius == rows[i].celsius;
+    const double card = (cold_side ? h.lower(t) : h.upper(t)) / rho;
+    EXPECT_NEAR(card - zero, 1e3 * rows[i].enthalpy, 1e-6) << rows[i].celsius;
+    const PhaseFraction& f = m.solidification()->fraction;
+    EXPECT_NEAR(cold_side ? f.below(t) : f.above(t), rows[i].solid, 1e-12) << rows[i].celsius;
+  }
+}
+
+TEST(CardImport, GivesTheTablesEnthalpyAndSolidFractionBack) {
+  const std::vector<Row> rows = scheil_rows();
+  const Material m = card_of(imported(csv(rows), like_a356()));
+  expect_rows(m, rows);
+  EXPECT_EQ(m.phase_changes.size(), 2u);  // primary solid and eutectic differ in their heats
+  EXPECT_NEAR(m.solidification()->latent_heat, 380e3, 10e3);
+  EXPECT_GT(m.specific_heat.min_value(), 500);
+  EXPECT_LT(m.specific_heat.max_value(), 2000);
+  EXPECT_EQ(m.density, find_material("aluminium_alsi7mg", k_library).density);
+}
+
+TEST(CardImport, TakesRisingTemperaturesJsonAndLiquidInPerCent) {
+  std::vector<Row> rows = scheil_rows();
+  std::string t, liquid, h;
+  for (auto r = rows.rbegin(); r != rows.rend(); ++r) {
+    const char* comma = t.empty() ? "" : ", ";
+    t += fmt::format("{}{}", comma, r->celsius + 273.15);
+    liquid += fmt::format("{}{}", comma, 100 * (1 - r->solid));
+    h += fmt::format("{}{}", comma, 1e3 * r->enthalpy * 0.0271);
+  }
+  ImportOptions options = like_a356();
+  options.molar_mass = 0.0271;
+  const Material m = card_of(imported("{\"T [K]\": [" + t + "],\n\"Liquid (wt%)\": [" + liquid +
+                                          "],\n\"Enthalpy (J/mol)\": [" + h + "], \"method\": \"scheil\"}",
+                                      options));
+  const EnthalpyCurve curve = m.enthalpy();
+  const double span = (curve.upper(650 + 273.15) - curve.lower(500 + 273.15)) / m.density;
+  EXPECT_NEAR(span, 1e3 * (rows.front().enthalpy - rows.back().enthalpy), 1e-6);
+  EXPECT_NEAR(m.solid_fraction(600 + 273.15), 1 - std::pow(60 / 46.0, -1 / 0.87), 1e-9);
+}
+
+// A pure metal: everything at one temperature, where the specific heat may not jump.
+TEST(CardImport, TakesAnIsothermalChange) {
+  std::vector<Row> rows;
+  for (double t = 700; t >= 661; t -= 3) rows.push_back({t, 0, 500 + 1.18 * (t - 661)});
+  rows.push_back({660, 0, 500 - 1.18});
+  rows.push_back({660, 1, 500 - 1.18 - 397});
+  for (double t = 655; t >= 600; t -= 5) rows.push_back({t, 1, 500 - 1.18 - 397 - 1.25 * (660 - t)});
+  const Material m = card_of(imported(csv(rows), like_a356()));
+  expect_rows(m, rows);
+  EXPECT_EQ(m.phase_changes.size(), 1u);
+  EXPECT_NEAR(m.solidification()->latent_heat, 397e3, 1e-3);
+}
+
+TEST(CardImport, TakesAllPropertiesOfATableAsJMatProPrintsThem) {
+  std::string text =
+      "T (C);fraction solid (wt%);Enthalpy (J/g);Density (g/cm^3);Thermal conductivity (W/(m K));"
+      "Young's modulus (GPa);Poisson's ratio\n";
+  for (double t = 700; t >= 20; t -= 20) {
+    const double s = std::clamp((640 - t) / 80, 0.0, 1.0);
+    const double density = 2.70 / std::pow(1 + 24e-6 * (t - 20), 3) * (1 - 0.05 * (1 - s));
+    text += fmt::format("{};{};{};{};{};{};{}\n", t, 100 * s, 0.9 * t + 2e-4 * t * t + 390 * (1 - s), density,
+                        160 - 0.02 * t, s < 1 ? 0.1 : 70 - 0.05 * t, 0.33);
+  }
+  ImportOptions options;
+  options.title = "Test";
+  const ImportedCard card = imported(text, options);
+  const Material m = card_of(card);
+  EXPECT_NEAR(m.density, 2700, 1e-9);
+  EXPECT_NEAR(m.conductivity.value(273.15 + 100), 158, 1e-9);
+  EXPECT_NEAR(m.young_modulus.value(273.15 + 20), 69e9, 1);
+  EXPECT_GT(m.young_modulus.min_value(), 40e9) << "what the melt has is no modulus of a solid";
+  EXPECT_NEAR(m.expansion.value(273.15 + 400), 24e-6, 1e-9);
+  EXPECT_NEAR(m.expansion_reference, 293.15, 1e-9);
+  EXPECT_NEAR(m.solidification()->volume_change, -0.05, 0.003);
+  EXPECT_NEAR(m.solidification()->latent_heat, 390e3, 3e3);
+}
+
+// pycalphad's Scheil prints temperatures and fractions only, stops at the last of the melt, and writes NaN.
+TEST(CardImport, TakesPycalphadsScheil) {
+  const std::string text =
+      R"({"temperatures": [900, 880, 860, 850, 850], "fraction_solid": [0, 0.2, 0.5, 0.6, 0.998],
+    "x_liquid": {"SI": [0.07, 0.08, NaN, 0.1, 0.12]}, "converged": true, "method": "scheil"})";
+  EXPECT_THAT(card_of(imported(text, like_a356())).solidification()->latent_heat, 389e3);
+  const ImportedCard card = imported(text, like_a356());
+  const Material m = card_of(card);
+  EXPECT_NEAR(m.solid_fraction(870), 0.35, 1e-12);
+  EXPECT_EQ(m.solidification()->fraction.below(850), 1);
+  EXPECT_THAT(card.remarks.front(), HasSubstr("the last 0.2 % of melt freeze"));
+  ImportOptions alone;
+  EXPECT_THROW(imported(text, alone), InputError);
+}
+
+struct Nonsense {
+  const char *what, *with, *message;
+};
+
+TEST(CardImport, RefusesNonsenseWithFileAndLine) {
+  const std::string good =
+      "T [C],fs,Enthalpy [J/g]\n650,0,900\n620,0,870\n600,0.4,700\n577,0.6,580\n577,1,400\n560,1,380\n";
+  ASSERT_NO_THROW(imported(good, like_a356()));
+  const Nonsense cases[] = {
+      {"600,0.4", "600,1.4", "table.csv:4: a solid fraction of 1.4"},
+      {"600,0.4", "600,-0.1", "table.csv:4: a solid fraction of -0.1"},
+      {"577,0.6,", "577,0.3,", "table.csv:4: the solid fraction 0.4"},
+      {"600,0.4,700", "600,0.4,900", "table.csv:3: the enthalpy 870000 J/kg"},
+      {"600,0.4", "630,0.4", "table.csv:4: the temperature 903.15 K lies above the one before"},
+      {"600,0.4,700", "600,,700", "table.csv:4: 'fs' has no number"},
+      {"600,0.4,700", "600,0.4", "table.csv:4: the line has 2 cells, the header has 3"},
+      {"T [C]", "T", "the column 'T' has no unit"},
+      {"T [C]", "Q [C]", "the table has no column of the temperature"},
+      {"[J/g]", "[J/mol]", "is for each mole"},
+      {"[J/g]", "[J/s]", "the column 'Enthalpy [J/s]'"},
+      {"577,1,400\n560,1,380\n", "", "table.csv:5: the coldest row, 850.15 K, is 40.0 % melt"},
+      {"650,0,900\n620,0,870\n", "", "table.csv:2: the hottest row, 873.15 K, is 40.0 % solid"},
+      {"577,1,400\n560,1,380", "577,1,579\n560,1,400", "rises by less than the specific heat"},
+      {good.c_str(), "T [C],fs\n", "there is no table"},
+      {good.c_str(), "{\"T [K]\": [900, 880, \"fs\": 3}", "table.csv:1:26: expected ',' or ']'"},
+  };
+  for (const Nonsense& one : cases) {
+    std::string text = good;
+    text.replace(text.find(one.what), std::string(one.what).size(), one.with);
+    try {
+      imported(text, like_a356());
+      ADD_FAILURE() << "accepted: " << one.message;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(one.message));
+    }
+  }
+}
+
+TEST(CardImport, NamesWhatACardStillNeeds) {
+  const std::string text = "T [C],fs,Enthalpy [J/g]\n650,0,900\n620,0,870\n577,1,400\n560,1,380\n";
+  try {
+    imported(text, {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("density, conductivity"), HasSubstr("--like")));
+  }
+  ImportOptions options = like_a356();
+  options.columns["enthalpie"] = "Enthalpy";
+  EXPECT_THROW(imported(text, options), InputError);
+  options.columns = {{"enthalpy", "HM"}};
+  try {
+    imported(text, options);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("there is no column 'HM'"));
+  }
+  std::string other = text;
+  other.replace(other.find("Enthalpy [J/g]"), 14, "HMR");
+  options.columns = {{"enthalpy", "HMR:J/g"}};
+  EXPECT_NO_THROW(imported(other, options));
+}
+
+}  // namespace
+}  // namespace solidus::material

@@ -1,0 +1,126 @@
+/// Stresses at nodes: a linear field is reproduced to round-off up to the boundary, on any shape; the hoop
+/// stress at the bore of a thick tube is one.
+#include "results/recovered_stress.hpp"
+
+#include <gtest/gtest.h>
+#include <petscsys.h>
+
+#include <cmath>
+
+#include "mesh/raw_mesh.hpp"
+#include "mesh/shapes.hpp"
+#include "results/heat_flux.hpp"
+
+namespace solidus::results {
+namespace {
+
+using mesh::Point;
+using mesh::Shape;
+
+mesh::Mesh block(Shape shape, std::vector<int> divisions, std::vector<double> size,
+                 std::vector<double> origin = {}) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  mesh::RawMesh raw;
+  if (rank == 0) raw = mesh::make_block({std::move(size), std::move(origin), std::move(divisions)}, shape);
+  return mesh::distribute(raw, {"block"}, {});
+}
+
+int corner_count(Shape shape) {
+  switch (shape) {
+    case Shape::tri3:
+    case Shape::tri6:
+      return 3;
+    case Shape::hex8:
+    case Shape::hex20:
+      return 8;
+    default:
+      return 4;
+  }
+}
+
+double linear(const Point& x, std::size_t k) {
+  return 1 + static_cast<double>(k) + 2 * x[0] - (3 + static_cast<double>(k)) * x[1] + 5 * x[2];
+}
+
+/// The function at the centroids, which for these shapes are the means of the corners.
+template <class F>
+std::vector<double> at_cells(const mesh::Mesh& mesh, F f) {
+  std::vector<double> values;
+  for (const mesh::Block& b : mesh.blocks)
+    for (Index e = 0; e < b.size(); ++e) {
+      const int corners = corner_count(b.shape);
+      Point centre{};
+      for (int a = 0; a < corners; ++a)
+        for (std::size_t i = 0; i < 3; ++i)
+          centre[i] += mesh.x[static_cast<std::size_t>(b.element(e)[a])][i] / corners;
+      for (std::size_t k = 0; k < 6; ++k) values.push_back(f(centre, k));
+    }
+  return values;
+}
+
+TEST(StressRecovery, ReproducesALinearStressAtEveryNode) {
+  for (const Shape shape :
+       {Shape::tri3, Shape::quad4, Shape::quad8, Shape::tet4, Shape::hex8, Shape::hex20}) {
+    const bool solid = mesh::dimension(shape) == 3;
+    const mesh::Mesh mesh = solid ? block(shape, {4, 3, 3}, {2, 1, 0.5}) : block(shape, {4, 3}, {2, 1});
+    const StressRecovery recovery(mesh, solid ? AnalysisKind::solid : AnalysisKind::plane_strain);
+    const std::vector<double> nodal = recovery.at_nodes(at_cells(mesh, linear));
+    double worst = 0;
+    for (std::size_t i = 0; i < mesh.x.size(); ++i)
+      for (std::size_t k = 0; k < 6; ++k)
+        worst = std::max(worst, std::abs(nodal[6 * i + k] - linear(mesh.x[i], k)));
+    EXPECT_LT(worst, 1e-11) << static_cast<int>(shape);
+  }
+}
+
+// One row of elements knows nothing of a second direction, and says nothing of it.
+TEST(StressRecovery, OfOneRowOfElementsGoesAlongTheRow) {
+  const mesh::Mesh mesh = block(Shape::quad4, {6, 1}, {1, 0.1});
+  const StressRecovery recovery(mesh, AnalysisKind::plane_strain);
+  const auto along = [](const Point& x, std::size_t) { return 1 + 7 * x[0]; };
+  const std::vector<double> nodal = recovery.at_nodes(at_cells(mesh, along));
+  for (std::size_t i = 0; i < mesh.x.size(); ++i) EXPECT_NEAR(nodal[6 * i], along(mesh.x[i], 0), 1e-12);
+}
+
+// Lamé: σ_θ = A + B/r². The mean of the innermost of ten elements is 10 % below the value at the bore.
+TEST(StressRecovery, FindsTheHoopStressAtTheBoreOfATube) {
+  const mesh::Mesh mesh = block(Shape::quad4, {10, 1}, {1, 0.1}, {1, 0});
+  const auto hoop = [](const Point& x, std::size_t) { return 1 + 4 / (x[0] * x[0]); };
+  const std::vector<double> cells = at_cells(mesh, hoop),
+                            nodal = StressRecovery(mesh, AnalysisKind::axisymmetric).at_nodes(cells);
+  for (std::size_t i = 0; i < mesh.x.size(); ++i)
+    if (mesh.x[i][0] == 1) {
+      EXPECT_NEAR(nodal[6 * i], 5, 0.07);
+    }
+}
+
+TEST(StressRecovery, PrincipalValuesAndVonMisesOfATensor) {
+  // 3 and 1 in a plane turned by 45 degrees, 5 across it
+  const std::vector<double> tensor{2, 2, 5, 1, 0, 0};
+  EXPECT_NEAR(principal_values(tensor, 0)[0], 5, 1e-14);
+  EXPECT_NEAR(principal_values(tensor, 1)[0], 3, 1e-14);
+  EXPECT_NEAR(principal_values(tensor, 2)[0], 1, 1e-14);
+  EXPECT_NEAR(von_mises_values(tensor)[0], std::sqrt(12.), 1e-14);
+}
+
+TEST(HeatFlux, IsThatOfFouriersLawWithTheConductivityOfThePlace) {
+  const mesh::Mesh mesh = block(Shape::hex8, {3, 2, 2}, {1, 1, 1});
+  material::Material m;
+  m.conductivity = Table({200, 400}, {10, 30});
+  std::vector<double> temperature;
+  for (const Point& x : mesh.x) temperature.push_back(300 + 60 * x[0] - 30 * x[2]);
+  const std::vector<double> flux = element_heat_flux(
+      mesh, AnalysisKind::solid, [&](int) -> const material::Material& { return m; }, temperature);
+  const std::vector<double> centre =
+      at_cells(mesh, [](const Point& x, std::size_t) { return x[0] - 0.5 * x[2]; });
+  for (std::size_t c = 0; c < flux.size() / 3; ++c) {
+    const double k = 20 + 6 * centre[6 * c];
+    EXPECT_NEAR(flux[3 * c], -60 * k, 1e-9);
+    EXPECT_NEAR(flux[3 * c + 1], 0, 1e-9);
+    EXPECT_NEAR(flux[3 * c + 2], 30 * k, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace solidus::results

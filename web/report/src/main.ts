@@ -1,0 +1,76 @@
+/** The page: reads its data, builds the sections, joins picture, curves and keys. */
+import { byId, h } from "./dom";
+import { drawAllCharts, onTimePicked, redrawCharts } from "./charts";
+import { Page } from "./run";
+import { Workbench } from "./workbench";
+import { buildHead, buildSections } from "./sections";
+
+function theme(): void {
+  const kept = (() => {
+    try {
+      return localStorage.getItem("solidus-theme");
+    } catch {
+      return null;
+    }
+  })();
+  document.documentElement.dataset.theme = kept ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+}
+
+function keysDialog(): void {
+  const dialog = byId<HTMLDialogElement>("keys");
+  const keys: [string, string][] = [
+    ["Space", "play the moments"], ["← →", "moment before, after"], ["Home End", "first, last moment"], ["[ ]", "field before, after"],
+    ["C", "cut on, off"], [", .", "move the cut"], ["M", "elements on, off"], ["F", "fit the picture"], ["1 … 6", "look along an axis"], ["7", "look from a corner"],
+    ["T", "dark, light"], ["Esc", "take marks away"], ["?", "this list"],
+  ];
+  dialog.replaceChildren(
+    h("h3", {}, "Keys"),
+    h("dl", { class: "keys" }, ...keys.flatMap(([key, text]) => [h("dt", {}, ...key.split(" ").map((k) => h("kbd", {}, k))), h("dd", {}, text)])),
+    h("p", { class: "hint" }, "Drag turns the picture, with Shift or the right button it moves it; the wheel zooms once the picture has been clicked. A click on a body shows the curves of that node, a click with Shift ends a line to the click before."),
+    h("form", { method: "dialog" }, h("button", {}, "Close")),
+  );
+  byId("help").addEventListener("click", () => dialog.showModal());
+}
+
+function start(): void {
+  theme();
+  keysDialog();
+  const page = new Page();
+  const bench = new Workbench(page);
+  buildHead(page, bench);
+  bench.begin();
+  const nav: [string, string][] = [["top", "Summary"]];
+  if (bench.ready) nav.push(["view", "Picture"]);
+  nav.push(...buildSections(page, bench));
+  byId("nav").append(...nav.map(([id, text]) => h("a", { href: `#${id}` }, text)));
+  byId("made").textContent = `Written by Solidus ${page.meta.solidus}, ${page.meta.made}. The page needs no net; numbers of fields are right to 1/16 000 of the range that their field has in the run.`;
+  onTimePicked((time) => bench.goTo(time));
+  byId("theme").addEventListener("click", () => {
+    const root = document.documentElement;
+    root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
+    try {
+      localStorage.setItem("solidus-theme", root.dataset.theme);
+    } catch {
+      // A browser that keeps nothing for files asks again next time.
+    }
+    redrawCharts();
+    bench.update();
+  });
+  byId("print").addEventListener("click", () => window.print());
+  addEventListener("beforeprint", () => {
+    document.querySelectorAll<HTMLDetailsElement>("main details").forEach((d) => (d.open = true));
+    drawAllCharts();
+  });
+  (window as unknown as { solidus: unknown }).solidus = { page, bench };
+}
+
+try {
+  performance.mark("start");
+  start();
+  performance.mark("built");
+} catch (error) {
+  const box = byId("failure");
+  box.hidden = false;
+  box.textContent = `This report cannot be shown: ${error instanceof Error ? error.message : String(error)}`;
+  throw error;
+}
