@@ -35,11 +35,11 @@ Material casting(IsotropicHardening isotropic, double viscosity, double exponent
   Flow& flow = m.flow.emplace();
   flow.flow_stress = Table({300, 900}, {80e6, 10e6});
   flow.isotropic = isotropic;
-  flow.hardening_modulus = 0.5e9;
-  flow.saturation_stress = 150e6;
-  flow.saturation_rate = 40;
-  flow.reference_strain = 2e-3;
-  flow.hardening_exponent = 0.2;
+  set_hardening(flow, {{"hardening_modulus", 0.5e9},
+                       {"saturation_stress", 150e6},
+                       {"saturation_rate", 40},
+                       {"reference_strain", 2e-3},
+                       {"hardening_exponent", 0.2}});
   flow.kinematic = kinematic;
   flow.kinematic_modulus = 5e9;
   flow.recall = 100;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "lattice.hpp"
+#include "material/hardening.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/law_block.hpp"
 
@@ -32,7 +33,7 @@ material::Material j2() {
   material::Flow flow;
   flow.flow_stress = Table({280, 400, 600, 800}, {3e6, 2.5e6, 2e6, 1e6});
   flow.isotropic = material::IsotropicHardening::linear;
-  flow.hardening_modulus = 1e9;
+  set_hardening(flow, {{"hardening_modulus", 1e9}});
   flow.viscosity = 0.0;
   m.flow = flow;
   return m;
@@ -42,8 +43,9 @@ material::Material j2() {
 material::Material saturating() {
   material::Material m = j2();
   m.flow->isotropic = material::IsotropicHardening::saturation;
-  m.flow->saturation_stress = Table({280, 400, 600, 800}, {6e6, 5e6, 4e6, 2e6});
-  m.flow->saturation_rate = 50.0;
+  set_hardening(*m.flow, {{"saturation_stress", Table({280, 400, 600, 800}, {6e6, 5e6, 4e6, 2e6})},
+                          {"saturation_rate", 50.0},
+                          {"hardening_modulus", 1e9}});
   m.flow->kinematic = material::KinematicHardening::linear;
   m.flow->kinematic_modulus = 2e9;
   return m;

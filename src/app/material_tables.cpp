@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/units.hpp"
+#include "material/laws/hardening_law.hpp"
 #include "material/tensile.hpp"
 #include "results/csv.hpp"
 
@@ -114,8 +115,7 @@ double largest_strain(const Flow& flow) {
   double strain = 0.2;
   if (flow.isotropic == IsotropicHardening::table && flow.curves.strains().back() > 0)
     strain = flow.curves.strains().back();
-  if (flow.isotropic == IsotropicHardening::saturation)
-    strain = std::min(strain, 5 / flow.saturation_rate.min_value());
+  strain = std::min(strain, material::hardening_law(flow.isotropic).saturation(flow.hardening));
   if (flow.isotropic == IsotropicHardening::none && flow.kinematic == KinematicHardening::armstrong_frederick)
     strain = std::min(strain, 5 / flow.recall.min_value());
   return strain;

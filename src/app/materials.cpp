@@ -6,6 +6,7 @@
 #include "app/material_tables.hpp"
 #include "app/verbs.hpp"
 #include "base/units.hpp"
+#include "material/laws/hardening_law.hpp"
 #include "material/library.hpp"
 #include "model/case_materials.hpp"
 #include "results/output_error.hpp"
@@ -55,10 +56,9 @@ std::string flow_curves(const material::FlowCurves& curves) {
 }
 
 std::string plasticity(const material::Flow& flow) {
-  constexpr std::array isotropic{"none", "linear", "saturation", "power", "table"};
   constexpr std::array kinematic{"none", "linear", "armstrong_frederick"};
   return fmt::format("  {:<29} isotropic hardening {}, kinematic hardening {}, rate dependence {}\n",
-                     "plasticity", isotropic.at(static_cast<std::size_t>(flow.isotropic)),
+                     "plasticity", material::hardening_law(flow.isotropic).name(),
                      kinematic.at(static_cast<std::size_t>(flow.kinematic)),
                      flow.rate_independent() ? "none" : "perzyna");
 }

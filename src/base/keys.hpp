@@ -231,6 +231,14 @@ class Section {
     key.unit = std::move(unit);
     return key;
   }
+  /// The same into a map, by its name; where the key is absent there is no entry.
+  Key& function(std::string name, std::map<std::string, Function> T::*member, std::string unit) {
+    Key& key = add(name, Key::Kind::function);
+    key.unit = std::move(unit);
+    assign_.push_back(
+        [&key, member, name](T& out, const Value& in) { keys::read(in, key, (out.*member)[name]); });
+    return key;
+  }
   /// One of several texts, each standing for a value of an enumeration.
   template <class E>
   Key& choice(std::string name, E T::*member, std::vector<Choice<std::type_identity_t<E>>> values) {

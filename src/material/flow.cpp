@@ -1,19 +1,14 @@
 #include "material/flow.hpp"
 
+#include "material/laws/hardening_law.hpp"
+
 namespace solidus::material {
 
 std::vector<Property> Flow::properties() const {
   std::vector<Property> used = {{"plasticity.flow_stress", "Pa", &flow_stress}};
-  if (isotropic == IsotropicHardening::saturation) {
-    used.push_back({"plasticity.saturation_stress", "Pa", &saturation_stress});
-    used.push_back({"plasticity.saturation_rate", "1", &saturation_rate});
-  }
-  if (isotropic == IsotropicHardening::linear || isotropic == IsotropicHardening::saturation)
-    used.push_back({"plasticity.hardening_modulus", "Pa", &hardening_modulus});
-  if (isotropic == IsotropicHardening::power) {
-    used.push_back({"plasticity.reference_strain", "1", &reference_strain});
-    used.push_back({"plasticity.hardening_exponent", "1", &hardening_exponent});
-  }
+  const auto parameters = hardening_law(isotropic).parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    used.push_back({std::string("plasticity.") + parameters[i].key, parameters[i].unit, &hardening[i]});
   if (kinematic != KinematicHardening::none)
     used.push_back({"plasticity.kinematic_modulus", "Pa", &kinematic_modulus});
   if (kinematic == KinematicHardening::armstrong_frederick)

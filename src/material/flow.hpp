@@ -2,20 +2,25 @@
 /// parameter a table over absolute temperature. The laws are in hardening.hpp and viscoplastic.hpp.
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "base/table.hpp"
 #include "material/flow_curves.hpp"
+#include "material/laws/parameter.hpp"
 
 namespace solidus::material {
 
 /// A table by its path in a material file, "plasticity.flow_stress", with its SI unit.
 struct Property {
-  const char* name;
-  const char* unit;
+  std::string name;
+  std::string unit;
   const Table* table;  ///< of the material that was asked
 };
 
+/// The places of the built-in laws in hardening_laws() (laws/hardening_law.hpp); what is added comes after
+/// them.
 enum class IsotropicHardening { none, linear, saturation, power, table };
 enum class KinematicHardening { none, linear, armstrong_frederick };
 
@@ -30,12 +35,9 @@ struct Flow {
   Table flow_stress;  ///< σ_0(Θ) [Pa], at ξ = 0; falls with temperature (2.121)
 
   IsotropicHardening isotropic = IsotropicHardening::none;
-  Table saturation_stress;      ///< σ_∞(Θ) [Pa], of kind saturation
-  Table saturation_rate;        ///< δ(Θ), of kind saturation
-  Table hardening_modulus;      ///< H(Θ) [Pa], of kinds linear and saturation
-  Table reference_strain{1.0};  ///< ε_0(Θ) of σ_0 (1 + ξ/ε_0)^m, of kind power
-  Table hardening_exponent;     ///< m(Θ), of kind power
-  FlowCurves curves;            ///< σ(ξ, Θ), of kind table; flow_stress is its value at ξ = 0
+  /// The parameters of that law in its order, such as hardening[Voce::saturation_rate]; zero beyond them.
+  std::array<Table, k_hardening_parameters> hardening;
+  FlowCurves curves;  ///< σ(ξ, Θ), of kind table; flow_stress is its value at ξ = 0
 
   KinematicHardening kinematic = KinematicHardening::none;
   Table kinematic_modulus;  ///< K(Θ) [Pa]: q̇ = 2/3 K ε̇^vp, so K is the slope of a uniaxial test

@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "material/flow_keys.hpp"
+#include "material/laws/hardening_law.hpp"
 #include "material/library.hpp"
 
 namespace solidus::material {
@@ -32,7 +33,7 @@ std::vector<double> joint_points(const Table& a, const Table& b) {
 }
 
 /// A line continued far enough turns negative or exceeds what was measured; the flow rule cannot use that.
-void refuse_linear_continuation(const Function& f, const char* property) {
+void refuse_linear_continuation(const Function& f, const std::string& property) {
   if (f.table.extrapolation() == Extrapolation::linear)
     throw InputError(f.where, fmt::format("'{}' cannot be continued linearly", property),
                      "extrapolation = \"constant\" or \"error\"");
@@ -61,17 +62,6 @@ void check_yield_strain(const Table& flow_stress, const Material& material, cons
                        fmt::format("the flow stress at {} is {}, more than a tenth of Young's modulus ({})",
                                    celsius(theta), megapascal(sigma), megapascal(modulus)),
                        "no metal is so strong: is a unit wrong?");
-  }
-}
-
-void check_saturation(const FlowData& data) {
-  for (const double theta : joint_points(data.flow_stress.table, data.saturation_stress.table)) {
-    const double from = data.flow_stress.table.value(theta), to = data.saturation_stress.table.value(theta);
-    if (to < from)
-      throw InputError(data.saturation_stress.where,
-                       fmt::format("the saturation stress at {} is {}, below the flow stress {}",
-                                   celsius(theta), megapascal(to), megapascal(from)),
-                       "at least the flow stress at every temperature: softening is not supported");
   }
 }
 
@@ -133,7 +123,7 @@ void add_curves(Material& material, Flow& flow, const FlowData& data) {
   check_yield_strain(flow.flow_stress, material, data.where);
 }
 
-Table read_property(Material& material, const char* property, const Function& f) {
+Table read_property(Material& material, const std::string& property, const Function& f) {
   refuse_linear_continuation(f, property);
   material.notes.push_back(note_of(property, f));
   return f.table;
@@ -146,20 +136,19 @@ void add_isotropic(Material& m, Flow& flow, const FlowData& data) {
   flow.flow_stress = read_property(m, "plasticity.flow_stress", data.flow_stress);
   check_thermal_softening(flow.flow_stress, data, [&](std::size_t) { return data.flow_stress.where; });
   check_yield_strain(flow.flow_stress, m, data.flow_stress.where);
-  if (data.isotropic == IsotropicHardening::saturation) {
-    flow.saturation_stress = read_property(m, "plasticity.saturation_stress", data.saturation_stress);
-    flow.saturation_rate = read_property(m, "plasticity.saturation_rate", data.saturation_rate);
-    check_saturation(data);
+  const HardeningLaw& law = hardening_law(data.isotropic);
+  const auto parameters = law.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const std::string key = parameters[i].key;
+    if (const auto given = data.hardening.find(key); given != data.hardening.end())
+      flow.hardening[i] = read_property(m, "plasticity." + key, given->second);
+    else if (!parameters[i].optional)
+      throw InputError(data.where, fmt::format("the key '{}' is missing in [plasticity]", key),
+                       fmt::format("isotropic_hardening = \"{}\" needs it", law.name()));
   }
-  if (data.isotropic == IsotropicHardening::power) {
-    flow.reference_strain = read_property(m, "plasticity.reference_strain", data.reference_strain);
-    flow.hardening_exponent = read_property(m, "plasticity.hardening_exponent", data.hardening_exponent);
-  }
-  if (data.hardening_modulus)
-    flow.hardening_modulus = read_property(m, "plasticity.hardening_modulus", *data.hardening_modulus);
-  else if (data.isotropic == IsotropicHardening::linear)
-    throw InputError(data.where, "the key 'hardening_modulus' is missing in [plasticity]",
-                     "isotropic_hardening = \"linear\" needs it");
+  if (const auto objection = law.objection(flow.flow_stress, flow.hardening))
+    throw InputError(data.hardening.at(parameters[objection->parameter].key).where, objection->found,
+                     objection->allowed);
 }
 
 void add_kinematic(Material& m, Flow& flow, const FlowData& data) {

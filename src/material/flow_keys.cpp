@@ -1,6 +1,11 @@
 /// The keys of [plasticity] in a material file.
 #include "material/flow_keys.hpp"
 
+#include <set>
+#include <string_view>
+
+#include "material/laws/hardening_law.hpp"
+
 namespace solidus::material {
 namespace {
 
@@ -22,15 +27,36 @@ Section<FlowCurveData> curve_keys() {
   return s;
 }
 
+/// The names of the laws with that parameter.
+std::vector<std::string> laws_with(std::string_view key) {
+  std::vector<std::string> names;
+  for (const HardeningLaw* law : hardening_laws())
+    for (const LawParameter& parameter : law->parameters())
+      if (parameter.key == key) names.emplace_back(law->name());
+  return names;
+}
+
+void parameter_key(Section<FlowData>& s, const LawParameter& parameter) {
+  Key& key = s.function(parameter.key, &FlowData::hardening, parameter.unit);
+  key.range(parameter.least, parameter.greatest)
+      .of(k_temperature)
+      .when("isotropic_hardening", laws_with(parameter.key))
+      .doc(parameter.doc);
+  key.lower_open = parameter.above_least;
+  for (const HardeningLaw* law : hardening_laws())
+    for (const LawParameter& other : law->parameters())
+      if (std::string_view(other.key) == parameter.key && other.optional) key.required = false;
+}
+
 void isotropic_keys(Section<FlowData>& s) {
-  using enum IsotropicHardening;
-  s.choice("isotropic_hardening", &FlowData::isotropic,
-           {{"none", none, "sigma_y = sigma_0"},
-            {"linear", linear, "sigma_y = sigma_0 + H xi"},
-            {"saturation", saturation,
-             "sigma_y = sigma_0 + (sigma_inf - sigma_0)(1 - exp(-delta xi)) + H xi (2.60; Voce)"},
-            {"power", power, "sigma_y = sigma_0 (1 + xi/eps_0)^m (Swift)"},
-            {"table", table, "sigma_y(xi, T) from [[plasticity.flow_curve]]"}})
+  std::vector<Section<FlowData>::Choice<IsotropicHardening>> laws;
+  std::vector<std::string> with_flow_stress;
+  for (const HardeningLaw* law : hardening_laws()) {
+    const auto kind = static_cast<IsotropicHardening>(laws.size());
+    laws.push_back({std::string(law->name()), kind, std::string(law->equation())});
+    if (kind != IsotropicHardening::table) with_flow_stress.emplace_back(law->name());
+  }
+  s.choice("isotropic_hardening", &FlowData::isotropic, laws)
       .initially("none")
       .doc(
           "How the yield stress sigma_y of a tensile test grows with the equivalent plastic strain xi; every "
@@ -38,35 +64,14 @@ void isotropic_keys(Section<FlowData>& s) {
   s.function("flow_stress", &FlowData::flow_stress, "Pa")
       .positive()
       .of(k_temperature)
-      .when("isotropic_hardening", {"none", "linear", "saturation", "power"})
+      .when("isotropic_hardening", with_flow_stress)
       .doc(
           "sigma_0, the yield stress of a tensile test at zero plastic strain. It must not rise with "
           "temperature (2.121). Give small positive values up to the liquidus: what is partly solid yields.");
-  s.function("saturation_stress", &FlowData::saturation_stress, "Pa")
-      .positive()
-      .of(k_temperature)
-      .when("isotropic_hardening", {"saturation"})
-      .doc("sigma_inf, at least the flow stress at every temperature.");
-  s.function("saturation_rate", &FlowData::saturation_rate, "1")
-      .positive()
-      .of(k_temperature)
-      .when("isotropic_hardening", {"saturation"})
-      .doc("delta: at xi = 1/delta, 63 % of the hardening is there.");
-  s.function("hardening_modulus", &FlowData::hardening_modulus, "Pa")
-      .at_least(0)
-      .of(k_temperature)
-      .when("isotropic_hardening", {"linear", "saturation"})
-      .doc("H, the slope over plastic strain; of saturation it may be left out (0).");
-  s.function("reference_strain", &FlowData::reference_strain, "1")
-      .positive()
-      .of(k_temperature)
-      .when("isotropic_hardening", {"power"})
-      .doc("eps_0; the initial slope is sigma_0 m/eps_0.");
-  s.function("hardening_exponent", &FlowData::hardening_exponent, "1")
-      .range(0, 1)
-      .of(k_temperature)
-      .when("isotropic_hardening", {"power"})
-      .doc("m.");
+  std::set<std::string_view> declared;
+  for (const HardeningLaw* law : hardening_laws())
+    for (const LawParameter& parameter : law->parameters())
+      if (declared.insert(parameter.key).second) parameter_key(s, parameter);
   s.sections("flow_curve", &FlowData::curves, curve_keys()).when("isotropic_hardening", {"table"});
 }
 

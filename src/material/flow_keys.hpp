@@ -1,7 +1,9 @@
 /// The section [plasticity] of a material file: its keys as read, and the flow data made of them.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/keys.hpp"
@@ -19,8 +21,8 @@ struct FlowCurveData {
 /// The keys of [plasticity], in SI; those that do not belong to its kinds are constant zero.
 struct FlowData {
   IsotropicHardening isotropic = IsotropicHardening::none;
-  Function flow_stress, saturation_stress, saturation_rate, reference_strain, hardening_exponent;
-  std::optional<Function> hardening_modulus;
+  Function flow_stress;
+  std::map<std::string, Function> hardening;  ///< the parameters of the laws of isotropic hardening
   std::vector<FlowCurveData> curves;
   KinematicHardening kinematic = KinematicHardening::none;
   Function kinematic_modulus, recall;

@@ -1,6 +1,9 @@
 /// The parameters of the flow rule at one temperature: what the return mapping reads.
 #pragma once
 
+#include <array>
+
+#include "base/jet.hpp"
 #include "material/elasticity.hpp"
 #include "material/flow.hpp"
 
@@ -9,17 +12,15 @@ namespace solidus::material {
 /// Members as in Flow.
 template <class T>
 struct FlowProperties {
-  T flow_stress{};                           ///< σ_0 of the yield radius (2.107) [Pa]
-  T hardening_origin{};                      ///< σ_0 of the hardening potential (2.49d), equal unless frozen
-  T saturation_stress{}, saturation_rate{};  ///< σ_∞ [Pa], δ
-  T hardening_modulus{};                     ///< H [Pa]
-  T reference_strain{}, hardening_exponent{};  ///< ε_0, m
-  T kinematic_modulus{};                       ///< K [Pa]
-  T recall{};                                  ///< of Armstrong–Frederick
-  T viscosity{};                               ///< η of the overstress [Pa s]
-  T exponent{}, drag_stress{};                 ///< n, D [Pa]
-  T temperature{};                             ///< Θ [K], for measured flow curves
-  T beyond{};                                  ///< [K] from there along the line of the measured curves
+  T flow_stress{};       ///< σ_0 of the yield radius (2.107) [Pa]
+  T hardening_origin{};  ///< σ_0 of the hardening potential (2.49d), equal unless frozen
+  std::array<T, k_hardening_parameters> hardening{};  ///< the parameters of the law of isotropic hardening
+  T kinematic_modulus{};                              ///< K [Pa]
+  T recall{};                                         ///< of Armstrong–Frederick
+  T viscosity{};                                      ///< η of the overstress [Pa s]
+  T exponent{}, drag_stress{};                        ///< n, D [Pa]
+  T temperature{};                                    ///< Θ [K], for measured flow curves
+  T beyond{};  ///< [K] from there along the line of the measured curves
 };
 
 /// @param T double, Lane, Jet or automatic differentiation; near its value a table is its line
@@ -28,11 +29,8 @@ FlowProperties<T> flow_properties_at(const Flow& flow, const T& temperature) {
   FlowProperties<T> p;
   p.flow_stress = detail::value(flow.flow_stress, temperature);
   p.hardening_origin = p.flow_stress;
-  p.saturation_stress = detail::value(flow.saturation_stress, temperature);
-  p.saturation_rate = detail::value(flow.saturation_rate, temperature);
-  p.hardening_modulus = detail::value(flow.hardening_modulus, temperature);
-  p.reference_strain = detail::value(flow.reference_strain, temperature);
-  p.hardening_exponent = detail::value(flow.hardening_exponent, temperature);
+  for (std::size_t i = 0; i < k_hardening_parameters; ++i)
+    p.hardening[i] = detail::value(flow.hardening[i], temperature);
   p.kinematic_modulus = flow.kinematic == KinematicHardening::none
                             ? T(0.0)
                             : detail::value(flow.kinematic_modulus, temperature);
@@ -43,6 +41,44 @@ FlowProperties<T> flow_properties_at(const Flow& flow, const T& temperature) {
   p.temperature = temperature;
   p.beyond = T(0.0);  // a type of automatic differentiation need not start at zero
   return p;
+}
+
+/// Numbers N of the flow rule near Θ_n, each made by `along` of its value and its slope there. What is
+/// dissipative is frozen: σ_0 of the yield radius, the recall, η, n and D.
+template <class N, class T, class Along>
+[[gnu::always_inline]] inline FlowProperties<N> flow_along(const FlowProperties<T>& v,
+                                                           const FlowProperties<T>& d,
+                                                           const T& line_temperature, Along along) {
+  static_assert(k_hardening_parameters == 4);
+  return {.flow_stress = v.flow_stress,
+          .hardening_origin = along(v.hardening_origin, d.hardening_origin),
+          .hardening = {along(v.hardening[0], d.hardening[0]), along(v.hardening[1], d.hardening[1]),
+                        along(v.hardening[2], d.hardening[2]), along(v.hardening[3], d.hardening[3])},
+          .kinematic_modulus = along(v.kinematic_modulus, d.kinematic_modulus),
+          .recall = v.recall,
+          .viscosity = v.viscosity,
+          .exponent = v.exponent,
+          .drag_stress = v.drag_stress,
+          .temperature = line_temperature,
+          .beyond = along(T(0.0), T(1.0))};
+}
+template <class T>
+[[gnu::always_inline]] inline FlowProperties<T> flow_values(const FlowProperties<T>& values,
+                                                            const FlowProperties<T>& slopes,
+                                                            const T& line_temperature, const T& temperature) {
+  const T change = temperature - line_temperature;
+  return flow_along<T>(values, slopes, line_temperature,
+                       [&](const T& value, const T& slope) { return T(value + slope * change); });
+}
+template <class T>
+[[gnu::always_inline]] inline FlowProperties<Jet<T>> flow_jets(const FlowProperties<T>& values,
+                                                               const FlowProperties<T>& slopes,
+                                                               const T& line_temperature,
+                                                               const T& temperature) {
+  const T change = temperature - line_temperature;
+  return flow_along<Jet<T>>(values, slopes, line_temperature, [&](const T& value, const T& slope) {
+    return Jet<T>(value + slope * change, slope, T(0.0));
+  });
 }
 
 }  // namespace solidus::material

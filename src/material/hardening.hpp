@@ -1,83 +1,70 @@
 /// Isotropic hardening: the part of the free energy that plastic flow stores, and the stress that it adds to
-/// the flow stress (monograph 2.49d, 2.60).
+/// the flow stress (monograph 2.49d, 2.60). K_ξ = ∂K/∂ξ, the flow stress is σ_0 + K_ξ.
 ///
-///   K_ξ = ∂K/∂ξ, the flow stress is σ_0 + K_ξ:
-///   linear      K_ξ = H ξ
-///   saturation  K_ξ = (σ_∞ − σ_0)(1 − exp(−δ ξ)) + H ξ                                   (2.60; Voce 1948)
-///   power       K_ξ = σ_0 [(1 + ξ/ε_0)^m − 1]                                            (Swift 1952)
-///   table       K_ξ = σ(ξ, Θ) − σ(0, Θ), measured flow curves
+/// Each law has a file in laws/. The return mapping calls those without a curve directly, the others through
+/// HardeningLaw; types of automatic differentiation, which only tests have, call built-in laws directly.
 ///
-/// Symbols: ξ equivalent plastic strain, σ_0, σ_∞, H [Pa], δ, ε_0, m numbers. Validity: ξ >= 0.
+/// Symbols: ξ equivalent plastic strain, σ_0 [Pa]. Validity: ξ >= 0.
 #pragma once
 
-#include "base/jet.hpp"
-#include "material/flow_properties.hpp"
+#include <stdexcept>
+#include <type_traits>
+
+#include "material/laws/linear.hpp"
+#include "material/laws/measured_hardening.hpp"
+#include "material/laws/swift.hpp"
+#include "material/laws/voce.hpp"
 
 namespace solidus::material {
-
-template <class T>
-struct HardeningStress {
-  T stress, slope;  ///< K_ξ and K_ξξ [Pa]
-};
-
 namespace detail {
 
+/// Number types on which a HardeningLaw answers.
 template <class T>
-struct CurvePoint {
-  T stress, slope, energy, stress_theta, slope_theta, energy_theta;  ///< FlowCurves::Value
-};
+inline constexpr bool k_on_laws = std::is_base_of_v<HardeningOn<T>, HardeningLaw>;
+template <class T>
+inline constexpr bool k_along_laws = std::is_base_of_v<HardeningAlong<T>, HardeningLaw>;
 
-inline CurvePoint<double> curve_point(const FlowCurves& curves, double xi, double theta) {
-  const FlowCurves::Value v = curves.at(xi, theta);
-  return {v.stress, v.slope, v.energy, v.stress_theta, v.slope_theta, v.energy_theta};
-}
-inline CurvePoint<Lane> curve_point(const FlowCurves& curves, Lane xi, Lane theta) {
-  CurvePoint<Lane> r;
-  for (int i = 0; i < k_lanes; ++i) {
-    const FlowCurves::Value v = curves.at(xi[i], theta[i]);
-    r.stress.set(i, v.stress);
-    r.slope.set(i, v.slope);
-    r.energy.set(i, v.energy);
-    r.stress_theta.set(i, v.stress_theta);
-    r.slope_theta.set(i, v.slope_theta);
-    r.energy_theta.set(i, v.energy_theta);
+/// use(law) of a built-in law.
+template <class Use>
+auto with_built_in(IsotropicHardening kind, Use use) {
+  switch (kind) {
+    case IsotropicHardening::none:
+      return use(NoHardening());
+    case IsotropicHardening::linear:
+      return use(LinearHardening());
+    case IsotropicHardening::saturation:
+      return use(Voce());
+    case IsotropicHardening::power:
+      return use(Swift());
+    case IsotropicHardening::table:
+      return use(MeasuredHardening());
   }
-  return r;
+  throw std::logic_error("a law that was added knows no such type of numbers");
 }
 
-}  // namespace detail
-
-namespace detail {
-
-/// The kinds that bend.
 template <class T>
 HardeningStress<T> curved_stress(IsotropicHardening kind, const FlowCurves& curves,
                                  const FlowProperties<T>& p, const T& xi) {
-  using std::exp;
-  switch (kind) {
-    case IsotropicHardening::saturation: {
-      const T rise = p.saturation_stress - p.hardening_origin;
-      const T decay = exp(T(-p.saturation_rate * xi));
-      return {rise * (T(1.0) - decay) + p.hardening_modulus * xi,
-              rise * p.saturation_rate * decay + p.hardening_modulus};
-    }
-    case IsotropicHardening::power: {
-      const T base = T(1.0) + xi / p.reference_strain;
-      const T raised = power<T>(base, p.hardening_exponent);
-      return {p.hardening_origin * (raised - T(1.0)),
-              p.hardening_origin * p.hardening_exponent * raised / (base * p.reference_strain)};
-    }
-    case IsotropicHardening::table: {
-      const auto at = detail::curve_point(curves, core(xi), core(p.temperature));
-      const T dx = xi - T(core(xi)), dt = p.temperature - T(core(p.temperature)) + p.beyond;
-      const T slope = T(at.slope) + T(at.slope_theta) * dt;
-      return {T(at.stress) + slope * dx + T(at.stress_theta) * dt, slope};
-    }
-    case IsotropicHardening::none:
-    case IsotropicHardening::linear:
-      break;
-  }
-  return {T(0.0), T(0.0)};
+  if constexpr (k_on_laws<T>)
+    return hardening_law(kind).stress(curves, p, xi);
+  else
+    return with_built_in(kind, [&](auto law) { return detail::stress_of<decltype(law), T>(curves, p, xi); });
+}
+
+template <class T>
+[[gnu::always_inline]] inline HardeningSlopes<T> curved_slopes(const Flow& flow,
+                                                               const FlowProperties<T>& values,
+                                                               const FlowProperties<T>& slopes,
+                                                               const T& line_temperature,
+                                                               const T& temperature, const T& xi) {
+  if constexpr (k_along_laws<T>)
+    return hardening_law(flow.isotropic)
+        .slopes(flow.curves, values, slopes, line_temperature, temperature, xi);
+  else
+    return with_built_in(flow.isotropic, [&](auto law) {
+      return HardeningLawOf<decltype(law)>::template slopes_of<T>(flow.curves, values, slopes,
+                                                                  line_temperature, temperature, xi);
+    });
 }
 
 }  // namespace detail
@@ -89,7 +76,7 @@ template <class T>
                                                                   const FlowCurves& curves,
                                                                   const FlowProperties<T>& p, const T& xi) {
   if (kind == IsotropicHardening::none) return {T(0.0), T(0.0)};
-  if (kind == IsotropicHardening::linear) return {p.hardening_modulus * xi, p.hardening_modulus};
+  if (kind == IsotropicHardening::linear) return LinearHardening::stress(p, xi);
   return detail::curved_stress(kind, curves, p, xi);
 }
 
@@ -98,31 +85,11 @@ template <class T>
 template <class T>
 T hardening_energy(IsotropicHardening kind, const FlowCurves& curves, const FlowProperties<T>& p,
                    const T& xi) {
-  using std::exp;
-  switch (kind) {
-    case IsotropicHardening::linear:
-      return T(0.5) * p.hardening_modulus * xi * xi;
-    case IsotropicHardening::saturation: {
-      const T rise = p.saturation_stress - p.hardening_origin;
-      const T decay = exp(T(-p.saturation_rate * xi));
-      return rise * (xi - (T(1.0) - decay) / p.saturation_rate) + T(0.5) * p.hardening_modulus * xi * xi;
-    }
-    case IsotropicHardening::power: {
-      const T base = T(1.0) + xi / p.reference_strain;
-      const T above = p.hardening_exponent + T(1.0);
-      return p.hardening_origin * (p.reference_strain * (power<T>(base, above) - T(1.0)) / above - xi);
-    }
-    case IsotropicHardening::table: {
-      const auto at = detail::curve_point(curves, core(xi), core(p.temperature));
-      const T dx = xi - T(core(xi)), dt = p.temperature - T(core(p.temperature)) + p.beyond;
-      const T slope = T(at.slope) + T(at.slope_theta) * dt;
-      return T(at.energy) + (T(at.stress) + T(0.5) * slope * dx + T(at.stress_theta) * dt) * dx +
-             T(at.energy_theta) * dt;
-    }
-    case IsotropicHardening::none:
-      break;
-  }
-  return T(0.0);
+  if constexpr (detail::k_on_laws<T>)
+    return hardening_law(kind).energy(curves, p, xi);
+  else
+    return detail::with_built_in(
+        kind, [&](auto law) { return detail::energy_of<decltype(law), T>(curves, p, xi); });
 }
 
 }  // namespace solidus::material

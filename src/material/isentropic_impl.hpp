@@ -181,21 +181,21 @@ Isentropic::Properties<T> Isentropic::properties_at(const T& temperature, const 
     p.flow = now.flow;
     FlowProperties<T>& d = p.flow_slope;
     d.hardening_origin = detail::line(flow.flow_stress, temperature).slope;
-    d.saturation_stress = detail::line(flow.saturation_stress, temperature).slope;
-    d.saturation_rate = detail::line(flow.saturation_rate, temperature).slope;
-    d.hardening_modulus = detail::line(flow.hardening_modulus, temperature).slope;
-    d.reference_strain = detail::line(flow.reference_strain, temperature).slope;
-    d.hardening_exponent = detail::line(flow.hardening_exponent, temperature).slope;
+    for (std::size_t i = 0; i < k_hardening_parameters; ++i)
+      d.hardening[i] = detail::line(flow.hardening[i], temperature).slope;
     d.kinematic_modulus = flow.kinematic == KinematicHardening::none
                               ? zero
                               : detail::line(flow.kinematic_modulus, temperature).slope;
-    range.keep(p.flow.saturation_rate, d.saturation_rate);
     // Moduli of hardening that end in zero may pass it on their line: the update is unique while G outweighs
     // them, and a positive value that is all but gone would leave no range.
     const T spare = T(detail::k_spare_modulus) * p.young.value,
             spare_slope = T(detail::k_spare_modulus) * p.young.slope;
-    range.keep(p.flow.hardening_modulus + spare, d.hardening_modulus + spare_slope);
-    range.keep(p.flow.reference_strain, d.reference_strain);
+    const auto parameters = hardening_law(flow.isotropic).parameters();
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const T &value = p.flow.hardening[i], &slope = d.hardening[i];
+      if (parameters[i].continuation == Continuation::positive) range.keep(value, slope);
+      if (parameters[i].continuation == Continuation::modulus) range.keep(value + spare, slope + spare_slope);
+    }
     range.keep(p.flow.kinematic_modulus + spare, d.kinematic_modulus + spare_slope);
   }
   p.lowest = range.low();
@@ -282,5 +282,14 @@ Isentropic::Response<T> Isentropic::update(const Properties<T>& p, const State<T
     theta = inside(coupled, inside(newton, middle));
   }
 }
+
+// In isentropic.cpp. Entropy and update round alike there: a step without strain leaves no defect.
+extern template double Isentropic::entropy(const Properties<double>&, const Sym<double>&,
+                                           const State<double>&) const;
+extern template Isentropic::Response<double> Isentropic::update(const Properties<double>&,
+                                                                const State<double>&, const Sym<double>&,
+                                                                double) const;
+extern template Isentropic::Response<Lane> Isentropic::update(const Properties<Lane>&, const State<Lane>&,
+                                                              const Sym<Lane>&, double) const;
 
 }  // namespace solidus::material

@@ -60,37 +60,16 @@ template <class T>
                                                                 const ElasticAlong<T>& e) {
   return {e.bulk.v, T(0.5) * e.twice_shear.v, e.thermal_strain.v, p.solid_fraction, p.viscosity};
 }
-/// Numbers N of the flow rule, each made of its value and its slope at Θ_n.
-template <class N, class T, class Along>
-[[gnu::always_inline]] inline FlowProperties<N> flow_along(const Isentropic::Properties<T>& p, Along along) {
-  const FlowProperties<T>&v = p.flow, &d = p.flow_slope;
-  return {.flow_stress = v.flow_stress,
-          .hardening_origin = along(v.hardening_origin, d.hardening_origin),
-          .saturation_stress = along(v.saturation_stress, d.saturation_stress),
-          .saturation_rate = along(v.saturation_rate, d.saturation_rate),
-          .hardening_modulus = along(v.hardening_modulus, d.hardening_modulus),
-          .reference_strain = along(v.reference_strain, d.reference_strain),
-          .hardening_exponent = along(v.hardening_exponent, d.hardening_exponent),
-          .kinematic_modulus = along(v.kinematic_modulus, d.kinematic_modulus),
-          .recall = v.recall,
-          .viscosity = v.viscosity,
-          .exponent = v.exponent,
-          .drag_stress = v.drag_stress,
-          .temperature = p.temperature,
-          .beyond = along(T(0.0), T(1.0))};
-}
+/// The numbers of the flow rule at Θ, as values and with their temperature derivatives.
 template <class T>
 [[gnu::always_inline]] inline FlowProperties<T> flow_values(const Isentropic::Properties<T>& p,
                                                             const T& temperature) {
-  const T change = temperature - p.temperature;
-  return flow_along<T>(p, [&](const T& value, const T& slope) { return T(value + slope * change); });
+  return flow_values<T>(p.flow, p.flow_slope, p.temperature, temperature);
 }
 template <class T>
 [[gnu::always_inline]] inline FlowProperties<Jet<T>> flow_jets(const Isentropic::Properties<T>& p,
                                                                const T& temperature) {
-  const T change = temperature - p.temperature;
-  return flow_along<Jet<T>>(
-      p, [&](const T& value, const T& slope) { return Jet<T>(value + slope * change, slope, T(0.0)); });
+  return flow_jets<T>(p.flow, p.flow_slope, p.temperature, temperature);
 }
 
 }  // namespace solidus::material

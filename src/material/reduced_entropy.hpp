@@ -27,28 +27,7 @@ template <class T>
   return T(0.0) - volumetric.d - spring_slope * squared;
 }
 
-/// What hardening adds, from K_iso(ξ, Θ) at fixed ξ.
-template <class T>
-struct HardeningSlopes {
-  T entropy, entropy_theta;       ///< −K_Θ, −K_ΘΘ
-  T stress, stress_theta, slope;  ///< K_ξ, K_ξΘ, K_ξξ
-};
-
 namespace detail {
-
-/// Of curved hardening. No part of the function that calls it, and called by value: that function would have
-/// to keep in memory what it hands over by reference. All that it calls is part of it, so that only the
-/// numbers that its kind of hardening reads are computed.
-template <class T>
-[[gnu::noinline, gnu::flatten]] HardeningSlopes<T> curved_slopes(const Flow& flow,
-                                                                 const Isentropic::Properties<T>& p,
-                                                                 T temperature, T xi) {
-  using J = Jet<T>;
-  const FlowProperties<J> at = flow_jets(p, temperature);
-  const J stored = hardening_energy<J>(flow.isotropic, flow.curves, at, J(xi));
-  const auto k = hardening_stress<J>(flow.isotropic, flow.curves, at, J(xi));
-  return {T(-stored.d), T(-stored.dd), k.stress.v, k.stress.d, k.slope.v};
-}
 
 template <class T>
 [[gnu::always_inline]] inline HardeningSlopes<T> hardening_slopes(const Flow& flow,
@@ -57,11 +36,11 @@ template <class T>
   const T zero(0.0);
   if (flow.isotropic == IsotropicHardening::none) return {zero, zero, zero, zero, zero};
   if (flow.isotropic == IsotropicHardening::linear) {
-    const T slope = p.flow_slope.hardening_modulus;
-    const T modulus = p.flow.hardening_modulus + slope * (temperature - p.temperature);
+    const T slope = p.flow_slope.hardening[LinearHardening::modulus];
+    const T modulus = p.flow.hardening[LinearHardening::modulus] + slope * (temperature - p.temperature);
     return {T(-0.5) * slope * xi * xi, zero, modulus * xi, slope * xi, modulus};
   }
-  return curved_slopes<T>(flow, p, temperature, xi);
+  return curved_slopes<T>(flow, p.flow, p.flow_slope, p.temperature, temperature, xi);
 }
 
 }  // namespace detail

@@ -72,7 +72,8 @@ template <class T>
   value -= step * (p.flow->flow_stress + k.stress);
   slope -= step * step * k.slope;
   T terms = k.slope * xi;
-  if (p.isotropic == IsotropicHardening::saturation) terms += p.flow->saturation_stress;
+  if (p.isotropic != IsotropicHardening::none && p.isotropic != IsotropicHardening::linear)
+    terms += k.cancelled;
   return step * terms;
 }
 
@@ -169,12 +170,13 @@ template <class T>
   return both(both(trial.value > zero, p.rate > zero), p.stiffness() > zero);
 }
 
-/// The correction after which one more ends the iteration, as a part of γ. Between the points of a table
-/// Newton's method is exact, but a kink may lie within any distance: there only Φ tells.
+/// The correction after which one more ends the iteration, as a part of γ. Between the kinks of a law (points
+/// of a table) Newton's method is exact, but one may lie within any distance: there only Φ tells.
 template <class T>
 T last_correction(const Problem<T>& p) {
-  return T(p.isotropic == IsotropicHardening::table ? std::numeric_limits<double>::epsilon()
-                                                    : k_last_correction);
+  return T(detail::hardening_kinks[static_cast<std::size_t>(p.isotropic)]
+               ? std::numeric_limits<double>::epsilon()
+               : k_last_correction);
 }
 
 /// |a| <= b.
@@ -278,5 +280,8 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
   }
   return s;
 }
+
+extern template Solution<double> solve_power_rate(const Problem<double>&, const Yield<double>&);
+extern template Solution<Lane> solve_power_rate(const Problem<Lane>&, const Yield<Lane>&);
 
 }  // namespace solidus::material::return_mapping

@@ -35,11 +35,9 @@ Viscoplastic::Properties<Jet<T>> along_lines(const Material& m, const T& line_te
   if (!m.flow) return p;
   p.flow = flow_properties_at(*m.flow, J::variable(line_temperature));
   for (J FlowProperties<J>::*number :
-       {&FlowProperties<J>::hardening_origin, &FlowProperties<J>::saturation_stress,
-        &FlowProperties<J>::saturation_rate, &FlowProperties<J>::hardening_modulus,
-        &FlowProperties<J>::reference_strain, &FlowProperties<J>::hardening_exponent,
-        &FlowProperties<J>::kinematic_modulus})
+       {&FlowProperties<J>::hardening_origin, &FlowProperties<J>::kinematic_modulus})
     (p.flow.*number).v += (p.flow.*number).d * change;
+  for (J& parameter : p.flow.hardening) parameter.v += parameter.d * change;
   p.flow.temperature = J(line_temperature);
   p.flow.beyond = J{change, T(1.0), zero};
   return p;

@@ -184,4 +184,11 @@ template <bool recalls, class T>
                             .status = solution.converged ? Status::converged : Status::cut_the_step});
 }
 
+// In viscoplastic.cpp: they are large, and every kernel calls them.
+extern template Viscoplastic::Response<double> Viscoplastic::update(const Properties<double>&,
+                                                                    const State<double>&, const Sym<double>&,
+                                                                    double) const;
+extern template Viscoplastic::Response<Lane> Viscoplastic::update(const Properties<Lane>&, const State<Lane>&,
+                                                                  const Sym<Lane>&, double) const;
+
 }  // namespace solidus::material

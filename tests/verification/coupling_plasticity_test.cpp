@@ -1,7 +1,9 @@
 /// The first law with plastic flow in the isothermal split: dissipation heats, hardening stores.
 #include <gtest/gtest.h>
 
+#include "../laws/logarithmic.hpp"
 #include "coupling_bodies.hpp"
+#include "material/hardening.hpp"
 
 namespace solidus {
 namespace {
@@ -27,11 +29,13 @@ Coupled bar(IsotropicHardening isotropic, KinematicHardening kinematic) {
   material::Flow flow;
   flow.flow_stress = Table({300, 900}, {2.5e8, 8e7});
   flow.isotropic = isotropic;
-  flow.saturation_stress = Table({300, 900}, {4e8, 1.2e8});
-  flow.saturation_rate = 60.0;
-  flow.hardening_modulus = Table({300, 900}, {2e9, 5e8});
-  flow.reference_strain = 2e-3;
-  flow.hardening_exponent = Table({300, 900}, {0.2, 0.1});
+  set_hardening(flow, {{"saturation_stress", Table({300, 900}, {4e8, 1.2e8})},
+                       {"saturation_rate", 60.0},
+                       {"hardening_modulus", Table({300, 900}, {2e9, 5e8})},
+                       {"reference_strain", 2e-3},
+                       {"hardening_exponent", Table({300, 900}, {0.2, 0.1})},
+                       {"log_factor", Table({300, 900}, {8e7, 3e7})},
+                       {"log_strain", 2e-3}});
   flow.kinematic = kinematic;
   if (kinematic != KinematicHardening::none) flow.kinematic_modulus = Table({300, 900}, {1e10, 4e9});
   flow.recall = 80.0;
@@ -51,11 +55,12 @@ CoupledRun run(Coupled c, StructuralForm form, int n_steps) {
   return verification::march(c, k_end, n_steps);
 }
 
-constexpr std::pair<IsotropicHardening, KinematicHardening> k_kinds[] = {
+const std::pair<IsotropicHardening, KinematicHardening> k_kinds[] = {
     {IsotropicHardening::none, KinematicHardening::none},
     {IsotropicHardening::saturation, KinematicHardening::none},
     {IsotropicHardening::linear, KinematicHardening::linear},
-    {IsotropicHardening::power, KinematicHardening::armstrong_frederick}};
+    {IsotropicHardening::power, KinematicHardening::armstrong_frederick},
+    {test::k_logarithmic.kind, KinematicHardening::linear}};
 
 TEST(EnergyForm, ClosesTheFirstLawWithPlasticFlowAndHardening) {
   for (const auto& [isotropic, kinematic] : k_kinds)

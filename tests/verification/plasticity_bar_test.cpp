@@ -12,6 +12,7 @@
 ///             σ = E (ξ_1 − Δ − e);  ξ_1 of the hottest state
 #include <gtest/gtest.h>
 
+#include "material/hardening.hpp"
 #include "plasticity_bodies.hpp"
 
 namespace solidus {
@@ -58,7 +59,7 @@ Body bar(Shape shape, AnalysisKind kind, const Hardening& hardening) {
   m.young_modulus = Table({k_start, k_hot}, {young(k_start), young(k_hot)});
   if (hardening.isotropic > 0) {
     m.flow->isotropic = material::IsotropicHardening::linear;
-    m.flow->hardening_modulus = hardening.isotropic;
+    set_hardening(*m.flow, {{"hardening_modulus", hardening.isotropic}});
   }
   if (hardening.kinematic > 0) {
     m.flow->kinematic = material::KinematicHardening::linear;

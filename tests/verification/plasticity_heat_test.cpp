@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling_bodies.hpp"
+#include "material/hardening.hpp"
 #include "plasticity_bodies.hpp"
 
 namespace solidus {
@@ -82,9 +83,9 @@ material::Material material_of(const Hardening& hardening) {
   material::Material m = verification::plastic_material(k_young, k_poisson, k_yield);
   if (hardening.saturation == k_yield && hardening.slope == 0) return m;
   m.flow->isotropic = material::IsotropicHardening::saturation;
-  m.flow->saturation_stress = hardening.saturation;
-  m.flow->saturation_rate = hardening.rate;
-  m.flow->hardening_modulus = hardening.slope;
+  set_hardening(*m.flow, {{"saturation_stress", hardening.saturation},
+                          {"saturation_rate", hardening.rate},
+                          {"hardening_modulus", hardening.slope}});
   return m;
 }
 

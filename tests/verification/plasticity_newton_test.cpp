@@ -12,6 +12,7 @@
 ///          ▒└───────┘▒
 #include <gtest/gtest.h>
 
+#include "material/hardening.hpp"
 #include "plasticity_bodies.hpp"
 
 namespace solidus {
@@ -50,9 +51,8 @@ Body block(const Element& element, Kind kind) {
   switch (kind) {
     case Kind::saturation:
       m.flow->isotropic = material::IsotropicHardening::saturation;
-      m.flow->saturation_stress = 5e8;
-      m.flow->saturation_rate = 50.0;
-      m.flow->hardening_modulus = 2e9;
+      set_hardening(*m.flow,
+                    {{"saturation_stress", 5e8}, {"saturation_rate", 50.0}, {"hardening_modulus", 2e9}});
       break;
     case Kind::prager:
       m.flow->kinematic = material::KinematicHardening::linear;
@@ -63,7 +63,7 @@ Body block(const Element& element, Kind kind) {
       m.flow->kinematic_modulus = 4e10;
       m.flow->recall = 200.0;
       m.flow->isotropic = material::IsotropicHardening::linear;
-      m.flow->hardening_modulus = 2e9;
+      set_hardening(*m.flow, {{"hardening_modulus", 2e9}});
       break;
     case Kind::perzyna:
       m.flow->viscosity = 1e12;
@@ -128,7 +128,7 @@ TEST(NewtonWithPlasticity, ConvergesAtSecondOrderInEveryElementAndHardening) {
 TEST(NewtonWithPlasticity, TakesFewIterationsForManyYieldStrains) {
   material::Material m = verification::plastic_material(1.5e10, 0.3, 3e6, 1.5e-5);
   m.flow->isotropic = material::IsotropicHardening::linear;
-  m.flow->hardening_modulus = 2e6;
+  set_hardening(*m.flow, {{"hardening_modulus", 2e6}});
   for (const Element& element : k_elements) {
     test::Lattice lattice{
         .shape = element.shape, .cells = {6, 6, 4}, .size = {0.1, 0.1, 0.1}, .distortion = 0.1};

@@ -7,6 +7,7 @@
 /// Armstrong–Frederick (K, recall r): the back stress of the uniaxial test is α = 3/2 q_xx with
 /// dα = K dp − r α |dp|, so it tends to K/r, and a stable cycle of the plastic range Δp has the amplitude
 /// K/r tanh(r Δp/2).
+#include "material/hardening.hpp"
 #include "point_paths.hpp"
 
 namespace solidus::verification {
@@ -20,7 +21,7 @@ material::Material combined() {
   m.flow.emplace();
   m.flow->flow_stress = k_flow_stress;
   m.flow->isotropic = material::IsotropicHardening::linear;
-  m.flow->hardening_modulus = k_iso;
+  set_hardening(*m.flow, {{"hardening_modulus", k_iso}});
   m.flow->kinematic = material::KinematicHardening::linear;
   m.flow->kinematic_modulus = k_kin;
   return m;

@@ -7,6 +7,7 @@
 ///   ξ̇ = √⅔ γ̇,  α̇ = K ṗ − r α ξ̇
 #include <random>
 
+#include "material/hardening.hpp"
 #include "point_paths.hpp"
 
 namespace solidus::verification {
@@ -26,8 +27,7 @@ material::Material sample() {
   material::Flow& f = m.flow.emplace();
   f.flow_stress = k_flow_stress;
   f.isotropic = material::IsotropicHardening::saturation;
-  f.saturation_stress = k_saturation;
-  f.saturation_rate = k_rate;
+  set_hardening(f, {{"saturation_stress", k_saturation}, {"saturation_rate", k_rate}});
   f.kinematic = material::KinematicHardening::armstrong_frederick;
   f.kinematic_modulus = k_kin;
   f.recall = k_recall;

@@ -1,5 +1,6 @@
 /// Paths on which temperature matters: a bar of σ_y(Θ) whose ends are held, heating by plastic shear, cooling
 /// by elastic strain, and the three models of the liquid on the way from melt to solid.
+#include "material/hardening.hpp"
 #include "point_paths.hpp"
 
 namespace solidus::verification {
@@ -45,7 +46,7 @@ TEST(PlasticShear, DissipatesRootTwoThirdsOfTheFlowStressTimesGamma) {
   m.flow.emplace();
   m.flow->flow_stress = 100e6;
   m.flow->isotropic = material::IsotropicHardening::linear;
-  m.flow->hardening_modulus = 1e9;
+  set_hardening(*m.flow, {{"hardening_modulus", 1e9}});
   const double rate = 0.01;
   const History h = run_all(m, {300, 300}, {segment(10, 100, {{3, strain_rate(rate)}})});
   for (std::size_t i = 50; i < h.records.size(); ++i) {

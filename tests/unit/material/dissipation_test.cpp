@@ -46,10 +46,14 @@ Material random_material(Random& random) {
   Flow& f = *m.flow;
   if (c.isotropic != IsotropicHardening::table) f.flow_stress = falling(random, decades(random, 6, 9));
   const double young = m.young_modulus.max_value();
-  f.saturation_stress = Table({300, 1100}, {f.flow_stress.value(300) * uniform(random, 1, 3),
-                                            f.flow_stress.value(1100) * uniform(random, 1, 3)});
-  f.saturation_rate = any_way(random, decades(random, 0, 3));
-  f.hardening_modulus = falling(random, young * decades(random, -4, -1));
+  const Table saturation({300, 1100}, {f.flow_stress.value(300) * uniform(random, 1, 3),
+                                       f.flow_stress.value(1100) * uniform(random, 1, 3)});
+  const Table rate = any_way(random, decades(random, 0, 3));
+  set_hardening(f, {{"hardening_modulus", falling(random, young * decades(random, -4, -1))},
+                    {"saturation_stress", saturation},
+                    {"saturation_rate", rate},
+                    {"reference_strain", Table({300, 1000}, {1e-3, 2e-3})},
+                    {"hardening_exponent", Table({300, 1000}, {0.25, 0.15})}});
   if (c.kinematic != KinematicHardening::none)
     f.kinematic_modulus = falling(random, young * decades(random, -4, -1));
   return m;

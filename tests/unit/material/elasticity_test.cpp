@@ -2,17 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
 #include <cmath>
-#include <unsupported/Eigen/AutoDiff>  // needs Core before it
 
+#include "dual.hpp"
 #include "sample_material.hpp"
 #include "structural_state.hpp"
 
 namespace solidus::material {
 namespace {
 
-using Ad = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
+using Ad = test::Dual<double, 1>;
 Ad variable(double x) {
   return {x, 1, 0};
 }

@@ -30,11 +30,11 @@ inline Material flow_material(const FlowCase& c) {
   Flow& f = m.flow.emplace();
   f.flow_stress = Table({300, 900}, {120e6, 60e6});
   f.isotropic = c.isotropic;
-  f.hardening_modulus = 1e9;
-  f.saturation_stress = Table({300, 900}, {220e6, 100e6});
-  f.saturation_rate = 50;
-  f.reference_strain = 1e-3;
-  f.hardening_exponent = 0.2;
+  set_hardening(f, {{"hardening_modulus", 1e9},
+                    {"saturation_stress", Table({300, 900}, {220e6, 100e6})},
+                    {"saturation_rate", 50},
+                    {"reference_strain", 1e-3},
+                    {"hardening_exponent", 0.2}});
   if (c.isotropic == IsotropicHardening::table)
     f.curves =
         FlowCurves({0, 2e-3, 0.01, 0.05}, {300, 900}, {120e6, 150e6, 200e6, 230e6, 60e6, 70e6, 95e6, 110e6});
@@ -92,9 +92,16 @@ Viscoplastic::Properties<T> convert(const Viscoplastic::Properties<From>& p) {
   const PointProperties<From>& e = p.elastic;
   const FlowProperties<From>& f = p.flow;
   return {{T(e.bulk), T(e.shear), T(e.thermal_strain), T(e.solid_fraction), T(e.viscosity)},
-          {T(f.flow_stress), T(f.hardening_origin), T(f.saturation_stress), T(f.saturation_rate),
-           T(f.hardening_modulus), T(f.reference_strain), T(f.hardening_exponent), T(f.kinematic_modulus),
-           T(f.recall), T(f.viscosity), T(f.exponent), T(f.drag_stress), T(f.temperature), T(f.beyond)}};
+          {T(f.flow_stress),
+           T(f.hardening_origin),
+           {T(f.hardening[0]), T(f.hardening[1]), T(f.hardening[2]), T(f.hardening[3])},
+           T(f.kinematic_modulus),
+           T(f.recall),
+           T(f.viscosity),
+           T(f.exponent),
+           T(f.drag_stress),
+           T(f.temperature),
+           T(f.beyond)}};
 }
 
 /// ‖s − w q‖ − w √⅔ (σ_0 + K_ξ) at a state (2.106, 2.107).

@@ -6,6 +6,7 @@
 
 #include "base/document.hpp"
 #include "base/key_docs.hpp"
+#include "material/hardening.hpp"
 #include "material/library.hpp"
 
 namespace solidus::material {
@@ -81,7 +82,7 @@ TEST(FlowInput, ReadsLinearHardening) {
 hardening_modulus = "500 MPa")")
                       .flow;
   EXPECT_EQ(f.isotropic, IsotropicHardening::linear);
-  EXPECT_DOUBLE_EQ(f.hardening_modulus.value(300), 500e6);
+  EXPECT_DOUBLE_EQ(f.hardening[LinearHardening::modulus].value(300), 500e6);
 }
 
 TEST(FlowInput, ReadsSaturationWithAndWithoutALinearPart) {
@@ -91,10 +92,10 @@ saturation_rate = 12
 )";
   const Flow f = *with_flow(keys + "hardening_modulus = \"5 MPa\"").flow;
   EXPECT_EQ(f.isotropic, IsotropicHardening::saturation);
-  EXPECT_DOUBLE_EQ(f.saturation_stress.value(300), 110e6);
-  EXPECT_DOUBLE_EQ(f.saturation_rate.value(300), 12);
-  EXPECT_DOUBLE_EQ(f.hardening_modulus.value(300), 5e6);
-  EXPECT_EQ(with_flow(keys).flow->hardening_modulus.value(300), 0);
+  EXPECT_DOUBLE_EQ(f.hardening[Voce::saturation_stress].value(300), 110e6);
+  EXPECT_DOUBLE_EQ(f.hardening[Voce::saturation_rate].value(300), 12);
+  EXPECT_DOUBLE_EQ(f.hardening[Voce::hardening_modulus].value(300), 5e6);
+  EXPECT_EQ(with_flow(keys).flow->hardening[Voce::hardening_modulus].value(300), 0);
 }
 
 TEST(FlowInput, ReadsThePowerLaw) {
@@ -103,8 +104,8 @@ reference_strain = "0.1 percent"
 hardening_exponent = 0.2)")
                       .flow;
   EXPECT_EQ(f.isotropic, IsotropicHardening::power);
-  EXPECT_DOUBLE_EQ(f.reference_strain.value(300), 1e-3);
-  EXPECT_DOUBLE_EQ(f.hardening_exponent.value(300), 0.2);
+  EXPECT_DOUBLE_EQ(f.hardening[Swift::reference_strain].value(300), 1e-3);
+  EXPECT_DOUBLE_EQ(f.hardening[Swift::exponent].value(300), 0.2);
 }
 
 const std::string k_curves = R"(isotropic_hardening = "table"

@@ -2,15 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
-#include <unsupported/Eigen/AutoDiff>  // needs Core before it
-
+#include "dual.hpp"
 #include "flow_cases.hpp"
 
 namespace solidus::material::test {
 namespace {
 
-using Ad = Eigen::AutoDiffScalar<Eigen::Matrix<double, 2, 1>>;  // by ξ and Θ
+using Ad = test::Dual<double, 2>;  // by ξ and Θ
 
 constexpr double k_strains[] = {0, 1e-9, 1e-4, 3e-3, 0.02, 0.3};
 

@@ -5,14 +5,13 @@
 
 #include <numbers>
 
+#include "laws_on_duals.hpp"
 #include "material/free_energy.hpp"
 #include "material/time_integration.hpp"
 #include "thermal_cases.hpp"
 
 namespace solidus::material::test {
 namespace {
-
-using Ad = Eigen::AutoDiffScalar<Eigen::Matrix<double, 6, 1>>;
 
 struct Update {
   Isentropic::Properties<double> properties;
@@ -232,7 +231,7 @@ TEST(Isentropic, StoredEnergyOfHardeningCoolsWhereItsStressFallsWithTemperature)
   m.poisson_ratio = 0.3;
   m.expansion = 0.0;
   m.flow->flow_stress = 100e6;
-  m.flow->hardening_modulus = Table({300, 1300}, {10e9, 0});
+  m.flow->hardening[LinearHardening::modulus] = Table({300, 1300}, {10e9, 0});
   const Isentropic law(m);
   const double theta = 400, shear = 0.1;
   const auto [p, r] = step(law, theta, {}, {}, {{0, 0, 0, 0.5 * shear, 0, 0}}, 1.0);
@@ -319,7 +318,7 @@ TEST(Isentropic, AnUnreachableEntropyIsOutsideTheRange) {
 
 TEST(Isentropic, AHardeningModulusThatIsAllButGoneLeavesItsRange) {
   Material m = varying_material({IsotropicHardening::linear, KinematicHardening::linear});
-  m.flow->hardening_modulus = m.flow->kinematic_modulus = Table({300, 700}, {4e8, 0});
+  m.flow->hardening[LinearHardening::modulus] = m.flow->kinematic_modulus = Table({300, 700}, {4e8, 0});
   const Isentropic law(m);
   const Sym<double> strain{{-4e-4, -4e-4, -4e-4, 5e-4, 0, 0}};
   for (const double below : {1e-12, 1e-6, 0.1}) {

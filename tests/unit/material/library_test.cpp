@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "base/document.hpp"
+#include "material/hardening.hpp"
 
 namespace solidus::material {
 namespace {
@@ -317,7 +318,8 @@ TEST_F(MaterialOnDisk, AnotherKindDropsTheKeysOfTheOldOneButNotOfItsChildren) {
   const Flow fast = *load_material(folder_ / "fast.toml", k_library).flow;
   EXPECT_TRUE(fast.rate_independent());
   EXPECT_EQ(fast.isotropic, IsotropicHardening::linear);
-  EXPECT_EQ(fast.saturation_stress.value(300), 0);
+  EXPECT_EQ(fast.hardening[LinearHardening::modulus].value(300), 100e6);
+  EXPECT_EQ(fast.hardening[1].value(300), 0);
   EXPECT_GT(fast.flow_stress.value(300), 0);
   write("wrong.toml", "like = \"fast.toml\"\n[plasticity]\nsaturation_rate = 3\n");
   try {

@@ -53,11 +53,12 @@ struct Posed {
       return uniform(random, 0, 1) < 0.15 ? 0.0 : decades(random, low, high);
     };
     flow.flow_stress = flow.hardening_origin = decades(random, 3, 9);
-    flow.saturation_stress = flow.flow_stress + zero_or(0, 9);
-    flow.saturation_rate = decades(random, -1, 4);
-    flow.hardening_modulus = zero_or(0, 11);
-    flow.reference_strain = decades(random, -6, -1);
-    flow.hardening_exponent = uniform(random, 0, 1);
+    const double saturation = flow.flow_stress + zero_or(0, 9), rate = decades(random, -1, 4);
+    const double modulus = zero_or(0, 11);
+    const double reference = decades(random, -6, -1), exponent = uniform(random, 0, 1);
+    if (isotropic == IsotropicHardening::linear) flow.hardening = {modulus};
+    if (isotropic == IsotropicHardening::saturation) flow.hardening = {saturation, rate, modulus};
+    if (isotropic == IsotropicHardening::power) flow.hardening = {reference, exponent};
     flow.kinematic_modulus = recalls ? decades(random, 3, 11) : zero_or(3, 11);
     flow.recall = recalls ? decades(random, -1, 4) : 0;
     flow.exponent = uniform(random, 0, 1) < 0.2 ? 1.0 : decades(random, 0, std::log10(50.0));
@@ -112,11 +113,8 @@ struct Copy {
     using P = const Posed&;
     flow.flow_stress = gather([](P p) { return p.flow.flow_stress; });
     flow.hardening_origin = gather([](P p) { return p.flow.hardening_origin; });
-    flow.saturation_stress = gather([](P p) { return p.flow.saturation_stress; });
-    flow.saturation_rate = gather([](P p) { return p.flow.saturation_rate; });
-    flow.hardening_modulus = gather([](P p) { return p.flow.hardening_modulus; });
-    flow.reference_strain = gather([](P p) { return p.flow.reference_strain; });
-    flow.hardening_exponent = gather([](P p) { return p.flow.hardening_exponent; });
+    for (std::size_t i = 0; i < k_hardening_parameters; ++i)
+      flow.hardening[i] = gather([i](P p) { return p.flow.hardening[i]; });
     flow.kinematic_modulus = gather([](P p) { return p.flow.kinematic_modulus; });
     flow.recall = gather([](P p) { return p.flow.recall; });
     flow.viscosity = gather([](P p) { return p.flow.viscosity; });

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "material/hardening.hpp"
+
 namespace solidus::material {
 namespace {
 
@@ -17,15 +19,14 @@ TEST(Tensile, TheStressIsTheFlowStressWithItsHardening) {
   Flow flow = plain();
   EXPECT_DOUBLE_EQ(tensile_stress(flow, 0.1, 600), 40e6);
   flow.isotropic = IsotropicHardening::linear;
-  flow.hardening_modulus = 500e6;
+  flow.hardening[LinearHardening::modulus] = 500e6;
   EXPECT_DOUBLE_EQ(tensile_stress(flow, 0.1, 600), 90e6);
   flow.isotropic = IsotropicHardening::saturation;
-  flow.saturation_stress = 140e6;
-  flow.saturation_rate = 10;
+  set_hardening(flow,
+                {{"saturation_stress", 140e6}, {"saturation_rate", 10.0}, {"hardening_modulus", 500e6}});
   EXPECT_NEAR(tensile_stress(flow, 0.1, 600), 40e6 + 100e6 * (1 - std::exp(-1)) + 50e6, 1e-6);
   flow.isotropic = IsotropicHardening::power;
-  flow.reference_strain = 0.01;
-  flow.hardening_exponent = 0.3;
+  set_hardening(flow, {{"reference_strain", 0.01}, {"hardening_exponent", 0.3}});
   EXPECT_NEAR(tensile_stress(flow, 0.1, 600), 40e6 * std::pow(11, 0.3), 1e-6);
   flow.isotropic = IsotropicHardening::table;
   flow.curves = FlowCurves({0, 0.2}, {300, 900}, {60e6, 100e6, 20e6, 20e6});

@@ -2,11 +2,9 @@
 /// thermodynamics.
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unsupported/Eigen/AutoDiff>  // needs Core before it
 
 #include "flow_cases.hpp"
 
@@ -23,10 +21,11 @@ inline Material varying_material(const FlowCase& c) {
   m.phase_changes.push_back({"transformation", PhaseFraction::linear(700, 760), 2e4, 0.01, false});
   Flow& f = *m.flow;
   const auto falls = [](double cold, double hot) { return Table({300, 1000}, {cold, hot}); };
-  f.hardening_modulus = falls(2e9, 0.5e9);
-  f.saturation_rate = falls(40, 70);
-  f.reference_strain = falls(1e-3, 2e-3);
-  f.hardening_exponent = falls(0.25, 0.15);
+  set_hardening(f, {{"hardening_modulus", falls(2e9, 0.5e9)},
+                    {"saturation_stress", Table({300, 900}, {220e6, 100e6})},
+                    {"saturation_rate", falls(40, 70)},
+                    {"reference_strain", falls(1e-3, 2e-3)},
+                    {"hardening_exponent", falls(0.25, 0.15)}});
   if (c.kinematic != KinematicHardening::none) f.kinematic_modulus = falls(6e9, 2e9);
   if (c.kinematic == KinematicHardening::armstrong_frederick) f.recall = falls(80, 150);
   f.viscosity = falls(c.viscosity, 0.3 * c.viscosity);

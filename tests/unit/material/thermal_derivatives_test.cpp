@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "long_dual.hpp"
+#include "dual.hpp"
 #include "material/free_energy.hpp"
 #include "material/structural_partials.hpp"
 #include "structural_state.hpp"
@@ -35,11 +35,8 @@ Viscoplastic::Properties<Ad> properties(const Viscoplastic& law, const Ad& theta
                reseeded(e.viscosity)};
   r.flow = {reseeded(f.flow_stress),
             reseeded(f.hardening_origin),
-            reseeded(f.saturation_stress),
-            reseeded(f.saturation_rate),
-            reseeded(f.hardening_modulus),
-            reseeded(f.reference_strain),
-            reseeded(f.hardening_exponent),
+            {reseeded(f.hardening[0]), reseeded(f.hardening[1]), reseeded(f.hardening[2]),
+             reseeded(f.hardening[3])},
             reseeded(f.kinematic_modulus),
             reseeded(f.recall),
             reseeded(f.viscosity),

@@ -1,16 +1,15 @@
 #include "material/viscoelastic.hpp"
+#include "dual.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
 #include <cmath>
 #include <random>
-#include <unsupported/Eigen/AutoDiff>  // needs Core before it
 
 namespace solidus::material {
 namespace {
 
-using Ad = Eigen::AutoDiffScalar<Eigen::Matrix<double, 6, 1>>;
+using Ad = test::Dual<double, 6>;
 
 PointProperties<double> point(double solid_fraction, double viscosity) {
   return {60e9, 10e9, -0.01, solid_fraction, viscosity};

@@ -1,16 +1,13 @@
 /// The tangent of the viscoplastic law against automatic differentiation of its stress.
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <unsupported/Eigen/AutoDiff>  // needs Core before it
 
 #include "flow_cases.hpp"
+#include "laws_on_duals.hpp"
 
 namespace solidus::material::test {
 namespace {
-
-using Ad = Eigen::AutoDiffScalar<Eigen::Matrix<double, 6, 1>>;
 
 // Solid, almost solid, mushy, almost liquid, liquid: f_S = 1, 1 − 1e-12, ½, 1e-12, 0.
 constexpr double k_temperatures[] = {400, 880 + 5e-11, 905, 930 - 5e-11, 950};

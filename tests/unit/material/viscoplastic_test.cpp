@@ -273,7 +273,9 @@ TEST(Viscoplastic, WithoutStressStrengthOrStiffnessTheAnswerIsFinite) {
               EXPECT_TRUE(finite(law.update(p, {}, strain, 0.1)));
               (liquid == LiquidModel::maxwell ? p.elastic.viscosity : p.elastic.shear) = 0;  // 2Ĝ = 0
               EXPECT_TRUE(finite(law.update(p, {}, strain, 0.1)));
-              p.flow.kinematic_modulus = p.flow.hardening_modulus = 0;
+              p.flow.kinematic_modulus = 0;
+              if (isotropic == IsotropicHardening::linear) p.flow.hardening[LinearHardening::modulus] = 0;
+              if (isotropic == IsotropicHardening::saturation) p.flow.hardening[Voce::hardening_modulus] = 0;
               EXPECT_TRUE(finite(law.update(p, {}, strain, 0.1)));
             }
 }

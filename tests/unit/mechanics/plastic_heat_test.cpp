@@ -3,6 +3,7 @@
 
 #include "heated.hpp"
 #include "material/free_energy.hpp"
+#include "material/hardening.hpp"
 #include "mechanics/structural_heat.hpp"
 #include "plastic_material.hpp"
 
@@ -22,8 +23,11 @@ material::Material material_of(material::IsotropicHardening isotropic, Kinematic
   m.expansion = Table({300, 500}, {1.0e-5, 1.4e-5});
   m.flow->isotropic = isotropic;
   if (kinematic == KinematicHardening::none) m.flow->kinematic_modulus = 0.0;
-  m.flow->reference_strain = 1e-3;
-  m.flow->hardening_exponent = Table({300, 500}, {0.3, 0.2});
+  set_hardening(*m.flow, {{"saturation_stress", Table({300, 500}, {9e7, 5e7})},
+                          {"saturation_rate", 200.0},
+                          {"hardening_modulus", Table({300, 500}, {1e9, 7e8})},
+                          {"reference_strain", 1e-3},
+                          {"hardening_exponent", Table({300, 500}, {0.3, 0.2})}});
   m.flow->viscosity = 0.0;
   return m;
 }
@@ -85,8 +89,8 @@ TEST(PlasticHeat, TheTangentIsTheDerivativeOfTheResidual) {
 
 TEST(PlasticHeat, AtFixedTemperatureOfConstantPropertiesTheHeatReleasedIsTheDissipation) {
   material::Material m = test::plastic_material();
-  for (Table* table : {&m.flow->flow_stress, &m.flow->saturation_stress, &m.flow->hardening_modulus,
-                       &m.flow->kinematic_modulus})
+  for (Table* table : {&m.flow->flow_stress, &m.flow->hardening[material::Voce::saturation_stress],
+                       &m.flow->hardening[material::Voce::hardening_modulus], &m.flow->kinematic_modulus})
     *table = table->value(300);
   m.expansion = 0.0;
   const Pulled p(m);

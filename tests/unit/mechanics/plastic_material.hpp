@@ -2,6 +2,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "material/laws/hardening_law.hpp"
 
 namespace solidus::test {
 
@@ -13,9 +14,9 @@ inline material::Material plastic_material(
   material::Flow flow;
   flow.flow_stress = Table({300, 500}, {4e7, 2e7});
   flow.isotropic = material::IsotropicHardening::saturation;
-  flow.saturation_stress = Table({300, 500}, {9e7, 5e7});
-  flow.saturation_rate = 200.0;
-  flow.hardening_modulus = Table({300, 500}, {1e9, 7e8});
+  set_hardening(flow, {{"saturation_stress", Table({300, 500}, {9e7, 5e7})},
+                       {"saturation_rate", 200.0},
+                       {"hardening_modulus", Table({300, 500}, {1e9, 7e8})}});
   flow.kinematic = kinematic;
   flow.kinematic_modulus = Table({300, 500}, {2e10, 1.6e10});
   flow.recall = 300.0;
