@@ -14,7 +14,7 @@ import sys
 from solidus_plots import automatic, curves, graphs, maps, measured, overview, point, sections, style, surfaces
 from solidus_plots.history import read_table
 from solidus_plots.moments import Moments
-from solidus_plots.plots_file import find_spec, read_spec, star
+from solidus_plots.plots_file import Mistake, find_spec, read_spec, star
 from solidus_plots.probes import read_points
 from solidus_plots.vtu import ResultError, read_collection
 
@@ -129,4 +129,4 @@ def main(arguments=None):
         print(file)
     for problem in problems:
         print(f"solidus_plots: not drawn: {problem}", file=sys.stderr)
-    return 0
+    return 1 if any(isinstance(problem, Mistake) for problem in problems) else 0

@@ -29,6 +29,10 @@ AUTOMATIC = {"draw", "niyama"}  # of the section of pictures that nobody asked f
 NEEDS = {"surfaces": {"clip_bodies": "clip", **dict.fromkeys(FIELD_KEYS - {"field"}, "field")}}
 
 
+class Mistake(str):
+    """What is wrong with a plots.toml, in words."""
+
+
 def _number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
@@ -91,7 +95,7 @@ def read_spec(path):
     try:
         wanted = tomllib.loads(path.read_text())
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        return {}, [f"{path}: {error}"]
+        return {}, [Mistake(f"{path}: {error}")]
     spec, mistakes = {}, []
     for section, pictures in wanted.items():
         try:
@@ -104,7 +108,7 @@ def read_spec(path):
             if not _all(pictures, _table):
                 raise ResultError(f"{path}: '{section}' is a list of pictures; write [[{section}]]")
         except ResultError as error:
-            mistakes.append(str(error))
+            mistakes.append(Mistake(error))
             continue
         spec[section] = []
         for picture in pictures:
@@ -112,7 +116,7 @@ def read_spec(path):
                 _check_picture(path, section, picture)
                 spec[section].append(picture)
             except ResultError as error:
-                mistakes.append(str(error))
+                mistakes.append(Mistake(error))
     return spec, mistakes
 
 

@@ -69,9 +69,20 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   inherited.push_back("PYTHONPATH=" + path);
   inherited.push_back("SOLIDUS_PROGRAM=" + fs::read_symlink("/proc/self/exe").string());
   std::vector<char*> argv = pointers(command), envp = pointers(inherited);
+  // Ctrl-C is for the child, which may have runs to stop first: this program waits for it.
+  std::signal(SIGINT, SIG_IGN);
+  sigset_t by_default;
+  sigemptyset(&by_default);
+  sigaddset(&by_default, SIGINT);
+  sigaddset(&by_default, SIGPIPE);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigdefault(&attributes, &by_default);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t child = 0;
-  if (const int error = posix_spawnp(&child, python.c_str(), nullptr, nullptr, argv.data(), envp.data());
-      error != 0)
+  const int error = posix_spawnp(&child, python.c_str(), nullptr, &attributes, argv.data(), envp.data());
+  posix_spawnattr_destroy(&attributes);
+  if (error != 0)
     throw InputError({}, fmt::format("'{}' cannot be started: {}", python, std::strerror(error)),
                      "a Python with numpy and matplotlib; SOLIDUS_PYTHON names another one");
   int status = 0;

@@ -15,7 +15,7 @@ from fragments import fits
 from pages import blocks, commands, is_pattern
 from program import SOURCES, ProgramTest, solidus
 from solidus_plots.plots_file import read_spec
-#from solidus_plots.study import read_study
+from solidus_plots.study_file import read_study
 
 PAGES = [SOURCES / "README.md", *sorted((SOURCES / "docs/guide").glob("*.md"))]
 DEV = {"help"} | set(re.findall(r"^  (\w+) ", subprocess.run([SOURCES / "dev", "help"], capture_output=True, text=True,
@@ -108,7 +108,7 @@ class Guide(ProgramTest):
                     if page.name == "plots.md":
                         self.assertEqual(read_spec(self.write("plots.toml", block.text))[1], [])
                     elif page.name == "study.md":
-                        pass  #                         read_study(self.write("study.toml", block.text))
+                        read_study(self.write("study.toml", block.text))
                     else:
                         self.assertEqual(fits(fragment, schemas()), [])
         self.assertGreater(count, 40)
