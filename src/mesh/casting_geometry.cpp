@@ -9,6 +9,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/reader_process.hpp"
 #include "mesh/shape.hpp"
+#include "mesh/smoothing.hpp"
 
 namespace solidus::mesh {
 
@@ -46,6 +47,7 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
   for (geometry.attempt = 0; geometry.attempt < n_meshing_attempts(); ++geometry.attempt) {
     try {
       RawMesh mesh = read_in_one_way(source, &geometry);
+      if (enough > 0 && source.element_order == 1) smooth_poor_tetrahedra(mesh);
       const double quality = least_quality(mesh);
       if (quality > best_quality) {
         best = std::move(mesh);

@@ -12,13 +12,13 @@ namespace solidus::mesh {
 
 /// All that are given hold together.
 struct FaceRule {
-  std::string name;                         ///< of the group that is made
-  std::string owner;                        ///< a body; empty: any
-  std::optional<Point> normal;              ///< outward, of any length > 0
-  double angle = 0;                         ///< between it and a face's normal, at most [rad]
-  std::optional<Point> plane;               ///< a point of the plane in which faces lie [m], with `normal`
-  std::optional<std::array<Point, 2>> box;  ///< corners; faces lie inside [m]
-  std::optional<Point> nearest;             ///< [m]; of what the others leave the smooth part nearest to it
+  std::string name = {};             ///< of the group that is made
+  std::string owner = {};            ///< a body; empty: any
+  std::optional<Point> normal = {};  ///< outward, of any length > 0
+  double angle = 0;                  ///< between it and a face's normal, at most [rad]
+  std::optional<Point> plane = {};   ///< a point of the plane in which faces lie [m], with `normal`
+  std::optional<std::array<Point, 2>> box = {};  ///< corners; faces lie inside [m]
+  std::optional<Point> nearest = {};  ///< [m]; of what the others leave the smooth part nearest to it
 };
 
 /// Makes the group of the faces of the bodies' skins for which the rule holds. Faces that two bodies share

@@ -186,6 +186,24 @@ std::vector<Point> sample_points(const SkinFace& face) {
   return points;
 }
 
+double area_of(const RawMesh& mesh, const std::string& surface) {
+  double area = 0;
+  const auto group = mesh.groups.find(surface);
+  if (group == mesh.groups.end() || group->second.dimension != mesh.dimension - 1) return area;
+  for (const RawBlock& block : group->second.blocks) {
+    const auto nn = static_cast<std::size_t>(node_count(block.shape)),
+               corners = static_cast<std::size_t>(vertex_count(block.shape));
+    for (std::size_t f = 0; f < block.nodes.size(); f += nn) {
+      SkinFace face;
+      for (std::size_t i = 0; i < corners; ++i)
+        face.corners.push_back(mesh.x[static_cast<std::size_t>(block.nodes[f + i])]);
+      measure(face);
+      area += face.area;
+    }
+  }
+  return area;
+}
+
 void add_surface(RawMesh& mesh, const std::string& name, const std::vector<const SkinFace*>& faces,
                  const std::string& source) {
   if (mesh.groups.contains(name))

@@ -61,6 +61,9 @@ class FaceSearch {
 /// Points spread over a face, each standing for an equal part of its area.
 std::vector<Point> sample_points(const SkinFace& face);
 
+/// The area of a surface group; zero where the mesh has none of this name [m²].
+double area_of(const RawMesh& mesh, const std::string& surface);
+
 /// Adds a surface group of these faces. Throws InputError where the mesh has a group of this name.
 /// @param source  for the message: the file or shape of the mesh
 void add_surface(RawMesh& mesh, const std::string& name, const std::vector<const SkinFace*>& faces,

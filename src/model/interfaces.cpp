@@ -9,6 +9,7 @@
 #include "base/log.hpp"
 #include "material/library.hpp"
 #include "mesh/face_rules.hpp"
+#include "mesh/skin.hpp"
 #include "model/case_materials.hpp"
 #include "model/interface_library.hpp"
 #include "model/roles.hpp"
@@ -169,6 +170,11 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
         1e4 * f.covered_a, 1e4 * f.area_a, 1e4 * f.covered_b, 1e4 * f.area_b, 1e3 * f.mean_gap,
         1e3 * f.largest_gap, 1e3 * f.distance);
   }
+  std::vector<std::string> free;
+  for (const std::string& body : names)
+    if (const double area = mesh::area_of(mesh, body + "_free"); area > 0)
+      free.push_back(fmt::format("{0} {1:.4g} cm2 ({0}_free)", body, 1e4 * area));
+  if (!free.empty()) logging::info("skins that face no other body: {}", fmt::join(free, ", "));
   for (std::size_t i = 0; i < spec.interfaces.size(); ++i) {
     const BodyInterfaceSpec& section = spec.interfaces[i];
     if (std::any_of(found.begin(), found.end(), [&](const FoundInterface& f) { return f.section == i; }))

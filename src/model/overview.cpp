@@ -68,6 +68,7 @@ std::string law_text(const ContactSpec& contact, const ContactMeasures& m, doubl
   if (std::abs(open - closed) > 0.01 * closed)
     text += fmt::format(", {:.3g} over a gap of {:.2g} mm", open, 1e3 * gap);
   if (law.radiation_factor() > 0) text += ", radiation";
+  if (!contact.law.empty()) text += fmt::format(" ({})", contact.law);
   return text;
 }
 

@@ -1,0 +1,165 @@
+/// Faces of bodies that face each other, nodes that bodies share, groups of faces by rule, and what is
+/// measured on geometries: thickness, inscribed spheres, sizes.
+#include "mesh/body_interfaces.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/errors.hpp"
+#include "mesh/face_rules.hpp"
+#include "mesh/hot_spots.hpp"
+#include "mesh/shapes.hpp"
+#include "mesh/size_field.hpp"
+#include "mesh/skin.hpp"
+#include "split_block.hpp"
+
+namespace solidus::mesh {
+namespace {
+
+using ::testing::HasSubstr;
+
+double area(const RawMesh& mesh, const std::string& group) {
+  double sum = 0;
+  for (const RawBlock& block : mesh.groups.at(group).blocks) {
+    const auto n = static_cast<std::size_t>(node_count(block.shape));
+    for (std::size_t f = 0; f < block.nodes.size(); f += n) {
+      const Point& a = mesh.x[static_cast<std::size_t>(block.nodes[f])];
+      const Point& b = mesh.x[static_cast<std::size_t>(block.nodes[f + 1])];
+      if (n == 2) {
+        sum += std::hypot(a[0] - b[0], a[1] - b[1]);
+        continue;
+      }
+      const Point& c = mesh.x[static_cast<std::size_t>(block.nodes[f + 2])];
+      const Point u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+      const double twice =
+          std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+      sum += vertex_count(block.shape) == 4 ? twice : twice / 2;
+    }
+  }
+  return sum;
+}
+
+// A block of 3 x 2 x 1 whose left third is one body, the rest another.
+TEST(BodyInterfaces, BodiesThatShareNodesAreSplitAndTheGroupsOfTheirFacesStayWithTheFirst) {
+  for (const Shape shape : {Shape::hex8, Shape::tet4, Shape::tet10}) {
+    RawMesh mesh = test::split_block(shape, {3, 2, 1}, {3, 2, 1}, 1);
+    const std::vector<std::string> bodies = {"left", "right"};
+    const std::size_t before = mesh.x.size();
+    const std::vector<SplitNodes> shared = shared_by(mesh, bodies);
+    ASSERT_EQ(shared.size(), 1U);
+    split_nodes(mesh, bodies, {{0, 1}});
+    EXPECT_EQ(mesh.x.size(), before + shared[0].nodes);
+    EXPECT_TRUE(shared_by(mesh, bodies).empty());
+    const std::vector<Facing> found = find_facing(mesh, bodies, {"a", "b"}, {{{0, 1}, 0}}, {}, "block");
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].covered_a, 2, 1e-12);
+    EXPECT_NEAR(found[0].covered_b, 2, 1e-12);
+    EXPECT_NEAR(found[0].largest_gap, 0, 1e-12);
+    EXPECT_NEAR(area(mesh, "a_to_b"), 2, 1e-12);
+    EXPECT_NEAR(area(mesh, "b_to_a"), 2, 1e-12);
+    EXPECT_NEAR(area(mesh, "a_free"), 2 + 2 * (2 + 1), 1e-12);
+    EXPECT_NEAR(area(mesh, "b_free"), 2 + 2 * 2 * (2 + 1), 1e-12);
+    // The group that was there before is one of the first body's faces.
+    for (const Index node : mesh.groups.at("between").blocks[0].nodes)
+      EXPECT_LT(static_cast<std::size_t>(node), before);
+    EXPECT_NO_THROW(validate_and_orient(mesh, "block"));
+  }
+}
+
+TEST(BodyInterfaces, FacesOfMeshesThatDoNotMatchAreFoundAcrossAGap) {
+  RawMesh mesh = make_two_blocks({{4, 4, 1}, {2, 2, 1}, {3, 3, 1}, {5, 5, 1}, 0.05}, Shape::hex8);
+  const std::vector<std::string> bodies = {"lower", "upper"};
+  EXPECT_TRUE(find_facing(mesh, bodies, {"p", "q"}, {{{0, 1}, 0.04}}, {}, "two blocks").empty());
+  const std::vector<Facing> found = find_facing(mesh, bodies, bodies, {{{0, 1}, 0.1}}, {}, "two blocks");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].covered_b, 4, 1e-12);  // the upper one's whole foot
+  EXPECT_NEAR(found[0].area_b, 4, 1e-12);
+  EXPECT_NEAR(found[0].covered_a, 4, 2);  // of coarse faces by points on them
+  EXPECT_NEAR(found[0].mean_gap, 0.05, 1e-12);
+  EXPECT_NEAR(area(mesh, "upper_to_lower"), 4, 1e-12);
+}
+
+TEST(BodyInterfaces, InThePlaneFacesAreLines) {
+  RawMesh mesh = make_two_blocks({{4, 1}, {4, 1}, {4, 1}, {3, 1}, 0}, Shape::quad4);
+  const std::vector<Facing> found =
+      find_facing(mesh, {"lower", "upper"}, {"lower", "upper"}, {{{0, 1}, 0}}, {}, "two blocks");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].covered_a, 4, 1e-12);
+  EXPECT_NEAR(found[0].covered_b, 4, 1e-12);
+}
+
+TEST(BodyInterfaces, WhatLiesInThePlaneOfACutIsNoFreeSkin) {
+  RawMesh mesh = test::split_block(Shape::hex8, {2, 1, 1}, {2, 1, 1}, 1);
+  split_nodes(mesh, {"left", "right"}, {{0, 1}});
+  find_facing(mesh, {"left", "right"}, {"left", "right"}, {{{0, 1}, 0}}, HalfSpace{1, 1.0}, "block");
+  EXPECT_NEAR(area(mesh, "left_symmetry"), 1, 1e-12);
+  EXPECT_NEAR(area(mesh, "left_free"), 4, 1e-12);
+}
+
+TEST(FaceRules, ChooseByOwnerNormalPlaneBoxAndNearestPlace) {
+  RawMesh mesh = make_two_blocks({{4, 4, 1}, {2, 2, 1}, {4, 4, 1}, {2, 2, 1}, 0.5}, Shape::tet4);
+  const std::vector<std::string> bodies = {"lower", "upper"};
+  const auto chosen = [&](FaceRule rule) {
+    rule.name = "chosen";
+    mesh.groups.erase("chosen");
+    add_faces_by_rule(mesh, bodies, rule, "two blocks");
+    return area(mesh, "chosen");
+  };
+  constexpr double k_degree = std::numbers::pi / 180;
+  EXPECT_NEAR(chosen({.name = "", .owner = "upper"}), 2 * 4 + 4 * 2, 1e-12);
+  EXPECT_NEAR(chosen({.name = "", .normal = Point{0, 0, 2}, .angle = 10 * k_degree}), 16 + 4, 1e-12);
+  EXPECT_NEAR(chosen({.name = "", .normal = Point{0, 0, 1}, .angle = 10 * k_degree, .plane = Point{9, 9, 1}}),
+              16, 1e-12);
+  EXPECT_NEAR(chosen({.name = "", .owner = "lower", .box = {{Point{0, 0, 0}, Point{4, 0, 1}}}}), 4, 1e-12);
+  EXPECT_NEAR(chosen({.name = "", .nearest = Point{2, 2, -3}}), 16, 1e-12);
+  try {
+    chosen({.name = "", .normal = Point{1, 1, 1}, .angle = k_degree});
+    FAIL() << "no face looks there";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no face of the mesh fits the rule of the group 'chosen'"));
+  }
+  EXPECT_THROW(chosen({.name = "", .owner = "uper"}), InputError);
+}
+
+TEST(FaceRules, PatchesTellAreaNormalAndNeighbours) {
+  const RawMesh mesh = make_block({{3, 2, 1}, {}, {3, 2, 1}}, Shape::hex8);
+  const std::vector<SkinPatch> patches = skin_patches(mesh, {"block"}, std::numbers::pi / 6);
+  ASSERT_EQ(patches.size(), 6U);
+  EXPECT_NEAR(patches[0].area, 6, 1e-12);
+  EXPECT_NEAR(std::abs(patches[0].normal[2]), 1, 1e-12);
+  EXPECT_EQ(patches[0].neighbours.size(), 4U);
+  EXPECT_THAT(to_text(patches), HasSubstr("block"));
+}
+
+TEST(HotSpots, ABlockHoldsASphereOfItsLeastSideAndItsWallsAreAsThickAsItsSides) {
+  const RawMesh mesh = make_block({{3, 2, 1}, {}, {9, 6, 3}}, Shape::tet4);
+  const std::vector<InscribedSphere> spheres = inscribed_spheres(mesh, {"block"}, 3);
+  ASSERT_FALSE(spheres.empty());
+  EXPECT_NEAR(spheres[0].radius, 0.5, 0.01);
+  const std::vector<double> thickness = thickness_by_area(mesh, "block");
+  EXPECT_NEAR(thickness.front(), 1, 1e-9);  // 12 of 22 of its skin
+  EXPECT_NEAR(thickness[50], 1, 1e-9);
+  EXPECT_NEAR(thickness.back(), 3, 1e-9);
+  const BodyExtent extent = extent_of(mesh, "block");
+  EXPECT_NEAR(extent.volume, 6, 1e-12);
+  EXPECT_NEAR(extent.area, 22, 1e-12);
+  EXPECT_NEAR(extent.centre[0], 1.5, 1e-12);
+  EXPECT_NEAR(top_above(mesh, {"block"}, {1.5, 1, 0.2}), 1, 1e-12);
+}
+
+TEST(SizeField, GrowsWithTheDistanceFromSmallElements) {
+  const std::array<Point, 3> corner = {Point{0, 0, 0}, Point{0, 0, 0}, Point{0, 0, 0}};
+  const SizeField field({0, 0, 0}, {10, 10, 10}, {{corner, 0.1}}, 0.5, 50);
+  EXPECT_NEAR(field.at({0.05, 0.05, 0.05}), 0.1, 1e-12);
+  for (const double d : {2.0, 5.0, 9.0}) {
+    EXPECT_NEAR(field.at({d, 0, 0}), 0.1 + 0.5 * d, 0.15);
+    // Along the axes and the diagonals of cells distances are exact, between them 9 % too long at most.
+    EXPECT_NEAR(field.at({d, d / 2, 0}), 0.1 + 0.5 * d * std::sqrt(1.25), 0.05 * d + 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace solidus::mesh
