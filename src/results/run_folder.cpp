@@ -92,6 +92,14 @@ bool is_field_file(std::string_view name) {
          (name == "fields" || (name.starts_with("surface_") && name.size() > 8));
 }
 
+/// A report of our own, by its second line: one that another program wrote stays.
+bool is_report(const fs::path& file) {
+  std::ifstream page(file);
+  std::string line;
+  return std::getline(page, line) && std::getline(page, line) &&
+         line.starts_with("<!-- Written by Solidus: a report.");
+}
+
 // Checkpoints first: a run that is killed in between must not seem to have one.
 void remove_old(const fs::path& root, const std::vector<std::string>& tables) {
   for (const char* name : {"state.h5", "previous.h5", "state.h5.part"})
@@ -102,6 +110,8 @@ void remove_old(const fs::path& root, const std::vector<std::string>& tables) {
     if (!fs::is_symlink(root / name)) fs::remove(root / name);
     fs::remove(root / (name + ".part"));
   }
+  if (is_report(root / "report.html") && !fs::is_symlink(root / "report.html"))
+    fs::remove(root / "report.html");
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(root / "fields"))
     if (is_field_file(entry.path().filename().string())) old.push_back(entry.path());

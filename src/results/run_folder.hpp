@@ -21,6 +21,7 @@ bool is_finished(const std::filesystem::path& folder);
 /// history.csv   probes and globals     steps.csv  every step     summary.json  how it went
 /// fields.pvd    the fields over time   fields/    the field files   checkpoint/  to go on from
 /// pools.csv     pools of melt, where something can freeze
+/// report.html   the page that `solidus report` wrote; a new run takes it away
 /// ```
 class RunFolder {
  public:

@@ -561,9 +561,10 @@ export class Workbench {
 
   private onlyPart(part: Part): void {
     const o = this.choice.only;
-    const on = h("input", { type: "checkbox", id: "only", change: () => this.change((c) => {
+    const on = h("input", { type: "checkbox", id: "only", change: () => this.change(() => {
       o.on = on.checked;
-      if (o.on) [o.low, o.high] = [c.low + 0.5 * (c.high - c.low), c.high];
+      const view = this.stages[0].view, [low, high] = view.field?.rangeAt(this.shownBodies(view.run), view.moment) ?? [0, 1];
+      if (o.on) [o.low, o.high] = [low + 0.5 * (high - low), high];
     }) });
     const low = h("input", { type: "range", min: 0, max: 500, "aria-label": "Least value shown", id: "onlylow" });
     const high = h("input", { type: "range", min: 0, max: 500, "aria-label": "Greatest value shown" });

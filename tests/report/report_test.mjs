@@ -1,0 +1,295 @@
+// Reports of small runs in headless Chromium: node report_test.mjs PROGRAM FOLDER.
+// Each check is a sentence; the last line counts them.
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { inflateSync } from "node:zlib";
+import { Browser } from "./browser.mjs";
+
+const program = resolve(process.argv[2]), folder = resolve(process.argv[3]);
+let passed = 0, failed = 0;
+function check(sentence, holds, detail = "") {
+  holds ? ++passed : ++failed;
+  console.log(`${holds ? "ok  " : "FAIL"} ${sentence}${holds ? "" : `: ${JSON.stringify(detail)}`}`);
+}
+function solidus(...args) {
+  const run = spawnSync(program, args, { encoding: "utf8", cwd: folder, timeout: 120000 });
+  return { code: run.status, text: run.stdout + run.stderr };
+}
+
+const METAL = `title = "A metal that melts"
+[density]
+value = "2700 kg/m3"
+[conductivity]
+value = "150 W/m/K"
+[specific_heat]
+value = "1000 J/kg/K"
+[young_modulus]
+value = "70 GPa"
+[poisson_ratio]
+value = 0.3
+[expansion]
+value = "2e-5 1/K"
+source = "a test"
+[[phase_change]]
+name = "solidification"
+latent_heat = "390 kJ/kg"
+solidification = true
+[phase_change.fraction]
+kind = "linear"
+solidus = "560 degC"
+liquidus = "610 degC"
+`;
+const block = (title) => `title = ${JSON.stringify(title)}
+[analysis]
+kind = "solid"
+physics = "heat"
+[mesh]
+shape = "block"
+element = "hex8"
+[mesh.block]
+size = ["60 mm", "40 mm", "30 mm"]
+divisions = [8, 6, 5]
+[time]
+end = "200 s"
+step = "5 s"
+[[body]]
+name = "casting"
+group = "block"
+material = "metal.toml"
+initial_temperature = "650 degC"
+[[thermal_condition]]
+name = "wall"
+group = "x_min"
+kind = "film"
+coefficient = "1500 W/m2/K"
+ambient = "20 degC"
+[[probe]]
+name = "T_middle"
+field = "temperature"
+point = ["30 mm", "20 mm", "15 mm"]
+unit = "degC"
+[output]
+every = "40 s"
+`;
+const TITLE = "A <b>block</b> </script><script>document.title='taken'</script><img src=x onerror=alert(1)> & \"more\"";
+
+/** RGB of the pixels of a PNG of 8 bits without interlace, as Chromium writes it. */
+function pixels(png) {
+  let at = 8, width = 0, height = 0, channels = 3;
+  const data = [];
+  while (at < png.length) {
+    const n = png.readUInt32BE(at), type = png.toString("latin1", at + 4, at + 8), body = png.subarray(at + 8, at + 8 + n);
+    if (type === "IHDR") [width, height, channels] = [body.readUInt32BE(0), body.readUInt32BE(4), body[9] === 6 ? 4 : 3];
+    if (type === "IDAT") data.push(body);
+    at += n + 12;
+  }
+  const raw = inflateSync(Buffer.concat(data)), row = width * channels, out = Buffer.alloc(row * height);
+  for (let y = 0; y < height; ++y)
+    for (let i = 0; i < row; ++i) {
+      const filter = raw[y * (row + 1)], byte = raw[y * (row + 1) + 1 + i];
+      const left = i >= channels ? out[y * row + i - channels] : 0, up = y > 0 ? out[(y - 1) * row + i] : 0;
+      const corner = i >= channels && y > 0 ? out[(y - 1) * row + i - channels] : 0;
+      const p = left + up - corner, pa = Math.abs(p - left), pb = Math.abs(p - up), pc = Math.abs(p - corner);
+      const guess = [0, left, up, (left + up) >> 1, pa <= pb && pa <= pc ? left : pb <= pc ? up : corner][filter];
+      out[y * row + i] = (byte + guess) & 255;
+    }
+  return { width, height, rgb: (x, y) => [...out.subarray(channels * (y * width + x), channels * (y * width + x) + 3)] };
+}
+
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+writeFileSync(join(folder, "metal.toml"), METAL);
+writeFileSync(join(folder, "block.toml"), block(TITLE));
+const axisymmetric = `title = "A ring"
+[analysis]
+kind = "axisymmetric"
+physics = "thermomechanical"
+[mesh]
+shape = "block"
+element = "quad4"
+[mesh.block]
+size = ["20 mm", "30 mm"]
+divisions = [5, 6]
+[time]
+end = "20 s"
+step = "2 s"
+[[body]]
+name = "ring"
+group = "block"
+material = "elastic.toml"
+initial_temperature = "400 degC"
+[[thermal_condition]]
+name = "wall"
+group = "x_max"
+kind = "film"
+coefficient = "1500 W/m2/K"
+ambient = "20 degC"
+[[mechanical_condition]]
+name = "stands"
+group = "y_min"
+kind = "displacement"
+uz = "0 mm"
+[output]
+every = "4 s"
+`;
+writeFileSync(join(folder, "elastic.toml"), METAL.slice(0, METAL.indexOf("[[phase_change]]")));
+writeFileSync(join(folder, "ring.toml"), axisymmetric);
+
+for (const [name, ...set] of [["block"], ["ring"]]) {
+  const run = solidus("run", `${name}.toml`, "-o", name, "--no-progress", ...set);
+  if (run.code !== 0) console.log(run.text);
+  check(`the run '${name}' ends well`, run.code === 0, run.text.slice(-400));
+}
+const second = solidus("run", "block.toml", "-o", "warmer", "--no-progress", "--set", "thermal_condition.wall.coefficient=\"800 W/m2/K\"");
+check("a second block runs", second.code === 0, second.text.slice(-400));
+
+// The command.
+for (const [args, page] of [[["block"], "block/report.html"], [["ring"], "ring/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
+  const made = solidus("report", ...args);
+  check(`report ${args.join(" ")} says where the page is`, made.code === 0 && made.text.includes(page), made.text);
+}
+const none = solidus("report", "nowhere");
+check("a folder that is not there is the user's mistake", none.code === 1 && none.text.includes("there is no such folder"), none.text);
+const empty = solidus("report", ".");
+check("a folder without results is too", empty.code === 1 && empty.text.includes("no case.toml"), empty.text);
+
+const browser = await Browser.open();
+try {
+  const page = await browser.page(1280, 900);
+  await page.go(`file://${join(folder, "block/report.html")}`);
+  const bench = "solidus.bench", view = `${bench}.stages[0].view`;
+  check("the page asks for nothing but itself", page.requests.every((r) => r.startsWith("file:") || r.startsWith("data:") || r.startsWith("blob:")), page.requests);
+  check("the title is a text", (await page.run("document.title")).startsWith("A <b>block</b> </script>"), await page.run("document.title"));
+  check("and adds no element", (await page.run("document.querySelectorAll('#head img, #head b b, main script').length")) === 0);
+
+  // The picture: the colours of the scale stand on the casting.
+  const box = await page.run("(() => { const r = document.querySelector('.stage').getBoundingClientRect(); return { x: r.left, y: r.top, width: r.width, height: r.height, scale: 1 }; })()");
+  const shot = async () => pixels(await page.screenshot({ clip: box }));
+  const middle = [Math.round(box.width / 2), Math.round(box.height * 0.44)];
+  const colourful = (picture) => {
+    const seen = new Set();
+    let n = 0;
+    for (let y = 20; y < picture.height * 0.75; y += 4)
+      for (let x = 20; x < picture.width - 20; x += 4) {
+        const [r, g, b] = picture.rgb(x, y);
+        if (Math.max(r, g, b) - Math.min(r, g, b) > 40) {
+          ++n;
+          seen.add(`${r >> 4},${g >> 4},${b >> 4}`);
+        }
+      }
+    return { n, colours: seen.size };
+  };
+  const first = await shot(), looked = colourful(first);
+  check("the picture is not blank and shows many colours of the scale", looked.n > 500 && looked.colours > 12, looked);
+  await page.run(`${bench}.look([1, 0, 0])`);
+  await page.run(`(() => { const c = ${bench}.choice; c.map = 'Viridis'; c.low = 0; c.high = 1e9; ${bench}.fixedRange = true; ${bench}.update(); })()`);
+  await page.settle();
+  const dark = (await shot()).rgb(...middle);
+  check("the least value has the least colour of the map", dark[2] > dark[1] && dark[0] < 90, dark);
+  await page.run(`(() => { const c = ${bench}.choice; c.low = -1e9; c.high = 1; ${bench}.update(); })()`);
+  await page.settle();
+  const bright = (await shot()).rgb(...middle);
+  check("the greatest value has the greatest", bright[0] > 150 && bright[1] > 130 && bright[2] < 90, bright);
+  await page.run(`(() => { ${bench}.setField('temperature'); ${bench}.look([0.55, 0.45, 0.75]); })()`);
+
+  // The slider.
+  const moments = await page.run("+document.querySelector('#time').max + 1");
+  check("the slider has a step for each moment", moments === 6, moments);
+  const value = (k) => page.run(`${view}.field.values(0, ${k})[0]`);
+  check("the first moment is the pouring", Math.abs((await value(0)) - 923.15) < 0.1, await value(0));
+  await page.run("(() => { const s = document.querySelector('#time'); s.value = 5; s.dispatchEvent(new Event('input')); })()");
+  check("the slider goes to its moment", (await page.run("document.querySelector('#clock').textContent")) === "t = 3 min 20 s", await page.run("document.querySelector('#clock').textContent"));
+  const final = JSON.parse(readFileSync(join(folder, "block/summary.json"))).final;
+  const hottest = await page.run(`Math.max(...${view}.field.values(0, 5)) - 273.15`);
+  check("and the temperatures are those of the summary", Math.abs(hottest - final["T_max[degC]"]) < 0.05, [hottest, final["T_max[degC]"]]);
+  await page.run("document.querySelector('.stage').focus()");
+  await page.key("ArrowLeft");
+  check("the left arrow goes back by one", (await page.run(`${view}.moment`)) === 4);
+  await page.key("Home");
+  await page.key("End");
+  check("End goes to the last", (await page.run(`${view}.moment`)) === 5);
+  await page.run("document.querySelector('#play').click()");
+  await page.run("new Promise((r) => setTimeout(r, 700))");
+  await page.run("document.querySelector('#play').click()");
+  check("play goes through the moments from the first", (await page.run(`${view}.moment`)) < 5);
+
+  // The cut: its area is that of the block there, and what lies before it is gone.
+  await page.run(`${bench}.goTo(200)`);
+  const area = () => page.run(`(() => {
+    const s = ${view}.shapes[0].cap; if (!s) return 0;
+    let sum = 0; const p = s.position, t = s.shape.triangles;
+    for (let i = 0; i < t.length; i += 3) {
+      const e = [1, 2].map((k) => [0, 1, 2].map((c) => p[3 * t[i + k] + c] - p[3 * t[i] + c]));
+      sum += Math.hypot(e[0][1] * e[1][2] - e[0][2] * e[1][1], e[0][2] * e[1][0] - e[0][0] * e[1][2], e[0][0] * e[1][1] - e[0][1] * e[1][0]) / 2;
+    } return sum; })()`);
+  await page.run("(() => { const b = [...document.querySelectorAll('#panel button')].find((x) => x.textContent === 'x'); b.click(); })()");
+  await page.settle();
+  check("a cut across x has the area of the section", Math.abs((await area()) - 0.04 * 0.03) < 1e-8, await area());
+  check("it takes away what lies beyond", (await page.run(`(() => { ${bench}.look([1, 0, 0]); const c = ${view}.canvas, h = ${view}.pick(c.clientWidth / 2, c.clientHeight * 0.44); return h && h.place[0]; })()`)) < 0.0305);
+  const midway = await page.run(`(() => { const c = ${view}.canvas, h = ${view}.pick(c.clientWidth / 2, c.clientHeight * 0.44); return h.value - 273.15; })()`);
+  check("and shows the field inside, between coldest and hottest", midway > final["T_min[degC]"] + 1 && midway < final["T_max[degC]"] - 1, [midway, final["T_min[degC]"], final["T_max[degC]"]]);
+  await page.key("c");
+  check("C turns the cut off", (await page.run(`${bench}.choice.cut.on`)) === false);
+
+  // Only values between: what is left is bounded by the surface of the value.
+  await page.run("(() => { const o = document.querySelector('#only'); o.click(); })()");
+  await page.settle();
+  const level = await page.run(`(() => { const d = ${view}.shapes[0].levels[0]; const v = [...d.shape.triangles].map((i) => d.value[i]); return { n: v.length, off: v.reduce((m, x) => Math.max(m, Math.abs(x - ${bench}.choice.only.low)), 0), step: ${bench}.choice.high - ${bench}.choice.low }; })()`);
+  check("the surface of a value has that value", level.n > 0 && level.off < 1e-3 * level.step, level);
+  await page.run("document.querySelector('#only').click()");
+
+  // A click.
+  await page.run(`${bench}.look([1, 0, 0])`);
+  await page.settle();
+  await page.run("document.querySelector('.stage').scrollIntoView({ block: 'start', behavior: 'instant' })");
+  const stage = await page.run("(() => { const r = document.querySelector('.stage').getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; })()");
+  const [cx, cy] = [stage[0] + stage[2] / 2, stage[1] + stage[3] * 0.44];
+  await page.click(cx, cy);
+  check("a click shows the curve of that node", (await page.run("document.querySelector('#probed figcaption')?.textContent ?? ''")).startsWith("Temperature at the nodes clicked"));
+  const node = await page.run(`(() => { const m = ${bench}.marks[0]; return [m.node, m.at[0]]; })()`);
+  check("which lies on the side that is seen", Math.abs(node[1] - 0.06) < 1e-5, node);
+  await page.click(cx + 30, cy - 30, { modifiers: 8 });
+  check("a click with Shift draws the values along the line", (await page.run("[...document.querySelectorAll('#probed figcaption')].map((f) => f.textContent).join()")).includes("from A to B"));
+  await page.key("Escape");
+  check("Esc takes the marks away", (await page.run("document.querySelector('#probed').children.length")) === 0);
+  const turn = () => page.run(`${bench}.camera.turn.toArray()`);
+  const before = await turn();
+  await page.drag(cx, cy, cx + 120, cy + 40);
+  check("a drag turns the picture", Math.max(...(await turn()).map((q, i) => Math.abs(q - before[i]))) > 0.05);
+  await page.run("(() => { const b = [...document.querySelectorAll('button.figure')][0]; b.click(); return new Promise((r) => setTimeout(r, 900)); })()");
+  const where = JSON.parse(readFileSync(join(folder, "block/summary.json"))).criteria["solidified_at_max_at[m]"];
+  const target = await page.run(`${bench}.camera.target.toArray()`);
+  check("a click on a criterion flies to its place", where.every((x, i) => Math.abs(x - target[i]) < 1e-6), [where, target]);
+  for (const id of ["curves", "criteria", "pools", "energy", "steps", "understood", "materials", "case", "cost"])
+    check(`the page has its section '${id}'`, (await page.run(`!!document.querySelector('#${id}')`)) === true);
+  check("the case stands there as it was read", (await page.run("document.querySelector('pre.case').textContent")).includes('coefficient = "1500 W/m2/K"'));
+  check("the sources of the materials too", (await page.run("document.querySelector('#materials').textContent")).includes("a test"));
+  await page.key("t");
+  check("T makes it dark", (await page.run("document.documentElement.dataset.theme")) === "dark");
+  check("nothing was said on the console", page.messages.length === 0, page.messages);
+
+  // Axisymmetric: revolved at a click.
+  const ring = await browser.page(1000, 800, { dark: true });
+  await ring.go(`file://${join(folder, "ring/report.html")}`);
+  check("the section of a ring is flat", (await ring.run(`${bench}.flat`)) === true);
+  await ring.run("[...document.querySelectorAll('#panel button')].find((b) => b.textContent === 'Full').click()");
+  await ring.settle();
+  const reach = await ring.run(`(() => { const d = ${view}.shapes[0].skin, a = d.shape.angle; return [Math.max(...a), d.shape.triangles.length]; })()`);
+  check("and turns about its axis at a click", Math.abs(reach[0] - 2 * Math.PI) < 1e-5 && reach[1] > 1000, reach);
+  await ring.run(`(() => { ${bench}.setField('displacement'); })()`);
+  await ring.settle();
+  check("without a word on the console", ring.messages.length === 0, ring.messages);
+
+  // Two runs side by side, on a telephone.
+  const two = await browser.page(390, 800, { mobile: true });
+  await two.go(`file://${join(folder, "two.html")}`);
+  check("two runs have two pictures", (await two.run("document.querySelectorAll('.stage').length")) === 2);
+  check("and a table of their differences", (await two.run("document.querySelector('#comparison').textContent")).includes("second − first"));
+  check("nothing is wider than the telephone", (await two.run("document.documentElement.scrollWidth")) <= 390, await two.run("document.documentElement.scrollWidth"));
+  check("nothing was said there either", two.messages.length === 0, two.messages);
+} finally {
+  await browser.close();
+}
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed === 0 ? 0 : 1);
