@@ -20,7 +20,8 @@
 
 namespace solidus::algebra {
 
-/// Which nodes couple: filled once by elements and by contributions from outside (contact pairs).
+/// Sparsity pattern of a block matrix as a graph: two nodes are neighbours if they couple. It is filled once,
+/// by the elements and by contributions from outside (contact pairs).
 class NodeGraph {
  public:
   explicit NodeGraph(const mesh::Mesh& mesh);

@@ -53,7 +53,8 @@ inline bool is_direct(CoupledSolverKind kind, int dimension, GlobalIndex n_unkno
   return dimension == 2 || n_unknowns < limit_3d;
 }
 
-/// Where there is no pressure; with one: coupling/coupled_saddle_solver.hpp.
+/// Solver of the coupled system of displacement and temperature without a nodal pressure; systems with one
+/// are solved by coupling/coupled_saddle_solver.hpp.
 class CoupledSolver final : public CoupledTangentSolver {
  public:
   CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind, double relative_tolerance);

@@ -30,8 +30,8 @@ struct LinearSolverOptions {
   int max_iterations = 2000;
 };
 
-/// What a matrix without ties is kept as for such a solver: half of a symmetric one will do for the
-/// preconditioners that need no copy of it (multigrid.hpp, incomplete_cholesky.hpp).
+/// Returns how a matrix without multi-point constraints is stored for such a solver: half of a symmetric
+/// matrix suffices for the preconditioners that need no copy of it (multigrid.hpp, incomplete_cholesky.hpp).
 /// @param modes  of multigrid
 BlockMatrix::Storage storage_for(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size,
                                  int modes);
@@ -42,7 +42,7 @@ struct LinearReport {
   std::string reason;  ///< PETSc's words when it did not converge
 };
 
-/// What Newton's method needs of a solver of K d = −r.
+/// Interface that Newton's method requires of a solver of K d = −r.
 class TangentSolver {
  public:
   virtual ~TangentSolver() = default;

@@ -58,10 +58,10 @@ class NonlinearSystem {
   virtual void accept(std::span<const double> /*x*/, std::span<const double> /*d*/, double /*alpha*/) {}
 };
 
-/// Solves r(x) = 0 from the start value x, whose fixed degrees of freedom already hold their
-/// values and whose ties are kept.
-/// Where the step before has contracted so much that the same tangent will do for the rest, it serves once
-/// more: a chord step, without assembly and set-up of the solver.
+/// Solves r(x) = 0 from the start value x, whose fixed degrees of freedom already hold their values and which
+/// satisfies the multi-point constraints.
+/// If the previous step has reduced the residual so much that the same tangent suffices for the rest, the
+/// tangent is used once more: a chord step, without assembly and set-up of the solver.
 /// With a step_tolerance the next step is taken to be as much smaller than the last one as the residual has
 /// become; there is at least one step, unless the residual at the start is within the absolute tolerance.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens

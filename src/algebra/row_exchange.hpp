@@ -1,5 +1,5 @@
-/// What a process found for rows of another one goes to its owner, and rows of any length to those who hold a
-/// copy.
+/// Exchange of matrix rows between processes: contributions to a row go to the process that owns it, and rows
+/// of any length go from their owner to the processes that hold a copy.
 #pragma once
 
 #include <functional>

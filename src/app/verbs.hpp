@@ -9,7 +9,7 @@
 
 namespace solidus::app {
 
-/// What a shell sees (design.md section 6).
+/// Exit codes of the program (design.md section 6).
 enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_go_on = 2, k_our_bug = 3, k_interrupted = 130 };
 
 struct CaseArguments {

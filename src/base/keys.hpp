@@ -33,7 +33,7 @@
 
 namespace solidus {
 
-/// What a table-valued quantity is a function of.
+/// The variable that a table-valued quantity depends on.
 enum class Argument { constant, time, temperature, gap, pressure, strain };
 std::string_view name(Argument argument);     ///< "time"
 std::string_view si_unit(Argument argument);  ///< "s"

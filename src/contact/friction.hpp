@@ -21,10 +21,10 @@
 
 namespace solidus::contact {
 
-/// What ζ_c adds up.
+/// Quantity that is accumulated in the internal variable ζ_c.
 enum class InternalVariable { normal_work, frictional_work, slip };
 
-/// What the user says about friction.
+/// Friction as specified by the user, in SI.
 struct FrictionSpec {
   FrictionCoefficientSpec coefficient;
   InternalVariable internal_variable = InternalVariable::normal_work;
@@ -35,7 +35,7 @@ struct FrictionSpec {
   SourceLocation where;
 };
 
-/// What the law is asked for at a point.
+/// Input of the friction law at a point.
 struct FrictionInput {
   double trial = 0;              ///< ‖T_n + ε_T ΔG‖ [Pa]
   double pressure = 0;           ///< t_N [Pa], >= 0
@@ -62,8 +62,8 @@ struct FrictionResponse {
   double internal_variable = 0;  ///< ζ_c at t_{n+1}
   double temperature = 0;        ///< Θ_c: as it was (isothermal), intermediate (isentropic, 5.24)
   double dissipation = 0;        ///< D_c,mech Δt [J/m²] (3.58)
-  /// What slip adds to S^e_c at fixed Θ_c: −ΔK_Θ, with ∂K_c/∂Θ along the lines of the tables at Θ_n
-  /// [J/(m² K)] (3.42c). Θ_c times it is the frictional contact heating H^fc Δt (3.67b).
+  /// Increment of S^e_c by slip at fixed Θ_c: −ΔK_Θ, with ∂K_c/∂Θ along the lines of the tables at Θ_n [J/(m²
+  /// K)] (3.42c). Θ_c times it is the frictional contact heating H^fc Δt (3.67b).
   double structural_entropy = 0;
   /// ∂‖T‖/∂‖T^trial‖ (1 where it sticks) and ∂‖T‖/∂t_N, of the law as it was solved.
   double trial_slope = 1, pressure_slope = 0;

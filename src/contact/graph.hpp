@@ -1,4 +1,5 @@
-/// Which nodes a contact pair may couple: recorded for the matrices of both phases, so that they agree.
+/// Sparsity pattern of a contact pair: the cliques of nodes that it may couple. They are recorded once for
+/// the matrices of both phases, so that the patterns agree.
 #pragma once
 
 #include <vector>

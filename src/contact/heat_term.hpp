@@ -19,7 +19,7 @@
 
 namespace solidus::contact {
 
-/// What the mechanical phase has left at a point.
+/// Contact state of a point after the mechanical phase, as the thermal phase needs it.
 struct HeatPoint {
   double penetration = 0;        ///< g_N [m]
   double pressure = 0;           ///< t_N [Pa]
@@ -49,7 +49,7 @@ struct SurfaceHeat {
   std::array<double, 2> total{}, by_friction{};
 };
 
-/// What the interface took in a step, over the points that this process counts [J].
+/// Heat dissipated and stored in the interface in a step, over the points that this process counts [J].
 struct InterfaceHeat {
   double dissipated = 0;  ///< Σ w D_c,mech Δt
   double stored = 0;      ///< Σ w Θ_c (S^e_c − S^e_c,n)
@@ -136,7 +136,7 @@ class HeatTerm : public algebra::Contribution {
   }
 
  private:
-  /// What a point sees.
+  /// Data of one contact point for the assembly.
   struct AtPoint {
     Index point = 0;
     std::span<const Index> nodes;
@@ -157,12 +157,13 @@ class HeatTerm : public algebra::Contribution {
                     std::span<double> heat) const;
   /// Adds per-side fluxes by the shape functions.
   static void add_sides(const AtPoint& at, const std::array<double, 2>& flux, std::span<double> heat);
-  /// What the fluxes of the balance change with h at fixed Θ_s, Θ_m, beyond conduction.
+  /// Derivatives with respect to h of the fluxes Q_1 and Q_2 of the balance at fixed Θ_s, Θ_m, less those of
+  /// conduction.
   static std::array<double, 2> flux_by_conductance(const AtPoint& at);
   /// @param per_h  scratch
   void add_point_tangent(const AtPoint& at, std::span<const double> x, std::span<double> k,
                          std::vector<double>& per_h) const;
-  /// What every node gives off changes with g_N by this much.
+  /// Computes the derivative with respect to g_N of the heat that every node gives off.
   void add_gap_slope(const AtPoint& at, std::span<const double> temperature, std::span<double> heat) const;
   /// Adds ∂r_a/∂B_b for one node of the master.
   void add_share_slope(const AtPoint& at, std::span<const double> temperature, std::size_t b,

@@ -53,7 +53,7 @@ class ContactKinematics {
   enum class Asked { motion, rates };
   virtual ~ContactKinematics() = default;
   virtual Index n_points() const = 0;
-  /// What a point is whatever moves.
+  /// Data of a contact point that do not depend on the motion.
   struct Particle {
     GlobalIndex number = 0;         ///< of all processes alike, and of runs on another number of them
     bool counted = false;           ///< this process counts it in sums; over all processes every point once
@@ -72,10 +72,10 @@ class ContactKinematics {
   virtual bool partners_change() const { return true; }
   /// The time whose place prescribed motions of rigid surfaces have [s]; takes effect at the next place().
   virtual void set_time(double) {}
-  /// Which points place() brings in line: all, or those that concern this process, which suffice for its rows
-  /// and its part of sums.
+  /// The points that place() updates: all, or those that concern this process, which suffice for its rows and
+  /// its part of sums.
   enum class Points { all, own };
-  /// Brings partners in line with a displacement [local node][component], ghosts up to date [m]. The result
+  /// Updates the partners for a displacement [local node][component], ghosts up to date [m]. The result
   /// depends on displacement and time alone, not on earlier calls. Local: surfaces are held whole by every
   /// process.
   virtual void place(std::span<const double> displacement, Points points) = 0;

@@ -1,4 +1,5 @@
-/// What a slave point may meet: a surface of a mesh or a rigid analytic one, seen alike by SlidingKinematics.
+/// Interface of a master surface, which slave points may meet: a surface of a mesh or a rigid analytic one,
+/// both used alike by SlidingKinematics.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace solidus::contact {
 
-/// Where on the master a slave point has its partner.
+/// Partner of a slave point on the master: its place and normal.
 struct Partner {
   /// The partner lies inside a face; or on an edge or at a vertex between faces, for all points of the wedge
   /// that their normals leave open: there the normal is the direction of the distance.

@@ -16,7 +16,7 @@
 
 namespace solidus::contact {
 
-/// What a step starts from, shared by the parts of a pair.
+/// State at the start of a step, shared by the parts of a pair.
 struct ContactStep {
   /// At t_n, one per point; multipliers and tractions are those of the last turn of the augmented Lagrangian.
   std::vector<PointState> from;

@@ -23,7 +23,7 @@ class HeatTerm;
 struct HeatPoint;
 struct HeatSpan;
 
-/// What the interface took, stored and made in a step, all processes.
+/// Sums over the interface of a pair in one step, of all processes: heat, stored energy and entropy.
 struct InterfaceSums {
   double dissipated = 0;          ///< D_c,mech [J]
   double stored = 0;              ///< Σ Θ_c (S^e_c − S^e_c,n), the heat that did not reach the bodies [J]
@@ -77,7 +77,8 @@ struct ContactNodalFields {
   std::vector<double> temperature;  ///< Θ_c [K]
 };
 
-/// What a pass of the mechanical phase starts from.
+/// Input of a pass of the mechanical phase: the times, the fields at t_n and the way in which the interface's
+/// temperature is found.
 struct ContactPass {
   double time = 0, dt = 0;                 ///< t_{n+1} and the step [s]
   std::span<const double> displacement{};  ///< u_n, [local node][component] [m]
@@ -119,7 +120,7 @@ class ContactPair {
 
   /// The history of bodies that have not moved.
   ContactState initial_state() const;
-  /// A step sets out from `old`; empty: initial_state(). Local, no communication.
+  /// Begins a step from the state `old`; empty: initial_state(). Local, no communication.
   void begin(const ContactState& old, const ContactPass& pass);
   /// Within a simultaneous pass: the bodies' temperatures of now, [local node], for mechanics() and the next
   /// update(). Local.
@@ -127,38 +128,40 @@ class ContactPair {
   /// Forces and history of every point for a displacement, and what heat sees of them: [local
   /// node][component], ghosts up to date [m]. Local, no communication.
   void update(std::span<const double> displacement);
-  /// Stands as the update() did that ended in `state` (empty: initial_state()) at this displacement and time.
-  /// Local.
+  /// Restores the pair as it was after the update() that ended in `state` (empty: initial_state()) at this
+  /// displacement and time. Local.
   void restore(const ContactState& state, std::span<const double> displacement, double time);
   /// Of the last update() or restore().
   const ContactState& state() const { return now_; }
 
-  /// A thermal phase sets out, over `dt`, which need not be the time of the mechanical pass, nor need
-  /// anything flow in it; settle() ends it. Without this call heat is that of the pass.
+  /// Begins a thermal phase over `dt`, which need not be the time step of the mechanical pass; an adiabatic
+  /// phase has no fluxes. settle() ends it. Without this call the heat is that of the mechanical pass.
   void begin_heat(double dt, bool adiabatic);
-  /// Drops the heat of friction of the last update(): what follows knows none.
+  /// Holds the present deformation: the heat of friction of the last update() is dropped, so that a thermal
+  /// phase that follows has none.
   void rest();
-  /// After the first of two equal mechanical passes of a step: the thermal phase that follows takes heat and
-  /// entropy of its slip twice, for the second pass too, whose heat is then counted less by as much.
+  /// Predicts the heat of the second of two equal mechanical passes of a step by that of the first. The
+  /// thermal phase between them takes heat and entropy of the slip of the first pass twice, and the same
+  /// amount is subtracted from those of the second pass.
   void heat_ahead();
-  /// After the thermal phase: Θ_c and S^p_c of every point, at the temperatures found [local node]; state()
-  /// has them then. Zero without friction or heat. Collective.
+  /// Ends the thermal phase: computes Θ_c and S^p_c of every point at the temperatures found [local node] and
+  /// commits them to state(). Zero without friction or heat. Collective.
   InterfaceSums settle(std::span<const double> temperature);
 
-  /// Uzawa's step of the augmented Lagrangian: the multipliers grow by what the mean penetrations around the
-  /// slave's nodes ask for, λ += ε_N Σ N_a ḡ_a, and friction sets out from the tractions of the last
-  /// update(). Points are more than the unknowns of a face can bring to zero one by one: the means are not.
-  /// Collective.
+  /// Uzawa's step of the augmented Lagrangian: the multipliers grow with the mean penetrations around the
+  /// slave's nodes, λ += ε_N Σ N_a ḡ_a, and friction starts from the tractions of the last update(). There
+  /// are more points than the unknowns of a face can bring to zero penetration one by one, but their means
+  /// can be. Collective.
   void augment();
   /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a
   /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
   double excess() const;
-  /// Where the largest one is, for messages. Collective.
+  /// Describes the place of the largest mean penetration, for messages. Collective.
   std::string worst_penetration() const;
 
-  /// Drops what the pattern of matrices remembers (coupling/scheme.hpp, forget()).
+  /// Drops the recorded sparsity pattern (coupling/scheme.hpp, forget()).
   void forget() { graph_->forget(); }
-  /// What the last residual says of an iteration that fails, for messages: empty, or with the pair's name.
+  /// Describes why an iteration failed, from the last residual, for messages: empty, or with the pair's name.
   /// Collective.
   std::string trouble() const;
   /// Points that changed between open, sticking and slipping at the last residual. Collective.

@@ -1,4 +1,5 @@
-/// Where a pair's surfaces stand: places its kinematics once for each displacement, whoever asks.
+/// Cache of the configuration of a pair's surfaces: it updates the kinematics once for each displacement,
+/// however many terms ask for it.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +28,7 @@ class Placement {
     displacement_.assign(displacement.begin(), displacement.end());
   }
 
-  /// Somebody else has placed them.
+  /// Discards the cached configuration, because the kinematics have been placed by other means.
   void forget() { placed_ = false; }
 
  private:

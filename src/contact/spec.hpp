@@ -1,4 +1,4 @@
-/// What the user says about a pair of surfaces, in SI.
+/// Specification of a contact pair by the user, in SI.
 #pragma once
 
 #include <limits>
@@ -44,8 +44,9 @@ struct ContactSpec {
   /// ε_N [Pa/m], or the factor on the local stiffness E/h (`penalty_is_factor`).
   double penalty = 10;
   bool penalty_is_factor = true;
-  /// What a factor gives at most [Pa/m]: next to a melt, which is a million times softer than the solid, a
-  /// penalty of the solid's stiffness makes Newton's iteration open and close points without end.
+  /// Upper bound of a penalty that is given as a factor [Pa/m]: next to a melt, which is a million times
+  /// softer than the solid, a penalty of the solid's stiffness makes Newton's iteration open and close points
+  /// without end.
   double largest_penalty = std::numeric_limits<double>::infinity();
   /// Stiffness of every point in all directions, as a part of ε_N, that the tangent gets on top of the law's.
   /// It is not in the forces, so a converged solution does not feel it; it keeps the matrix regular while a

@@ -1,5 +1,5 @@
-/// Friction and the interface's temperature at once: what points see of the bodies' temperatures in the
-/// simultaneous scheme.
+/// Temperatures of the bodies around an interface whose temperature is solved for simultaneously with the
+/// slip (simultaneous scheme, 5.40).
 #pragma once
 
 #include <optional>

@@ -1,8 +1,8 @@
-/// Which nodes are melt and which are casting: the solid fraction over that at which metal is coherent
-/// (material::Casting::coherency_fraction).
+/// Coherency of the nodes, which tells melt from casting: the solid fraction over that at which metal is
+/// coherent (material::Casting::coherency_fraction).
 ///
-/// The solid fraction is that of the nodes' enthalpy, which alone knows how much is solid where freezing is
-/// isothermal; without a thermal phase that of the temperature.
+/// The solid fraction is that of the nodes' enthalpy, which alone determines it where freezing is isothermal;
+/// without a thermal phase it is that of the temperature.
 #pragma once
 
 #include <vector>

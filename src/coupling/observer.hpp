@@ -1,4 +1,4 @@
-/// What a running simulation tells to whoever writes results or shows progress.
+/// Interface by which a running simulation reports to the parts that write results or show progress.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace solidus::coupling {
 
 struct State;
 
-/// What one phase did in a step.
+/// Effort of one phase in a step: iterations, residual and time.
 struct PhaseEffort {
   int iterations = 0;         ///< Newton iterations (linear solves)
   int linear_iterations = 0;  ///< iterations of the linear solver, summed
@@ -79,7 +79,7 @@ struct ContactSummary {
   double left_area = 0, left_gap = 0;
 };
 
-/// What a scheme reports of a step it took.
+/// Report of a scheme on a step that it took.
 struct StepEffort {
   PhaseEffort heat, mechanics;
   int coupling_iterations = 1;  ///< turns that the phases took until they agreed

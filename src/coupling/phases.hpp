@@ -35,7 +35,8 @@ std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState
 /// Coherency::at of a state; empty where nothing that deforms melts. Collective.
 std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat);
 
-/// What every scheme reports of the state it reached: temperatures, solid fraction, contact.
+/// Adds to the report of a step the data of the state that every scheme reports: temperatures, solid
+/// fraction, contact.
 void summarise(const Phases& phases, const State& state, StepEffort& effort);
 
 }  // namespace solidus::coupling

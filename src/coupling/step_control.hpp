@@ -30,7 +30,7 @@ struct PlannedStep {
   std::string reason;  ///< why this size, for steps.csv
 };
 
-/// What the control carries from step to step, for checkpoints.
+/// State of the step control between steps, for checkpoints.
 struct ControlState {
   double size = 0;                  ///< the step wanted next, before landing [s]
   std::string reason = "as asked";  ///< why

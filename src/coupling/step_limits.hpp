@@ -1,4 +1,4 @@
-/// What a step may commit in error and change at most, and which of these bounds its size.
+/// Limits on the error and on the change in a step, and the choice of the limit that bounds the step size.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct StepLimits {
   bool operator==(const StepLimits&) const = default;
 };
 
-/// What a step that went through shows.
+/// Measured errors and changes of a step that converged.
 struct StepMeasure {
   int iterations = 0;                                    ///< the largest Newton count of its phases
   double temperature_error = 0, displacement_error = 0;  ///< [K], [m]; zero where nothing measures them

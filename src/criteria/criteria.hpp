@@ -1,4 +1,4 @@
-/// All criteria of a run together.
+/// The list of all criteria of a run.
 #pragma once
 
 #include <limits>
@@ -32,7 +32,7 @@ class Criteria {
   double seconds() const { return seconds_; }  ///< spent in steps so far
 
  private:
-  /// What the thermal phase knows of phase changes at a moment.
+  /// Nodal solid fractions and plateau shares at a moment, from the thermal phase.
   struct NodalPhases {
     std::vector<double> solid_fraction, plateau_share;
     Moment of(const Moment& moment) const {

@@ -54,7 +54,7 @@ class Criterion {
   /// Values of all fields at this moment, in their order; each span has the shape of a Column. Collective.
   virtual void fill(const Moment& now, const Record& record,
                     std::span<const std::span<double>> values) const = 0;
-  /// What the summary says at the end; the same on every process. Collective.
+  /// Returns the findings for the summary at the end; the same on every process. Collective.
   virtual std::vector<Finding> findings(const Record& /*record*/) const { return {}; }
   virtual std::size_t bytes() const { return 0; }
 };

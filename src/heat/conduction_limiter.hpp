@@ -21,7 +21,7 @@
 ///
 /// The shares α are found at given temperatures and held until they are found anew, so that conduction stays
 /// linear in u, symmetric and positive semi-definite, and the iteration of a step converges as it does
-/// without them. Whoever solves a step looks at them again at the temperatures reached.
+/// without them. The solver of a step updates them at the temperatures reached.
 ///
 /// D. Kuzmin, J. Comput. Appl. Math. 236 (2012) 2317 (linearity-preserving limiters); G. R. Barrenechea,
 /// V. John and P. Knobloch, Math. Models Methods Appl. Sci. 27 (2017) 525 (a limiter with a discrete maximum

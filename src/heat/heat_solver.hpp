@@ -13,7 +13,7 @@ namespace solidus::heat {
 class HeatSolver {
  public:
   HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool symmetric, double relative_tolerance);
-  /// What the matrix is best kept as for such a solver.
+  /// Returns the storage of the matrix that suits such a solver best.
   static algebra::BlockMatrix::Storage storage_for(const mesh::Mesh& mesh, algebra::SolverKind kind,
                                                    bool symmetric);
   /// Call at the start of a step, so that the same step gives the same bits.

@@ -87,7 +87,8 @@ class HeatSystem {
   /// Gives the matrix another pattern where a contribution asks for it; then true. Collective.
   bool follow_graph();
 
-  /// What contributions that store took up at the last residual(), [owned node] [W]; empty: none stores.
+  /// Returns the heat that storing contributions took up at the last residual(), [owned node] [W]; empty:
+  /// none stores.
   std::span<const double> stored_by_contributions() const { return storing_; }
   /// The least and the greatest temperature that is prescribed, or that surfaces exchange heat with, at the
   /// time set [K]; +∞ and −∞ where there is none. Collective.
@@ -119,8 +120,8 @@ class HeatSystem {
   struct Volume {
     std::string name;
     PlaceFunction power, factor;
-    /// What a point of integration gives to the nodes [m³]: at the nodes themselves, or at Gauss points where
-    /// the body stores its heat there and its source varies with position.
+    /// Volume of a point of integration that counts for a node [m³]. The points are the nodes themselves, or
+    /// Gauss points where the body stores its heat there and its source varies with position.
     struct Share {
       Index node;
       Index point;

@@ -43,7 +43,8 @@ class NodalEnthalpy {
   double upper(Index node, double temperature) const;
   /// How far the isothermal change at this temperature has come: 0 cold end to 1 hot end; 1 without a jump.
   double plateau_share(Index node, double heat, double temperature) const;
-  /// Where the node stands among its plateaus: twice the number of those below it, and one more on a plateau.
+  /// Returns the position of the node among its plateaus: twice the number of those below it, and one more on
+  /// a plateau.
   int branch(Index node, double heat, double temperature) const;
   /// Mean solid fraction of the materials of a node that can melt, 1 if none can (2.65).
   double solid_fraction(Index node, double heat, double temperature) const;

@@ -33,8 +33,8 @@ class SurfaceLaw {
   void set_points(std::vector<Position> points) { points_ = std::move(points); }
   /// Throws InputError where a function of position has no value that is allowed. Not collective.
   void set_time(double time);
-  /// Where the derivative would make heat run away (a film coefficient that falls steeply with temperature),
-  /// the slope is that of the frozen coefficient.
+  /// Returns the flux and its slope at a temperature. If the exact derivative would make heat run away (a
+  /// film coefficient that falls steeply with temperature), the slope is that of the frozen coefficient.
   /// @param point  number in set_points(); without meaning where the law is the same everywhere
   SurfaceFlux at(double temperature, std::size_t point = 0) const;
   /// Whether heat is exchanged with surroundings, by a film or by radiation.

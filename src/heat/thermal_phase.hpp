@@ -66,7 +66,7 @@ inline constexpr double k_nodal_tolerance = 1e-6, k_point_tolerance = 1e-9;
 struct HeatOptions {
   Integration integration = Integration::closed;
   int open_degree = 0;  ///< polynomial degree of the open rule; 0: by element
-  /// What the nodal residuals may add up to, as a share of the heat moved in the step; zero:
+  /// Tolerance of the sum of the nodal residuals, as a share of the heat moved in the step; zero:
   /// k_nodal_tolerance where the nodes hold the heat, else k_point_tolerance.
   double tolerance = 0;
   int max_iterations = 50;
@@ -84,8 +84,8 @@ struct HeatOptions {
   SensibleForm sensible = SensibleForm::enthalpy;
 };
 
-/// What one pass through the thermal phase goes to. The further fields belong to schemes that solve the phase
-/// several times a step; empty, the pass is the first one.
+/// Input of one pass of the thermal phase. The further fields belong to schemes that solve the phase several
+/// times a step; empty, the pass is the first one.
 struct ThermalPass {
   double time = 0, dt = 0;                ///< t_{n+1} and the step [s]
   const ThermalState* iterate = nullptr;  ///< Newton's start; absent: the state at t_n
@@ -114,7 +114,7 @@ class ThermalPhase {
   /// @param state  loses what bodies that leave carry away; null where it has lost it before
   /// Returns that heat, counted from 20 °C [J].
   double set_conditions(const Conditions& conditions, ThermalState* state = nullptr);
-  /// Who takes part.
+  /// Bodies and nodes that are active in the present stage.
   const algebra::Presence& presence() const;
 
   /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which

@@ -1,4 +1,4 @@
-/// What the thermal phase reads at t_n and writes at t_{n+1}, and what it reports of a step.
+/// State of the thermal phase, which it reads at t_n and writes at t_{n+1}, and its report of a step.
 #pragma once
 
 #include <cmath>

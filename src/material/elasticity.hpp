@@ -10,8 +10,8 @@
 
 namespace solidus::material {
 
-/// What the constitutive update needs at one point and temperature. Evaluated once per phase, kept per
-/// quadrature point.
+/// Properties that the constitutive update needs at one point and temperature. They are evaluated once per
+/// phase and stored per quadrature point.
 template <class T>
 struct PointProperties {
   T bulk;            ///< k [Pa]
@@ -42,7 +42,8 @@ struct PhaseState {
   T straining;       ///< e^pc − e^pc(Θ_0) of 2.75, 2.76a
 };
 
-/// Where nothing but the temperatures is known: an isothermal change is molten at its own.
+/// Phase state if nothing but the temperatures is known: at the temperature of an isothermal change the
+/// material is molten.
 template <class T>
 PhaseState<T> phase_state_at(const Material& material, const T& temperature, const T& initial_temperature);
 

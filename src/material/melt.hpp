@@ -26,14 +26,14 @@ namespace solidus::material {
 inline constexpr double k_melt_heads = 10;
 /// 2Ĝ in yield stresses of the shell: a strain increment of 1e-2 then costs a hundredth of it.
 inline constexpr double k_melt_strengths = 1;
-/// What an elastic shell stands, as a share of its shear modulus.
+/// Strength of an elastic shell, as a share of its shear modulus.
 inline constexpr double k_shell_strain = 1e-3;
 /// 2Ĝ as a share of the bulk modulus: less gains nothing.
 inline constexpr double k_least_melt_share = 1e-7;
 /// The pressure of the atmosphere at sea level [Pa].
 inline constexpr double k_atmosphere = 101325;
 
-/// What the modulus was measured against.
+/// Modulus of a melt, with the quantity that it was chosen in proportion to.
 struct MeltModulus {
   enum class Bound { head, atmosphere, strength, arithmetic };
   double modulus = 0;    ///< 2Ĝ of a step [Pa]; zero: the material gives its viscosity, or has no melt

@@ -27,7 +27,7 @@ template <class T>
   return T(0.0) - volumetric.d - spring_slope * squared;
 }
 
-/// What hardening adds, from K_iso(ξ, Θ) at fixed ξ.
+/// Terms of hardening, from K_iso(ξ, Θ) at fixed ξ.
 template <class T>
 struct HardeningSlopes {
   T entropy, entropy_theta;       ///< −K_Θ, −K_ΘΘ
@@ -71,7 +71,7 @@ class ReducedEntropy {
  public:
   using Properties = Isentropic::Properties<T>;
 
-  /// What flow adds at one (γ, Θ); zero where none does.
+  /// Terms of plastic flow at one (γ, Θ); zero without flow.
   struct Flowing {
     T squared, back_squared;            ///< a:a − ê:ê, ζ:ζ − ζ*:ζ*
     T entropy_theta, entropy_gamma;     ///< in S_Θ by n alone, S_γ

@@ -21,7 +21,7 @@ inline constexpr double k_two_thirds = 2.0 / 3.0;
 inline constexpr double k_root_two_thirds = 0.81649658092772603;
 /// A correction of γ below which one more reaches rounding, in γ and in the slope that the tangent uses.
 inline constexpr double k_last_correction = 1e-7;
-/// What rounding leaves of a sum, in parts of its largest terms.
+/// Rounding error of a sum, in parts of its largest terms.
 inline constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
 /// Bisection alone would get there: the bracket is never wider than 1e12 solutions or so.
 inline constexpr int k_max_iterations = 80;
@@ -162,7 +162,7 @@ struct Solution {
   bool converged;
 };
 
-/// Where there is plastic flow: outside the yield surface, and neither liquid nor without any stiffness.
+/// Whether there is plastic flow: outside the yield surface, and neither liquid nor without any stiffness.
 template <class T>
 [[gnu::always_inline]] inline auto flows(const Problem<T>& p, const Yield<T>& trial) {
   const T zero(0.0);

@@ -18,8 +18,8 @@
 
 namespace solidus::material {
 
-/// What keeps its value while the temperature varies: all of it in the mechanical phase of the isentropic
-/// split (docs/decisions/0006), nothing in the simultaneous scheme.
+/// Properties that are frozen while the temperature varies: all of them in the mechanical phase of the
+/// isentropic split (docs/decisions/0006), none in the simultaneous scheme.
 struct Frozen {
   bool phase = false;        ///< f_S, the straining e^pc, and with f_S the strength factor (4.76, 4.81)
   bool flow_stress = false;  ///< σ_0 of the yield radius (4.85)

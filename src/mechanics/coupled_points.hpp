@@ -1,6 +1,6 @@
-/// What the kernels of the simultaneous scheme add to those of a formulation, whatever it is: the law at the
-/// temperature of the iterate, the derivatives of stress and heat at a point, and the entropy and energy that
-/// the second stage of a two-stage method counts from.
+/// Common part of the kernels of the simultaneous scheme, added to those of any element formulation: the law
+/// at the temperature of the iterate, the derivatives of stress and heat at a point, and the entropy and
+/// energy that the second stage of a two-stage method starts from.
 ///
 ///   energy form   h Δt = E − E_n − σ : Δε,      h_ε Δt = E_ε − (Cᵀ : Δε + σ),  h_Θ Δt = E_Θ − σ_Θ : Δε
 ///   entropy form  h Δt = Θ (S − S_n) − D Δt,    h_ε Δt = Θ S_ε − D_ε Δt,

@@ -1,5 +1,5 @@
-/// What the kernels ask of a law beside its update: one overload per law, found by the types of its
-/// properties and state.
+/// Functions that the kernels require of a law besides its update: one overload per law, selected by the
+/// types of its properties and state.
 #pragma once
 
 #include <array>
@@ -68,7 +68,7 @@ std::vector<std::size_t> kept_lanes(const material::Viscoelastic& law);
 std::vector<std::size_t> kept_lanes(const material::Viscoplastic& law);
 std::vector<std::size_t> kept_lanes(const material::Isentropic& law);
 
-/// What to subtract from the strain for the elastic one.
+/// Returns the strain to be subtracted from the total strain to obtain the elastic one.
 template <class T>
 Sym<T> inelastic_strain(const material::Viscoelastic::State<T>& state) {
   return state.viscous_strain;
@@ -78,7 +78,7 @@ Sym<T> inelastic_strain(const material::Viscoplastic::State<T>& state) {
   return state.viscous_strain + state.plastic_strain;
 }
 
-/// What hardening has stored, beside temperature: ξ and ζ:ζ.
+/// Returns the variables of the energy stored by hardening besides temperature: ξ and ζ:ζ.
 template <class T>
 std::array<T, 2> hardening_of(const material::Viscoelastic::State<T>&) {
   return {T(0.0), T(0.0)};
@@ -117,7 +117,7 @@ PlasticPower plastic_power(const material::Isentropic&, const Response& r) {
   return {r.plastic_power, r.plastic_dissipation};
 }
 
-/// What results show of a point or, averaged, of an element (units as in ElementField).
+/// Values of a point or, averaged, of an element for results (units as in ElementField).
 template <class T>
 struct ViscoelasticValues {
   using OfOne = ViscoelasticValues<double>;

@@ -25,9 +25,11 @@ class Loads {
   /// The loads at a time, [owned node][component] [N].
   void evaluate(double time, std::span<double> force) const;
 
-  /// Which degrees of freedom are prescribed or belong to no body that is there, [local node][component].
+  /// Non-zero for degrees of freedom that are prescribed or belong to no active body, [local
+  /// node][component].
   const std::vector<char>& fixed() const { return fixed_; }
-  /// The same without what no support holds: the radial direction on an axis of revolution, absent bodies.
+  /// The same without those that are held by no support: the radial direction on an axis of revolution,
+  /// absent bodies.
   const std::vector<char>& supported() const { return supported_; }
   /// Writes the prescribed values of a time into a displacement, [local node][component].
   void prescribe(double time, std::span<double> displacement) const;

@@ -44,7 +44,7 @@ struct BlockWork;
 
 enum class TimeIntegration { backward_euler, two_step };
 
-/// What the mechanical phase holds.
+/// Thermal variable that is held fixed in the mechanical phase.
 enum class Mapping {
   isothermal,    ///< Θ = Θ_n
   simultaneous,  ///< Θ is an unknown as well: only for coupling/simultaneous.hpp
@@ -84,7 +84,7 @@ struct MechanicalWork {
   /// most.
   double least_dissipation = 0, largest_dissipation = 0;
   double kinetic = 0;  ///< change of the kinetic energy
-  /// What the time integration of inertia takes out of it, and what the pressure of mixed elements works on
+  /// Energy that the time integration of inertia dissipates, and work of the pressure of mixed elements on
   /// the volume of their sub-scales.
   double numerical = 0;
 };
@@ -99,8 +99,8 @@ struct PhaseReport {
 /// (coupling/double_pass.hpp).
 enum class StressAtWork { end, end_kept, kept };
 
-/// What one pass through the mechanical phase goes from and to. The fields of an iterate belong to schemes
-/// that solve the phase several times a step; empty, the pass is the first one.
+/// Input of one pass of the mechanical phase. The fields of an iterate belong to schemes that solve the phase
+/// several times a step; empty, the pass is the first one.
 struct MechanicalPass {
   double time = 0, dt = 0;              ///< t_{n+1} and the step [s]
   std::span<const double> temperature;  ///< Θ_n [K], [local node], ghosts up to date
@@ -144,7 +144,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// @param start  displacement that relative supports count from, [local node][component]; empty: zero
   /// Throws InputError as the constructor does, and std::invalid_argument for a body that comes back.
   void set_conditions(Conditions conditions, std::span<const double> start);
-  /// Who takes part.
+  /// Bodies and nodes that are active in the present stage.
   const algebra::Presence& presence() const { return presence_; }
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
   /// prescribed displacements, and the accelerations that the loads of that time cause. Collective.
@@ -218,9 +218,9 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   /// From now on conclude() leaves the stress at the points in MechanicalState::stress, as with inertia.
   void keep_stress() { keeps_stress_ = true; }
-  /// What loads and contact do to the nodes at the last solution, [owned node][component] [N].
+  /// Nodal forces of loads and contact at the last solution, [owned node][component] [N].
   std::vector<double> applied_forces() const;
-  /// What is held where it is, and what moves as one (Loads).
+  /// Fixed degrees of freedom, and multi-point constraints (Loads).
   const std::vector<char>& fixed() const { return matrix_->fixed(); }
   const algebra::Ties& ties() const { return matrix_->ties(); }
 

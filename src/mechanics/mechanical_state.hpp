@@ -1,4 +1,5 @@
-/// What the mechanical phase carries from step to step: all of it, so a checkpoint is this and nothing else.
+/// State of the mechanical phase between steps. It is complete: a checkpoint of the phase is this and nothing
+/// else.
 #pragma once
 
 #include <vector>

@@ -136,7 +136,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Sym<Lane> at_work = this->record(batch, 0, strain(old_gradient, old_volume), point.strain,
                                              point.response, trial, average, tally);
       keep_volume(trial, batch, point.volume);
-      // What the pressure works on the difference of the volumes: the sub-scales take it up.
+      // The work of the pressure on the difference of the volumes is taken up by the sub-scales.
       const Nodal now = this->volume_change(b, batch, displacement),
                   before = this->volume_change(b, batch, old_displacement);
       const Nodal variation = variation_at_work(batch, trial);

@@ -1,4 +1,5 @@
-/// What the pressure of mixed elements asks of a mesh block beside BlockKernel (nodal_pressure.hpp).
+/// Interface of a mesh block of mixed elements besides BlockKernel, for the nodal pressure
+/// (nodal_pressure.hpp).
 ///
 /// Linear triangles and tetrahedra with nodal displacements u and a continuous nodal mean stress p. At the
 /// one point of an element the law works at the strain dev ε(u) + ⅓ e_v 1, whose volumetric part e_v is the

@@ -1,4 +1,4 @@
-/// How far phase changes have come, from the nodes to the points of a step.
+/// Fractions of phase changes during a step, taken from the nodes to the quadrature points.
 ///
 /// Where a change is isothermal the temperature alone does not tell how much is solid, the heat content of a
 /// node does. So mechanics takes all fractions from the nodes, those of changes with a range too: one rule
@@ -38,7 +38,7 @@ class NodalPhases {
   std::size_t bytes() const;
 
  private:
-  /// What a block needs whose material changes its phase.
+  /// Data of a block whose material changes its phase.
   struct OfBlock {
     const material::Material* material = nullptr;  ///< null: nothing
     bool strains = false;                          ///< a change of it has a change of volume

@@ -1,5 +1,5 @@
-/// What the kernels of a block have in common whatever the element's formulation: geometry, law, history and
-/// what a step leaves at the points, eight elements at a time.
+/// Common base of all element kernels: geometry, law, history and the results of a step at the points, eight
+/// elements at a time.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-/// What mixed elements do whatever the law: the pressure at the nodes of a block of linear simplices, its
-/// integrals and its stabilisation (mixed_kernel.hpp), eight elements at a time.
+/// Part of the mixed elements that does not depend on the law: the pressure at the nodes of a block of linear
+/// simplices, its integrals and its stabilisation (mixed_kernel.hpp), eight elements at a time.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// What the thermal phase needs of the deformation, kept at the quadrature points of a block (see
+/// Data of the deformation that the thermal phase needs, stored at the quadrature points of a block (see
 /// structural_heat.hpp).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace solidus::mechanics {
 
-/// What the structural energy of a point depends on beside its temperature.
+/// Variables of the structural energy of a point besides its temperature.
 struct Deformation {
   Lane strain_trace;     ///< tr ε
   Lane elastic_squared;  ///< dev ε^E : dev ε^E, zero unless solid
@@ -65,12 +65,12 @@ class StructuralPoints {
   void set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature, Lane thermal_strain);
   /// Fills the old entropy and energy from the deformation at t_n.
   void set_old(Index batch, int point, const Deformation& old);
-  /// Fills all but the temperatures of a point that does not move, if kept.
+  /// Fills all but the temperatures of a point whose deformation is held, if kept.
   void rest(Index batch, int point, const Deformation& deformation);
 
   /// At a temperature and the deformation at t_{n+1}.
   StructuralDensities densities(Index batch, int point, Lane temperature) const;
-  /// What spread_as_stored adds to the basis functions, [node]; null: nothing.
+  /// Correction of the basis functions by spread_as_stored, [node]; null: none.
   const Lane* spread(Index batch) const {
     return correction_.empty() ? nullptr
                                : correction_.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes;

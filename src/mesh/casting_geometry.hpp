@@ -33,7 +33,7 @@ struct RiserCylinder {
   double diameter = 0, height = 0;  ///< [m]
 };
 
-/// What lies above `at` along an axis is cut off.
+/// Half-space that is cut off: everything above `at` along an axis.
 struct HalfSpace {
   int axis = 0;
   double at = 0;  ///< [m]
@@ -44,7 +44,7 @@ struct CastingGeometry {
   std::optional<MouldBlock> mould;
   std::optional<RiserCylinder> riser;
   std::optional<HalfSpace> symmetry;
-  /// Which of the ways to mesh is taken, from zero: mesh_casting() tries them in turn.
+  /// Number of the meshing attempt, from zero: mesh_casting() tries them in turn.
   int attempt = 0;
 };
 
@@ -52,7 +52,7 @@ struct CastingGeometry {
 inline constexpr double k_sound_quality = 0.15;
 /// How many ways to mesh there are: as the file is, with HXT, healed, finer, …
 int n_meshing_attempts();
-/// What a way does, for messages: "healed, elements of 0.7 of the size".
+/// Describes an attempt for messages: "healed, elements of 0.7 of the size".
 std::string meshing_attempt(int attempt);
 
 /// Meshes a STEP, BREP, IGES or STL file in one way after the other until every body has elements and the

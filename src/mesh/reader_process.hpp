@@ -21,7 +21,8 @@ std::optional<int> serve_as_reader(int argc, char** argv);
 /// @param asked  called about ten times a second; nullptr: wait on
 void give_up_reading_when(bool (*asked)());
 
-/// What a reader may use. The environment sets both: SOLIDUS_MESH_MEMORY="8 GB", SOLIDUS_MESH_TIME="2 h".
+/// Memory and time that a reader process may use. The environment sets both: SOLIDUS_MESH_MEMORY="8 GB",
+/// SOLIDUS_MESH_TIME="2 h".
 struct ReaderLimits {
   double memory = 0;  ///< [byte]
   double time = 0;    ///< [s]

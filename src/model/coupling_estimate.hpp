@@ -1,4 +1,4 @@
-/// What a case can expect of the isothermal split, before it runs (monograph 4.2.4;
+/// Estimate of the stability of the isothermal split for a case, before it runs (monograph 4.2.4;
 /// docs/theory/coupling_stability.md, 5).
 #pragma once
 

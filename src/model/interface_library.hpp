@@ -33,7 +33,7 @@ std::vector<std::filesystem::path> interface_folders();
 /// All cards, sorted by name; of equal names that of the first folder. Throws InputError for a wrong card.
 std::vector<InterfaceCard> interface_cards();
 
-/// What a card has to fit.
+/// One side of an interface that a card is searched for.
 struct InterfacePartner {
   std::string material;  ///< name in the library, or a file
   Role role = Role::casting;

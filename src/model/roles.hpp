@@ -1,4 +1,4 @@
-/// What bodies are to the foundry, and what follows from it.
+/// Roles of bodies in the foundry, and decisions that follow from them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// What lies on the skins of the bodies at the start: contacts with their gaps, and the surfaces of thermal
+/// Measures of the skins of the bodies at the start: contacts with their gaps, and the surfaces of thermal
 /// conditions. Over all processes.
 #pragma once
 

@@ -42,7 +42,7 @@ struct StepResult {
   bool converged = false;
 };
 
-/// What a state stores.
+/// Energy, entropy and heat capacity of a state.
 struct Stored {
   double energy;    ///< E + L [J/m³], zero for the free material at Θ_0
   double entropy;   ///< S^E + S^pc [J/(m³ K)]

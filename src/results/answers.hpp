@@ -1,8 +1,8 @@
-/// What a run answers to a foundry engineer: is it solid, where was the last melt, did the riser outlive the
-/// part, which pools were cut off, gaps, distortion, stress, and whether energy is closed. Printed at the end
-/// of a run, also of one that stops, and "answers" of summary.json.
+/// Answers of a run to a foundry engineer's questions: is it solid, where was the last melt, did the riser
+/// outlive the part, which pools were cut off, gaps, distortion, stress, and whether the energy balance is
+/// closed. Printed at the end of a run, also of one that stops, and "answers" of summary.json.
 ///
-/// Every body is there from the start of a run, so that its clock counts from pouring.
+/// Every body exists from the start of a run, so times count from pouring.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-/// What can go wrong when results are written, and how every process learns of it.
+/// Errors of writing results, and functions that make every process throw if one fails.
 #pragma once
 
 #include <functional>

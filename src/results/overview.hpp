@@ -1,5 +1,5 @@
-/// What a case was understood to be, in a foundry engineer's numbers: the table of `solidus check`, also in
-/// summary.json.
+/// Overview of a case as the program has understood it, in a foundry engineer's numbers: the table of
+/// `solidus check`, also in summary.json.
 ///
 /// Volumes, areas and masses are those of the mesh as it is: in plane strain of one metre of thickness, in
 /// axisymmetry of the whole revolution.
@@ -40,7 +40,7 @@ struct SkinOverview {
   std::string law;                               ///< "1000 W/m2/K, in the gap 420 to 600 W/m2/K"
 };
 
-/// What is poured, and how it is expected to freeze (model/freezing_estimate.hpp).
+/// Overview of a poured body, with the estimate of its freezing (model/freezing_estimate.hpp).
 struct PourOverview {
   std::string body;
   double pouring = 0, liquidus = 0, solidus = 0;  ///< temperatures [K]

@@ -98,7 +98,7 @@ class Probes {
   Sample group_sample(const mesh::Mesh& mesh, AnalysisKind kind, const GroupProbe& probe,
                       const Field& field) const;
   Sample linear_sample(const LinearProbe& probe) const;
-  /// What a sample adds to or raises, in SI; `peak` without bodies that have left.
+  /// Accumulators of a sample, in SI: sums and maxima. `peak` excludes bodies that have been removed.
   struct Totals {
     double &sum, &peak, &peak_of_all;
   };

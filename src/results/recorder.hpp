@@ -62,7 +62,7 @@ class Recorder : public coupling::Observer {
   void write_fields(const coupling::State& state);
   void add_pools(const coupling::State& state);
   void note_left_walls(const coupling::StepRecord& record);
-  /// What the end of a run, or its stop, says and writes.
+  /// Prints and writes the conclusion at the end of a run, or at its stop.
   /// @param mechanical  stresses and gaps are those of the state
   void conclude(const std::string& outcome, const coupling::State& state, bool mechanical);
   void write_summary_file(const std::string& outcome, const coupling::State& state);

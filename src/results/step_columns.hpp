@@ -1,4 +1,4 @@
-/// What the tables say about steps: the columns of steps.csv and the global columns of history.csv.
+/// Columns of the tables of steps: those of steps.csv and the global columns of history.csv.
 #pragma once
 
 #include <string>
