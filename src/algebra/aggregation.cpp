@@ -454,7 +454,8 @@ void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, Bloc
   coarse = std::move(sum);
 }
 
-/// What a local row of the fine level, ghosts too, starts from: its aggregate, if any, and its block of P₀.
+/// Tentative interpolation: for each local row of the fine level, ghosts too, its aggregate, if any, and its
+/// block of P₀.
 struct Tentative {
   std::vector<Index> of_row;
   std::vector<float> values;

@@ -59,7 +59,7 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   PC inner = innermost(pc);
   PCFailedReason why = PC_NOERROR;
   check(PCGetFailedReason(inner, &why), "PCGetFailedReason");
-  // Where every process factorises for itself, one may lack memory that another has.
+  // If every process factorises for itself, one may lack memory that another has.
   lacks_workspace_ = any_process(why == PC_FACTOR_OUTMEMORY || why == PC_FACTOR_OTHER);
   // MUMPS reports a random error for a matrix with entries that are not numbers, lack of workspace among
   // them.

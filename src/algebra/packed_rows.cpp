@@ -107,7 +107,7 @@ PackedRows::PackedRows(const MatrixView& a, Index n_local, bool symmetric, Patte
   }
 }
 
-/// What stands left of the diagonal is left out.
+/// Copies the sparsity pattern of the upper triangle; blocks left of the diagonal are omitted.
 void PackedRows::copy_upper_pattern(const MatrixView& a) {
   own_start_.assign(1, 0);
   own_start_.reserve(a.start.size());

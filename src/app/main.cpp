@@ -129,7 +129,7 @@ void set_log_level(const std::string& wanted) {
   logging::set_level(level->second);
 }
 
-/// What completion offers beside verbs and options.
+/// Returns the words that completion offers besides verbs and options.
 KnownWords known_words() {
   return {key_paths(model::case_keys().info()), material::material_names(model::material_folders())};
 }
@@ -265,7 +265,8 @@ ExitCode parse_and_run(int argc, char** argv) {
     return k_done;
   } catch (const CLI::Success& help) {
     print(help.get_name() == "CallForHelp"
-              ? (program.get_subcommands().empty() ? program.help() : program.get_subcommands()[0]->help("solidus"))
+              ? (program.get_subcommands().empty() ? program.help()
+                                                   : program.get_subcommands()[0]->help("solidus"))
               : program.help("", CLI::AppFormatMode::All));
     return k_done;
   } catch (const CLI::ParseError& error) {
@@ -323,7 +324,7 @@ int main(int argc, char** argv) {
   keep_environment();
   profile::begin();
   give_large_arrays_back();
-  // What stands behind "--" is PETSc's; its first argument is the program's name.
+  // Arguments behind "--" are PETSc's; its first argument is the program's name.
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
   std::vector<char*> for_petsc(separator == end ? end : separator + 1, end);

@@ -82,8 +82,8 @@ void prepare(const fs::path& folder, const PointCase& point_case, const std::str
                         to_toml(point_case.document)));
 }
 
-/// What to tell of properties whose data do not hold at the temperatures of the history; empty: nothing.
-/// Throws InputError where a table refuses.
+/// Returns a warning about properties whose data do not hold at the temperatures of the history; empty: there
+/// are none. Throws InputError for a table whose extrapolation is an error.
 std::string warning(const Curve& curve, const std::vector<Record>& records) {
   const auto [coldest, hottest] =
       std::minmax_element(records.begin(), records.end(),

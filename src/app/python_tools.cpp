@@ -28,7 +28,7 @@ std::vector<std::string>& environment() {
   return kept;
 }
 
-/// Where the modules lie.
+/// Returns the folder of the Python modules.
 fs::path modules() {
   for (const fs::path& folder : {shared_folder() / "python", fs::path(SOLIDUS_PYTHON_DIR)})
     if (std::error_code error; fs::is_directory(folder / "solidus_plots", error)) return folder;

@@ -23,7 +23,8 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1));
 }
 
-/// Where the bracket opens that the last character closes; "k (W/(m K))" has another within.
+/// Returns the position of the opening bracket that the last character closes; "k (W/(m K))" has another one
+/// within.
 std::size_t opening_bracket(const std::string& text) {
   int open = 0;
   for (std::size_t i = text.size(); i-- > 0;) {

@@ -6,7 +6,7 @@
 namespace solidus::contact {
 namespace {
 
-/// What rounding leaves of a sum, in parts of its largest terms.
+/// Rounding error of a sum, in parts of its largest terms.
 constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr int k_max_iterations = 200;
 /// A relative correction after which Newton's method on a smooth function has reached rounding.

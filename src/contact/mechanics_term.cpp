@@ -17,7 +17,7 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-/// What a residual found, this process's part.
+/// Counts and maxima over the points of a residual, this process's part.
 struct MechanicsTerm::Count {
   double points = 0, closed = 0, sticking = 0, penetration = 0, pressure = 0;
 

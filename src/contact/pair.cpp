@@ -312,9 +312,9 @@ void ContactPair::find_wet_points(std::span<const double> coherency) {
   }
 }
 
-/// Where the interface has no temperature yet, the mean of the two sides at t_n, wherever other iterates of
-/// the step have gone. A point without a partner at t_n counts no slip in the step in which it finds one, so
-/// friction does not ask for its temperature.
+/// Sets the temperature of interface points that have none yet to the mean of the two sides at t_n, whatever
+/// the other iterates of the step. A point without a partner at t_n counts no slip in the step in which it
+/// finds one, so friction does not need its temperature.
 void ContactPair::find_interface_temperatures(std::span<const double> temperature) {
   const auto known = [](const PointState& from) { return from.temperature > 0; };
   if (std::ranges::all_of(step_.from, known)) return;
@@ -372,8 +372,8 @@ void ContactPair::wear_master(const PointMotion& motion, const PointState& now, 
 
 HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
                                   const PointForces& forces) const {
-  // What is pressed together is closed: a multiplier may carry the pressure where penetration and gap are of
-  // the size of the tolerance.
+  // A point with a pressure is closed, whatever its penetration: a multiplier may carry the pressure where
+  // penetration and gap are of the size of the tolerance.
   const double penetration = now.pressure > 0 ? std::max(now.penetration, 0.0) : now.penetration;
   HeatPoint point{.penetration = seen_by_heat(penetration, now.suction),
                   .pressure = now.pressure,

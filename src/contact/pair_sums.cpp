@@ -1,4 +1,4 @@
-/// What a contact pair tells of a step: work, forces, energies.
+/// Sums of a contact pair over a step: work, forces, energies.
 #include <petscsys.h>
 
 #include <algorithm>

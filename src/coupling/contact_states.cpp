@@ -14,7 +14,7 @@ namespace solidus::coupling {
 namespace {
 
 constexpr int k_most_augmentations = 400;
-// Where points at the edge of contact open and close from turn to turn, penetrations do not settle: after
+// If points at the edge of contact open and close from turn to turn, the penetrations do not converge: after
 // k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;

@@ -176,7 +176,8 @@ std::optional<Outcome> Simulation::run_stage(Progress& p) {
         scheme_->synchronise(p.committed);
         break;
       case Try::stuck:
-        // Whoever continues has changed something: with the step asked for, not with the one that failed.
+        // A run that continues from here has a changed case, so it starts with the step asked for, not with
+        // the one that failed.
         save(p, {.size = options_.stages[p.stage].step.step});
         return stopped(p.stop, p, Outcome::stuck);
     }

@@ -26,7 +26,7 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
   const auto look = [&](const char* name, const char* unit, double value, double allowed, double order,
                         double tolerated) {
     if (value <= 0) return;
-    // What is not a number exceeds every limit by far.
+    // A value that is not a number exceeds every limit by far.
     const double ratio = std::isnan(value) ? std::numeric_limits<double>::infinity() : value / allowed;
     result.ratio = std::max(result.ratio, ratio);
     result.exceeded = result.exceeded || ratio > tolerated;

@@ -240,7 +240,8 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
     }
   }
   ghosts_.update(shares_, 2);
-  // Where nothing flows yet, both ways: the processes of the two nodes must agree.
+  // Where nothing flows yet the direction is unknown, and the processes of the two nodes must agree: the
+  // smaller share of both directions is taken.
   const auto left_of = [&](const Pair& p, double flow) {
     const std::size_t i = 2 * at(p.i), j = 2 * at(p.j);
     const double into_i = std::min(shares_[i], shares_[j + 1]), into_j = std::min(shares_[i + 1], shares_[j]);

@@ -314,7 +314,8 @@ ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalSta
   return from;
 }
 
-// What the nodes have taken up, less what contributions that store have given them.
+// Computes the heat flow into the nodes: the heat that they have taken up, less that from contributions that
+// store heat.
 std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalState& next,
                                        const algebra::Stage& stage) const {
   std::vector<double> flow(reactions_.size());

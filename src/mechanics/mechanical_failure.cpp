@@ -1,4 +1,4 @@
-/// Where a step of the mechanical phase fails, in words.
+/// Describes where and why a step of the mechanical phase fails, for messages.
 #include <fmt/format.h>
 #include <mpi.h>
 

@@ -108,8 +108,8 @@ void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
     for (std::size_t i = 0; i < n; ++i) weight_[node * n + i] = mass[node] * gravity[i];
 }
 
-/// What the elements of bodies that have gone need is given back: at once, or once a step without them is
-/// committed, where results show fields of the last one until then.
+/// Frees the memory of the elements of removed bodies: at once, or, if results show fields of the last step,
+/// once a step without them is committed.
 void MechanicalPhase::remove_bodies(const algebra::Presence& presence) {
   if (inertia_) throw std::invalid_argument("bodies can leave in quasi-statics only");
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -117,7 +117,7 @@ void MechanicalPhase::remove_bodies(const algebra::Presence& presence) {
     if (presence.body(block.body) && !presence_.body(block.body))
       throw std::invalid_argument("a body that has gone cannot come back");
     if (presence.body(block.body) || !presence_.body(block.body)) continue;
-    // What is kept for results is shown until the next step is committed.
+    // Fields that are kept for results are shown until the next step is committed.
     std::unique_ptr<BlockKernel> kept = keeps_fields_ ? std::move(blocks_[b]) : nullptr;
     blocks_[b] = std::make_unique<AbsentBlock>(
         mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)], std::move(kept));
@@ -144,7 +144,8 @@ algebra::NodeGraph MechanicalPhase::graph() const {
 void MechanicalPhase::create_matrix() {
   using Storage = algebra::BlockMatrix::Storage;
   Storage storage = Storage::whole;
-  // What couples displacements with temperatures has their pattern.
+  // The blocks that couple displacements with temperatures share the pattern of this matrix, so it is then
+  // stored whole.
   if (options_.mapping != Mapping::simultaneous && !algebra::any_process(!loads_->ties().empty())) {
     if (!pressure_)
       storage = algebra::storage_for(linear_options(options_), mesh_, components_,

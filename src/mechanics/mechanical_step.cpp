@@ -118,7 +118,7 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   return balance_.reference();
 }
 
-/// What keeps a face plane are forces that the body exchanges, like those of a support; their sum is
+/// The forces that keep a face plane are exchanged with the body like those of a support; their sum is a
 /// residual.
 void MechanicalPhase::add_residual_to_balance(std::span<const double> r) {
   if (matrix_->ties().empty()) {
@@ -284,7 +284,8 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
   x.resize(n_displacements());
   next.displacement = std::move(x);
   next.stress = std::move(stress_);
-  // Where the last body with a pressure has left its values stay, as checkpoints have room for them.
+  // If the last body with a pressure has been removed, the old values are kept, because checkpoints have room
+  // for them.
   next.pressure = pressure_ ? pressure_->pressure() : old.pressure;
   if (options_.integration == TimeIntegration::two_step) {
     next.before = old.history;

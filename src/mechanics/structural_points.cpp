@@ -124,7 +124,7 @@ StructuralPoints::Sloped StructuralPoints::structural_heating(const Point& at, L
   return {-temperature * stress_theta, -stress_theta - temperature * stress_theta2};
 }
 
-/// What the stage stores at a point [J/m³]; the slope without third derivatives.
+/// Computes the heat that the stage stores at a point [J/m³]; the slope without third derivatives.
 StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t point,
                                                 Lane temperature) const {
   const Point& at = points_[point];

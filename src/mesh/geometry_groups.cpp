@@ -14,8 +14,8 @@ namespace solidus::mesh {
 
 namespace {
 
-/// What a label says after its last slash: "Shapes/crankshaft/web" is "web". Empty for those that Gmsh's
-/// kernel makes up.
+/// Returns the part of a label after its last slash: "Shapes/crankshaft/web" is "web". Empty for those that
+/// Gmsh's kernel makes up.
 std::string short_label(int dimension, int tag) {
   std::string label;
   gmsh::model::getEntityName(dimension, tag, label);

@@ -69,7 +69,7 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// What Gmsh complained about, in its words.
+  /// Returns the errors and warnings of Gmsh, in its words.
   static std::string complaints() {
     std::vector<std::string> log;
     gmsh::logger::get(log);

@@ -141,7 +141,7 @@ Point along(Point d, const Corner* first, const Corner* last) {
   return normalise(d) > 0.3 ? d : Point{};
 }
 
-/// Where the vertices of the wall would go if there was room.
+/// Returns the displacements of the vertices of the wall if there was enough room.
 std::vector<Point> wanted(const RawMesh& mesh, const RawGroup& body, const WallTopology& wall,
                           const std::vector<Corner>& corners, double thickness) {
   const std::vector<Corner> around = corners_of(mesh, body, wall, wall.around);

@@ -150,7 +150,7 @@ void apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& 
   if (a.mechanics) a.mechanics->set_conditions(mechanical_conditions(spec, &stage), displacement);
   double carried = 0;
   if (a.heat) {
-    // Where a run goes on at the end of a stage, the bodies that left before it have taken their heat
+    // If a run continues at the end of a stage, the heat of the bodies that left before it has been removed
     // already.
     if (begins != nullptr && number > 0) a.heat->set_conditions(thermal_conditions(spec, &stage - 1));
     carried =

@@ -16,7 +16,7 @@ namespace solidus::model {
 
 namespace {
 
-/// Which bodies meet at a node, as a set of bits; bodies beyond the 63rd count as one.
+/// Set of the bodies that meet at a node, as bits; bodies beyond the 63rd count as one.
 using BodySet = std::uint64_t;
 
 BodySet bit(int body) {

@@ -62,7 +62,7 @@ std::set<BodyPair> pairs_with_contacts(const CaseSpec& spec, const mesh::RawMesh
   return pairs;
 }
 
-/// Which section each pair of bodies belongs to.
+/// Returns the pairs of bodies, each with the section that it belongs to.
 std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const CaseSpec& spec, const mesh::RawMesh& mesh,
                                                            const std::vector<Role>& roles,
                                                            const std::vector<mesh::SplitNodes>& shared) {

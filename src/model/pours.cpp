@@ -1,4 +1,4 @@
-// What is poured: the skins that cool it, as a problem in one dimension (model/freezing_estimate.hpp).
+// Poured bodies and the skins that cool them, as a problem in one dimension (model/freezing_estimate.hpp).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -61,7 +61,7 @@ std::function<double(double, double)> averaged(heat::SurfaceLaw law, const Surfa
   return [shared](double temperature, double time) { return (*shared)(temperature, time); };
 }
 
-/// What thermal conditions of the first stage do on the skin of a body.
+/// Returns the parts of the skin of a body that thermal conditions of the first stage cool.
 std::vector<CooledSkin> conditions_on(std::size_t body, const CaseSpec& spec, const Assembly& a,
                                       const CaseMeasures& m) {
   std::vector<CooledSkin> skins;
@@ -201,7 +201,7 @@ double depth_below(const mesh::Mesh& mesh, std::size_t body, const std::vector<m
   return std::sqrt(algebra::global_max(depth));
 }
 
-/// What a skin takes at the start or later in the run, at the temperature of the pour [W/m²].
+/// Largest heat flux into a skin at the start or later in the run, at the temperature of the pour [W/m²].
 double cooling_of(const CooledSkin& skin, double start, const Assembly& a, double end) {
   if (skin.other) {
     const double there = a.start[*skin.other].low;

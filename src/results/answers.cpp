@@ -232,7 +232,7 @@ std::string pools_text(const Answers::CutOffPools& pools) {
       place(pools.where));
 }
 
-/// What people read of the criteria, and the names that findings have for it.
+/// Line of the printed answers on a criterion, and the name of the finding that it shows.
 struct Line {
   std::string_view text, finding, unit;
   double factor;

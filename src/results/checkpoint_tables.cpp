@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::int64_t k_rows_at_once = 1 << 16;
 constexpr std::size_t k_widest = 1 << 14;  ///< numbers in a row: of the points of one element
-/// What HDF5 writes beside the numbers, of a file and of a table, amply [bytes].
+/// Upper bounds of what HDF5 writes besides the numbers, for a file and for a table [bytes].
 constexpr std::int64_t k_of_file = 1 << 16, k_of_table = 1 << 12;
 
 /// Reserves the first bytes of a file; an error number where there is no room for them, else zero. A file

@@ -12,7 +12,8 @@ namespace solidus::results {
 namespace {
 
 constexpr std::size_t k_most_modes = 6;
-/// What a degree of freedom does in each rigid motion; rotations about the centre, over the size of the part.
+/// Displacement of a degree of freedom in each rigid motion; rotations are about the centre, over the size of
+/// the part.
 using Row = std::array<double, k_most_modes>;
 
 double dot(const Row& a, const Row& b) {
@@ -22,7 +23,7 @@ double dot(const Row& a, const Row& b) {
 /// Motions that are held, as an orthonormal basis.
 class Held {
  public:
-  /// What a row holds that is not held yet.
+  /// Returns the part of a row that is orthogonal to the motions held already.
   Row rest(Row row) const {
     for (int turn = 0; turn < 2; ++turn)  // a second time for rounding
       for (const Row& held : basis_) {

@@ -33,7 +33,7 @@ std::string own_mark() {
   return fmt::format("process {} on {}\n", getpid(), host_name());
 }
 
-/// What a lock says of who made it; an empty host where it says nothing.
+/// Process that made a lock, as its file states; the host is empty if the file does not state it.
 struct Owner {
   long process = 0;
   std::string host;

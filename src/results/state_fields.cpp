@@ -318,7 +318,8 @@ void StateFields::update_heat(const contact::ContactNodalFields& fields, std::sp
   show("frictional_heat_flux", fields.frictional_heat_flux);
 }
 
-// What surfaces remember of several pairs: the largest. Of the contact that is there: the closest partner's.
+// Updates the fields of friction. The history fields of a surface in several pairs are the largest of all
+// pairs; the fields of the present contact are those of the pair with the closest partner.
 void StateFields::update_friction(const contact::ContactNodalFields& fields, std::span<const char> closest) {
   const std::array<const std::vector<double>*, std::size(k_remembered)> remembered = {
       &fields.slip, &fields.internal_variable, &fields.coefficient, &fields.dissipation, &fields.wear_depth};

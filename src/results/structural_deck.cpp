@@ -294,7 +294,7 @@ class Writer {
     }
   }
 
-  /// What holds the bodies holds them where they are; what acts on them goes on.
+  /// Writes the step: supports hold the bodies where they are, and loads continue to act.
   void step() {
     line("*STEP");
     line("*STATIC");

@@ -60,7 +60,7 @@ std::span<const int> vtk_node_order(Shape shape) {
 
 namespace {
 
-// What one file holds: the counted cells of some blocks and the nodes they touch.
+// Contents of one file: the counted cells of some blocks and the nodes they touch.
 struct Part {
   const Mesh& mesh;
   std::span<const Block> blocks;
