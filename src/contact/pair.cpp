@@ -207,7 +207,7 @@ void ContactPair::begin_heat(double dt, bool adiabatic) {
   if (heat_ && law_.friction) heat_->begin_phase({dt, adiabatic});
 }
 
-void ContactPair::rest() {
+void ContactPair::hold_deformation() {
   ahead_.clear();
   if (!heat_ || !law_.friction) return;
   step_.from = now_.points;

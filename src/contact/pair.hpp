@@ -139,7 +139,7 @@ class ContactPair {
   void begin_heat(double dt, bool adiabatic);
   /// Holds the present deformation: the heat of friction of the last update() is dropped, so that a thermal
   /// phase that follows has none.
-  void rest();
+  void hold_deformation();
   /// Predicts the heat of the second of two equal mechanical passes of a step by that of the first. The
   /// thermal phase between them takes heat and entropy of the slip of the first pass twice, and the same
   /// amount is subtracted from those of the second pass.

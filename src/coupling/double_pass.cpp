@@ -42,8 +42,8 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   const double middle = time - 0.5 * dt;
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, old.heat);
-  phases_.mechanics->rest(old.mechanics, old.heat.temperature, share);
-  for (contact::ContactPair* pair : phases_.contacts) pair->rest();
+  phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, share);
+  for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   State predicted;
   thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
   mechanical_pass(phases_, old, half,

@@ -77,7 +77,7 @@ class BlockKernel {
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
   /// Holds the deformation: has the effect of prepare() and finish() for a body that stays at the held
   /// displacement and history.
-  virtual void rest(const StepStart& start) = 0;
+  virtual void hold_deformation(const StepStart& start) = 0;
   /// The first element whose law finds no state at u, with its inputs; empty if there is none.
   virtual std::string failure(std::span<const double> u) const = 0;
   /// How much of the block flows plastically at u; counted elements only.

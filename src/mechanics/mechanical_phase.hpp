@@ -166,9 +166,10 @@ class MechanicalPhase : private algebra::NonlinearSystem {
     return solve(old, trial, {.time = time, .dt = dt, .temperature = temperature});
   }
 
-  /// Hands StructuralHeat a body that does not move: a thermal phase of its own can follow.
-  void rest(const MechanicalState& state, std::span<const double> temperature,
-            std::span<const double> plateau_share = {});
+  /// Holds the deformation of `state` for StructuralHeat, so that a thermal phase of bodies that do not move
+  /// can follow.
+  void hold_deformation(const MechanicalState& state, std::span<const double> temperature,
+                        std::span<const double> plateau_share = {});
 
   // The pieces of solve(), for an iteration that has further unknowns (coupling/simultaneous.hpp).
   /// Loads, state at t_n and properties at the temperature of the pass; `old` must live until conclude().

@@ -232,21 +232,22 @@ std::vector<double> MechanicalPhase::start(const MechanicalState& old, const Mec
   return x;
 }
 
-void MechanicalPhase::rest(const MechanicalState& state, std::span<const double> temperature,
-                           std::span<const double> plateau_share) {
+void MechanicalPhase::hold_deformation(const MechanicalState& state, std::span<const double> temperature,
+                                       std::span<const double> plateau_share) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    blocks_[b]->rest({.temperature = temperature,
-                      .pass_temperature = temperature,
-                      .initial_temperature = initial_temperature_,
-                      .old_displacement = state.displacement,
-                      .held_displacement = state.displacement,
-                      .held_history = &state.history[b],
-                      .old_history = &state.history[b],
-                      .start_history = &state.history[b],
-                      .dt = 1,
-                      .effective_dt = 1,
-                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
-                      .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
+    blocks_[b]->hold_deformation(
+        {.temperature = temperature,
+         .pass_temperature = temperature,
+         .initial_temperature = initial_temperature_,
+         .old_displacement = state.displacement,
+         .held_displacement = state.displacement,
+         .held_history = &state.history[b],
+         .old_history = &state.history[b],
+         .start_history = &state.history[b],
+         .dt = 1,
+         .effective_dt = 1,
+         .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
+         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,

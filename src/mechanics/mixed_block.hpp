@@ -149,13 +149,13 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     return this->total(tally);
   }
 
-  void rest(const StepStart& start) override {
+  void hold_deformation(const StepStart& start) override {
     prepare(start);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Sym<Lane> gradient = at_point(batch).strain(gather(start.held_displacement, batch));
-      this->points_.rest(batch, 0,
-                         this->deformation(strain(gradient, volume_[at(batch)]), this->old_state(batch, 0),
-                                           this->is_solid(batch, 0)));
+      this->points_.hold_deformation(batch, 0,
+                                     this->deformation(strain(gradient, volume_[at(batch)]),
+                                                       this->old_state(batch, 0), this->is_solid(batch, 0)));
     }
   }
 

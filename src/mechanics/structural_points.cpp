@@ -71,7 +71,7 @@ void StructuralPoints::set_old(Index batch, int point, const Deformation& deform
   p.old_energy = old.internal_energy;
 }
 
-void StructuralPoints::rest(Index batch, int point, const Deformation& deformation) {
+void StructuralPoints::hold_deformation(Index batch, int point, const Deformation& deformation) {
   if (!kept()) return;
   Point& p = at(batch, point);
   p.now = deformation;

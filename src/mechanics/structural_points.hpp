@@ -66,7 +66,7 @@ class StructuralPoints {
   /// Fills the old entropy and energy from the deformation at t_n.
   void set_old(Index batch, int point, const Deformation& old);
   /// Fills all but the temperatures of a point whose deformation is held, if kept.
-  void rest(Index batch, int point, const Deformation& deformation);
+  void hold_deformation(Index batch, int point, const Deformation& deformation);
 
   /// At a temperature and the deformation at t_{n+1}.
   StructuralDensities densities(Index batch, int point, Lane temperature) const;
