@@ -61,9 +61,9 @@ ExitCode guarded(const std::function<ExitCode()>& verb) {
   } catch (const InputError& error) {
     return fail(k_bad_input, error.what());
   } catch (const StepRejected& error) {
-    return fail(interrupted() ? k_interrupted : k_cannot_go_on, error.what());
+    return fail(interrupted() ? k_interrupted : k_cannot_continue, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(k_cannot_go_on, "the memory is exhausted; use a coarser mesh or more processes");
+    return fail(k_cannot_continue, "the memory is exhausted; use a coarser mesh or more processes");
   } catch (const std::exception& error) {
     // PETSc reads options late, where a solver is made; what it does not know there is the user's.
     if (std::string_view(error.what()).find("SetFromOptions") != std::string_view::npos)

@@ -210,7 +210,7 @@ ExitCode run_point(const CaseArguments& arguments) {
   print("Results in " + folder.lexically_normal().string() + "\n");
   if (summary.failures.empty()) return k_done;
   std::fputs(("solidus: " + summary.failures).c_str(), stderr);
-  return k_cannot_go_on;
+  return k_cannot_continue;
 }
 
 }  // namespace solidus::app

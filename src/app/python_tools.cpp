@@ -77,7 +77,7 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return k_our_bug;
-  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGINT ? k_interrupted : k_cannot_go_on;
+  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGINT ? k_interrupted : k_cannot_continue;
   switch (WEXITSTATUS(status)) {
     case 0:
       return k_done;

@@ -198,7 +198,7 @@ std::optional<double> ContactPair::tool_temperature_at(double time) const {
   return spec_.rigid_master->temperature->value(time);
 }
 
-void ContactPair::surround(std::span<const double> temperature) {
+void ContactPair::set_temperature(std::span<const double> temperature) {
   if (step_.together.law != nullptr)
     step_.together.temperature.assign(temperature.begin(), temperature.end());
 }
@@ -208,7 +208,7 @@ void ContactPair::begin_heat(double dt, bool adiabatic) {
 }
 
 void ContactPair::hold_deformation() {
-  ahead_.clear();
+  predicted_.clear();
   if (!heat_ || !law_.friction) return;
   step_.from = now_.points;
   step_.dt = 0;
@@ -217,12 +217,12 @@ void ContactPair::hold_deformation() {
   heat_->place(std::move(heat));
 }
 
-void ContactPair::heat_ahead() {
+void ContactPair::predict_heat() {
   if (!heat_ || !law_.friction) return;
   std::vector<HeatPoint> heat = heat_->points();
-  ahead_.clear();
+  predicted_.clear();
   for (HeatPoint& point : heat) {
-    ahead_.push_back({point.step.dissipation, point.step.structural_entropy});
+    predicted_.push_back({point.step.dissipation, point.step.structural_entropy});
     point.step.dissipation *= 2;
     point.step.structural_entropy *= 2;
   }
@@ -357,9 +357,9 @@ void ContactPair::update(std::span<const double> displacement) {
     if (!fixed) partners_.add(motion, kinematics_->particle(p).counted);
     before_heat_[at(p)] = now_.points[at(p)].temperature;
     if (heat_) heat.push_back(heat_point(from, now_.points[at(p)], forces));
-    if (ahead_.empty() || !heat_) continue;
-    heat.back().step.dissipation -= ahead_[at(p)][0];
-    heat.back().step.structural_entropy -= ahead_[at(p)][1];
+    if (predicted_.empty() || !heat_) continue;
+    heat.back().step.dissipation -= predicted_[at(p)][0];
+    heat.back().step.structural_entropy -= predicted_[at(p)][1];
   }
   if (heat_) heat_->place(std::move(heat));
 }
@@ -391,28 +391,28 @@ void ContactPair::show_whole_step() {
   std::vector<HeatPoint> heat = heat_->points();
   for (std::size_t p = 0; p < heat.size(); ++p) {
     heat[p].step.time_step *= 2;
-    heat[p].step.dissipation += 2 * ahead_[p][0];
-    heat[p].step.structural_entropy += 2 * ahead_[p][1];
+    heat[p].step.dissipation += 2 * predicted_[p][0];
+    heat[p].step.structural_entropy += 2 * predicted_[p][1];
   }
   heat_->place(std::move(heat));
-  ahead_.clear();
+  predicted_.clear();
 }
 
-InterfaceSums ContactPair::settle(std::span<const double> temperature) {
+InterfaceSums ContactPair::commit_heat(std::span<const double> temperature) {
   InterfaceSums sums;
   if (!heat_ || !law_.friction) return sums;
-  const std::vector<double> settled = heat_->interface_temperatures(temperature);
+  const std::vector<double> found = heat_->interface_temperatures(temperature);
   const InterfaceHeat heat = heat_->interface_heat(temperature);
-  if (heat_->stores() && !ahead_.empty()) show_whole_step();
+  if (heat_->stores() && !predicted_.empty()) show_whole_step();
   heat_->end_phase();
   sums.dissipated = heat.dissipated;
   sums.stored = heat.stored;
   const FrictionLaw& law = *law_.friction;
-  for (std::size_t p = 0; p < settled.size(); ++p) {
+  for (std::size_t p = 0; p < found.size(); ++p) {
     const PointState& from = step_.from[p];
     PointState& now = now_.points[p];
     if (!(from.temperature > 0)) continue;
-    now.temperature = settled[p];
+    now.temperature = found[p];
     const double made = plastic_entropy_increment(law, now.slip - from.slip, now.pressure, now.temperature);
     now.plastic_entropy = from.plastic_entropy + made;
     const ContactKinematics::Particle particle = kinematics_->particle(static_cast<Index>(p));
@@ -440,7 +440,7 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   step_.time = step_.begun = time;
   step_.dt = 0;
   step_.together = {};
-  ahead_.clear();
+  predicted_.clear();
   if (heat_) heat_->end_phase();
   step_.displacement.assign(displacement.begin(), displacement.end());
   const ContactState stands{step_.from, worn_from_};
@@ -532,7 +532,7 @@ std::string ContactPair::worst_penetration() const {
   return text;
 }
 
-std::string ContactPair::trouble() const {
+std::string ContactPair::failure_text() const {
   const FrictionStatus failure = mechanics_->failure();
   if (algebra::any_process(failure != FrictionStatus::converged)) {
     const double worst = algebra::global_max(static_cast<double>(failure));

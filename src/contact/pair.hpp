@@ -87,7 +87,7 @@ struct ContactPass {
   /// melts. Empty: nothing does.
   std::span<const double> coherency{};
   bool isentropic = false;    ///< the pass holds the entropy of the interface, not Θ_c
-  bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see surround()
+  bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see set_temperature()
   double share = 1;           ///< s of normal.hpp
 };
 
@@ -122,9 +122,9 @@ class ContactPair {
   ContactState initial_state() const;
   /// Begins a step from the state `old`; empty: initial_state(). Local, no communication.
   void begin(const ContactState& old, const ContactPass& pass);
-  /// Within a simultaneous pass: the bodies' temperatures of now, [local node], for mechanics() and the next
-  /// update(). Local.
-  void surround(std::span<const double> temperature);
+  /// Sets the present temperatures of the bodies within a simultaneous pass, [local node], for mechanics()
+  /// and the next update(). Local.
+  void set_temperature(std::span<const double> temperature);
   /// Forces and history of every point for a displacement, and what heat sees of them: [local
   /// node][component], ghosts up to date [m]. Local, no communication.
   void update(std::span<const double> displacement);
@@ -135,7 +135,7 @@ class ContactPair {
   const ContactState& state() const { return now_; }
 
   /// Begins a thermal phase over `dt`, which need not be the time step of the mechanical pass; an adiabatic
-  /// phase has no fluxes. settle() ends it. Without this call the heat is that of the mechanical pass.
+  /// phase has no fluxes. commit_heat() ends it. Without this call the heat is that of the mechanical pass.
   void begin_heat(double dt, bool adiabatic);
   /// Holds the present deformation: the heat of friction of the last update() is dropped, so that a thermal
   /// phase that follows has none.
@@ -143,10 +143,10 @@ class ContactPair {
   /// Predicts the heat of the second of two equal mechanical passes of a step by that of the first. The
   /// thermal phase between them takes heat and entropy of the slip of the first pass twice, and the same
   /// amount is subtracted from those of the second pass.
-  void heat_ahead();
+  void predict_heat();
   /// Ends the thermal phase: computes Θ_c and S^p_c of every point at the temperatures found [local node] and
   /// commits them to state(). Zero without friction or heat. Collective.
-  InterfaceSums settle(std::span<const double> temperature);
+  InterfaceSums commit_heat(std::span<const double> temperature);
 
   /// Uzawa's step of the augmented Lagrangian: the multipliers grow with the mean penetrations around the
   /// slave's nodes, λ += ε_N Σ N_a ḡ_a, and friction starts from the tractions of the last update(). There
@@ -163,7 +163,7 @@ class ContactPair {
   void forget() { graph_->forget(); }
   /// Describes why an iteration failed, from the last residual, for messages: empty, or with the pair's name.
   /// Collective.
-  std::string trouble() const;
+  std::string failure_text() const;
   /// Points that changed between open, sticking and slipping at the last residual. Collective.
   GlobalIndex changes() const;
 
@@ -242,8 +242,8 @@ class ContactPair {
   std::vector<double> displacement_;  ///< of now_
   double time_ = 0;                   ///< likewise
   std::vector<double> before_heat_;   ///< Θ_c that the mechanical phase left, [point]
-  /// Of heat_ahead(), [point]: D_c,mech [J/m²] and entropy [J/(m² K)] that are taken already; or empty.
-  std::vector<std::array<double, 2>> ahead_;
+  /// Of predict_heat(), [point]: D_c,mech [J/m²] and entropy [J/(m² K)] that are taken already; or empty.
+  std::vector<std::array<double, 2>> predicted_;
   PartnerList partners_;
   std::vector<Index> surface_nodes_;  ///< owned nodes of both surfaces, sorted
   std::unique_ptr<MechanicsTerm> mechanics_;

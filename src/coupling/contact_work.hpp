@@ -42,13 +42,13 @@ class ContactWork {
 /// @param mechanical  false where deformation and heat exchange nothing: then friction's heat alone
 void book_interface(EnergyAudit& energy, bool mechanical);
 
-/// After a thermal pass: the interfaces take their temperatures, and the audit what they dissipate and store,
-/// and the heat, with its entropy, that rigid masters of given temperature give. Adds to energy.interface.
-/// Collective.
+/// Commits the temperatures of the interfaces after a thermal pass, and books into the audit what they
+/// dissipate and store, and the heat, with its entropy, from rigid masters of given temperature. Adds to
+/// energy.interface. Collective.
 /// @param temperature  found, [local node] [K]
 /// @param into_bodies  heat of the thermal phase's contributions, those of the pairs first [J]
-void settle_contacts(const Phases& phases, std::span<const double> temperature,
-                     std::span<const double> into_bodies, EnergyAudit& energy);
+void commit_contact_heat(const Phases& phases, std::span<const double> temperature,
+                         std::span<const double> into_bodies, EnergyAudit& energy);
 
 /// Sums over two passes.
 void add(const contact::InterfaceSums& next, contact::InterfaceSums& sum, double factor = 1);

@@ -63,7 +63,7 @@ std::size_t CoupledNewton::n_owned_displacements() const {
 CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
                                         const mechanics::MechanicalPass& pass, std::span<const double> x) {
   mechanics_.prepare(old, pass);
-  surround_contacts();
+  set_contact_temperatures();
   for (contact::ContactPair* pair : phases_.contacts) pair->update(x.first(mechanics_.n_displacements()));
   reference_ = mechanics_.residual(x, force_);
   const std::vector<char>& fixed = mechanics_.matrix().fixed();
@@ -80,8 +80,8 @@ CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
   return present();
 }
 
-void CoupledNewton::surround_contacts() {
-  for (contact::ContactPair* pair : phases_.contacts) pair->surround(thermal_->temperature());
+void CoupledNewton::set_contact_temperatures() {
+  for (contact::ContactPair* pair : phases_.contacts) pair->set_temperature(thermal_->temperature());
 }
 
 CoupledResidual CoupledNewton::present() const {
@@ -225,7 +225,7 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
     return {k_none, k_none};
   }
   if (in_equilibrium_) {
-    surround_contacts();
+    set_contact_temperatures();
     equilibrate(old, pass, x);
   }
   return evaluate(old, pass, x);

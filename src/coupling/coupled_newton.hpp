@@ -86,8 +86,8 @@ class CoupledNewton {
                 std::span<double> heat);
 
  private:
-  /// Interfaces see the temperatures of thermal().
-  void surround_contacts();
+  /// Passes the temperatures of thermal() to the contact pairs.
+  void set_contact_temperatures();
   /// Of the last evaluation.
   CoupledResidual present() const;
   bool balanced() const;   ///< both residuals are within their tolerances

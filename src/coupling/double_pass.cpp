@@ -56,7 +56,7 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
                   effort);
   contact.add();
   contact.book(effort.energy);
-  for (contact::ContactPair* pair : phases_.contacts) pair->heat_ahead();
+  for (contact::ContactPair* pair : phases_.contacts) pair->predict_heat();
   // The deformation of the whole step acts at once before it: temperatures that leave their range by it come
   // back in step 4.
   thermal_pass(phases_, old, half,

@@ -85,7 +85,7 @@ class Simulation {
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
-  void look_at_excess(Progress& p, const PlannedStep& step, const StepMeasure& measure);
+  void check_limits(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   static bool measures_error(const StepOptions& step);
   bool stop_asked() const;
   bool checkpoint_due(const StepRecord& record) const;

@@ -67,7 +67,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         const Operator b = at_point(batch, q);
         const auto response = this->update(batch, q, b.strain(displacement));
         b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
-        if (response.status != material::Status::converged) this->spoil(f);
+        if (response.status != material::Status::converged) this->invalidate(f);
       }
       total += this->counted(batch) * this->squares(f);
       scatter<n_nodes, Operator::dim>(f, nodes_of(batch), forces);

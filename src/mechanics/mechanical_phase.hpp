@@ -258,10 +258,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
     return relative_step(*solved_from_, x, d);
   }
   void add_residual_to_balance(std::span<const double> r);
-  /// ‖r(x)‖ of what the unknowns can change.
+  /// ‖r(x)‖ of the free unknowns: without prescribed ones, and with constraints summed.
   double unbalanced(std::span<const double> x);
-  /// Moves the start to the guess of the pass where that is nearer to equilibrium; whether it did.
-  bool look_ahead(const MechanicalPass& pass, std::vector<double>& x);
+  /// Tries the guess of the pass: takes it as the start if it is nearer to equilibrium. Returns whether it
+  /// did.
+  bool try_guess(const MechanicalPass& pass, std::vector<double>& x);
   std::string law_failure(std::span<const double> x) const;
   std::string flowing_body(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);

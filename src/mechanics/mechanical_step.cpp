@@ -171,7 +171,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
   std::vector<double> x = start(old, pass);
-  const bool guessed = look_ahead(pass, x);
+  const bool guessed = try_guess(pass, x);
   PhaseReport report;
   report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
   if (guessed && !report.newton.converged) {
@@ -199,7 +199,7 @@ double MechanicalPhase::unbalanced(std::span<const double> x) {
   return std::sqrt(algebra::global_sum(squares));
 }
 
-bool MechanicalPhase::look_ahead(const MechanicalPass& pass, std::vector<double>& x) {
+bool MechanicalPhase::try_guess(const MechanicalPass& pass, std::vector<double>& x) {
   if (!algebra::any_process(!pass.guess.empty())) return false;
   std::vector<double> guess = x;
   std::copy(pass.guess.begin(), pass.guess.end(), guess.begin());

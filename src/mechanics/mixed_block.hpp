@@ -91,7 +91,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
         change[a] = mass[a] * changed;
       }
       this->subtract_stabilisation(b, batch, p, defect);
-      if (point.response.status != material::Status::converged) this->spoil(f);
+      if (point.response.status != material::Status::converged) this->invalidate(f);
       total += this->counted(batch) * this->squares(f);
       scatter<n_nodes, Operator::dim>(f, nodes_of(batch), forces);
       this->scatter_pressure(defect, batch, this->field_.volume_residual);

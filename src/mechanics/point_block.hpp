@@ -406,8 +406,8 @@ class PointBlock : public BlockKernel {
     return mechanics::gather<n_nodes, static_cast<int>(dim)>(u, nodes_of(batch));
   }
 
-  /// Newton's iteration takes what is not a number for a step too far.
-  static void spoil(Vectors& f) {
+  /// Sets the forces to NaN, which Newton's iteration treats as a step that is too long.
+  static void invalidate(Vectors& f) {
     for (auto& node : f)
       for (Lane& value : node) value = Lane(std::numeric_limits<double>::quiet_NaN());
   }

@@ -128,7 +128,8 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
       record.energy.heat_in += condition.heat;
     record.energy.entropy_in = report.balance.entropy_in;
     record.energy.heat_exchanged = report.balance.exchanged;
-    coupling::settle_contacts(a.phases, steady.heat.temperature, report.balance.contributions, record.energy);
+    coupling::commit_contact_heat(a.phases, steady.heat.temperature, report.balance.contributions,
+                                  record.energy);
     coupling::summarise(a.phases, steady, record);
   } catch (const StepRejected& rejected) {
     const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};

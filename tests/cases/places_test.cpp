@@ -102,7 +102,7 @@ class Places : public ::testing::Test {
 };
 
 TEST_F(Places, ARestartGivesTheSameBits) {
-  folder_.expect_to_go_on("restart", k_block + k_spray, 5, {"output.checkpoint_every=1"});
+  folder_.expect_exact_restart("restart", k_block + k_spray, 5, {"output.checkpoint_every=1"});
 }
 
 TEST_F(Places, TwoProcessesGiveTheSameTemperatures) {

@@ -105,7 +105,7 @@ TEST(RigidSurface, ThatTurnsDragsTheBodyByFriction) {
 }
 
 TEST(RigidSurface, ARunGoesOnWithTheSameBits) {
-  k_here.expect_to_go_on("again", k_friction, 5, k_turn);
+  k_here.expect_exact_restart("again", k_friction, 5, k_turn);
   EXPECT_EQ(solidus::testing::read_csv(k_here.root() / "again_whole/history.csv").at("time[s]").size(), 9u);
 }
 

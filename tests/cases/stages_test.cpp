@@ -165,18 +165,18 @@ TEST(Stages, AToolIsLiftedAndBackInOneStep) {
 }
 
 TEST(Stages, ARunGoesOnInsideAStageWithTheSameBits) {
-  k_here.expect_to_go_on("inside_slide", k_strokes, 18);
-  k_here.expect_to_go_on("inside_return", k_strokes, 23);
+  k_here.expect_exact_restart("inside_slide", k_strokes, 18);
+  k_here.expect_exact_restart("inside_return", k_strokes, 23);
 }
 
 TEST(Stages, ARunGoesOnBetweenStagesWithTheSameBits) {
-  k_here.expect_to_go_on("between", k_strokes, 16);
+  k_here.expect_exact_restart("between", k_strokes, 16);
 }
 
 TEST(Stages, ARunGoesOnInsideAStageWithTheSameBitsOfATwoStepMethodAndAdaptiveSteps) {
-  k_here.expect_to_go_on("two_step", k_strokes, 18,
-                         {"mechanics.integration=bdf2", "body.lower.material=aluminium_99_7"});
-  k_here.expect_to_go_on("adaptive", k_strokes, 20, {"time.adaptive=true"});
+  k_here.expect_exact_restart("two_step", k_strokes, 18,
+                              {"mechanics.integration=bdf2", "body.lower.material=aluminium_99_7"});
+  k_here.expect_exact_restart("adaptive", k_strokes, 20, {"time.adaptive=true"});
 }
 
 TEST(Stages, InertiaGoesOnThroughThem) {

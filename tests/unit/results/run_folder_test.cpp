@@ -81,8 +81,8 @@ TEST(RunFolder, ReplacesOwnTablesOfProfilesAndNoOthers) {
   test::on_first([&] {
     for (const auto& name : both) std::ofstream(root / name) << "old";
   });
-  for (const bool go_on : {true, false}) {
-    EXPECT_THROW(RunFolder(root, "", go_on, both), OutputError);
+  for (const bool continued : {true, false}) {
+    EXPECT_THROW(RunFolder(root, "", continued, both), OutputError);
     EXPECT_EQ(test::read_text(root / "mine.csv"), "old");
     EXPECT_EQ(test::read_text(root / "wear.csv"), "old");
   }
