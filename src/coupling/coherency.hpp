@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "heat/thermal_state.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
@@ -21,9 +21,9 @@ namespace solidus::coupling {
 class Coherency {
  public:
   /// @param materials  [body]; kept by reference
-  /// @param presence   of the mechanical phase at the start: bodies that only conduct heat do not count
+  /// @param active   of the mechanical phase at the start: bodies that only conduct heat do not count
   Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-            const algebra::Presence& presence);
+            const algebra::ActiveSet& active);
 
   /// Whether a body that deforms can melt. The same on every process.
   bool melts() const { return melts_; }

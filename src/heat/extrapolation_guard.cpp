@@ -43,7 +43,7 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
   };
   for (std::size_t i = 0; i < ahead_.size(); ++i) {
     const auto node = static_cast<Index>(i);
-    if (!system.presence().node(node)) continue;
+    if (!system.active().node(node)) continue;
     look(first, before_[i]);
     look(second, now_[i]);
     ahead_[i] = now_[i];
@@ -80,7 +80,7 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
 }
 
 bool ExtrapolationGuard::free(std::size_t i) const {
-  return system_.presence().node(static_cast<Index>(i)) && !system_.fixed()[i];
+  return system_.active().node(static_cast<Index>(i)) && !system_.fixed()[i];
 }
 
 /// Calls f(node, neighbour) for all neighbours of the owned nodes, which may be ghosts.

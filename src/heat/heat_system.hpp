@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "algebra/active_set.hpp"
 #include "algebra/contribution.hpp"
-#include "algebra/presence.hpp"
 #include "heat/conditions.hpp"
 #include "heat/conduction_block.hpp"
 #include "heat/conduction_limiter.hpp"
@@ -39,7 +39,7 @@ class HeatSystem {
   /// From here on other conditions hold. Where bodies leave, the matrix gets another pattern; then true.
   /// Throws InputError as the constructor does, std::invalid_argument for a body that comes back. Collective.
   bool set_conditions(const Conditions& conditions);
-  const algebra::Presence& presence() const { return presence_; }
+  const algebra::ActiveSet& active() const { return active_; }
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
   /// value that is allowed.
   void set_time(double time);
@@ -148,7 +148,7 @@ class HeatSystem {
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);
   void add_conditions(const Conditions& conditions);
-  void remove_bodies(const algebra::Presence& presence);
+  void remove_bodies(const algebra::ActiveSet& active);
   void conduct(std::span<const double> temperature);
   double add_flows(std::span<const double> temperature);
   void keep_conduction();
@@ -160,7 +160,7 @@ class HeatSystem {
   bool closed_;
   std::vector<char> at_nodes_;  ///< [body]: whether it stores its heat there
   std::vector<algebra::Contribution*> contributions_;
-  algebra::Presence presence_;
+  algebra::ActiveSet active_;
   /// One per mesh block; null until it is asked for, and of a body that left.
   std::vector<std::unique_ptr<ConductionBlock>> conduction_;
   std::vector<KirchhoffPotential> potentials_;  ///< one per body

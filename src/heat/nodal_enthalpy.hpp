@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -21,9 +21,9 @@ class NodalEnthalpy {
   NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials);
 
   /// The part of a node's heat that bodies which are there hold [J].
-  double held_by(const algebra::Presence& presence, Index node, double heat, double temperature) const;
+  double held_by(const algebra::ActiveSet& active, Index node, double heat, double temperature) const;
   /// Nodes lose what they hold of bodies that are not there; nodes of theirs alone store nothing.
-  void remove_bodies(const algebra::Presence& presence);
+  void remove_bodies(const algebra::ActiveSet& active);
   /// The same for bodies of which kept[body] is zero.
   void keep_bodies(std::span<const char> kept);
 

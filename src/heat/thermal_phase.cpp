@@ -139,37 +139,37 @@ std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
 }
 
 double ThermalPhase::set_conditions(const Conditions& conditions, ThermalState* state) {
-  const algebra::Presence before = system_->presence();
+  const algebra::ActiveSet before = system_->active();
   if (!system_->set_conditions(conditions)) {
     solver_->forget();
     return 0;
   }
-  const double carried = state != nullptr ? take_out(system_->presence(), *state) : 0.0;
+  const double carried = state != nullptr ? take_out(system_->active(), *state) : 0.0;
   remove_bodies(before);
   solver_->reset();
   return carried;
 }
 
-const algebra::Presence& ThermalPhase::presence() const {
-  return system_->presence();
+const algebra::ActiveSet& ThermalPhase::active() const {
+  return system_->active();
 }
 
 /// The heat of the bodies that are not there, out of the nodes that hold it.
-double ThermalPhase::take_out(const algebra::Presence& presence, ThermalState& state) const {
+double ThermalPhase::take_out(const algebra::ActiveSet& active, ThermalState& state) const {
   constexpr double k_counted_from = 293.15;
   double carried = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
     const double heat = heat_at(state, i), cold = storage_->upper(i, k_counted_from);
-    const double left = storage_->held_by(presence, i, heat, state.temperature[at(i)]);
-    carried += heat - left - (cold - storage_->held_by(presence, i, cold, k_counted_from));
+    const double left = storage_->held_by(active, i, heat, state.temperature[at(i)]);
+    carried += heat - left - (cold - storage_->held_by(active, i, cold, k_counted_from));
     if (!state.enthalpy.empty()) state.enthalpy[at(i)] = left;
   }
   if (options_.integration == Integration::closed) ghosts_.update(state.enthalpy, 1);
   return algebra::global_sum(carried);
 }
 
-void ThermalPhase::remove_bodies(const algebra::Presence& before) {
-  const algebra::Presence& now = system_->presence();
+void ThermalPhase::remove_bodies(const algebra::ActiveSet& before) {
+  const algebra::ActiveSet& now = system_->active();
   storage_->remove_bodies(now);
   if (at_nodes_) at_nodes_->remove_bodies(now);
   if (consistent_) consistent_->remove_bodies(now);

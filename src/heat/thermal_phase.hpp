@@ -26,8 +26,8 @@
 #include <string>
 #include <vector>
 
+#include "algebra/active_set.hpp"
 #include "algebra/contribution.hpp"
-#include "algebra/presence.hpp"
 #include "base/types.hpp"
 #include "heat/conditions.hpp"
 #include "heat/sensible_form.hpp"
@@ -115,7 +115,7 @@ class ThermalPhase {
   /// Returns that heat, counted from 20 °C [J].
   double set_conditions(const Conditions& conditions, ThermalState* state = nullptr);
   /// Bodies and nodes that are active in the present stage.
-  const algebra::Presence& presence() const;
+  const algebra::ActiveSet& active() const;
 
   /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
   /// their heats add up. A body that starts at the temperature of an isothermal change is molten.
@@ -229,8 +229,8 @@ class ThermalPhase {
   /// Whether a body stores its heat at the nodes.
   bool at_nodes(int body) const;
   double heat_at(const ThermalState& state, Index node) const;
-  double take_out(const algebra::Presence& presence, ThermalState& state) const;
-  void remove_bodies(const algebra::Presence& before);
+  double take_out(const algebra::ActiveSet& active, ThermalState& state) const;
+  void remove_bodies(const algebra::ActiveSet& before);
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const algebra::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;

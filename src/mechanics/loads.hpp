@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "mechanics/conditions.hpp"
 #include "mesh/mesh.hpp"
 
@@ -15,9 +15,9 @@ class Loads {
  public:
   /// Throws InputError for a condition that names no group of the mesh, and for a plane face that is not
   /// normal to a coordinate, prescribed in that direction or tied to another. Collective.
-  /// @param presence  that of the conditions' bodies
+  /// @param active  that of the conditions' bodies
   /// @param start     displacement that relative ones count from, [local node][component]; empty: zero
-  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, const algebra::Presence& presence,
+  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, const algebra::ActiveSet& active,
         std::span<const double> start = {});
 
   /// Adds a load that does not change in time, [local node][component] [N].
@@ -50,13 +50,13 @@ class Loads {
     std::vector<Index> entries;  ///< local degrees of freedom
     std::vector<double> start;   ///< of a relative one, one per entry; else empty
   };
-  void add_support(const mesh::Mesh& mesh, const algebra::Presence& presence,
+  void add_support(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
                    const PrescribedDisplacement& condition, std::span<const double> start);
-  void add_plane_face(const mesh::Mesh& mesh, const algebra::Presence& presence, const PlaneFace& face,
+  void add_plane_face(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const PlaneFace& face,
                       std::vector<char>& tied);
-  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
                    const Pressure& pressure);
-  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
                    const Traction& traction);
 
   Conditions conditions_;

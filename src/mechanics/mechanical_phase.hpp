@@ -145,7 +145,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// Throws InputError as the constructor does, and std::invalid_argument for a body that comes back.
   void set_conditions(Conditions conditions, std::span<const double> start);
   /// Bodies and nodes that are active in the present stage.
-  const algebra::Presence& presence() const { return presence_; }
+  const algebra::ActiveSet& active() const { return active_; }
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
   /// prescribed displacements, and the accelerations that the loads of that time cause. Collective.
   MechanicalState initial_state();
@@ -240,7 +240,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
  private:
   algebra::NodeGraph graph() const;
   void create_blocks(const std::vector<material::Material>& materials);
-  void remove_bodies(const algebra::Presence& presence);
+  void remove_bodies(const algebra::ActiveSet& active);
   /// Of the bodies that are there.
   std::vector<double> nodal_mass() const;
   void find_weight(const std::array<double, 3>& gravity);
@@ -276,7 +276,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   int components_;
   MechanicsOptions options_;
   std::vector<algebra::Contribution*> contributions_;
-  algebra::Presence presence_;
+  algebra::ActiveSet active_;
   bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;

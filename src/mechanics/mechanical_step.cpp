@@ -259,7 +259,7 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     history[b].n_components = old.history[b].n_components;
     history[b].n_points = old.history[b].n_points;
-    if (presence_.body(mesh_.blocks[b].body))
+    if (active_.body(mesh_.blocks[b].body))
       history[b].values.resize(old.history[b].values.size());
     else  // of the layout that a checkpoint knows
       history[b].values.assign(old.history[b].values.size(), Lane(0.0));

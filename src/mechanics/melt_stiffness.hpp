@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "material/melt.hpp"
 #include "mesh/mesh.hpp"
 
@@ -17,7 +17,7 @@ namespace solidus::mechanics {
 /// @param gravity    acceleration [m/s²]
 std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
                                                const std::vector<material::Material>& materials,
-                                               const algebra::Presence& presence,
+                                               const algebra::ActiveSet& active,
                                                const std::array<double, 3>& gravity);
 
 }  // namespace solidus::mechanics

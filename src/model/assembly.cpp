@@ -95,7 +95,7 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
       a.mesh, spec.analysis.kind, a.materials, initial_temperature,
       mechanical_conditions(spec, a.first_stage()), std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
-  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->presence());
+  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->active());
   if (a.coherency->melts()) a.phases.coherency = a.coherency.get();
   a.initial.mechanics = a.mechanics->initial_state();
 }

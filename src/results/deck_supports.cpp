@@ -49,14 +49,14 @@ class Held {
 };
 
 /// For each node the least node of its connected part; −1 where nothing is.
-std::vector<Index> connected_parts(const mesh::Mesh& mesh, const algebra::Presence& presence) {
+std::vector<Index> connected_parts(const mesh::Mesh& mesh, const algebra::ActiveSet& active) {
   std::vector<Index> part(mesh.x.size(), -1);
   const auto root = [&part](Index node) {
     while (part[static_cast<std::size_t>(node)] != node) node = part[static_cast<std::size_t>(node)];
     return node;
   };
   for (const mesh::Block& block : mesh.blocks) {
-    if (!presence.body(block.body)) continue;
+    if (!active.body(block.body)) continue;
     const int n = mesh::node_count(block.shape);
     for (Index e = 0; e < block.size(); ++e)
       for (int a = 0; a < n; ++a) {
@@ -135,11 +135,11 @@ std::map<Index, Part> parts_of(const mesh::Mesh& mesh, const std::vector<Index>&
 
 }  // namespace
 
-std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::Presence& presence,
+std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
                                     AnalysisKind kind, std::span<const char> fixed,
                                     std::span<const std::vector<Index>> ties) {
   const auto components = static_cast<std::size_t>(displacement_components(kind));
-  const std::vector<Index> part_of = connected_parts(mesh, presence);
+  const std::vector<Index> part_of = connected_parts(mesh, active);
   std::vector<Index> supports;
   for (const auto& [first, part] : parts_of(mesh, part_of)) {
     const Motions motions(mesh, kind, part);

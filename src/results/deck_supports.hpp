@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
@@ -16,7 +16,7 @@ namespace solidus::results {
 /// take nothing.
 /// @param fixed  [node][component]: held
 /// @param ties   degrees of freedom that move as one
-std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::Presence& presence,
+std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
                                     AnalysisKind kind, std::span<const char> fixed,
                                     std::span<const std::vector<Index>> ties);
 

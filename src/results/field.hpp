@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
@@ -48,12 +48,12 @@ class FieldSet {
 
   /// Bodies have left: their cells are hidden, and they take no part in minima and maxima. Null: nobody has.
   /// Must outlive the set.
-  void set_presence(const algebra::Presence* presence) { presence_ = presence; }
-  const algebra::Presence* presence() const { return presence_; }
+  void set_active(const algebra::ActiveSet* active) { active_ = active; }
+  const algebra::ActiveSet* active() const { return active_; }
 
  private:
   std::vector<Field> fields_;
-  const algebra::Presence* presence_ = nullptr;
+  const algebra::ActiveSet* active_ = nullptr;
 };
 
 /// Number of values a field of this place and number of components has on this process.

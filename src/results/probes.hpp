@@ -103,7 +103,7 @@ class Probes {
     double &sum, &peak, &peak_of_all;
   };
   static void take(const Sample& sample, const Field& field, std::span<const double> values,
-                   const algebra::Presence* presence, Totals to);
+                   const algebra::ActiveSet* active, Totals to);
   static Sample global_sample(const GlobalProbe& probe, const std::vector<Reading>& globals);
 
   std::vector<Column> columns_;

@@ -250,11 +250,11 @@ void StateFields::update_criteria(const coupling::State& state) {
 }
 
 void StateFields::update(const coupling::State& state) {
-  const algebra::Presence& there =
-      phases_.heat != nullptr ? phases_.heat->presence() : phases_.mechanics->presence();
-  const algebra::Presence* presence = there.complete() ? nullptr : &there;
-  bodies_.set_presence(presence);
-  for (auto& [name, fields] : surfaces_) fields.set_presence(presence);
+  const algebra::ActiveSet& there =
+      phases_.heat != nullptr ? phases_.heat->active() : phases_.mechanics->active();
+  const algebra::ActiveSet* active = there.complete() ? nullptr : &there;
+  bodies_.set_active(active);
+  for (auto& [name, fields] : surfaces_) fields.set_active(active);
   if (phases_.heat != nullptr) {
     std::copy(state.heat.temperature.begin(), state.heat.temperature.end(), by_name_["temperature"]->begin());
     const std::vector<double> solid = phases_.heat->solid_fraction(state.heat);

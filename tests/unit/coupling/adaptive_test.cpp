@@ -384,7 +384,7 @@ TEST(BodyNorm, OfADistortionTakesRigidMotionsAway) {
 struct HalfMolten {
   mesh::Mesh mesh = test::make_mesh({.shape = mesh::Shape::quad4, .cells = {8, 2, 1}, .size = {2, 1, 1}});
   std::vector<material::Material> materials = {freezes()};
-  coupling::Coherency coherency{mesh, materials, algebra::Presence(mesh, {})};
+  coupling::Coherency coherency{mesh, materials, algebra::ActiveSet(mesh, {})};
   coupling::Phases phases;
 
   static material::Material freezes() {

@@ -29,7 +29,7 @@ struct Sample {
   mesh::RawMesh raw;
   mesh::Mesh mesh;
   std::vector<std::string> absent;
-  algebra::Presence presence;
+  algebra::ActiveSet active;
   std::vector<material::Material> materials;
   std::vector<double> displacement, temperature;
   std::vector<char> fixed;
@@ -41,7 +41,7 @@ struct Sample {
                                         : test::split_block(shape, {0.4, 0.2}, {4, 2}, 0.2)),
         mesh(mesh::distribute(raw, {"left", "right"}, {})),
         absent(std::move(gone)),
-        presence(mesh, absent),
+        active(mesh, absent),
         components(static_cast<std::size_t>(displacement_components(kind))) {
     material::Material m;
     m.density = 2700;
@@ -70,7 +70,7 @@ struct Sample {
     StructuralDeck d{.title = "A sample",
                      .kind = kind,
                      .mesh = mesh,
-                     .presence = presence,
+                     .active = active,
                      .materials = materials,
                      .displacement = {},
                      .temperature = temperature,
@@ -234,7 +234,7 @@ TEST(MissingSupports, AreThoseOfTheFreeRigidMotions) {
     const std::size_t modes = sample.components == 2 ? 3 : 6;
     std::fill(sample.fixed.begin(), sample.fixed.end(), char{0});
     const auto missing = [&](const std::vector<std::vector<Index>>& ties = {}) {
-      return missing_supports(sample.mesh, sample.presence, sample.kind, sample.fixed, ties);
+      return missing_supports(sample.mesh, sample.active, sample.kind, sample.fixed, ties);
     };
     const std::vector<Index> all = missing();
     EXPECT_EQ(all.size(), modes);

@@ -13,11 +13,11 @@
 
 namespace solidus::algebra {
 
-class Presence {
+class ActiveSet {
  public:
   /// @param absent  names of bodies of the mesh
   /// Throws std::invalid_argument for a name that is none. Collective.
-  explicit Presence(const mesh::Mesh& mesh, std::span<const std::string> absent = {});
+  explicit ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent = {});
 
   /// Whether all bodies are active.
   bool complete() const { return complete_; }
@@ -30,7 +30,7 @@ class Presence {
   /// them, mesh/faces.hpp): the other body lies on the side to which their normals point.
   bool reversed(const mesh::Block& faces) const { return faces.body >= 0 && !body(faces.body); }
 
-  bool operator==(const Presence&) const = default;
+  bool operator==(const ActiveSet&) const = default;
 
  private:
   bool complete_ = true;
