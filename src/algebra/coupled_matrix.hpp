@@ -12,7 +12,7 @@
 ///
 /// The diagonal blocks are the matrices of the two phases. The rectangular ones have the graph of K_uu, a
 /// block of `components` numbers per pair of nodes, and are added to through its slots. Prescribed degrees of
-/// freedom and ties of either field are eliminated as in BlockMatrix.
+/// freedom and constraints of either field are eliminated as in BlockMatrix.
 #pragma once
 
 #include <memory>
@@ -28,8 +28,8 @@ class CoupledMatrix {
  public:
   using Slot = BlockMatrix::Slot;
 
-  /// @param displacement, temperature  of the same mesh, prescribed degrees of freedom and ties set; must
-  ///                                   outlive this object
+  /// @param displacement, temperature  of the same mesh, prescribed degrees of freedom and constraints set;
+  ///                                   must outlive this object
   /// @param saddle  of this displacement matrix; null: there is no pressure. Collective.
   CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, BlockMatrix& temperature,
                 SaddleMatrix* saddle = nullptr);

@@ -213,11 +213,11 @@ struct LinearSolver::Implementation {
 
 bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) const {
   const int n_modes = rigid_components > 0 ? rigid_body_mode_count(rigid_components) : a.block_size();
-  return a.ties().empty() && !petsc_multigrid && is_ours(options, mesh, a.block_size(), n_modes);
+  return a.constraints().empty() && !petsc_multigrid && is_ours(options, mesh, a.block_size(), n_modes);
 }
 
 bool LinearSolver::Implementation::factor_of_blocks(const BlockMatrix& a) const {
-  return a.ties().empty() && a.storage() == BlockMatrix::Storage::upper &&
+  return a.constraints().empty() && a.storage() == BlockMatrix::Storage::upper &&
          is_our_factor(options, mesh, a.block_size());
 }
 
@@ -343,7 +343,7 @@ void LinearSolver::Implementation::create_multigrid(PC pc) {
 
 /// Whether multigrid of the first field is ours.
 bool LinearSolver::Implementation::splits_blocks() const {
-  return blocks != nullptr && !split_failed && blocks->ties().empty() && rigid_components > 0 &&
+  return blocks != nullptr && !split_failed && blocks->constraints().empty() && rigid_components > 0 &&
          Multigrid::supports(blocks->block_size(), rigid_body_mode_count(rigid_components)) &&
          !user_gave_option(options.prefix + "fieldsplit_u_pc_type");
 }

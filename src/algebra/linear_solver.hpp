@@ -66,8 +66,8 @@ class LinearSolver : public TangentSolver {
   ~LinearSolver() override;
   /// Rigid-body modes for multigrid from the coordinates of the owned nodes (mechanics).
   void use_rigid_body_modes(int components);
-  /// Gives a field split the blocks of its first field, which must have no ties: multigrid.hpp then replaces
-  /// GAMG. To be called before every solve; the blocks must outlive it.
+  /// Gives a field split the blocks of its first field, which must have no constraints: multigrid.hpp then
+  /// replaces GAMG. To be called before every solve; the blocks must outlive it.
   /// @param scale  the rows of the matrix that is solved over those of the blocks
   void use_blocks_of_first_field(BlockMatrix& blocks, double scale);
   /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until

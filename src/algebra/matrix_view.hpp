@@ -37,8 +37,7 @@ struct MatrixView {
   std::span<const std::int64_t> start;
   std::span<const Index> column;   ///< rising within a row
   const double* blocks = nullptr;  ///< [slot][row][column]
-  /// The blocks left of the diagonal, where rows are stored from their diagonal on; null: rows are stored
-  /// whole.
+  /// The blocks left of the diagonal, if rows are stored from their diagonal on; null: rows are stored whole.
   const LowerPart* lower = nullptr;
 
   Index n_rows() const { return static_cast<Index>(start.size()) - 1; }

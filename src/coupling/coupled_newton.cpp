@@ -70,7 +70,7 @@ CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
   const std::span<double> of_displacement = std::span(force_).first(n_owned_displacements());
   for (std::size_t i = 0; i < of_displacement.size(); ++i)
     if (fixed[i]) of_displacement[i] = 0;
-  mechanics_.matrix().ties().sum(of_displacement);
+  mechanics_.matrix().constraints().sum(of_displacement);
   double squares = 0;
   for (const double r : force_) squares += r * r;
   norm_ = std::sqrt(algebra::global_sum(squares));
@@ -206,7 +206,7 @@ bool CoupledNewton::find_direction(algebra::Forcing& forcing, CoupledReport& rep
   const std::span<double> owned_u = std::span(owned_step_).first(n_owned_displacements());
   for (std::size_t i = 0; i < owned_u.size(); ++i)
     if (fixed[i]) owned_u[i] = 0;
-  mechanics_.matrix().ties().share(owned_u);
+  mechanics_.matrix().constraints().share(owned_u);
   spread(owned_step_, step_u_);
   multiply_heat(step_u_, further_);
   thermal_->set_direction(step_t_, further_);

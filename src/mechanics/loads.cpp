@@ -157,7 +157,7 @@ void Loads::add_plane_face(const mesh::Mesh& mesh, const algebra::ActiveSet& act
     throw InputError({},
                      "the plane face '" + face.node_set + "' shares nodes with another in the same direction",
                      "one group for both");
-  ties_.push_back(std::move(group));
+  constraint_groups_.push_back(std::move(group));
 }
 
 void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,

@@ -35,8 +35,8 @@ class Loads {
   void prescribe(double time, std::span<double> displacement) const;
   /// The same for velocities: the slopes of the tables from that time on.
   void prescribe_rate(double time, std::span<double> velocity) const;
-  /// The degrees of freedom of each plane face, ghosts included, for BlockMatrix::tie.
-  const std::vector<std::vector<Index>>& ties() const { return ties_; }
+  /// The degrees of freedom of each plane face, ghosts included, for BlockMatrix::constrain.
+  const std::vector<std::vector<Index>>& constraint_groups() const { return constraint_groups_; }
   const Conditions& conditions() const { return conditions_; }
 
  private:
@@ -63,7 +63,7 @@ class Loads {
   int components_;
   std::vector<Unit> units_;
   std::vector<Support> supports_;
-  std::vector<std::vector<Index>> ties_;
+  std::vector<std::vector<Index>> constraint_groups_;
   std::vector<double> constant_;  ///< [owned node][component]
   std::vector<char> fixed_, supported_;
 };

@@ -46,7 +46,7 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
   std::vector<double> r(n_residuals());
   residual(x, r);
   r.resize(n_forces());
-  matrix_->ties().sum(r);
+  matrix_->constraints().sum(r);
   struct {
     double value;
     int rank;

@@ -146,7 +146,8 @@ void MechanicalPhase::create_matrix() {
   Storage storage = Storage::whole;
   // The blocks that couple displacements with temperatures share the pattern of this matrix, so it is then
   // stored whole.
-  if (options_.mapping != Mapping::simultaneous && !algebra::any_process(!loads_->ties().empty())) {
+  if (options_.mapping != Mapping::simultaneous &&
+      !algebra::any_process(!loads_->constraint_groups().empty())) {
     if (!pressure_)
       storage = algebra::storage_for(linear_options(options_), mesh_, components_,
                                      algebra::rigid_body_mode_count(components_));
@@ -155,7 +156,7 @@ void MechanicalPhase::create_matrix() {
   }
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, graph(), storage);
   matrix_->set_fixed(loads_->fixed());
-  matrix_->tie(loads_->ties());
+  matrix_->constrain(loads_->constraint_groups());
   bind();
 }
 
@@ -222,7 +223,8 @@ void MechanicalPhase::create_solver() {
 void MechanicalPhase::set_conditions(Conditions conditions, std::span<const double> start) {
   const algebra::ActiveSet active(mesh_, conditions.absent_bodies);
   auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), active, start);
-  const bool same_matrix = active == active_ && !algebra::any_process(loads->ties() != loads_->ties());
+  const bool same_matrix =
+      active == active_ && !algebra::any_process(loads->constraint_groups() != loads_->constraint_groups());
   if (active != active_) {
     remove_bodies(active);
     find_weight(loads->conditions().gravity);
@@ -254,7 +256,7 @@ MechanicalState MechanicalPhase::initial_state() {
 void MechanicalPhase::set_in_motion(MechanicalState& state) {
   state.velocity = inertia_->initial_velocity();
   loads_->prescribe_rate(0, state.velocity);
-  matrix_->ties().share(std::span(state.velocity).first(external_.size()));
+  matrix_->constraints().share(std::span(state.velocity).first(external_.size()));
   ghosts_.update(state.velocity, components_);
 
   loads_->evaluate(0, external_);
@@ -266,7 +268,7 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
     net[i] -= external_[i];
     free[i] = loads_->fixed()[i] != 0 ? 0.0 : -net[i];
   }
-  matrix_->ties().sum(free);
+  matrix_->constraints().sum(free);
   matrix_->set_zero();
   inertia_->mass().add_to(*matrix_, 1.0);
   // Scaled by its diagonal a mass matrix is well conditioned on every mesh (Wathen 1987).
@@ -279,7 +281,7 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
   if (!report.converged) throw StepRejected("mechanics: no initial acceleration, " + report.reason);
   for (std::size_t i = 0; i < owned.size(); ++i)
     if (loads_->fixed()[i] != 0) owned[i] = 0;
-  matrix_->ties().share(owned);
+  matrix_->constraints().share(owned);
   ghosts_.update(state.acceleration, components_);
 
   if (!inertia_->motion().remembers()) return;

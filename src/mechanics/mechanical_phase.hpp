@@ -191,7 +191,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// of the step d that has led to them.
   double relative_step(const MechanicalState& old, std::span<const double> x,
                        std::span<const double> d) const;
-  /// Of the tangent: what is prescribed and what is tied.
+  /// The matrix of the tangent, with its fixed degrees of freedom and multi-point constraints.
   algebra::BlockMatrix& matrix() { return *matrix_; }
   /// Hands what happened at x to StructuralHeat and writes the history there.
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
@@ -223,7 +223,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::vector<double> applied_forces() const;
   /// Fixed degrees of freedom, and multi-point constraints (Loads).
   const std::vector<char>& fixed() const { return matrix_->fixed(); }
-  const algebra::Ties& ties() const { return matrix_->ties(); }
+  const algebra::MultiPointConstraints& constraints() const { return matrix_->constraints(); }
 
   /// The block kernels, for StructuralHeat.
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }

@@ -121,17 +121,17 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
 /// The forces that keep a face plane are exchanged with the body like those of a support; their sum is a
 /// residual.
 void MechanicalPhase::add_residual_to_balance(std::span<const double> r) {
-  if (matrix_->ties().empty()) {
+  if (matrix_->constraints().empty()) {
     balance_.add_residual(r, loads_->fixed(), loads_->supported());
     return;
   }
   std::vector<double> holding(r.size(), 0.0), rest(r.begin(), r.end());
-  for (const auto& group : loads_->ties())
+  for (const auto& group : loads_->constraint_groups())
     for (const Index entry : group) {
       const auto at = static_cast<std::size_t>(entry);
       if (at < r.size()) holding[at] = r[at];
     }
-  matrix_->ties().sum(rest);
+  matrix_->constraints().sum(rest);
   balance_.add_exchanged(holding);
   balance_.add_residual(rest, loads_->fixed(), loads_->supported());
 }
@@ -193,7 +193,7 @@ double MechanicalPhase::unbalanced(std::span<const double> x) {
   residual(x, r);
   for (std::size_t i = 0; i < n_forces(); ++i)
     if (loads_->fixed()[i] != 0) r[i] = 0;
-  matrix_->ties().sum(std::span(r).first(n_forces()));
+  matrix_->constraints().sum(std::span(r).first(n_forces()));
   double squares = 0;
   for (const double value : r) squares += value * value;
   return std::sqrt(algebra::global_sum(squares));

@@ -137,7 +137,7 @@ std::map<Index, Part> parts_of(const mesh::Mesh& mesh, const std::vector<Index>&
 
 std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
                                     AnalysisKind kind, std::span<const char> fixed,
-                                    std::span<const std::vector<Index>> ties) {
+                                    std::span<const std::vector<Index>> constraints) {
   const auto components = static_cast<std::size_t>(displacement_components(kind));
   const std::vector<Index> part_of = connected_parts(mesh, active);
   std::vector<Index> supports;
@@ -149,7 +149,7 @@ std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::Activ
         if (fixed[static_cast<std::size_t>(node) * components + k] != 0) held.add(motions.row(node, k));
     // Of degrees of freedom that move as one the differences are held; those of other parts hold nothing
     // here.
-    for (const std::vector<Index>& group : ties) {
+    for (const std::vector<Index>& group : constraints) {
       const auto n = static_cast<Index>(components);
       if (part_of[static_cast<std::size_t>(group[0] / n)] != first) continue;
       const Row leader = motions.row(group[0] / n, static_cast<std::size_t>(group[0] % n));

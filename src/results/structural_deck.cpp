@@ -240,7 +240,7 @@ class Writer {
   }
 
   void equations() {
-    for (const std::vector<Index>& group : d_.ties)
+    for (const std::vector<Index>& group : d_.constraints)
       for (std::size_t i = 1; i < group.size(); ++i) {
         line("*EQUATION\n2");
         line("{}, {}, 1., {}, {}, -1.", node(node_of(group[i])), component_of(group[i]),

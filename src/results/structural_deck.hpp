@@ -40,8 +40,8 @@ struct StructuralDeck {
   std::vector<Index> supports =
       {};  ///< held besides, for want of contact (deck_supports.hpp), as [node][component]
   std::vector<std::string> body_names = {};  ///< of the element sets and materials; empty: those of the mesh
-  std::vector<std::vector<Index>> ties;      ///< degrees of freedom that move as one
-  std::vector<double> force;                 ///< of loads and contact, [node][component] [N]
+  std::vector<std::vector<Index>> constraints;  ///< degrees of freedom that move as one
+  std::vector<double> force;                    ///< of loads and contact, [node][component] [N]
 };
 
 /// Throws std::invalid_argument for a shape that neither program has.

@@ -1,4 +1,4 @@
-/// Which nodes and faces are there with the bodies that are.
+/// The active set: nodes and faces that belong to the active bodies.
 #include "algebra/active_set.hpp"
 
 #include <gtest/gtest.h>

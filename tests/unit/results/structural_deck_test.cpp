@@ -77,7 +77,7 @@ struct Sample {
                      .stress = {},
                      .plastic_strain = {},
                      .fixed = fixed,
-                     .ties = {},
+                     .constraints = {},
                      .force = std::vector<double>(mesh.x.size() * components, 0.0)};
     if (deformed) d.displacement = displacement;
     d.force[held() * components + 1] = 5;
@@ -233,8 +233,8 @@ TEST(MissingSupports, AreThoseOfTheFreeRigidMotions) {
     Sample sample(shape);
     const std::size_t modes = sample.components == 2 ? 3 : 6;
     std::fill(sample.fixed.begin(), sample.fixed.end(), char{0});
-    const auto missing = [&](const std::vector<std::vector<Index>>& ties = {}) {
-      return missing_supports(sample.mesh, sample.active, sample.kind, sample.fixed, ties);
+    const auto missing = [&](const std::vector<std::vector<Index>>& constraints = {}) {
+      return missing_supports(sample.mesh, sample.active, sample.kind, sample.fixed, constraints);
     };
     const std::vector<Index> all = missing();
     EXPECT_EQ(all.size(), modes);
