@@ -6,12 +6,12 @@
 
 #include "algebra/contribution.hpp"
 #include "algebra/coupled_matrix.hpp"
+#include "contact/coupled_interface.hpp"
+#include "contact/current_configuration.hpp"
 #include "contact/graph.hpp"
 #include "contact/integration.hpp"
-#include "contact/placement.hpp"
 #include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
-#include "contact/together.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::contact {
@@ -24,7 +24,7 @@ struct ContactStep {
   double time = 0;                   ///< t_{n+1} [s]
   double begun = 0;                  ///< t_n [s]
   std::vector<double> displacement;  ///< u_n, [local node][component] [m]
-  Together together;                 ///< of the simultaneous scheme
+  CoupledInterface coupled;          ///< of the simultaneous scheme
   /// Wet points whose face has no coherent node, so that no shell moves them: [point].
   std::vector<char> liquid;
 };
@@ -44,7 +44,7 @@ class MechanicsTerm : public algebra::Contribution {
  public:
   /// Keeps references.
   /// @param name  of the pair, for the log: with level debug every residual leaves a line
-  MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components, Placement& placement,
+  MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components, CurrentConfiguration& configuration,
                 ContactGraph& graph, const PointLaw& law, const ContactStep& step, double stabilisation,
                 bool symmetric);
   /// Off: no term at all.
@@ -81,7 +81,7 @@ class MechanicsTerm : public algebra::Contribution {
   std::string name_;
   Index n_owned_;
   int components_;
-  Placement& placement_;
+  CurrentConfiguration& configuration_;
   const ContactKinematics& kinematics_;
   ContactGraph& graph_;
   const PointLaw& law_;

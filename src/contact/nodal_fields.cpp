@@ -43,7 +43,7 @@ class NodalAverage {
 }  // namespace
 
 ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature) const {
-  placement_->place(time_, displacement_, ContactKinematics::Points::own);
+  configuration_->place(time_, displacement_, ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
   const std::vector<double> conductance =
       heat_ ? heat_->conductances(temperature) : std::vector<double>(now_.points.size(), 0.0);

@@ -123,10 +123,10 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
   std::sort(surface_nodes_.begin(), surface_nodes_.end());
   surface_nodes_.erase(std::unique(surface_nodes_.begin(), surface_nodes_.end()), surface_nodes_.end());
   std::erase_if(surface_nodes_, [&](Index node) { return node >= mesh.n_owned_nodes; });
-  placement_ = std::make_unique<Placement>(*kinematics_);
+  configuration_ = std::make_unique<CurrentConfiguration>(*kinematics_);
   graph_ = std::make_unique<ContactGraph>(*kinematics_);
   mechanics_ =
-      std::make_unique<MechanicsTerm>(spec_.name, mesh, components_, *placement_, *graph_, law_, step_,
+      std::make_unique<MechanicsTerm>(spec_.name, mesh, components_, *configuration_, *graph_, law_, step_,
                                       spec_.stabilisation, spec_.friction && spec_.friction->symmetric);
   if (spec_.heat) {
     heat_law_.emplace(*spec_.heat);
@@ -199,8 +199,7 @@ std::optional<double> ContactPair::tool_temperature_at(double time) const {
 }
 
 void ContactPair::set_temperature(std::span<const double> temperature) {
-  if (step_.together.law != nullptr)
-    step_.together.temperature.assign(temperature.begin(), temperature.end());
+  if (step_.coupled.law != nullptr) step_.coupled.temperature.assign(temperature.begin(), temperature.end());
 }
 
 void ContactPair::begin_heat(double dt, bool adiabatic) {
@@ -234,10 +233,10 @@ bool ContactPair::symmetric() const {
 }
 
 ContactState ContactPair::initial_state() const {
-  Placement start(*kinematics_);
+  CurrentConfiguration start(*kinematics_);
   const std::vector<double> rest(mesh_.x.size() * static_cast<std::size_t>(components_), 0.0);
   start.place(0, rest);
-  placement_->forget();
+  configuration_->forget();
   ContactState state;
   state.points.resize(at(kinematics_->n_points()));
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
@@ -281,12 +280,12 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   find_wet_points(pass.coherency);
   law_.isentropic = pass.isentropic;
   law_.share = pass.share;
-  step_.together = {};
+  step_.coupled = {};
   if (pass.simultaneous && heat_law_ && law_.friction)
-    step_.together = {.law = &*heat_law_,
-                      .time_step = pass.dt,
-                      .temperature = {pass.temperature.begin(), pass.temperature.end()},
-                      .tool_temperature = tool_temperature_at(pass.time)};
+    step_.coupled = {.law = &*heat_law_,
+                     .time_step = pass.dt,
+                     .temperature = {pass.temperature.begin(), pass.temperature.end()},
+                     .tool_temperature = tool_temperature_at(pass.time)};
   if (law_.friction && !pass.temperature.empty()) find_interface_temperatures(pass.temperature);
 }
 
@@ -296,7 +295,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
 void ContactPair::find_wet_points(std::span<const double> coherency) {
   const auto molten = [](double c) { return c < k_coherent; };
   const bool any = active_ && spec_.atmosphere > 0 && std::ranges::any_of(coherency, molten);
-  if (any) placement_->place(step_.begun, step_.displacement);
+  if (any) configuration_->place(step_.begun, step_.displacement);
   step_.liquid.assign(step_.from.size(), 0);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
@@ -318,7 +317,7 @@ void ContactPair::find_wet_points(std::span<const double> coherency) {
 void ContactPair::find_interface_temperatures(std::span<const double> temperature) {
   const auto known = [](const PointState& from) { return from.temperature > 0; };
   if (std::ranges::all_of(step_.from, known)) return;
-  placement_->place(step_.begun, step_.displacement);
+  configuration_->place(step_.begun, step_.displacement);
   const std::optional<double> tool = tool_temperature_at(step_.begun);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
@@ -337,7 +336,7 @@ void ContactPair::find_interface_temperatures(std::span<const double> temperatur
 void ContactPair::update(std::span<const double> displacement) {
   displacement_.assign(displacement.begin(), displacement.end());
   time_ = step_.time;
-  placement_->place(time_, displacement_);
+  configuration_->place(time_, displacement_);
   if (heat_) heat_->set_tool_temperature(tool_temperature());
   const bool fixed = !kinematics_->partners_change() && partners_.n_points() > 0;
   if (!fixed) partners_.clear();
@@ -350,7 +349,7 @@ void ContactPair::update(std::span<const double> displacement) {
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
     const PointForces forces =
-        active_ ? law_.forces(motion, from, step_.together.around(motion)) : PointForces{};
+        active_ ? law_.forces(motion, from, step_.coupled.around(motion)) : PointForces{};
     now_.points[at(p)] = law_.next(motion, from, forces);
     if (!active_) now_.points[at(p)].anchored = false;
     if (worn_ && forces.status == PointStatus::slips) wear_master(motion, now_.points[at(p)], forces);
@@ -439,7 +438,7 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   set_out_from(state);
   step_.time = step_.begun = time;
   step_.dt = 0;
-  step_.together = {};
+  step_.coupled = {};
   predicted_.clear();
   if (heat_) heat_->end_phase();
   step_.displacement.assign(displacement.begin(), displacement.end());

@@ -230,7 +230,7 @@ class ContactPair {
   double touching_ = 0;             ///< initial gaps up to this are none [m]
   double allowed_penetration_ = 0;  ///< [m]; augmented Lagrangian
   std::unique_ptr<ContactKinematics> kinematics_;
-  std::unique_ptr<Placement> placement_;
+  std::unique_ptr<CurrentConfiguration> configuration_;
   std::unique_ptr<ContactGraph> graph_;
   PointLaw law_;
   std::optional<HeatTransferLaw> heat_law_;

@@ -243,7 +243,7 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
 
 void HeatSystem::set_time(double time) {
   if (placed_)
-    together([&] { evaluate(time); });
+    run_collectively([&] { evaluate(time); });
   else
     evaluate(time);
 }

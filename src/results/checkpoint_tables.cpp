@@ -129,7 +129,7 @@ void TableWriter::finish(const std::function<void()>& last) {
       ftruncate(descriptor_, written.st_size) != 0)
     attempt(
         [&] { throw OutputError(path_.string(), std::string("cannot be cut: ") + std::strerror(errno)); });
-  together([&] {
+  run_collectively([&] {
     if (error_) std::rethrow_exception(error_);
   });
   on_first_process([&] { write_checksum(path_); });
@@ -139,18 +139,18 @@ void TableWriter::finish(const std::function<void()>& last) {
 
 TableReader::TableReader(std::filesystem::path path) : path_(std::move(path)) {
   on_first_process([&] { check_checksum(path_); });
-  together([&] { file_.emplace(path_, Hdf5File::Mode::read); });
+  run_collectively([&] { file_.emplace(path_, Hdf5File::Mode::read); });
 }
 
 std::string TableReader::text(const std::string& name) {
   std::string text;
-  together([&] { text = file_->read_text(name); });
+  run_collectively([&] { text = file_->read_text(name); });
   return text;
 }
 
 std::vector<double> TableReader::numbers(const std::string& name, std::size_t n) {
   std::vector<double> values(n);
-  together([&] {
+  run_collectively([&] {
     if (file_->rows(name) != static_cast<std::int64_t>(n) || file_->width(name) != 1)
       throw OutputError(path_.string(), "its '" + name + "' are not as many as they should be");
     file_->read_rows<double>(name, 0, values);
@@ -160,7 +160,7 @@ std::vector<double> TableReader::numbers(const std::string& name, std::size_t n)
 
 void TableReader::each(const std::string& keys, const std::string& values,
                        const std::function<void(std::int64_t, std::span<const double>)>& take) {
-  together([&] {
+  run_collectively([&] {
     const std::int64_t n_rows = file_->rows(values);
     const auto width = static_cast<std::size_t>(file_->width(values));
     if (file_->rows(keys) != n_rows || file_->width(keys) != 1 || width > k_widest)

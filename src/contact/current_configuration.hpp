@@ -10,10 +10,10 @@
 
 namespace solidus::contact {
 
-class Placement {
+class CurrentConfiguration {
  public:
   /// Keeps a reference.
-  explicit Placement(ContactKinematics& kinematics) : kinematics_(kinematics) {}
+  explicit CurrentConfiguration(ContactKinematics& kinematics) : kinematics_(kinematics) {}
 
   const ContactKinematics& kinematics() const { return kinematics_; }
   void place(double time, std::span<const double> displacement,
