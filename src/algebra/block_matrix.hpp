@@ -61,7 +61,7 @@ class BlockMatrix {
   /// Another pattern, all zero: slots and PETSc's matrix are void, what is prescribed and tied stays.
   /// Collective.
   void set_graph(NodeGraph graph);
-  /// Counts the patterns: for whoever keeps slots.
+  /// Number of the present sparsity pattern, by which code that stores slots notices a new one.
   int pattern() const { return pattern_; }
 
   int block_size() const { return block_size_; }

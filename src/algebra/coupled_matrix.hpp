@@ -45,8 +45,8 @@ class CoupledMatrix {
   SaddleMatrix* saddle() { return saddle_; }
   int pressures() const { return saddle_ != nullptr ? saddle_->fields() : 0; }
 
-  /// Of the rectangular blocks, made anew where the pattern of a diagonal one has changed; then true.
-  /// Collective.
+  /// Sets the rectangular blocks to zero. They are made anew if the pattern of a diagonal block has changed;
+  /// returns whether they were. Collective.
   bool set_zero();
   /// ∂r_u/∂Θ of a pair (row node, column node), [component][field]; slots of `displacement`, also the one
   /// without a row.

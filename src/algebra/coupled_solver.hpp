@@ -39,9 +39,9 @@ class CoupledTangentSolver {
                              double forcing = 0) = 0;
   /// Those that the next solve uses where it is given these: a preconditioner that stays may keep its own.
   virtual FieldWeights in_use(FieldWeights weights) const = 0;
-  /// As LinearSolver::forget().
+  /// Drops what the solver carries over from earlier solves, as LinearSolver::forget().
   virtual void forget() = 0;
-  /// As LinearSolver::reset().
+  /// Resets the solver as LinearSolver::reset().
   virtual void reset() = 0;
   virtual double seconds() const = 0;
 };

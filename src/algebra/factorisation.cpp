@@ -16,7 +16,7 @@ namespace {
 /// Up to here every process keeps the whole: some 100 MB of factors.
 constexpr GlobalIndex k_redundant_limit = 40000;
 constexpr int k_attempts = 3;              ///< with three times the workspace each time
-constexpr int k_largest_workspace = 5000;  ///< per cent: who fails with it does not lack workspace
+constexpr int k_largest_workspace = 5000;  ///< per cent: a failure with it is not for lack of workspace
 
 bool is_redundant(PC pc) {
   PetscBool redundant = PETSC_FALSE;

@@ -49,8 +49,8 @@ class NonlinearSystem {
   virtual double residual(std::span<const double> x, std::span<double> r) = 0;
   /// The tangent at the x of the last residual().
   virtual BlockMatrix& tangent() = 0;
-  /// How large the step d that has led to x is, as a share of what x has changed since the start of the time
-  /// step. Zero: no measure of it. Asked where NewtonOptions::step_tolerance is set.
+  /// Returns the size of the step d that has led to x, as a share of the change of x since the start of the
+  /// time step; zero: there is no measure of it. Called if NewtonOptions::step_tolerance is set.
   virtual double relative_step(std::span<const double> /*x*/, std::span<const double> /*d*/) { return 0; }
   /// Called with the accepted step: x is the new point, ghosts up to date. Systems with unknowns of their own
   /// (nodal enthalpy) follow. Without line search it comes before the residual at x, with line search after

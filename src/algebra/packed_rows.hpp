@@ -1,4 +1,5 @@
-/// Block rows in single precision, for preconditioners: what a multigrid cycle reads again and again.
+/// Block rows in single precision, for preconditioners: the copy of a matrix that a multigrid cycle reads
+/// repeatedly.
 ///
 /// A product is bound by memory: 4 bytes an entry and 4 bytes a block, where PETSc's AIJ reads 12 bytes an
 /// entry, and half of that where the matrix is symmetric (symmetric_product.hpp). Blocks of others stand

@@ -12,7 +12,7 @@ namespace solidus::algebra {
 
 class RowExchange {
  public:
-  /// As GhostExchange (parallel.hpp). Collective, as all its functions.
+  /// The arguments are those of GhostExchange (parallel.hpp). Collective, as all functions of the class.
   RowExchange(Index n_owned, GlobalIndex first_owned, std::span<const GlobalIndex> ghosts)
       : neighbours_(find_neighbours(n_owned, first_owned, ghosts)) {}
 
@@ -23,7 +23,7 @@ class RowExchange {
   using Unpack = std::function<void(Index row, std::span<const double> values)>;
   /// Owned rows go to the ghosts.
   void update(const Pack& pack, const Unpack& unpack) const { exchange(false, pack, unpack); }
-  /// Ghosts go to the owners, who may get several for a row.
+  /// Sends ghost rows to their owners, which may receive several for one row.
   void give_back(const Pack& pack, const Unpack& unpack) const { exchange(true, pack, unpack); }
 
  private:

@@ -1,5 +1,5 @@
-/// The command line as it is declared, without the library that parses it: what completion and the manual
-/// page are written from.
+/// The declared command line, without the library that parses it: completion and the manual page are
+/// generated from it.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-/// The verbs of the program. Each prints what the user asked for on stdout, from process 0; what goes wrong
-/// is thrown.
+/// The verbs of the program. Each prints what the user asked for on stdout, from process 0; errors are
+/// thrown.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Numbers that name things, and the kinds of analysis.
+/// Basic types: indices on one process and over all processes, the kinds of analysis, and physical constants.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 /// Coulomb friction with a coefficient that hardens, softens and wears (monograph 3.5–3.7), as a point law in
-/// the magnitude of the traction: the return mapping is radial (3.54, 5.30), so direction is the caller's.
+/// the magnitude of the traction: the return mapping is radial (3.54, 5.30), so the caller supplies the
+/// direction.
 ///
 ///   Φ_c = ‖T‖ − μ(ζ_c, Θ_c) t_N <= 0                                                      (3.51, 3.63)
 ///   T   = T^trial (1 − ε_T γ/‖T^trial‖),   γ = Δt γ_c >= 0 the slip of the step             (5.31a)

@@ -29,7 +29,7 @@ struct HeatPoint {
   std::optional<JointSlopes> joint;  ///< slip answers Θ_c: dissipation in `step` is that of its solution
 };
 
-/// How a point moves with the displacements of its nodes.
+/// Derivatives of the motion of a point with respect to the displacements of its nodes.
 struct HeatRates {
   std::span<const Point> penetration;  ///< ∂g_N/∂x_b
   std::span<const Point> trial;        ///< ∂‖T^trial‖/∂x_b [Pa/m]; empty: zero
@@ -94,7 +94,7 @@ class HeatTerm : public algebra::Contribution {
   /// Freezes the configuration, [point]; the partners are those of the list now.
   void place(std::vector<HeatPoint> points);
   const std::vector<HeatPoint>& points() const { return points_; }
-  /// Of a master without nodes [K]; absent: it takes no heat.
+  /// Sets the temperature of a master without nodes [K]; absent: it takes no heat.
   void set_tool_temperature(std::optional<double> temperature) { tool_temperature_ = temperature; }
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
@@ -121,7 +121,7 @@ class HeatTerm : public algebra::Contribution {
   /// @param rates  of a point that has a partner; valid until the next call
   void add_displacement_tangent(const std::function<HeatRates(Index point)>& rates,
                                 std::span<const double> temperature, algebra::CoupledMatrix& matrix);
-  /// Of every point at these temperatures; zero where there is no partner.
+  /// Returns the heat fluxes of every point at these temperatures; zero where there is no partner.
   std::vector<SurfaceHeat> surface_heat(std::span<const double> temperature) const;
   /// Its integral over the points that this process counts [W].
   SurfaceHeat counted_heat(std::span<const double> temperature) const;
@@ -129,7 +129,8 @@ class HeatTerm : public algebra::Contribution {
   std::vector<double> conductances(std::span<const double> temperature) const;
   /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.
   std::vector<double> interface_temperatures(std::span<const double> temperature) const;
-  /// Of the phase, at the temperatures of its end. What a point without a partner has in heat no body takes.
+  /// Returns the heat of the interface over the phase, at the temperatures of its end. The heat of a point
+  /// without a partner goes to no body.
   InterfaceHeat interface_heat(std::span<const double> temperature) const;
   std::size_t bytes() const {
     return slots_.bytes() + points_.capacity() * sizeof(HeatPoint) + fixed_.capacity() * sizeof(double);

@@ -1,5 +1,5 @@
-/// How the points of a contact pair move: what the laws need to know of a displacement, and the derivatives
-/// that a consistent tangent needs.
+/// Kinematics of the points of a contact pair: gap and slip of a displacement, for the laws, and the
+/// derivatives that a consistent tangent needs.
 ///
 /// At every point the bodies exchange the force w f on the slave and −w f on the master at the partner's
 /// place (3.73), as nodal forces
@@ -96,8 +96,8 @@ class ContactKinematics {
                                      std::span<Tensor> k) const = 0;
   /// Adds ∂B_a/∂x_b, [a][b], for the nodes of the last motion() with rates: partners that stay have none.
   virtual void add_share_rates(std::span<Point> /*rates*/) const {}
-  /// How far the master's particle at the partner, as last placed, goes by a prescribed motion from one time
-  /// to another [m]: zero for masters with nodes.
+  /// Returns the displacement of the master's particle at the partner, as last placed, by a prescribed motion
+  /// from one time to another [m]: zero for masters with nodes.
   virtual Point master_way(Index /*point*/, double /*from*/, double /*to*/) const { return {}; }
   /// True when nodes meet that did not at the last add_to_graph(): matrices must be made anew.
   virtual bool graph_outdated() const = 0;

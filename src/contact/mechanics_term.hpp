@@ -61,7 +61,8 @@ class MechanicsTerm : public algebra::Contribution {
   /// Adds ∂r/∂Θ at the displacement of the last call, where friction follows the bodies' temperatures.
   void add_temperature_tangent(algebra::CoupledMatrix& matrix);
 
-  /// How many points changed between open, sticking and slipping from the last but one residual to the last.
+  /// Number of points that changed between open, sticking and slipping from the last but one residual to the
+  /// last.
   Index changes() const { return changes_; }
   /// The first failure of the friction law at the last residual.
   FrictionStatus failure() const { return failure_; }

@@ -125,13 +125,13 @@ class ContactPair {
   /// Sets the present temperatures of the bodies within a simultaneous pass, [local node], for mechanics()
   /// and the next update(). Local.
   void set_temperature(std::span<const double> temperature);
-  /// Forces and history of every point for a displacement, and what heat sees of them: [local
+  /// Updates forces and history of every point for a displacement, and their data for the heat term: [local
   /// node][component], ghosts up to date [m]. Local, no communication.
   void update(std::span<const double> displacement);
   /// Restores the pair as it was after the update() that ended in `state` (empty: initial_state()) at this
   /// displacement and time. Local.
   void restore(const ContactState& state, std::span<const double> displacement, double time);
-  /// Of the last update() or restore().
+  /// State of the points at the last update() or restore().
   const ContactState& state() const { return now_; }
 
   /// Begins a thermal phase over `dt`, which need not be the time step of the mechanical pass; an adiabatic
@@ -188,13 +188,13 @@ class ContactPair {
   /// the node loses heat; the sum over all is zero. [owned node].
   std::vector<double> nodal_heat(std::span<const double> temperature) const;
 
-  /// Of a rigid master at the last update() or restore() [K]; absent: it takes no heat.
+  /// Temperature of a rigid master at the last update() or restore() [K]; absent: it takes no heat.
   std::optional<double> tool_temperature() const;
   const ContactSpec& spec() const { return spec_; }
   double penalty() const { return law_.normal.penalty; }  ///< ε_N [Pa/m]
   const ContactKinematics& kinematics() const { return *kinematics_; }
   const PointLaw& law() const { return law_; }
-  /// Of the last update().
+  /// Partners of the points at the last update().
   const PartnerList& partners() const { return partners_; }
   /// Part of the slave surface that has a partner at the start, 0 to 1.
   double coverage() const { return kinematics_->coverage(); }
@@ -210,7 +210,7 @@ class ContactPair {
   HeatPoint heat_point(const PointState& from, const PointState& now, const PointForces& forces) const;
   void show_whole_step();
   void find_interface_temperatures(std::span<const double> temperature);
-  /// Of the augmented Lagrangian: ḡ_a, weighted with w N_a², [local node] [m]. Collective.
+  /// Mean penetrations ḡ_a of the augmented Lagrangian, weighted with w N_a², [local node] [m]. Collective.
   std::vector<double> nodal_penetration() const;
   /// The state of a point at t_n, with the traction that it had there.
   PointState at_start(std::size_t point) const;
@@ -242,7 +242,7 @@ class ContactPair {
   std::vector<double> displacement_;  ///< of now_
   double time_ = 0;                   ///< likewise
   std::vector<double> before_heat_;   ///< Θ_c that the mechanical phase left, [point]
-  /// Of predict_heat(), [point]: D_c,mech [J/m²] and entropy [J/(m² K)] that are taken already; or empty.
+  /// D_c,mech [J/m²] and entropy [J/(m² K)] that predict_heat() has counted in advance, [point]; or empty.
   std::vector<std::array<double, 2>> predicted_;
   PartnerList partners_;
   std::vector<Index> surface_nodes_;  ///< owned nodes of both surfaces, sorted

@@ -31,7 +31,7 @@ struct Surroundings {
   }
 };
 
-/// How the solution of both equations moves, beyond what PointForces hold.
+/// Derivatives of the solution of both equations, besides those of PointForces.
 struct JointSlopes {
   double stiffness = 0;                                ///< dr/dΘ_c of the balance [W/(m² K)]
   double source_by_trial = 0, source_by_pressure = 0;  ///< InterfaceReturn

@@ -35,8 +35,8 @@ struct ContactSpec {
   double atmosphere = 101325;
   /// A liquid skin that is farther from its wall than this has left it, for reports [m].
   double leaving_gap = 0;
-  /// Of the augmented Lagrangian: the penetration that may be left, as a share of the mean size of the
-  /// slave's faces.
+  /// Tolerance of the augmented Lagrangian: the penetration that may be left, as a share of the mean size of
+  /// the slave's faces.
   double penetration_tolerance = 1e-6;
   std::optional<FrictionSpec> friction;  ///< absent: none
   std::optional<WearSpec> wear;          ///< absent: no depth of wear; needs friction
@@ -57,7 +57,8 @@ struct ContactSpec {
   double stabilisation = 1e-10;
   IntegrationRule integration = IntegrationRule::segments;
   int gauss_degree = 4;  ///< rule `gauss`
-  /// How far partners are looked for along the normal [m]; absent: a tenth of the slave's extent.
+  /// Distance up to which partners are searched for along the normal [m]; absent: a tenth of the slave's
+  /// extent.
   std::optional<double> search_distance;
   /// Initial gaps and penetrations up to this size are taken as touching, g_N = 0 [m]; absent: 1e-6 of the
   /// mean size of the slave's faces, which is rounding. Larger values close the gaps that faceted curved

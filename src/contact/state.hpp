@@ -23,7 +23,7 @@ struct PointState {
   /// quotient, which is a mean over the step (normal.hpp).
   double balance_pressure = 0;
   double multiplier = 0;  ///< λ_N [Pa]: of the augmented Lagrangian, else zero
-  /// Of the step that led here: the pressure of the atmosphere where liquid metal wets the wall, else zero
+  /// Pressure of the atmosphere in the step that led here, where liquid metal wets the wall; else zero
   /// (normal.hpp) [Pa].
   double suction = 0;
   // Friction.

@@ -1,5 +1,5 @@
-/// Contact in the first law: what penalties and friction's hardening store, what friction dissipates, and
-/// what backward Euler loses on the springs.
+/// Contact in the first law: the energy stored by penalties and by friction's hardening, the dissipation by
+/// friction, and the numerical dissipation of backward Euler on the penalty springs.
 ///
 /// A step does the work Σ f·Δu on contact, f its forces at t_{n+1}. Without friction and sliding that is
 /// t_N,1 Δg on a spring that gains ½ ε_N (⟨g_1⟩² − ⟨g_0⟩²). The difference, ½ ε_N Δg² in closed contact, is

@@ -1,4 +1,4 @@
-/// The error of a step in temperature and displacement, without knowing the exact solution.
+/// Estimate of the error of a step in temperature and displacement.
 ///
 /// Temperature, where nodes hold the heat and the phase is solved once a step: heat::time_error() of the
 /// flows of heat, spread to temperatures (heat/heat_spread.hpp), for backward Euler and SDIRK2. Of this local
@@ -57,13 +57,14 @@ class ErrorEstimate {
                          Displacement displacement = Displacement::motion)
       : norm_(std::move(norm)), phases_(phases), displacement_(displacement) {}
 
-  /// Of the step from `old` to `now` by its extrapolation from `rates`, which must be known.
+  /// Estimates the error of the step from `old` to `now` by its extrapolation from `rates`, which must be
+  /// known.
   LocalError predictor(const State& old, const State& now, double dt, const Rates& rates) const;
   /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old`; the
   /// second half must be the step solved last.
   LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates) const;
-  /// How much heat a step has moved: its change in the nodes in kelvin of sensible heat, as the norm has it.
-  /// Zero where flows are not known.
+  /// Heat that a step has moved: the norm of its change in the nodes in kelvin of sensible heat. Zero where
+  /// flows are not known.
   double change_of(const State& old, const State& now) const;
   /// The rates of the step from `old` to `now`.
   Rates rates_of(const State& old, const State& now, double dt) const;

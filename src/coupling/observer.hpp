@@ -19,7 +19,7 @@ struct PhaseEffort {
   double residual = 0;        ///< final relative residual
   double seconds = 0;
   int hardest = 0;  ///< as `iterations`, of two stages of a pass only the harder one; zero: not counted apart
-  /// How hard the step was: what the size of the next one follows.
+  /// Difficulty of the step, which the size of the next one depends on.
   int hard() const { return hardest > 0 ? hardest : iterations; }
 };
 

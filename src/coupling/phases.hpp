@@ -1,4 +1,4 @@
-/// The phases that a scheme drives, owned by whoever built them.
+/// References to the phases that a scheme drives; model::Assembly owns them.
 #pragma once
 
 #include <optional>

@@ -79,7 +79,7 @@ class Simulation {
   enum class Try { committed, repeat, stuck };
   /// Begins the stage that holds at the committed time, or goes on in it.
   void enter_stage(Progress& p, const SolidFraction& solid_fraction, const std::optional<Continuation>& from);
-  /// As run(), within the stage; nothing where its end is reached.
+  /// Runs within the stage as run() does; returns nothing if the end of the stage is reached.
   std::optional<Outcome> run_stage(Progress& p);
   Outcome end_at_once(Progress& p, const StageStart& stage_start);
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);

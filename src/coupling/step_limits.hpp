@@ -5,7 +5,7 @@
 
 namespace solidus::coupling {
 
-/// How the local error is measured (coupling/error_estimate.hpp).
+/// Method by which the local error is estimated (coupling/error_estimate.hpp).
 enum class ErrorControl { none, predictor, doubling };
 
 struct StepLimits {

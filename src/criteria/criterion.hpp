@@ -1,4 +1,4 @@
-/// A criterion: something the foundry engineer reads off that accumulates while the casting freezes.
+/// A criterion: a result for the foundry engineer that accumulates while the casting freezes.
 #pragma once
 
 #include <cstddef>

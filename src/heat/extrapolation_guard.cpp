@@ -15,7 +15,7 @@ using material::k_sdirk_carried;
 /// Share of the range of temperatures by which an extrapolated one may leave it: what the iteration leaves
 /// in the heats of nodes far from all that happens is no overshoot.
 constexpr double k_beyond = 1e-9;
-/// How much further than in the first stage a temperature may go: by (1 − γ)/γ where the capacity is
+/// Factor by which a temperature may go further than in the first stage: by (1 − γ)/γ where the capacity is
 /// constant, and half as much again where it is not.
 constexpr double k_outside = 1.5 * k_sdirk_carried;
 /// Share of the range of temperatures below which a difference is none.

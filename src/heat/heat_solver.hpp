@@ -24,9 +24,9 @@ class HeatSolver {
                               double forcing = 0);
   /// The solver that runs now, for algebra::newton().
   algebra::LinearSolver& strong();
-  /// As algebra::LinearSolver::forget().
+  /// Drops what the solvers carry over from earlier solves, as algebra::LinearSolver::forget().
   void forget();
-  /// As algebra::LinearSolver::reset().
+  /// Resets the solvers as algebra::LinearSolver::reset().
   void reset();
   double seconds() const;
 

@@ -41,7 +41,8 @@ class NodalEnthalpy {
   /// H_i at a temperature; at a jump both ends.
   double lower(Index node, double temperature) const;
   double upper(Index node, double temperature) const;
-  /// How far the isothermal change at this temperature has come: 0 cold end to 1 hot end; 1 without a jump.
+  /// Share of the isothermal change at this temperature that is done: from 0 at the cold end to 1 at the hot
+  /// end; 1 without a jump.
   double plateau_share(Index node, double heat, double temperature) const;
   /// Returns the position of the node among its plateaus: twice the number of those below it, and one more on
   /// a plateau.

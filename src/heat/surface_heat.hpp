@@ -95,8 +95,8 @@ class SurfaceHeat {
   /// points; adds its magnitude, before heat into the body cancels heat out of it, to `moved`.
   double add_residual(std::span<const double> temperature, std::span<double> r, double& moved) const;
   void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const;
-  /// The flows from corners with negative weights; `left` is for whoever limits them. Not of a flux, which
-  /// has no ambient temperature to stay within.
+  /// The flows from corners with negative weights; `left` is set by the limiter. Not of a flux, which has no
+  /// ambient temperature to stay within.
   std::span<LimitedFlow> flows() { return flows_; }
   void update_flows(std::span<const double> temperature);
   /// Heat that comes to owned nodes and leaves them [W], both positive, spread with positive weights: a node

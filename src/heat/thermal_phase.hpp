@@ -78,9 +78,10 @@ struct HeatOptions {
   bool symmetric = true;  ///< false when a contribution's tangent is not
   /// No scheme makes its tangent part of a larger, unsymmetric one: half of a symmetric matrix will do.
   bool alone = false;
-  /// Of schemes that solve the phase once a step; absent: backward Euler.
+  /// Time stepping of schemes that solve the phase once a step; absent: backward Euler.
   std::optional<ThermalStepping> stepping;
-  /// Anything but enthalpy loses heat and needs backward Euler; what is lost is in the balance as its defect.
+  /// All forms but the enthalpy lose heat and need backward Euler; the lost heat is in the balance as its
+  /// defect.
   SensibleForm sensible = SensibleForm::enthalpy;
 };
 
@@ -161,16 +162,16 @@ class ThermalPhase {
   /// The temperatures around the bodies at the time of the last solve, prescribed, of films and of radiation,
   /// beyond which nothing is heated or cooled; without end where fluxes, sources or contributions can.
   /// Collective.
-  /// @param with_contributions  false: who asks knows whether contributions heat
+  /// @param with_contributions  false: the caller knows whether contributions heat
   TemperatureRange ambient_range(bool with_contributions = true) const;
 
   /// Heat needed to hold prescribed temperatures in the last solve, [owned node] [W], zero elsewhere.
   std::span<const double> reactions() const { return reactions_; }
 
-  /// How far isothermal changes have come at the nodes that have their temperature, from 0 (cold) to 1 (hot);
-  /// one at other nodes. What temperatures and this say together is how much of every material has changed:
-  /// PhaseFraction::value. [local node], ghosts up to date; empty where no material has such a change.
-  /// Collective.
+  /// Plateau shares: the shares of isothermal changes that are done at the nodes at their temperature, from 0
+  /// (cold) to 1 (hot); one at other nodes. Temperature and plateau share together determine how much of
+  /// every material has changed: PhaseFraction::value. [local node], ghosts up to date; empty where no
+  /// material has such a change. Collective.
   std::vector<double> plateau_share(const ThermalState& state) const;
   /// Solid fraction of the materials around each node that can melt, 1 if none can; [local node].
   std::vector<double> solid_fraction(const ThermalState& state) const;

@@ -48,7 +48,7 @@ struct HeatBalance {
   double defect() const { return stored - heat_in(); }
 };
 
-/// Of the entropy of sensible and latent heat [J/K].
+/// Change of the entropy of sensible and latent heat [J/K].
 struct EntropyChange {
   double change = 0;
   double magnitude = 0;  ///< sum of what was subtracted from each other: the scale of rounding

@@ -35,7 +35,7 @@ struct PointCurvatures {
   T bulk, shear, thermal_strain;  ///< d²k/dΘ², d²G/dΘ², d²e^θ/dΘ² = 6 α_Θ
 };
 
-/// How far the phase changes of a material have come, as stress and strain see it.
+/// Solid fraction and straining of the phase changes of a material at a point.
 template <class T>
 struct PhaseState {
   T solid_fraction;  ///< f_S of 2.65
@@ -53,7 +53,7 @@ PhaseState<T> phase_state_at(const Material& material, const T& temperature, con
 template <class T>
 PointProperties<T> properties_at(const Material& material, const T& temperature, const T& initial_temperature,
                                  const PhaseState<T>& phase);
-/// With the phases that the temperatures tell.
+/// Evaluates the properties with the phase state that follows from the temperatures.
 template <class T>
 PointProperties<T> properties_at(const Material& material, const T& temperature,
                                  const T& initial_temperature);

@@ -1,4 +1,4 @@
-/// The stiffness of a melt whose viscosity nobody gives: the numerical choice of η in s = η ε̇ (2.83, 2.104).
+/// The stiffness of a melt whose viscosity is not given: the numerical choice of η in s = η ε̇ (2.83, 2.104).
 ///
 /// The viscosity of molten metal, some 1e-3 Pa s, has no effect on stress, so η is a number of the method and
 /// not of the metal. What counts is the modulus that the melt has in a step, 2Ĝ = η/Δt, times the strain

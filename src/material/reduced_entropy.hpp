@@ -36,9 +36,9 @@ struct HardeningSlopes {
 
 namespace detail {
 
-/// Of curved hardening. No part of the function that calls it, and called by value: that function would have
-/// to keep in memory what it hands over by reference. All that it calls is part of it, so that only the
-/// numbers that its kind of hardening reads are computed.
+/// Returns the terms of curved hardening. It is not inlined and takes its arguments by value: the caller
+/// would have to keep arguments by reference in memory. All functions that it calls are inlined, so that only
+/// the numbers that its kind of hardening reads are computed.
 template <class T>
 [[gnu::noinline, gnu::flatten]] HardeningSlopes<T> curved_slopes(const Flow& flow,
                                                                  const Isentropic::Properties<T>& p,

@@ -44,7 +44,7 @@ struct StepStart {
 /// Sums over the counted elements of a block.
 struct BlockWork {
   double internal_work = 0, dissipation = 0, plastic_dissipation = 0, plastic_work = 0;  ///< [J]
-  /// Of the pressure on the volume that mixed elements leave to their sub-scales [J].
+  /// Work of the pressure on the volume that mixed elements leave to their sub-scales [J].
   double stabilisation_work = 0;
   double least_dissipation = 0, largest_dissipation = 0;  ///< [W/m³]
 };
@@ -80,7 +80,7 @@ class BlockKernel {
   virtual void hold_deformation(const StepStart& start) = 0;
   /// The first element whose law finds no state at u, with its inputs; empty if there is none.
   virtual std::string failure(std::span<const double> u) const = 0;
-  /// How much of the block flows plastically at u; counted elements only.
+  /// Volume of the block that flows plastically at u; counted elements only.
   virtual FlowingVolume flowing(std::span<const double> u) const = 0;
   /// out[element][component]: averages over the elements. The values are those of the last finish(), or those
   /// stored by keep_fields().

@@ -143,7 +143,7 @@ class CoupledPoints : public Block, public CoupledKernel {
 
   std::span<const double> initial_temperature_;  ///< of the phase, which outlives the block
   algebra::LaneSlots heat_slots_;
-  // Of the second stage, [batch][point]; else empty.
+  // Data of the second stage, [batch][point]; else empty.
   PackVector<StructuralDensities> carried_;  ///< S*, E*
   PackVector<StructuralDensities> before_;   ///< S_n, E_n
 };

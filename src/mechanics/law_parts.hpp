@@ -88,7 +88,7 @@ std::array<T, 2> hardening_of(const material::Viscoplastic::State<T>& state) {
   return {state.hardening, dot(state.back_strain, state.back_strain)};
 }
 
-/// How that changed since `old`: Δξ and ζ : Δζ.
+/// Returns their change since `old`: Δξ and ζ : Δζ.
 template <class T>
 std::array<T, 2> hardening_change(const material::Viscoelastic::State<T>&,
                                   const material::Viscoelastic::State<T>&) {

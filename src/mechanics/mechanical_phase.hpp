@@ -183,11 +183,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::size_t n_residuals() const;
   /// The properties at another temperature of the iterate, after begin().
   void prepare(const MechanicalState& old, const MechanicalPass& pass);
-  /// As algebra::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
+  /// Implements algebra::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
   double residual(std::span<const double> x, std::span<double> r) override;
   /// At the x of the last residual().
   algebra::BlockMatrix& tangent() override;
-  /// How large a step is beside the displacement since t_n: BodyBalance::relative_step, of the unknowns x and
+  /// Size of a step relative to the displacement since t_n: BodyBalance::relative_step, of the unknowns x and
   /// of the step d that has led to them.
   double relative_step(const MechanicalState& old, std::span<const double> x,
                        std::span<const double> d) const;
@@ -207,17 +207,18 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// A residual that is rounding [N].
   double round_off() const { return round_off_; }
 
-  /// Of the last solve, or of the one that is kept: [block of the mesh][element][component].
+  /// Values of the last solve, or of the one stored by keep_fields(): [block of the
+  /// mesh][element][component].
   std::vector<double> element_field(ElementField which) const;
-  /// The last solution is committed: element_field() stays with it until the next call, whatever is tried and
-  /// rejected in between.
+  /// Stores the fields of the last, committed solution: element_field() returns them until the next call,
+  /// whatever is tried and rejected in between.
   void keep_fields();
   /// True when a material can flow plastically: then there are plastic fields to show.
   bool plastic() const { return plastic_; }
   /// Support forces of the last solve, [owned node][component] [N], zero where nothing is prescribed.
   std::span<const double> reactions() const { return reactions_; }
 
-  /// From now on conclude() leaves the stress at the points in MechanicalState::stress, as with inertia.
+  /// Makes conclude() store the stress at the points in MechanicalState::stress from now on, as with inertia.
   void keep_stress() { keeps_stress_ = true; }
   /// Nodal forces of loads and contact at the last solution, [owned node][component] [N].
   std::vector<double> applied_forces() const;
@@ -227,7 +228,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
 
   /// The block kernels, for StructuralHeat.
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
-  /// How stiff the melt of every body is in a step where its material leaves that open, [body].
+  /// Stiffness of the melt of every body whose material does not give its viscosity, [body].
   std::span<const material::MeltModulus> melt() const { return melt_; }
   /// Drops what the linear solver carried over from earlier steps.
   void forget() { solver_->forget(); }
@@ -241,7 +242,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   algebra::NodeGraph graph() const;
   void create_blocks(const std::vector<material::Material>& materials);
   void remove_bodies(const algebra::ActiveSet& active);
-  /// Of the bodies that are there.
+  /// Mass of the active bodies.
   std::vector<double> nodal_mass() const;
   void find_weight(const std::array<double, 3>& gravity);
   void create_matrix();
@@ -294,7 +295,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   NodalPhases nodal_phases_;
   std::vector<BlockHistory> start_;               ///< z* of the two-step method, one per block
   bool keeps_stress_ = false;                     ///< without inertia
-  bool keeps_fields_ = false;                     ///< somebody has asked for it
+  bool keeps_fields_ = false;                     ///< keep_fields() has been called
   std::vector<BlockHistory> no_stress_;           ///< to keep it against
   double round_off_ = 0;                          ///< residual that is rounding [N]
   const MechanicalState* solved_from_ = nullptr;  ///< t_n of the solve that goes on

@@ -1,5 +1,4 @@
-/// How stiff the melts of a mesh are in a step where their materials leave the viscosity open
-/// (material/melt.hpp).
+/// Stiffness, in a step, of the melts of a mesh whose materials do not give a viscosity (material/melt.hpp).
 #pragma once
 
 #include <array>

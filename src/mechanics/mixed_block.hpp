@@ -11,7 +11,7 @@ namespace solidus::mechanics {
 /// Volumetric strain that may be wrong where it is found by iteration; the stress has its mean anyway.
 inline constexpr double k_volume_tolerance = 1e-11;
 inline constexpr int k_max_volumes = 30;
-/// Of one step of that iteration: beyond it no law holds.
+/// Largest volumetric strain of one step of that iteration: beyond it no law holds.
 inline constexpr double k_largest_volume_step = 0.05;
 /// Behind the law's state at a point: e_v, and in axisymmetry p_a − p̄ of its nodes.
 template <int n_nodes, AnalysisKind kind>
@@ -338,7 +338,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   PackVector<Lane> old_volume_;        ///< e_v at t_n, [batch]
   PackVector<Lane> old_divergence_;    ///< div u at t_n, [batch]
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
-  PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where nobody asked for it
+  PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where it is not requested
 };
 
 }  // namespace solidus::mechanics

@@ -55,7 +55,7 @@ class MixedKernel {
   virtual int field() const = 0;
   /// Looks up the slots of a scalar matrix of this field's pressures.
   virtual void bind_pressure(const algebra::BlockMatrix& matrix) = 0;
-  /// Of the algebraic sub-scales [N/m³]; zero with orthogonal ones.
+  /// Sets the body force of the algebraic sub-scales [N/m³]; zero with orthogonal ones.
   virtual void set_body_force(const std::array<double, 3>& force) = 0;
 
   /// ∫ 1 dV and ∫ 2Ĝ dV over the counted elements.

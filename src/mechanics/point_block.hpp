@@ -145,7 +145,7 @@ class PointBlock : public BlockKernel {
     Lane internal_work{0.0}, stabilisation_work{0.0}, dissipation{0.0}, least{0.0}, largest{0.0};
     PlasticPower plastic;
   };
-  /// Of the points of a batch, weighted with their volumes.
+  /// Average over the points of a batch, weighted with their volumes.
   struct Average {
     Values sums;
     Lane volume{0.0};
@@ -443,7 +443,7 @@ class PointBlock : public BlockKernel {
   double stress_share_ = 1;
   double dt_ = 0, effective_dt_ = 0;
   StressAtWork work_ = StressAtWork::end;
-  PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where nobody asked for it
+  PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where it is not requested
 };
 
 }  // namespace solidus::mechanics

@@ -18,7 +18,7 @@ struct Deformation {
   Lane back_squared;     ///< ζ : ζ
 };
 
-/// Of deformation and hardening.
+/// Densities of entropy and energy of deformation and hardening.
 struct StructuralDensities {
   Lane entropy;  ///< S [J/(m³ K)]
   Lane energy;   ///< E [J/m³]
@@ -42,8 +42,8 @@ class StructuralPoints {
   /// Keeps a reference to the geometry.
   StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material);
 
-  /// Until this is called nothing is kept, and only what says so may be called: nobody asks without
-  /// structural heat.
+  /// Until this is called nothing is stored, and only the functions that say so may be called: nothing is
+  /// needed without structural heat.
   void keep() { points_.resize(n_points_); }
   bool kept() const { return !points_.empty(); }
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }

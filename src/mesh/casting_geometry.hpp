@@ -1,5 +1,5 @@
-/// From the geometry of parts to a mesh of parts and mould that can be computed with: a block of mould around
-/// them, a riser on them, half of them; sizes that follow the thickness of walls. Rank 0 only.
+/// Makes a mesh of parts and mould from the geometry of parts: a block of mould around them, a riser on them,
+/// half of them; sizes that follow the thickness of walls. Rank 0 only.
 ///
 /// Bodies that touch share the faces between them, and so their nodes (the model splits them where there is
 /// an interface). What is mould within closed cavities of the parts is a core.
@@ -14,7 +14,7 @@
 
 namespace solidus::mesh {
 
-/// How large the elements of a body are. All in metres.
+/// Sizes of the elements of a body. All in metres.
 struct BodySize {
   std::string body;
   double size = 0, smallest = 0;
@@ -50,7 +50,7 @@ struct CastingGeometry {
 
 /// Least quality (mesh/quality.hpp) of a mesh that is taken at once.
 inline constexpr double k_sound_quality = 0.15;
-/// How many ways to mesh there are: as the file is, with HXT, healed, finer, …
+/// Number of meshing attempts: as the file is, with HXT, healed, finer, …
 int n_meshing_attempts();
 /// Describes an attempt for messages: "healed, elements of 0.7 of the size".
 std::string meshing_attempt(int attempt);

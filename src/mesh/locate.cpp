@@ -27,7 +27,7 @@ bool on_any_process(bool value) {
 
 struct Candidate {
   double distance = std::numeric_limits<double>::infinity();
-  double body = 0, number = 0, process = 0;  // who answers when several are equally near
+  double body = 0, number = 0, process = 0;  // that decide when several are equally near
   auto key() const { return std::array{distance, body, number, process}; }
 };
 

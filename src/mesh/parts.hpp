@@ -1,4 +1,4 @@
-/// A whole mesh cut into the parts of the processes: packed on process 0, unpacked where it arrives.
+/// Cuts a whole mesh into the parts of the processes: packed on process 0, unpacked by the receiving process.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-/// Observers that compare what every step reports with the laws it has to obey, and say so once.
+/// Observers that compare the report of every step with the laws of thermodynamics, and warn once of a
+/// violation.
 #pragma once
 
 #include "coupling/observer.hpp"

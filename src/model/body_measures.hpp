@@ -8,7 +8,8 @@
 
 namespace solidus::model {
 
-/// Of one body. In plane strain of one metre of thickness, in axisymmetry of the whole revolution.
+/// Measures of one body. In plane strain they are of one metre of thickness, in axisymmetry of the whole
+/// revolution.
 struct BodyMeasures {
   mesh::Point low{}, high{};                   ///< corners of the bounding box [m]
   double volume = 0;                           ///< [m³]

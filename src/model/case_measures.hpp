@@ -40,7 +40,7 @@ struct CaseMeasures {
   Effort effort;
 };
 
-/// Of a case that is built. Collective.
+/// Measures a case that has been built. Collective.
 CaseMeasures measure(const CaseSpec& spec, const Assembly& a);
 
 /// The bodies that are poured, with estimates; `m` has bodies, contacts and surfaces. Collective.

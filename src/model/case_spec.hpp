@@ -80,7 +80,7 @@ struct MeshGroupSpec {
   bool by_rule() const { return !owner.empty() || !normal.empty() || !plane.empty() || !nearest.empty(); }
 };
 
-/// How large the elements of a body are (mesh/casting_geometry.hpp).
+/// Sizes of the elements of a body (mesh/casting_geometry.hpp).
 struct MeshSizeSpec {
   std::string body;                ///< group of the mesh
   double size = 0;                 ///< the largest [m]
@@ -136,7 +136,8 @@ struct MeshSpec {
   std::optional<MouldBlockSpec> mould;
   std::optional<RiserBlockSpec> riser;
   std::optional<SymmetrySpec> symmetry;
-  /// Run a .geo script whatever it says. Never a key: who runs a case trusts its scripts, not who wrote it.
+  /// Run a .geo script without checks. This is never a key of a case file: the user who runs a case decides
+  /// whether to trust its scripts, not its author.
   bool trust_script = false;
   std::string element;  ///< of the built-in shapes: "tri3", ...
   std::optional<CylinderInMouldSpec> cylinder_in_mould;
@@ -201,7 +202,7 @@ struct ThermalConditionSpec {
   enum class Kind { temperature, flux, film, radiation, source };
   std::string name, group;
   Kind kind = Kind::temperature;
-  // Of time, or of position and time.
+  // Functions of time, or of position and time.
   Function temperature;             ///< [K]
   Function flux;                    ///< into the body [W/m²]
   Function coefficient;             ///< film [W/(m² K)]; or of the surface's temperature
@@ -230,7 +231,7 @@ struct MechanicalConditionSpec {
 /// A contact pair; model/contact_input.hpp makes the contact room's specification of it.
 struct ContactSpec {
   std::string name, slave, master;
-  std::vector<std::string> surfaces;  ///< both, where the program chooses who is the slave
+  std::vector<std::string> surfaces;  ///< both, where the program chooses the slave
   std::array<std::string, 2> sides() const {
     return surfaces.empty() ? std::array{slave, master} : std::array{surfaces[0], surfaces[1]};
   }
@@ -331,7 +332,7 @@ struct CouplingSpec {
   enum class Scheme { isentropic, isothermal, simultaneous, block_iterative, double_pass };
   Scheme scheme = Scheme::isentropic;
   std::optional<coupling::PhaseOrder> order;  ///< of the sequential splits; absent: phase_order() chooses
-  /// How deformation enters the heat balance (mechanics/structural_heat.hpp); none: not at all.
+  /// Form in which deformation enters the heat balance (mechanics/structural_heat.hpp); none: it does not.
   enum class StructuralHeating { energy, entropy, literal, temperature, none };
   StructuralHeating structural_heating = StructuralHeating::energy;
   bool as_printed = false;  ///< the sensible heat in the same form, not as a difference of enthalpies

@@ -12,7 +12,7 @@
 
 namespace solidus::model {
 
-/// Of one body.
+/// Estimate of one body.
 struct CouplingEstimate {
   std::string body;
   double initial = 0, worst = 0;  ///< temperatures [K]: at the start, and where the coupling is strongest
@@ -22,8 +22,8 @@ struct CouplingEstimate {
   double decisive() const { return plane ? at_worst.plane : at_worst.bound; }
 };
 
-/// Of a thermo-mechanical case, one per body. The range of temperatures is that of all initial, ambient and
-/// prescribed ones but those of conditions that vary with position. Collective.
+/// Estimates of a thermo-mechanical case, one per body. The range of temperatures is that of all initial,
+/// ambient and prescribed ones but those of conditions that vary with position. Collective.
 /// @param start  of each body; `initial` is the highest
 std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,

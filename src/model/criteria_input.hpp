@@ -1,4 +1,4 @@
-/// From the case to the criteria of a run.
+/// Builds the criteria of a run from the case.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-/// From the case to inertia and its integrator.
+/// Builds inertia and its time integrator from the case.
 #pragma once
 
 #include <optional>

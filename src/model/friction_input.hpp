@@ -1,4 +1,4 @@
-/// From [contact.friction] and [contact.wear] to what the contact room needs.
+/// Makes the specifications of friction and wear (contact/) from [contact.friction] and [contact.wear].
 #pragma once
 
 #include "contact/friction.hpp"

@@ -1,4 +1,4 @@
-/// From the case to the thermal phase's conditions and options.
+/// Makes the thermal phase's conditions and options from the case.
 #pragma once
 
 #include <string>

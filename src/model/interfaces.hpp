@@ -1,4 +1,4 @@
-/// From [[interface]] sections to contacts: the faces of the mesh that face each other, the laws of the
+/// Makes contacts from [[interface]] sections: the faces of the mesh that face each other, the laws of the
 /// library (docs/guide/interfaces.md).
 #pragma once
 

@@ -1,4 +1,4 @@
-/// The verb `new`: from the geometry of a casting to a case that runs (docs/guide/new_case.md).
+/// The verb `new`: makes a case that runs from the geometry of a casting (docs/guide/new_case.md).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-/// From a checked case to a finished results folder.
+/// Runs a checked case and fills its results folder.
 #pragma once
 
 #include <filesystem>

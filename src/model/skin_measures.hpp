@@ -11,7 +11,8 @@
 
 namespace solidus::model {
 
-/// Of a contact as it was built, bodies where they are in the mesh. Body −1: a rigid tool; −2: several.
+/// Measures of a contact as it was built, with the bodies at their place in the mesh. Body −1: a rigid tool;
+/// −2: several.
 struct ContactMeasures {
   std::string slave, master;  ///< as the program chose them
   int slave_body = -1, master_body = -1;
@@ -22,7 +23,7 @@ struct ContactMeasures {
   GlobalIndex shared_nodes = 0;           ///< nodes that lie on both surfaces
 };
 
-/// Of a named surface.
+/// Measures of a named surface.
 struct SurfaceMeasures {
   int body = -1;                     ///< −1: it has no faces; −2: several bodies
   double area = 0;                   ///< [m²]

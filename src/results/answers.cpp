@@ -38,7 +38,7 @@ class Largest {
   double number_ = -1;
 };
 
-/// Values of a field that somebody reads; empty where the run has no such field.
+/// Values of a field; empty if the run has no such field.
 struct Values {
   std::vector<double> storage;
   std::span<const double> values;
@@ -167,7 +167,7 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
   }
 }
 
-/// A relative defect of the first law beyond which nobody calls it closed.
+/// Relative defect of the first law beyond which it is not reported as closed.
 constexpr double k_closed = 1e-6;
 
 std::string place(const mesh::Point& p) {

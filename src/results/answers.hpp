@@ -30,7 +30,7 @@ struct ValueAt {
   mesh::Point where{};  ///< of the nominal shape [m]
 };
 
-/// How far a cast body has come.
+/// Progress of the freezing of a cast body.
 struct CastAnswer {
   CastBody cast;
   bool there = true;               ///< false: it has left by now

@@ -1,5 +1,5 @@
-/// Whether a file that HDF5 wrote is still what it was: a checksum over all of it, in the first bytes, which
-/// HDF5 leaves to its user (the user block).
+/// Integrity check of a file that HDF5 wrote: a checksum over all of it, in the first bytes, which HDF5
+/// leaves to its user (the user block).
 #pragma once
 
 #include <cstddef>

@@ -61,8 +61,9 @@ class SpoolFile {
   std::uint64_t size_ = 0;
 };
 
-/// Writes to `path`.part and gives it its name when whole: whoever opens `path` sees the old file or the new
-/// one. Without commit() (an exception on the way) the part is removed and an older file stays as it was.
+/// Writes to `path`.part and gives it its name when whole: a program that opens `path` sees the old file or
+/// the new one. Without commit() (an exception on the way) the part is removed and an older file stays as it
+/// was.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

@@ -71,8 +71,8 @@ struct Overview {
   std::optional<mesh::Point> gravity;  ///< [m/s²]; absent: no weight
   std::vector<PourOverview> pours;
   EffortOverview effort;
-  /// How long displacements and stresses are behind the temperatures of their time, where the scheme does
-  /// that: the step [s]; zero: as long as the step that is chosen.
+  /// Delay of displacements and stresses behind the temperatures of their time, if the scheme has one: the
+  /// step [s]; zero: the step that is chosen.
   std::optional<double> lag;
   double end = 0;  ///< of the run [s]
 };

@@ -78,7 +78,8 @@ class RunLock::Held {
     }
   }
   ~Held() {
-    // Removed before it is let go: whoever waits for it finds another file, or none, and tries again.
+    // The file is removed before the lock is released: a process that waits for it finds another file, or
+    // none, and tries again.
     ::unlink(path_.c_str());
     ::close(descriptor_);
   }

@@ -71,7 +71,8 @@ class StateFields {
   algebra::GhostExchange ghosts_;
   std::vector<std::unique_ptr<Values>> values_;  // stable addresses: the sets hold views
   std::map<std::string, std::vector<double>*> by_name_;
-  /// Of the sides of each pair, slave and master: ∫ N_a dA, [local node], owned ones complete [m²].
+  /// Nodal areas of the sides of each pair, slave and master: ∫ N_a dA, [local node], owned ones complete
+  /// [m²].
   std::vector<std::array<std::vector<double>, 2>> side_area_;
   std::vector<double> covered_;  ///< Field::covered of tractions and fluxes of contact
   FieldSet bodies_;

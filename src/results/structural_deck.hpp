@@ -1,6 +1,6 @@
 /// The end of a run as the start of a structural analysis: an input file for CalculiX or Abaqus with mesh,
-/// sets, materials, temperatures and residual stress as initial conditions, and one static step that keeps
-/// still.
+/// sets, materials, temperatures and residual stress as initial conditions, and one static step without
+/// further loading.
 ///
 /// The stress given is the one whose nodal forces ∫ Bᵀ σ dV are those of the run, so that it is in
 /// equilibrium there too: where the run has a constant volumetric mode (6.2), the pressure of an element is

@@ -1,4 +1,4 @@
-/// summary.json: how a run went, for people and for tests that watch time and memory.
+/// summary.json: the summary of a run, for people and for tests that check time and memory.
 #pragma once
 
 #include <cstddef>
