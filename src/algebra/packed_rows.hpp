@@ -53,7 +53,7 @@ void with_block_sizes(int rows, int columns, const F& f) {
 
 class PackedRows {
  public:
-  /// Numbers behind the last block: what a product reads of a block reaches beyond it.
+  /// Numbers behind the last block: a product reads beyond the end of a block.
   static constexpr std::size_t k_overhang = 8;
   PackedRows() = default;
   enum class Pattern { referred_to, copied };

@@ -34,7 +34,8 @@ class RecyclingGmres {
   explicit RecyclingGmres(RecyclingOptions options = {});
   ~RecyclingGmres();
 
-  /// The operator and what preconditions it. Both are called during solve() only. What is kept stays.
+  /// Sets the operator and its preconditioner. Both are called during solve() only. The recycled directions
+  /// are kept.
   void set(Map op, Map preconditioner);
   /// The values of the operator are other ones at the next solve.
   void operator_changed();

@@ -7,7 +7,7 @@
 
 namespace solidus {
 
-/// Throws what another process's InputError becomes here; its argument is the message of that one.
+/// Throws in place of another process's InputError; its argument is the message of that one.
 using ThrowInputError = std::function<void(const std::string& message)>;
 
 /// Runs `work` on every process. If it throws on any of them, every process throws: the failing ones their

@@ -31,7 +31,7 @@ struct FrictionSpec {
   InternalVariable internal_variable = InternalVariable::normal_work;
   std::optional<double> tangential_penalty;  ///< ε_T [Pa/m]; absent: the factor on ε_N
   double tangential_penalty_factor = 1;
-  /// Drops what makes the tangent unsymmetric: ∂‖T‖/∂t_N in it, not in the forces.
+  /// Drops the unsymmetric part of the tangent: ∂‖T‖/∂t_N in it, not in the forces.
   bool symmetric = false;
   SourceLocation where;
 };
@@ -51,7 +51,7 @@ enum class FrictionStatus {
   not_unique,            ///< the step has no or several solutions that follow from its start
   not_converged          ///< numbers that are not finite
 };
-/// For StepRejected: what is wrong and what helps.
+/// Describes for StepRejected the failure and its remedy.
 const char* reason(FrictionStatus status);
 
 struct FrictionResponse {

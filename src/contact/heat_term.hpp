@@ -36,15 +36,15 @@ struct HeatRates {
   std::span<const Point> share;        ///< ∂B_a/∂x_b, [a][b]
 };
 
-/// Time over which a thermal phase spreads what one mechanical pass left, where the two differ.
+/// Time over which a thermal phase spreads the heat of a mechanical pass, if their time steps differ.
 struct HeatSpan {
   double dt = 0;           ///< [s]
   bool adiabatic = false;  ///< nothing flows: the dissipation alone is a term
 };
 
-/// Heat into the bodies at a point, slave and master [W/m²]: in all, and what of it is there by friction,
-/// that is beyond conduction and radiation between the two surfaces as they are. What friction makes less
-/// what the interface stores.
+/// Heat into the bodies at a point, slave and master [W/m²]: in all, and the part of it by friction, that is
+/// beyond conduction and radiation between the two surfaces as they are. What friction makes less what the
+/// interface stores.
 struct SurfaceHeat {
   std::array<double, 2> total{}, by_friction{};
 };
@@ -153,7 +153,8 @@ class HeatTerm : public algebra::Contribution {
   };
   struct Run;
   AtPoint see(Index point, std::span<const double> temperature) const;
-  /// Adds `weight_h` × h' + `weight_e` × e' of what every node gives off by conduction and radiation.
+  /// Adds `weight_h` × h' + `weight_e` × e' of the heat that every node gives off by conduction and
+  /// radiation.
   void add_exchange(const AtPoint& at, std::span<const double> temperature, double weight_h, double weight_e,
                     std::span<double> heat) const;
   /// Adds per-side fluxes by the shape functions.

@@ -87,7 +87,7 @@ class ContactKinematics {
   /// @param old  at t_n: slip is counted from its anchor, whether it touched or not; where it had no partner,
   ///             from here (ΔG = 0)
   virtual PointMotion motion(Index point, const PointState& old, Asked asked) const = 0;
-  /// Adds what the forces change by the geometry at fixed t_N and T,
+  /// Adds the change of the forces by the geometry at fixed t_N and T,
   ///
   ///   K_bc += w [ ∂B_b/∂x_c ⊗ f + B_b (t_N ∂n/∂x_c + ∂(F T)/∂x_c) ],
   ///
@@ -101,7 +101,7 @@ class ContactKinematics {
   virtual Point master_way(Index /*point*/, double /*from*/, double /*to*/) const { return {}; }
   /// True when nodes meet that did not at the last add_to_graph(): matrices must be made anew.
   virtual bool graph_outdated() const = 0;
-  /// Cliques of nodes that may meet, with a margin for what comes next.
+  /// Cliques of nodes that may meet, with a margin for later displacements.
   /// @param add  called with each clique
   struct CliqueSink {
     virtual ~CliqueSink() = default;

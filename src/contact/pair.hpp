@@ -56,22 +56,23 @@ struct ContactSums {
 };
 
 /// Averages around the nodes of both surfaces, [owned node of the surface]; NaN at nodes without a point that
-/// has a partner. Weighted with w N_a²; what points remember of friction, with w N_a over all points of the
-/// slave, which keeps its integral, NaN on the master.
+/// has a partner. Weighted with w N_a²; the history of friction, with w N_a over all points of the slave,
+/// which keeps its integral, NaN on the master.
 struct ContactNodalFields {
   std::vector<Index> nodes;         ///< local numbers of owned nodes, slave's and master's, sorted
   std::vector<double> opening;      ///< [m], negative: penetration
   std::vector<double> pressure;     ///< t_N [Pa]
   std::vector<double> conductance;  ///< h without radiation [W/(m² K)]; zero without heat
-  /// ∫ N_a dA over what has a partner, of which the values here are means; zero where nothing has [m²].
+  /// ∫ N_a dA over the points that have a partner, of which the values here are means; zero where there is
+  /// none [m²].
   std::vector<double> paired_area;
-  /// Into the body of the node, through the gap, the spots and radiation and from friction; and what of it
-  /// is by friction (SurfaceHeat). Zero without heat or temperatures [W/m²].
+  /// Heat flux into the body of the node, through the gap, the spots and radiation and from friction; and its
+  /// part by friction (SurfaceHeat). Zero without heat or temperatures [W/m²].
   std::vector<double> heat_flux, frictional_heat_flux;
   /// With friction, else empty: 0 open, 1 sticks, 2 slips; and F T, on the master [Pa].
   std::vector<double> status;
   std::vector<Point> traction;
-  /// With friction, else empty: what points remember. μ is that of ζ_c and Θ_c. A master that wears has its
+  /// History of the points, with friction; else empty. μ is that of ζ_c and Θ_c. A master that wears has its
   /// own dissipation and depth.
   std::vector<double> slip, internal_variable, coefficient, dissipation, wear_depth;
   std::vector<double> temperature;  ///< Θ_c [K]

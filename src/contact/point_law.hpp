@@ -72,7 +72,7 @@ struct PointLaw {
   bool isentropic = false;       ///< what the mechanical phase holds at the interface (5.24)
   double share = 1;              ///< s of normal.hpp
 
-  /// @param from  the state at t_n with the multipliers of now: λ_N, and T_n or what stands for it
+  /// @param from the state at t_n with the present multipliers: λ_N, and T_n or the traction that replaces it
   /// @param around  where slip and Θ_c are found together: the simultaneous scheme
   PointForces forces(const PointMotion& motion, const PointState& from,
                      const std::optional<Surroundings>& around = {}) const;

@@ -24,7 +24,7 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
 /// them; else the multipliers follow the pressures and the phase must be solved again. Throws StepRejected
 /// after too many turns. Collective.
 bool penetrations_small(const Phases& phases, int turn);
-/// The same error with what the pairs have to say. Collective.
+/// Throws the same error with the failure_text() of the pairs appended. Collective.
 [[noreturn]] void reject_with_contacts(const Phases& phases, const StepRejected& rejected);
 
 }  // namespace solidus::coupling

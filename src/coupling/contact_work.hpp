@@ -20,8 +20,8 @@ class ContactWork {
   /// The work of the last pass on contact, of forces that are the mean of those at its start and end with the
   /// share of the end; counted `factor` times. Collective.
   void add(double share = 1, double factor = 1);
-  /// Sets what is stored and dissipated and adds what was lost; the work of rigid masters is work on the
-  /// bodies. Collective.
+  /// Sets the stored and the dissipated energy and adds the numerical dissipation; the work of rigid masters
+  /// is work on the bodies. Collective.
   void book(EnergyAudit& energy) const;
 
  private:

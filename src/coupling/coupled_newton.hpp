@@ -39,7 +39,7 @@
 
 namespace solidus::coupling {
 
-/// Both norms against what their phases measure them by.
+/// Both residual norms, relative to the references of their phases.
 struct CoupledResidual {
   double force = 0;  ///< ‖r_u‖ over its reference, pressures included
   double heat = 0;   ///< Σ|r_Θ| over the heat moved

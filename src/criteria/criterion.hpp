@@ -20,8 +20,8 @@ struct Moment {
   /// f_S of the materials around each node that can melt, 1 if none can; [local node], ghosts up to date.
   /// Empty without a thermal phase. Criteria fills it in.
   std::span<const double> solid_fraction = {};
-  /// heat::ThermalPhase::plateau_share: what isothermal changes of any material have come to at their nodes.
-  /// Empty without one. Criteria fills it in.
+  /// heat::ThermalPhase::plateau_share: the share of isothermal changes of any material that is done at their
+  /// nodes. Empty without one. Criteria fills it in.
   std::span<const double> plateau_share = {};
 };
 

@@ -36,8 +36,9 @@ class HeatSystem {
              algebra::BlockMatrix::Storage storage = algebra::BlockMatrix::Storage::whole);
   ~HeatSystem();
 
-  /// From here on other conditions hold. Where bodies leave, the matrix gets another pattern; then true.
-  /// Throws InputError as the constructor does, std::invalid_argument for a body that comes back. Collective.
+  /// Replaces the conditions from here on. If bodies leave, the matrix gets another pattern; returns whether
+  /// it did. Throws InputError as the constructor does, std::invalid_argument for a body that comes back.
+  /// Collective.
   bool set_conditions(const Conditions& conditions);
   const algebra::ActiveSet& active() const { return active_; }
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
@@ -47,7 +48,8 @@ class HeatSystem {
   void exchange(bool on) { exchange_ = on; }
   /// Writes the prescribed temperatures of the time set, ghosts too.
   void prescribe(std::span<double> temperature) const;
-  /// [local node]: one where the temperature is prescribed, or stays since the bodies there have gone.
+  /// [local node]: one where the temperature is prescribed, or stays because the bodies there have been
+  /// removed.
   const std::vector<char>& fixed() const { return fixed_; }
 
   /// Whether conduction is limited from here on (conduction_limiter.hpp). Off at first, and with the open
@@ -84,7 +86,7 @@ class HeatSystem {
   /// The unknown of assemble_symmetric().
   const NodalPotential& potential() const { return *nodal_; }
   algebra::BlockMatrix& matrix() { return *matrix_; }
-  /// Gives the matrix another pattern where a contribution asks for it; then true. Collective.
+  /// Gives the matrix another pattern if a contribution asks for it; returns whether it did. Collective.
   bool follow_graph();
 
   /// Returns the heat that storing contributions took up at the last residual(), [owned node] [W]; empty:

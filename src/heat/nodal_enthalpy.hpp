@@ -22,7 +22,7 @@ class NodalEnthalpy {
 
   /// The part of a node's heat that bodies which are there hold [J].
   double held_by(const algebra::ActiveSet& active, Index node, double heat, double temperature) const;
-  /// Nodes lose what they hold of bodies that are not there; nodes of theirs alone store nothing.
+  /// Removes the heat of inactive bodies from the nodes; nodes that belong to them alone store nothing.
   void remove_bodies(const algebra::ActiveSet& active);
   /// The same for bodies of which kept[body] is zero.
   void keep_bodies(std::span<const char> kept);

@@ -32,7 +32,7 @@ class ThermalIteration {
 
   /// Θ of now, [local node], ghosts up to date.
   std::span<const double> temperature() const { return now_.temperature; }
-  /// F at the Θ of now and what the contributions hold. Collective.
+  /// Evaluates F at the present Θ with the present contributions. Collective.
   void evaluate();
   /// F, [owned node] [W]; where the temperature is prescribed, the heat that holds it.
   std::span<const double> residual() const;

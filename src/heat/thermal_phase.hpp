@@ -58,8 +58,8 @@ enum class Integration {
 
 enum class ThermalStepping { backward_euler, sdirk2 };
 
-/// Default tolerances. Nodes that hold heat take up what the iteration leaves (ThermalPhase::book), so that
-/// theirs is one of accuracy; in the open rule and in a steady state the residual is heat lost or gained
+/// Default tolerances. Nodes that hold heat take up the residual of the iteration (ThermalPhase::book), so
+/// that theirs is one of accuracy; in the open rule and in a steady state the residual is heat lost or gained
 /// (docs/decisions/0013).
 inline constexpr double k_nodal_tolerance = 1e-6, k_point_tolerance = 1e-9;
 
@@ -218,7 +218,7 @@ class ThermalPhase {
   /// Keeps the reactions and measures a solved step.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,
                       double moved, double dt);
-  /// Puts what the iteration has left, F of the free nodes, into their heats: H_i = H*_i − Δt r_i then holds
+  /// Adds the residual of the iteration, F of the free nodes, to their heats: H_i = H*_i − Δt r_i then holds
   /// to rounding, and the heat balance is exact for every tolerance. The temperatures stay those for which
   /// the fluxes r are; the next step begins from these heats. Updates the ghosts.
   void book(std::span<const double> residual, double dt, std::span<double> heat) const;

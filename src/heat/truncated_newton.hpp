@@ -81,7 +81,7 @@ class TruncatedNewton {
   void relax_nodes(bool all);
   void sweep(Order order);
   double relax(std::size_t i, double residual);
-  /// Adds to F what the change of v since then makes of it.
+  /// Adds to F the effect of the change of v since then.
   void follow(std::span<double> step);
   /// @param chords  slopes that stand for those of the tangents, [owned node]; empty: none
   algebra::LinearReport correct(double forcing, std::span<const double> chords = {});

@@ -50,7 +50,7 @@ struct MaterialData {
 /// The declaration of the keys, for reading, `explain`, the schema and the manual.
 const Section<MaterialData>& material_section();
 
-/// Checks what a single key cannot tell and builds the material. Throws InputError with the place.
+/// Checks the values that depend on several keys and builds the material. Throws InputError with the place.
 Material make_material(std::string name, const MaterialData& data);
 
 /// Returns the note on a property for the report of a run.

@@ -2,8 +2,9 @@
 ///
 /// The viscosity of molten metal, some 1e-3 Pa s, has no effect on stress, so η is a number of the method and
 /// not of the metal. What counts is the modulus that the melt has in a step, 2Ĝ = η/Δt, times the strain
-/// increment of the step, Δε ≈ 1e-3 to 1e-2 where a skin follows its wall. It has to be small against what
-/// carries the melt and against what the melt becomes, and not below what the arithmetic stands:
+/// increment of the step, Δε ≈ 1e-3 to 1e-2 where a skin follows its wall. It has to be small against the
+/// pressure that carries the melt and against the strength of the later solid, and not so small that rounding
+/// prevails:
 ///
 ///   2Ĝ = max(min(k_heads p, k_of_strength σ_s), k_least_melt_share k),    η = 2Ĝ Δt
 ///

@@ -52,7 +52,7 @@ struct Problem {
   T stiffness() const { return twice_shear + strength * kinematic(); }                  ///< 2Ĝ + ⅔w²K
 };
 
-/// Φ and what belongs to it at one γ.
+/// Φ and its derivatives and noise at one γ.
 template <class T>
 struct Yield {
   T value, slope;   ///< Φ, Φ'
@@ -94,7 +94,7 @@ template <class T>
   return {value, slope, noise, relative, norm, fading, drift};
 }
 
-/// The scalars of Yield alone: what the iteration needs.
+/// The scalars of Yield alone, which suffice for the iteration.
 template <class T>
 struct Point {
   T value, slope, noise;

@@ -1,6 +1,6 @@
 /// Derivatives of the constitutive update with respect to temperature and strain, the flow multiplier γ
-/// eliminated, as the thermal phase, the simultaneous scheme and the isentropic mapping need them (monograph
-/// 2.127, 4.97–4.99).
+/// eliminated (monograph 2.127, 4.97–4.99), for the thermal phase, the simultaneous scheme and the isentropic
+/// mapping.
 ///
 ///   γ(Θ, ε) solves Φ(γ, Θ, ε) = x(γ, Θ):  γ_Θ = D⁻¹ (Φ_Θ − x_Θ),  γ_ε = D⁻¹ Φ_ε,  D = x_γ − Φ_γ
 ///   a = ê − γ n,  s = 2Ĝ a,  n = β̂/‖β̂‖:  a_Θ = −γ_Θ n − γ n_Θ,  n_Θ = (I − n⊗n) β̂_Θ/‖β̂‖

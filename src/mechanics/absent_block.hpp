@@ -1,5 +1,5 @@
-/// A mesh block that takes no part in mechanics: of a body that only conducts heat or that has gone. No
-/// stiffness, stress, history, weight or structural heat; its fields are zero.
+/// A mesh block that takes no part in mechanics: of a body that only conducts heat or that has been removed.
+/// No stiffness, stress, history, weight or structural heat; its fields are zero.
 #pragma once
 
 #include <memory>

@@ -16,7 +16,7 @@ namespace solidus::mechanics {
 
 class BodyBalance {
  public:
-  /// Finds which of the bodies that are there share nodes. Collective.
+  /// Finds which of the active bodies share nodes. Collective.
   BodyBalance(const mesh::Mesh& mesh, const algebra::ActiveSet& active, int components);
 
   void begin();

@@ -73,7 +73,7 @@ class BlockKernel {
   virtual double add_forces(std::span<const double> u, std::span<double> forces) = 0;
   /// matrix += ∫ B̄ᵀ C B̄ dV at u.
   virtual void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) = 0;
-  /// Writes the new history, keeps stresses and what the thermal phase needs.
+  /// Writes the new history, and stores stresses and the data for the thermal phase.
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
   /// Holds the deformation: has the effect of prepare() and finish() for a body that stays at the held
   /// displacement and history.

@@ -142,7 +142,8 @@ ViscoelasticValues<Lane> values_of(const material::Viscoelastic&, const material
                                    const Response& r, const Sym<Lane>& strain) {
   return {r.stress, strain, r.state.viscous_strain, r.dissipation};
 }
-/// The flow stress and what follows from state and properties: everything but stress, strain and dissipation.
+/// The flow stress and all values that follow from state and properties: everything but stress, strain and
+/// dissipation.
 ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
                                    const material::Viscoplastic::Properties<Lane>& p,
                                    const material::Viscoplastic::State<Lane>& state);
@@ -156,7 +157,7 @@ ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
   v.dissipation = r.dissipation;
   return v;
 }
-/// The same of the isentropic mapping, at Θ̄ but for what it freezes.
+/// The same for the isentropic mapping, at Θ̄ but for the frozen properties.
 ViscoplasticValues<Lane> values_of(const material::Isentropic& law,
                                    const material::Isentropic::Properties<Lane>& p,
                                    const material::Isentropic::State<Lane>& state, const Lane& temperature);

@@ -21,9 +21,9 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
   throw InputError({}, std::string("no ") + what + " '" + name + "' in the mesh", allowed);
 }
 
-/// Calls visit(owned node, ∫ N dA, ∫ N n dA) for every node of every face that is there, n out of the body
-/// there. Closed surfaces of quadratic
-/// shapes are integrated with the degree that is exact for straight faces: N times the radius.
+/// Calls visit(owned node, ∫ N dA, ∫ N n dA) for every node of every active face, n out of the body there.
+/// Closed surfaces of quadratic shapes are integrated with the degree that is exact for straight faces: N
+/// times the radius.
 void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
                const mesh::Surface& surface,
                const std::function<void(Index, double, const mesh::Point&)>& visit) {

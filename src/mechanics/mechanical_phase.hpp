@@ -115,7 +115,7 @@ struct MechanicalPass {
   int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
   StressAtWork work = StressAtWork::end;
   std::span<const double> start{};  ///< of Newton's iteration, instead of the iterate's displacement
-  /// Another start, taken where it leaves less out of balance.
+  /// Another start value, used if its residual is smaller.
   std::span<const double> guess{};
   std::span<const double> guessed_pressure{};  ///< that goes with it [Pa], [local node][field]
 };
@@ -193,7 +193,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
                        std::span<const double> d) const;
   /// The matrix of the tangent, with its fixed degrees of freedom and multi-point constraints.
   algebra::BlockMatrix& matrix() { return *matrix_; }
-  /// Hands what happened at x to StructuralHeat and writes the history there.
+  /// Passes the deformation at x to StructuralHeat and writes the history at x.
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
   /// finish() at the solution, and the state and work that follow from it.
   MechanicalWork conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,

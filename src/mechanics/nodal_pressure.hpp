@@ -66,7 +66,8 @@ class NodalPressure {
   /// y += factor × unit² × the part of S that couples neighbours of neighbours, taken as positive: S is its
   /// compact part less this one. x are unknowns; both on owned nodes. Collective.
   void add_projection_to(std::span<const double> x, double factor, std::span<double> y);
-  /// The pattern of one field's pressures: what couples within the elements that have them.
+  /// The sparsity pattern of the pressures of one field: the nodes that couple within the elements that have
+  /// them.
   algebra::NodeGraph graph() const;
 
   std::size_t bytes() const;

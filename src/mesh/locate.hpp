@@ -1,5 +1,4 @@
-/// Values of nodal fields at points and averages over groups: what probes need. All functions are
-/// collective.
+/// Values of nodal fields at points and averages over groups, for probes. All functions are collective.
 #pragma once
 
 #include <span>

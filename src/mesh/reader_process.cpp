@@ -135,7 +135,7 @@ class Reader {
   void take(void* bytes, std::size_t n);
 
  private:
-  /// Waits until bytes are there or the reader has gone.
+  /// Waits until bytes arrive or the reader has ended.
   void wait_for_bytes();
   [[noreturn]] void ended();
   int wait() {

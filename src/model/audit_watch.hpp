@@ -51,8 +51,8 @@ class FirstLawWatch : public coupling::Observer {
   double unsolved_ = 0;      ///< what residuals explain, summed [J]
 };
 
-/// Says at the end of a run whose displacements and stresses lag by a step (lags_a_step) how much that is:
-/// the change of displacements in the last step as a part of all their change.
+/// Reports at the end of a run whose displacements and stresses lag by a step (lags_a_step) how large the lag
+/// is: the change of displacements in the last step as a part of all their change.
 class LagWatch : public coupling::Observer {
  public:
   void begin(const coupling::State& state) override;
@@ -65,7 +65,8 @@ class LagWatch : public coupling::Observer {
   double dt_ = 0;
 };
 
-/// Says at the end of a run where liquid metal left its wall (contact::ContactSpec::leaving_gap).
+/// Reports at the end of a run that liquid metal has left its wall, and where
+/// (contact::ContactSpec::leaving_gap).
 class WallWatch : public coupling::Observer {
  public:
   /// @param contacts  kept by reference

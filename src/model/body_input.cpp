@@ -15,7 +15,7 @@ bool named(const std::vector<std::string>& stages, const StageRun* stage) {
   return !stages.empty() && stage != nullptr && holds(stages, stage);
 }
 
-/// Whether a group has a node, or as a surface a face, of a body that is there. Collective.
+/// Whether a group has a node, or as a surface a face, of an active body. Collective.
 bool stands(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const std::string& group,
             bool needs_faces) {
   bool found = false;
@@ -37,7 +37,7 @@ bool stands(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const std:
                    "stages in which the body is there, or no 'stages': then it ends with the body");
 }
 
-/// Whether bodies behind a contact surface have gone, and whether others have not. Collective.
+/// Whether bodies behind a contact surface have been removed, and whether others are active. Collective.
 struct Sides {
   bool gone = false, there = false;
 };

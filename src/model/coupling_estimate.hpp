@@ -33,8 +33,8 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
 /// "casting: delta = 0.0400 at 319.85 degC, ...".
 std::string text(const CouplingEstimate& estimate);
 
-/// Tells at the start of a run that chose isothermal passes what to expect of them; a warning where they will
-/// be unstable. Nothing for other schemes.
+/// Prints the expected stability at the start of a run with isothermal passes, as a warning where they will
+/// be unstable. Prints nothing for other schemes.
 void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates);
 
 }  // namespace solidus::model

@@ -1,5 +1,5 @@
-/// The library of interface laws: how heat crosses from a metal to what it is cast in, by pair of materials
-/// and roles (interfaces/*.toml, docs/guide/interfaces.md).
+/// The library of interface laws: the heat transfer from a metal to the material it is cast in, by pair of
+/// materials and roles (interfaces/*.toml, docs/guide/interfaces.md).
 #pragma once
 
 #include <filesystem>

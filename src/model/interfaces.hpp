@@ -21,7 +21,7 @@ struct FoundInterface {
 };
 
 /// Looks for the faces of all [[interface]] sections, gives bodies that share nodes their own, and makes the
-/// groups A_to_B and A_free. Says what it has found. On process 0.
+/// groups A_to_B and A_free. Prints what it has found. On process 0.
 /// Throws InputError where a section that names two bodies finds nothing.
 std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh& mesh,
                                             const std::string& source);

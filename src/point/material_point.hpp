@@ -65,8 +65,7 @@ class MaterialPoint {
   /// target's temperature.
   StepResult attempt(const Target& end, double dt) const;
   void accept(const StepResult& result);
-  /// The next step is one of backward Euler: the loading turns here, and what went before does not foretell
-  /// what comes.
+  /// Makes the next step one of backward Euler: the loading turns here, so earlier steps do not predict it.
   void restart() { step_before_ = 0; }
 
   const PointState& state() const { return now_; }

@@ -13,7 +13,7 @@ inline constexpr std::size_t k_user_block = 512;  ///< bytes in front of what HD
 /// Throws OutputError.
 void write_checksum(const std::filesystem::path& file);
 
-/// Throws OutputError where the file is not, byte for byte, what write_checksum() saw.
+/// Throws OutputError if the file is not, byte for byte, as write_checksum() found it.
 void check_checksum(const std::filesystem::path& file);
 
 }  // namespace solidus::results

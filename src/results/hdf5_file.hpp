@@ -41,7 +41,7 @@ class Hdf5File {
   /// @param writers  the processes that create the file: all of them call everything but write_rows() alike,
   ///                 and each writes rows of its own
   Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm writers = MPI_COMM_SELF);
-  /// A file that was not closed is given up: what could not be written to it is forgotten.
+  /// Abandons a file that was not closed: data that could not be written to it are dropped.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;

@@ -39,7 +39,8 @@ struct RecorderOptions {
   Summary summary;  ///< what is known before the run: names, mesh, seconds of setting up
 };
 
-/// Throws what Recorder would: InputError for probes, profiles and fields that do not fit. Collective.
+/// Throws the exceptions that Recorder would throw: InputError for probes, profiles and fields that do not
+/// fit. Collective.
 void check_output(const mesh::Mesh& mesh, const coupling::Phases& phases, const RecorderOptions& options);
 
 class Recorder : public coupling::Observer {

@@ -17,7 +17,8 @@ namespace {
 struct FieldName {
   const char *name, *unit;
 };
-// Of contact surfaces; and what friction adds up, which a surface keeps when its partner has gone.
+// Fields of contact surfaces, and those that friction accumulates, which a surface keeps when its partner has
+// been removed.
 constexpr FieldName k_contact[] = {{"gap", "m"}, {"contact_pressure", "Pa"}, {"conductance", "W/m2/K"}};
 constexpr const char* k_internal_variable = "internal_variable";
 constexpr FieldName k_remembered[] = {{"slip", "m"},
