@@ -46,8 +46,8 @@ void CoupledMatrix::create_rectangles() {
   heat_of_pressure_.assign(volume_.size(), 0.0);
 }
 
-/// PETSc leaves out entries with a negative number and adds up those of the same place: what is prescribed
-/// and what is tied needs nothing else.
+/// PETSc leaves out entries with a negative number and adds up those of the same place: prescribed and
+/// constrained degrees of freedom need nothing else.
 void CoupledMatrix::create_petsc_rectangles() {
   const int n_components = components(), n_fields = fields();
   const std::vector<char>&fixed_u = displacement_.fixed(), &fixed_t = temperature_.fixed();

@@ -291,7 +291,7 @@ void LinearSolver::Implementation::create(Mat a) {
       factorisation.set_type(pc, options.prefix, options.symmetric, n_unknowns);
       break;
     case SolverKind::multigrid:
-      // The cycle rounds to single precision: what it makes of a sum is not the sum of what it made.
+      // The cycle rounds to single precision, so it is not exactly linear.
       check(KSPSetType(ksp, !options.symmetric && a == shell ? KSPFGMRES : krylov), "KSPSetType");
       reuse_hierarchy = true;
       if (a == shell)

@@ -29,7 +29,7 @@ double dot(std::span<const double> a, std::span<const double> b) {
   return global_sum(s);
 }
 
-/// One solve: the vectors and what the iteration and its line search share.
+/// One solve: the vectors and the data shared by the iteration and its line search.
 class Iteration {
  public:
   Iteration(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts,

@@ -11,7 +11,8 @@ namespace solidus::algebra {
 
 namespace {
 
-/// The register that a column of a block is read into; what it reads of the next column is never written.
+/// The register that a column of a block is read into; entries of the next column that it reads are never
+/// written.
 template <int rows>
 struct Vector;
 template <>

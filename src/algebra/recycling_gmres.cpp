@@ -61,7 +61,7 @@ double norm(const Eigen::Ref<const VectorXd>& v) {
 
 /// Takes the components along the orthonormal columns of q out of w, a second time where the first has
 /// cancelled digits (classical Gram-Schmidt, selective reorthogonalisation). Returns them, and behind them
-/// the norm of what is left.
+/// the norm of the remainder.
 template <class Columns>
 VectorXd orthogonalise(const Columns& q, Eigen::Ref<VectorXd> w) {
   constexpr double k_cancelled = 0.5;

@@ -65,7 +65,7 @@ ExitCode guarded(const std::function<ExitCode()>& verb) {
   } catch (const std::bad_alloc&) {
     return fail(k_cannot_continue, "the memory is exhausted; use a coarser mesh or more processes");
   } catch (const std::exception& error) {
-    // PETSc reads options late, where a solver is made; what it does not know there is the user's.
+    // PETSc reads options late, when a solver is made; an option that it does not know is the user's error.
     if (std::string_view(error.what()).find("SetFromOptions") != std::string_view::npos)
       return fail(k_bad_input, fmt::format("an option behind -- is wrong: {}", error.what()));
     return fail(
@@ -315,7 +315,7 @@ int main(int argc, char** argv) {
   if (const std::optional<int> code = mesh::serve_as_reader(argc, argv)) return *code;
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
-  // A reader downstream that has gone is no failure: what is printed to it is lost.
+  // A downstream reader that has ended is no failure: output to it is lost.
   std::signal(SIGPIPE, SIG_IGN);
   if (run_wanted) {
     listen_to_signals();

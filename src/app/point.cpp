@@ -1,4 +1,4 @@
-/// The verb `point`: a material point through a history, its tables and what the pictures are drawn from.
+/// The verb `point`: a material point through a history, its tables and the data of the pictures.
 #include <fmt/format.h>
 #include <petscsys.h>
 
@@ -60,7 +60,7 @@ std::string table(const point::Measured& measured) {
   return text + "\n";
 }
 
-/// Makes the folder, unless it holds what is not ours.
+/// Makes the folder, unless it holds files that Solidus did not write.
 void prepare(const fs::path& folder, const PointCase& point_case, const std::string& file) {
   const fs::path echo = folder / "point.toml";
   std::string first_line;

@@ -161,7 +161,8 @@ void append(Column& column, const Value& value) {
   column.lines.push_back(value.where.line);
 }
 
-/// { "T [K]": [..], "fraction_solid": [..], "method": "scheil" }: what is no list of numbers is no column.
+/// { "T [K]": [..], "fraction_solid": [..], "method": "scheil" }: a value that is no list of numbers is no
+/// column.
 void read_lists(const Value& object, ColumnTable& table) {
   for (const auto& [key, where, value] : object.entries()) {
     if (!value.is_list() || value.items().empty() || !value.items().front().is_number()) continue;

@@ -11,7 +11,8 @@ namespace {
 constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
 /// Bisection alone needs 53, and a step is halved every other time.
 constexpr int k_max_iterations = 200;
-/// Of the temperatures after and before the isentropic phase: far beyond what the lines of tables hold for.
+/// Largest ratio of the temperatures after and before the isentropic phase: far beyond the validity of the
+/// lines of tables.
 constexpr double k_largest_ratio = 2;
 /// The range of ζ_c is cut into up to 2^k parts to prove that the solution is the only one.
 constexpr int k_halvings = 8;

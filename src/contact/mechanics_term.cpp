@@ -32,7 +32,7 @@ struct MechanicsTerm::Count {
   }
 };
 
-/// Points in a row that share their nodes, and what their tangents add up to.
+/// Consecutive points that share their nodes, and the sum of their tangents.
 struct MechanicsTerm::Run {
   Index first = -1;
   std::vector<Index> nodes;

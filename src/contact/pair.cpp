@@ -385,7 +385,7 @@ HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
   return point;
 }
 
-/// For what is shown: the heat of both passes, over the time of both.
+/// Sets the heat for results to that of both passes, over the time of both.
 void ContactPair::show_whole_step() {
   std::vector<HeatPoint> heat = heat_->points();
   for (std::size_t p = 0; p < heat.size(); ++p) {
@@ -445,7 +445,7 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   const ContactState stands{step_.from, worn_from_};
   update(displacement);
   now_.master = worn_from_;
-  // Of the motion alone: what the last step did is in the state.
+  // The heat points follow from the motion alone: the effect of the last step is in the state.
   std::vector<HeatPoint> heat;
   for (std::size_t p = 0; p < now_.points.size(); ++p) {
     const double penetration = now_.points[p].penetration;

@@ -36,7 +36,7 @@ struct Melt {
   std::vector<Overlap> overlaps;
   std::vector<LastNode> last;
 };
-/// Adds up the overlaps that the processes have found; the result is the same on all. Collective.
+/// Merges the parts of the melt that the processes have found; the result is the same on all. Collective.
 Melt gathered(const Melt& own);
 
 /// Brings the pools to the time of `melt`, and says the number of each part (zero: a crumb).

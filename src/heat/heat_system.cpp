@@ -481,8 +481,8 @@ void HeatSystem::assemble(std::span<const double> temperature) {
   if (limiter_) limiter_->add_tangent(temperature, *matrix_);
 }
 
-/// Assembles what never changes while the pattern stays. Without contributions the pattern changes only where
-/// a body leaves: then the geometry of the elements, 137 bytes a node of tetrahedra, is not kept.
+/// Assembles the part that does not change while the pattern stays. Without contributions the pattern changes
+/// only where a body leaves: then the geometry of the elements, 137 bytes a node of tetrahedra, is not kept.
 void HeatSystem::keep_conduction() {
   const auto n = static_cast<std::size_t>(matrix_->row_start().back());
   find_node_bodies();

@@ -247,7 +247,7 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
   system_->exchange(!pass.adiabatic);
   ThermalState next;
   PhaseReport report;
-  // A pass in which nothing flows leaves what is known of the flow of the step.
+  // An adiabatic pass keeps the known flow of the step.
   if (!pass.adiabatic) flows_ = {};
   const bool flows = nodal() && !pass.adiabatic;
   if (pass.stepping == ThermalStepping::sdirk2) {
@@ -433,7 +433,7 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
   return balance;
 }
 
-/// Splits what is stored.
+/// Splits the stored heat.
 void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const {
   double latent = 0;
   if (!nodal()) {

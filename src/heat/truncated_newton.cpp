@@ -315,7 +315,8 @@ bool TruncatedNewton::search(bool short_too) {
     }
     return false;
   }
-  // A holds what is not linear in v by its derivative: the step must stand before F itself.
+  // A holds the terms that are not linear in v by their derivatives only: the step must be checked with F
+  // itself.
   const double slope = true_slope(alpha);
   if (start < 0 && !(slope <= -k_accept_rise * start)) minimise(start, alpha, &TruncatedNewton::true_slope);
   return true;

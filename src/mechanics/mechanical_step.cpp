@@ -24,7 +24,8 @@ constexpr double k_round_off_strain = 1e-13;
 
 }  // namespace
 
-/// The first step, and one that grows beyond what the two-step method stands, are backward Euler steps.
+/// The first step, and one that grows beyond the limit of stability of the two-step method, are backward
+/// Euler steps.
 material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, double dt) const {
   const bool two_step = options_.integration == TimeIntegration::two_step && old.dt_before > 0 &&
                         dt <= material::k_largest_growth * old.dt_before;
@@ -175,7 +176,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   PhaseReport report;
   report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
   if (guessed && !report.newton.converged) {
-    // A guess may lift a body off what holds it, which leaves a singular tangent.
+    // A guess may lift a body off its support, which leaves a singular tangent.
     const algebra::NewtonReport from_guess = std::move(report.newton);
     x = start(old, pass);
     report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);

@@ -204,7 +204,7 @@ class Maker {
     std::erase_if(parts_, [](const Part& part) { return part.volumes.empty(); });
   }
 
-  /// All bodies, riser and mould, cut with each other so that they share what they touch in.
+  /// Cuts all bodies, riser and mould with each other, so that they share the faces in which they touch.
   void fragment() {
     gmsh::vectorpair objects, tools, out;
     std::vector<gmsh::vectorpair> map;

@@ -115,7 +115,7 @@ class Choice {
   double unit_, slack_ = 0;
 };
 
-/// Names for what no group has.
+/// Names for the entities that belong to no group.
 void name_the_rest(int full) {
   std::map<std::string, int> labels;
   for (const int tag : entities(full)) ++labels[short_label(full, tag)];

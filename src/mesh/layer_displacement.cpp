@@ -229,7 +229,7 @@ class Room {
   }
 
  private:
-  /// Finds what is bad and multiplies the displacements of its vertices. True: nothing is bad.
+  /// Finds bad elements and multiplies the displacements of their vertices. True: there are none.
   bool good(double factor) {
     for (std::size_t i = 0; i < u_.size(); ++i) {
       moved_.x[i] = mesh_.x[i];

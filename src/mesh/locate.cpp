@@ -107,7 +107,7 @@ GroupKind kind_of(const Mesh& mesh, const std::string& group) {
   return GroupKind::none;
 }
 
-// ∫ N_a over what this process counts, summed into the nodes; zero-weight terms left out.
+// ∫ N_a over the elements that this process counts, summed into the nodes; zero-weight terms left out.
 NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind group_kind,
                          AnalysisKind kind) {
   std::vector<double> weight(static_cast<std::size_t>(mesh.n_nodes()), 0.0);

@@ -22,8 +22,9 @@ namespace solidus::model {
 
 namespace {
 
-/// At which nodes are free of thermal strain, and what they have in mechanics alone: every body at its
-/// temperature. A node of several bodies takes that of one that deforms, of these the hottest: the casting's.
+/// Temperatures at which nodes are free of thermal strain, and which they have in mechanics alone: every body
+/// at its temperature. A node of several bodies takes that of one that deforms, of these the hottest: the
+/// casting's.
 std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTemperatures& start,
                                       const mesh::Mesh& mesh) {
   using Rank = std::pair<bool, double>;
@@ -120,7 +121,8 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Says which bodies leave when a stage begins, with how much heat, and what ends with them.
+/// Reports which bodies are removed when a stage begins, with how much heat, and the conditions that end with
+/// them.
 void announce_departure(const CaseSpec& spec, const StageRun& stage, const StageRun* before, double carried,
                         const std::vector<std::string>& idle) {
   std::vector<std::string> leaving;

@@ -89,7 +89,7 @@ std::vector<BoundaryFace> faces_of_part(const mesh::Mesh& mesh, AnalysisKind kin
   return faces;
 }
 
-/// Adds the skins, and what bodies share of them.
+/// Adds the skins, and the areas that bodies share.
 void measure_skins(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<BodyMeasures>& bodies) {
   Index elements = 0;
   for (const mesh::Block& block : mesh.blocks) elements += block.size();

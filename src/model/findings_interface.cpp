@@ -1,4 +1,4 @@
-// Findings on what joins the bodies: contacts, and films beside them.
+// Findings on the interfaces of the bodies: contacts, and films beside them.
 #include <fmt/format.h>
 
 #include <algorithm>

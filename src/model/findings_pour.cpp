@@ -1,4 +1,4 @@
-// Findings on what is poured: is it liquid, and is it the right body?
+// Findings on the pour: is it liquid, and is it the right body?
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -29,7 +29,7 @@ BodyPair pair_of(const CaseSpec& spec, const BodyInterfaceSpec& i) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Roles where the materials can be read: what cannot is said by load_materials().
+/// Roles of the bodies whose materials can be read; load_materials() reports those that cannot.
 std::vector<Role> roles_of(const CaseSpec& spec) {
   std::vector<Role> roles;
   for (const BodySpec& body : spec.bodies)

@@ -97,7 +97,7 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const CaseSpec& spec, co
   return skins;
 }
 
-/// h of a contact at a further gap, with what radiates across.
+/// Conductance h of a contact at a further gap, including radiation across the gap.
 std::function<double(double, double, double)> conductance_of(const ContactSpec& contact, const Assembly& a,
                                                              const ContactMeasures& m) {
   const auto law = std::make_shared<contact::HeatTransferLaw>(*contact.heat);
@@ -238,7 +238,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
     pour.no_estimate = "nothing cools it";
     return;
   }
-  // Skin that loses a hundredth of what the rest does is not what V/A is about.
+  // Skin that loses less than a hundredth of the heat of the rest does not count in V/A.
   constexpr double k_little = 0.03;
   std::vector<mesh::Point> cloud;
   std::vector<char> on_skin(a.mesh.x.size(), 0);

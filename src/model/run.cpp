@@ -221,7 +221,7 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   return found;
 }
 
-// Tells early, before the mesh is read, what a look at case and folder shows.
+// Reports errors that case and folder show before the mesh is read.
 void check_restart(const CaseSpec& spec, const RunOptions& options) {
   if (!options.restart) return;
   if (spec.time.steady)

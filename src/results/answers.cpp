@@ -185,7 +185,7 @@ std::string cast_text(const CastAnswer& answer, double time) {
     return answer.froze ? fmt::format("solid; its last melt froze {:.4g} s after pouring {}",
                                       answer.froze->value, place(answer.froze->where))
                         : "solid";
-  // Never "100 % solid" of what is not.
+  // A body that is not solid is never reported as "100 % solid".
   const double percent = std::min(100 * answer.solid_fraction, 99.9);
   std::string text = fmt::format("{:.1f} % solid {:.6g} s after pouring", percent, time);
   if (answer.hottest)

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::int64_t k_rows_at_once = 1 << 16;
 constexpr std::size_t k_widest = 1 << 14;  ///< numbers in a row: of the points of one element
-/// Upper bounds of what HDF5 writes besides the numbers, for a file and for a table [bytes].
+/// Upper bounds of the bytes that HDF5 writes besides the numbers, for a file and for a table [bytes].
 constexpr std::int64_t k_of_file = 1 << 16, k_of_table = 1 << 12;
 
 /// Reserves the first bytes of a file; an error number where there is no room for them, else zero. A file
@@ -67,7 +67,7 @@ TableWriter::~TableWriter() {
   std::filesystem::remove(path_, ignored);
 }
 
-/// Goes on after a failure: the others would wait in what they do together.
+/// Continues after a failure: the other processes would wait in collective calls.
 void TableWriter::attempt(const std::function<void()>& work) {
   try {
     work();
@@ -93,7 +93,7 @@ bool TableWriter::reserve(std::int64_t more) {
 }
 
 void TableWriter::text(const std::string& name, const std::string& of_first) {
-  // Its length is part of what the processes create together.
+  // Its length is needed in the collective creation of the table.
   const std::string text = from_first(of_first);
   if (full_ || !reserve(static_cast<std::int64_t>(text.size()) + k_of_table)) return;
   if (file_) attempt([&] { file_->write_text(name, text); });

@@ -14,7 +14,7 @@ namespace solidus::results {
 
 namespace {
 
-// Group names are free text; file names keep what is safe everywhere.
+// Group names are free text; file names keep the characters that are safe on every system.
 std::string file_name(std::string text) {
   for (char& c : text)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';

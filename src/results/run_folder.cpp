@@ -82,7 +82,8 @@ bool strip_number(std::string_view& name, std::size_t least) {
   return true;
 }
 
-/// fields_00012.vtu, surface_NAME_00012_p3.vtu, their .pvtu lists, and what an interrupted run left of them.
+/// fields_00012.vtu, surface_NAME_00012_p3.vtu, their .pvtu lists, and files that an interrupted run left of
+/// them.
 bool is_field_file(std::string_view name) {
   if (!strip(name, ".part")) strip(name, ".spool");
   if (!strip(name, ".pvtu") && !strip(name, ".vtu")) return false;

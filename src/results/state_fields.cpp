@@ -27,7 +27,7 @@ constexpr FieldName k_remembered[] = {{"slip", "m"},
                                       {"friction_dissipation", "J/m2"},
                                       {"wear_depth", "m"}};
 
-/// Per area of what touches: a surface that is covered in part carries them there alone.
+/// Fields per area in contact: a surface that is covered in part carries them there alone.
 constexpr std::string_view k_of_area[] = {"contact_pressure", "contact_heat_flux", "frictional_heat_flux",
                                           "friction_traction"};
 

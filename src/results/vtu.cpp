@@ -176,7 +176,7 @@ std::string add_cells(AppendedData& data, const Part& part) {
   return connectivity + offsets + types;
 }
 
-// ' Scalars="temperature" Vectors="displacement"': what ParaView shows first.
+// Returns ' Scalars="temperature" Vectors="displacement"', the fields that ParaView shows first.
 std::string active(const FieldSet& fields, Place place) {
   std::string scalars, vectors;
   for (const Field& field : fields.all()) {
