@@ -170,7 +170,7 @@ struct LinearSolver::Implementation {
   KspHandle ksp;
   VecHandle b, x, residual, correction;
   int rigid_components = 0;  ///< of displacements whose rigid-body modes cost no energy; zero: no such
-  SolverKind kind = SolverKind::automatic;  ///< as asked for; what runs may differ through PETSc options
+  SolverKind kind = SolverKind::automatic;  ///< as asked for; PETSc options may choose another one
   bool reuse_hierarchy = false;  ///< the preconditioner is set up again only when iterations have grown
   double first_rate = 0;         ///< iterations per digit with the hierarchy just set up
   double tightest = 0;           ///< relative tolerance

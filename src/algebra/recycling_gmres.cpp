@@ -155,11 +155,11 @@ struct RecyclingGmres::Implementation {
   RecyclingOptions options;
   Map op, preconditioner;
   Index n = 0;        ///< unknowns of this process
-  Index n_kept = 0;   ///< columns of what is kept
-  bool stale = true;  ///< the products of what is kept belong to an operator of before
+  Index n_kept = 0;   ///< number of recycled columns
+  bool stale = true;  ///< the recycled products belong to an earlier operator
   MatrixXd v;         ///< columns of C in front, then the directions of the cycle, orthonormal
-  MatrixXd z;         ///< what the operator makes them from: Z in front, then the preconditioned directions
-  MatrixXd u;         ///< Z before it was preconditioned, which gives the Ritz vectors their measure
+  MatrixXd z;  ///< the directions of which they are products: Z in front, then the preconditioned directions
+  MatrixXd u;  ///< Z before it was preconditioned, which gives the Ritz vectors their measure
 
   void set_size(Index size);
   void renew_products();

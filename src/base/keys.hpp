@@ -164,7 +164,7 @@ void read(const Value& value, const Key& key, std::array<M, N>& out) {
 }
 
 template <class M>
-struct Plain {  ///< what a list or optional holds
+struct Plain {  ///< the value type of a list or optional
   using type = M;
   static constexpr bool list = false;
   static constexpr std::size_t length = 0;

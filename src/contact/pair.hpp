@@ -27,7 +27,7 @@ struct HeatSpan;
 struct InterfaceSums {
   double dissipated = 0;          ///< D_c,mech [J]
   double stored = 0;              ///< Σ Θ_c (S^e_c − S^e_c,n), the heat that did not reach the bodies [J]
-  double hardening = 0;           ///< work of friction less what it dissipates [J]
+  double hardening = 0;           ///< work of friction less its dissipation [J]
   double energy = 0;              ///< change of E_c without springs [J] (3.69)
   double entropy = 0;             ///< change of S^e_c [J/K]
   double mechanical_energy = 0;   ///< the same up to the end of the mechanical phase [J]
@@ -45,7 +45,7 @@ struct ContactSums {
   double closed_area = 0;  ///< area of the closed points [m²]
   double energy = 0;       ///< in the springs, normal and tangential [J]
   double work = 0;         ///< of friction so far, ∫ ∫ ‖T‖ dγ dA [J]
-  double dissipation = 0;  ///< of friction so far [J]; the work less this is what hardening stores
+  double dissipation = 0;  ///< of friction so far [J]; the work less this is stored by hardening
   double wet_area = 0;     ///< of points that liquid metal wets [m²]
   /// The part of the liquid skin that has left its wall (ContactSpec::leaving_gap): points, area [m²] and the
   /// largest gap [m].

@@ -69,7 +69,7 @@ struct PointLaw {
   NormalLaw normal;
   std::optional<FrictionLaw> friction;
   std::optional<WearSpec> wear;  ///< with friction
-  bool isentropic = false;       ///< what the mechanical phase holds at the interface (5.24)
+  bool isentropic = false;       ///< the mechanical phase holds the entropy of the interface (5.24)
   double share = 1;              ///< s of normal.hpp
 
   /// @param from the state at t_n with the present multipliers: λ_N, and T_n or the traction that replaces it

@@ -43,7 +43,7 @@
 namespace solidus::coupling {
 
 struct LocalError {
-  double temperature = 0;   ///< [K]; with what lasts, see above
+  double temperature = 0;   ///< [K]; with the lasting part, see above
   double displacement = 0;  ///< [m]
 };
 

@@ -20,7 +20,7 @@ struct Phases {
   mechanics::MechanicalPhase* mechanics = nullptr;  ///< null: heat alone
   mechanics::StructuralHeat* structural = nullptr;  ///< null: deformation does no heat
   std::vector<contact::ContactPair*> contacts;
-  const criteria::Criteria* criteria = nullptr;  ///< what State::criteria holds; null: nothing is followed
+  const criteria::Criteria* criteria = nullptr;  ///< criteria that State::criteria belongs to; null: none
   const Coherency* coherency = nullptr;          ///< null: nothing that deforms melts
   std::vector<double> temperature;               ///< [K], [local node]: of a mechanical phase alone
   std::optional<double> ambient_temperature;     ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed

@@ -74,7 +74,7 @@ class Simulation {
               const std::optional<Continuation>& from = {});
 
  private:
-  struct Progress;  ///< what changes from step to step
+  struct Progress;  ///< variables of the loop over steps
 
   enum class Try { committed, repeat, stuck };
   /// Begins the stage that holds at the committed time, or goes on in it.

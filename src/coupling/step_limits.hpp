@@ -32,7 +32,7 @@ struct Strictest {
   double factor = 0;
   std::string name;       ///< "temperature error"
   std::string excess;     ///< "temperature error 3.2 K, allowed 1 K"
-  double ratio = 0;       ///< of what is to what is allowed, of the limit exceeded most
+  double ratio = 0;       ///< of measured to allowed value, of the limit exceeded most
   bool exceeded = false;  ///< so far that the step is to be repeated
 };
 

@@ -12,7 +12,7 @@ constexpr double k_supply = 20.0;     ///< c: large enough for linear fields at 
 /// Differences of temperature [K] below which a field counts as even, and nothing is let through: what
 /// rounding and tolerances leave must not decide over the flows of a front that arrives.
 constexpr double k_noise = 1e-4;
-constexpr double k_reserve = 1.5;                                ///< γ over what linear fields need
+constexpr double k_reserve = 1.5;  ///< γ over the least value for linear fields
 constexpr double k_least_factor = 0.25, k_largest_factor = 4.0;  ///< of γ
 
 double value(const KirchhoffPotential& u, double temperature) {

@@ -189,7 +189,7 @@ class HeatSystem {
   std::vector<double> local_, roots_;  ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]
   std::vector<double> contributed_;  ///< work, [owned node]
-  std::vector<double> storing_;      ///< what of it contributions that store take up, last residual
+  std::vector<double> storing_;      ///< its part taken up by storing contributions, last residual
   std::vector<double> surface_power_, source_power_, contribution_power_;  ///< of this process, last residual
 };
 

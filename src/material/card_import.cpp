@@ -110,7 +110,7 @@ struct FreezingHeat {
   Points specific_heat;            ///< at the rows between solidus and liquidus
   double latent_heat = 0;          ///< of the solid fraction [J/kg]
   double rest = 0;                 ///< the heat that is left [J/kg]
-  std::vector<double> rest_share;  ///< what of it is still to come on heating, by row from the solidus on
+  std::vector<double> rest_share;  ///< its part still to be absorbed on heating, by row from the solidus on
 };
 
 /// Splits the heat of the freezing range. The specific heat is a line from c_s to c_l, lowered where the

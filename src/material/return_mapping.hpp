@@ -56,7 +56,7 @@ struct Problem {
 template <class T>
 struct Yield {
   T value, slope;   ///< Φ, Φ'
-  T noise;          ///< what rounding leaves of Φ [Pa]
+  T noise;          ///< rounding error of Φ [Pa]
   Sym<T> relative;  ///< β̂; n = β̂/‖β̂‖
   T norm;           ///< ‖β̂‖
   T fading;         ///< B

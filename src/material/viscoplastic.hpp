@@ -56,7 +56,7 @@ class Viscoplastic {
     Sym<T> direction;       ///< n, where flow_increment > 0
     T flow_increment;       ///< γ over the effective step
     T viscous_dissipation;  ///< 2.114 [W/m³]
-    T plastic_dissipation;  ///< 2.117; what hardening stores is not in it [W/m³]
+    T plastic_dissipation;  ///< 2.117, without the power stored by hardening [W/m³]
     T plastic_power;        ///< s : ε̇^vp [W/m³]
     T dissipation;          ///< D_mech, the sum of both (2.113) [W/m³]
     Status status = Status::converged;

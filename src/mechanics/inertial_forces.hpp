@@ -26,7 +26,7 @@ struct MotionWork {
   double external = 0;   ///< of the loads
   double support = 0;    ///< of the supports, which move their nodes' mass too
   double kinetic = 0;    ///< change of ½ v·Mv
-  double numerical = 0;  ///< what the integrator takes out of the motion
+  double numerical = 0;  ///< energy that the integrator dissipates
 };
 
 class InertialForces {

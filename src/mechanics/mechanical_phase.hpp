@@ -79,7 +79,7 @@ struct MechanicalWork {
   double internal_work = 0;        ///< ∫ σ_{n+1} : Δε dV
   double dissipation = 0;          ///< Δt ∫ D_mech dV, viscous and plastic (2.113)
   double plastic_dissipation = 0;  ///< the plastic part of it (2.117)
-  double plastic_work = 0;         ///< Δt ∫ s : ε̇^vp dV: plastic dissipation and what hardening stores
+  double plastic_work = 0;  ///< Δt ∫ s : ε̇^vp dV: plastic dissipation and energy stored by hardening
   /// The least and the largest D_mech at any point and zero [W/m³]; the least is negative by rounding at
   /// most.
   double least_dissipation = 0, largest_dissipation = 0;
@@ -301,7 +301,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   const MechanicalState* solved_from_ = nullptr;  ///< t_n of the solve that goes on
   std::vector<double> x_;                         ///< unknowns of the last residual
   std::vector<double> residual_;                  ///< there
-  bool residual_is_known_ = false;                ///< for what prepare() was last called with
+  bool residual_is_known_ = false;                ///< for the arguments of the last prepare()
   std::vector<double> forces_;        ///< internal forces, [local node][component]; ghost rows are scrap
   std::vector<double> external_;      ///< loads at t_{n+1}, [owned node][component]
   std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia

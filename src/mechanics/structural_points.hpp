@@ -109,7 +109,7 @@ class StructuralPoints {
   material::Material material_;  ///< without phase changes: their fraction and straining are held
   std::size_t n_points_;         ///< of all batches
   PackVector<Point> points_;
-  PackVector<Lane> correction_;  ///< share of a node less what the points give it, [batch][node]; empty: none
+  PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
   algebra::Stage stage_;
   struct Start {
     Lane entropy, energy;

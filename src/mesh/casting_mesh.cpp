@@ -531,7 +531,7 @@ class Maker {
     return (last.empty() ? "" : " (" + last + ")") + text;
   }
 
-  static constexpr double k_slack = 1e-7;  ///< what Gmsh adds to bounding boxes, in units of the file
+  static constexpr double k_slack = 1e-7;  ///< margin of bounding boxes of Gmsh, in units of the file
 
   const MeshSource& source_;
   const CastingGeometry& geometry_;

@@ -48,7 +48,7 @@ class FirstLawWatch : public coupling::Observer {
   const heat::ThermalPhase* heat_;
   coupling::EnergyAudit sum_;
   double heat_content_ = 0;  ///< at the start [J]
-  double unsolved_ = 0;      ///< what residuals explain, summed [J]
+  double unsolved_ = 0;      ///< imbalance by residuals, summed [J]
 };
 
 /// Reports at the end of a run whose displacements and stresses lag by a step (lags_a_step) how large the lag

@@ -14,8 +14,8 @@ namespace solidus::model {
 struct Finding {
   bool is_error = false;  ///< no sensible case looks so; else a warning
   SourceLocation where;
-  std::string what;   ///< what was found, with its number
-  std::string usual;  ///< the usual range, or what was perhaps meant
+  std::string what;   ///< the finding, with its number
+  std::string usual;  ///< the usual range, or the value that was perhaps meant
 };
 using Findings = std::vector<Finding>;
 

@@ -64,7 +64,7 @@ struct FreezingProblem {
 
 struct FreezingEstimate {
   std::optional<double> time;  ///< until the last place is at its solidus [s]; absent: it stays liquid
-  std::string governed_by;     ///< what took the largest drop of temperature on the way
+  std::string governed_by;     ///< part of the way of heat with the largest drop of temperature
   double mould_reach = 0;      ///< √(α t) of the mould with the largest share [m]; zero: no mould
   /// Temperature that everything comes to where it never freezes [K].
   double rest = 0;

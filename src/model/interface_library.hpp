@@ -23,7 +23,7 @@ struct InterfaceCard {
   /// Only by its name, since process or coating decide it and not the materials.
   bool by_name_alone = false;
   contact::HeatTransferSpec heat;
-  std::string source, range;  ///< where the numbers come from, and between what the conductance lies
+  std::string source, range;  ///< origin of the numbers, and range of the conductance
   bool estimate = false;      ///< not checked against the source
 };
 

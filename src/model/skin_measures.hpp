@@ -16,9 +16,9 @@ namespace solidus::model {
 struct ContactMeasures {
   std::string slave, master;  ///< as the program chose them
   int slave_body = -1, master_body = -1;
-  double area = 0, paired = 0;            ///< of the slave: all of it, and what has a partner [m²]
-  double least_gap = 0, largest_gap = 0;  ///< over what has a partner, negative: overlap [m]
-  double mean_gap = 0;                    ///< of the gaps above zero, over what has a partner [m]
+  double area = 0, paired = 0;            ///< of the slave: all of it, and the part with a partner [m²]
+  double least_gap = 0, largest_gap = 0;  ///< over points with a partner, negative: overlap [m]
+  double mean_gap = 0;                    ///< of the gaps above zero, over points with a partner [m]
   double face_size = 0;                   ///< mean of the slave's faces [m]
   GlobalIndex shared_nodes = 0;           ///< nodes that lie on both surfaces
 };

@@ -56,8 +56,8 @@ struct Answers {
   };
   std::optional<CutOffPools> pools;
   std::vector<GapAnswer> gaps;        ///< by contact, those that are open somewhere
-  std::optional<ValueAt> distortion;  ///< of what is cast, the largest [m]
-  std::optional<ValueAt> stress;      ///< von Mises, the largest: of what is cast, else of all bodies [Pa]
+  std::optional<ValueAt> distortion;  ///< of cast bodies, the largest [m]
+  std::optional<ValueAt> stress;      ///< von Mises, the largest: of cast bodies, else of all [Pa]
   std::string stressed_body;
   std::optional<double> energy_defect;  ///< relative, as relative_energy_defect of the summary
 };

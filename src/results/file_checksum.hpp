@@ -7,7 +7,7 @@
 
 namespace solidus::results {
 
-inline constexpr std::size_t k_user_block = 512;  ///< bytes in front of what HDF5 writes
+inline constexpr std::size_t k_user_block = 512;  ///< bytes in front of the data of HDF5
 
 /// Writes size and checksum of everything behind the user block into it, and brings the file to the disk.
 /// Throws OutputError.

@@ -30,11 +30,11 @@ struct BodyOverview {
 
 /// A skin and what it faces.
 struct SkinOverview {
-  std::string name;           ///< of the contact or condition
-  std::string surface, body;  ///< of the skin (of a contact: of the slave)
-  std::string faces;          ///< the surface, tool or surroundings on the other side
-  double area = 0;            ///< of the skin [m²]
-  double paired = 0;          ///< of it what has a partner; without contact all of it [m²]
+  std::string name;                              ///< of the contact or condition
+  std::string surface, body;                     ///< of the skin (of a contact: of the slave)
+  std::string faces;                             ///< the surface, tool or surroundings on the other side
+  double area = 0;                               ///< of the skin [m²]
+  double paired = 0;                             ///< the part with a partner; without contact all of it [m²]
   std::optional<double> least_gap, largest_gap;  ///< of a contact at the start, negative: overlap [m]
   double touching = 0;                           ///< gaps and overlaps up to this size count as none [m]
   std::string law;                               ///< "1000 W/m2/K, in the gap 420 to 600 W/m2/K"

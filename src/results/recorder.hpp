@@ -33,10 +33,10 @@ struct RecorderOptions {
   bool stages = false;                      ///< the run has stages
   bool steady = false;                      ///< one state without a time: fields of it alone
   bool profile = false;                     ///< print where the wall time went
-  std::vector<CastBody> castings;           ///< what is poured
+  std::vector<CastBody> castings;           ///< the poured bodies
   Fingerprint fingerprint;                  ///< of the case, for checkpoints
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
-  Summary summary;  ///< what is known before the run: names, mesh, seconds of setting up
+  Summary summary;                          ///< known before the run: names, mesh, seconds of setting up
 };
 
 /// Throws the exceptions that Recorder would throw: InputError for probes, profiles and fields that do not

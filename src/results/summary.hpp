@@ -38,7 +38,7 @@ PeakMemory peak_memory();
 struct ChosenMelt {
   std::string body;
   double modulus = 0;   ///< 2Ĝ of a step [Pa]
-  std::string against;  ///< what it was measured against
+  std::string against;  ///< the quantity it was measured against
 };
 
 /// Liquid metal that left its wall, over the steps since the run began or went on.
@@ -71,7 +71,7 @@ struct Summary {
   std::optional<Answers> answers;  ///< absent in steady runs
   std::vector<ChosenMelt> melt;
   std::vector<LeftWall> left_walls;
-  std::optional<Overview> overview;  ///< what the case was understood to be
+  std::optional<Overview> overview;  ///< the case as it was understood
   std::vector<std::string> warnings;
 };
 

@@ -162,7 +162,7 @@ class Bodies : public ::testing::Test {
   }
 };
 
-/// What the energy audit of a finished run says, as a share of the heat moved.
+/// Defect of the energy audit of a finished run, as a share of the heat moved.
 double defect(const std::string& name) {
   return summary(name, "relative_energy_defect");
 }
@@ -474,7 +474,7 @@ coefficient = "200 W/m2/K"
 ambient = "20 degC"
 )";
 
-// What a body that leaves takes away is no change that a step makes.
+// The heat of a body that is removed is no change by a step.
 TEST_F(Bodies, ThatLeaveAsMeltShortenNoStep) {
   const CaseRun r = k_here.run("riser", k_riser);
   ASSERT_TRUE(r.finished) << r.reason;

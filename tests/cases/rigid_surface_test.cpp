@@ -86,7 +86,7 @@ TEST(RigidSurface, ItsWorkIsInTheFirstLaw) {
   ASSERT_TRUE(r.finished) << r.reason;
   const double work = r.history.at("work[J]").back();
   EXPECT_GT(work, 10);
-  // What the iterations leave; without the tool's work all of it would be missing.
+  // The defect is the residual of the iterations; without the tool's work all of that work would be missing.
   EXPECT_NEAR(r.history.at("energy_defect[J]").back(), 0, 1e-3 * work);
 }
 

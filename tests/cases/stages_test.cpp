@@ -374,7 +374,7 @@ TEST(Stages, APartIsPouredCooledAndEjected) {
   EXPECT_NEAR(at(r, "T_mould[degC]", 52), at(r, "T_mould[degC]", 22),
               1e-6);  // insulated, of constant capacity: it keeps its mean
   EXPECT_LT(at(r, "heat_in[J]", 52), at(r, "heat_in[J]", 22));
-  // What is stored came in, through all switches.
+  // The stored heat equals the heat that came in, through all changes of stage.
   EXPECT_NEAR(at(r, "stored_heat[J]", 52), at(r, "heat_in[J]", 52), 1e-8 * at(r, "heat_exchanged[J]", 52));
   EXPECT_EQ(r.steps.at("time[s]").size(), 32u);
 }

@@ -75,7 +75,7 @@ struct System {
                   (row == column && f == g ? 4 : 0);
         }
   }
-  /// What is left of the right-hand side, by the products of the blocks.
+  /// Residual of the right-hand side, by the products of the blocks.
   double defect(const std::vector<double>& force, const std::vector<double>& heat, std::vector<double> du,
                 std::vector<double> dt) {
     const GhostExchange ghosts(grid.mesh);

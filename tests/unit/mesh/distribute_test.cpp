@@ -14,7 +14,7 @@
 
 namespace {
 
-/// What METIS answers, other than METIS_OK: it was not asked.
+/// Simulated answer of METIS; if it is not METIS_OK, METIS is not called.
 int answer_of_metis = METIS_OK;
 
 }  // namespace
