@@ -1,5 +1,5 @@
-/// What contact costs of a step: search, projection, forces and tangent against the whole mechanical step.
-/// Processor time, so that a busy machine does not matter; counters in percent of a step.
+/// Share of contact in the cost of a step: search, projection, forces and tangent against the whole
+/// mechanical step. Processor time, so that a busy machine does not matter; counters in percent of a step.
 ///
 ///   blocks    two blocks of 8-node hexahedra, friction, large sliding, 19 881 slave points (47 × 47 faces);
 ///   tangent symmetric or exact cylinder  casting in its mould, axisymmetric, 3-node triangles of 3 mm, small

@@ -147,8 +147,8 @@ void residual(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKin
   p.report(state);
 }
 
-/// What the thermal phase asks of the mechanical points in each of its iterations: tables of temperature,
-/// eight lanes at once.
+/// Cost of the evaluations at the mechanical points in each iteration of the thermal phase: tables of
+/// temperature, eight lanes at once.
 void structural_heat(benchmark::State& state, mesh::Shape shape, int cells, AnalysisKind kind) {
   Prepared p(shape, cells, kind);
   p.kernel->finish(p.u, p.u, p.history);

@@ -21,7 +21,7 @@ inline void wait_at_random() {
     std::this_thread::sleep_for(std::chrono::microseconds(20 * draw));
 }
 
-/// What `solve` returns is the same, bit by bit, in whatever order messages arrive. Collective.
+/// Expects that `solve` returns the same bits in whatever order messages arrive. Collective.
 template <class Solve>
 void expect_same_bits(const Solve& solve) {
   constexpr int k_runs = 6;

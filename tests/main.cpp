@@ -23,8 +23,8 @@
 
 namespace {
 
-/// What MPI keeps from its start to its end, or never frees, is not looked at. Without AddressSanitizer
-/// nothing is.
+/// Leaks of memory that MPI keeps from its start to its end, or never frees, are ignored. Without
+/// AddressSanitizer no leaks are detected.
 void ignore_leaks([[maybe_unused]] bool ignore) {
 #ifdef SOLIDUS_LEAK_CHECK
   ignore ? __lsan_disable() : __lsan_enable();

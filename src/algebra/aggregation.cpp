@@ -234,7 +234,7 @@ void add_transposed_product(const float* a, const double* b, double* c) {
         c[k * modes + m] += static_cast<double>(a[r * modes + k]) * b[r * modes + m];
 }
 
-/// Room for what smooth() appends, and no more.
+/// Reserves the memory that smooth() needs, and no more.
 void reserve_smoothed(const MatrixView& a, const std::vector<Index>& of_row, Index n_coarse,
                       BlockRows<float>& p) {
   RowSum reached(n_coarse, 0);
@@ -411,7 +411,7 @@ void append_ghost_rows(const RowExchange& ghosts, Index n_local, CoarseNumbers& 
   }
 }
 
-/// Adds up what the processes found for each other's coarse rows; own rows stay.
+/// Adds up the contributions of the processes to each other's coarse rows; own rows stay.
 void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, BlockRows<double>& coarse) {
   if (!any_process(!numbering.ghosts.empty())) return;
   struct Block {
@@ -454,7 +454,8 @@ void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, Bloc
   coarse = std::move(sum);
 }
 
-/// What a local row of the fine level, ghosts too, starts from: its aggregate, if any, and its block of P₀.
+/// Tentative interpolation: for each local row of the fine level, ghosts too, its aggregate, if any, and its
+/// block of P₀.
 struct Tentative {
   std::vector<Index> of_row;
   std::vector<float> values;

@@ -21,7 +21,7 @@ namespace solidus::algebra {
 /// One over the diagonal, [owned row × size]; one where it vanishes.
 std::vector<float> inverse_diagonal(const MatrixView& a);
 
-/// Where the block rows of a level stand among those of all processes.
+/// Position of a process's block rows of one level in the numbering over all processes.
 struct Numbering {
   Index n_owned = 0;
   GlobalIndex first = 0;
@@ -29,7 +29,8 @@ struct Numbering {
   Index n_local() const { return n_owned + static_cast<Index>(ghosts.size()); }
 };
 
-/// What the next level is made of.
+/// Result of the aggregation of one level: the interpolation, and matrix, numbering and near-null space of
+/// the next coarser level.
 struct Coarsening {
   int modes = 1;  ///< size of a coarse block
   BlockRows<float>

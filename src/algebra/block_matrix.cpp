@@ -198,17 +198,18 @@ void BlockMatrix::set_fixed(std::vector<char> fixed) {
 
 Mat BlockMatrix::matrix() {
   if (!petsc_->matrix) {
-    if (ties_.empty())
+    if (constraints_.empty())
       create_petsc_matrix();
     else
       create_tied_matrix();
   }
-  const double mean = any_fixed_ || !ties_.empty() ? mean_diagonal() : 1.0;
+  const double mean = any_fixed_ || !constraints_.empty() ? mean_diagonal() : 1.0;
   mask(mean);  // PETSc copies the values
-  if (ties_.empty()) {
+  if (constraints_.empty()) {
     copy_to_petsc();
   } else {
-    std::fill(values_.end() - static_cast<std::ptrdiff_t>(ties_.followers().size()), values_.end(), mean);
+    std::fill(values_.end() - static_cast<std::ptrdiff_t>(constraints_.followers().size()), values_.end(),
+              mean);
     check(MatSetValuesCOO(petsc_->matrix, block(0), INSERT_VALUES), "MatSetValuesCOO");
   }
   unmask();
@@ -216,7 +217,7 @@ Mat BlockMatrix::matrix() {
 }
 
 void BlockMatrix::constrained(const std::function<void()>& read) {
-  assert(ties_.empty());
+  assert(constraints_.empty());
   mask(any_fixed_ ? mean_diagonal() : 1.0);
   read();
   unmask();
@@ -249,15 +250,15 @@ double BlockMatrix::mean_diagonal() const {
 
 /// PETSc adds up entries of the same place, also those for rows of other processes: the list of our entries
 /// with the numbers of their unknowns is all it needs.
-void BlockMatrix::tie(std::vector<std::vector<Index>> groups) {
+void BlockMatrix::constrain(std::vector<std::vector<Index>> groups) {
   assert(storage_ == Storage::whole || !any_process(!groups.empty()));
-  ties_ = Ties(mesh_, block_size_, std::move(groups));
+  constraints_ = MultiPointConstraints(mesh_, block_size_, std::move(groups));
   petsc_->matrix.reset();
 }
 
 void BlockMatrix::create_tied_matrix() {
   const auto bs = static_cast<std::size_t>(block_size_);
-  values_.resize((columns_.size() + 1) * bs * bs + ties_.followers().size(), 0.0);
+  values_.resize((columns_.size() + 1) * bs * bs + constraints_.followers().size(), 0.0);
   std::vector<PetscInt> rows, columns;
   rows.reserve(values_.size());
   columns.reserve(values_.size());
@@ -266,10 +267,10 @@ void BlockMatrix::create_tied_matrix() {
       for (int a = 0; a < block_size_; ++a)
         for (int b = 0; b < block_size_; ++b) {
           const Index column = columns_[static_cast<std::size_t>(s)] * block_size_ + b;
-          rows.push_back(static_cast<PetscInt>(ties_.unknown(row * block_size_ + a)));
-          columns.push_back(static_cast<PetscInt>(ties_.unknown(column)));
+          rows.push_back(static_cast<PetscInt>(constraints_.unknown(row * block_size_ + a)));
+          columns.push_back(static_cast<PetscInt>(constraints_.unknown(column)));
         }
-  for (const Index follower : ties_.followers()) {
+  for (const Index follower : constraints_.followers()) {
     rows.push_back(static_cast<PetscInt>(mesh_.first_owned * block_size_ + follower));
     columns.push_back(rows.back());
   }
@@ -355,7 +356,7 @@ void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const
 }
 
 void BlockMatrix::multiply_free(std::span<double> x, std::span<double> y) const {
-  assert(ties_.empty());
+  assert(constraints_.empty());
   if (!any_fixed_) return multiply(x, y);
   // [owned entry] what a fixed row leaves as it is
   std::vector<double> held;

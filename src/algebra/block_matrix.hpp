@@ -15,12 +15,13 @@
 #include <span>
 #include <vector>
 
-#include "algebra/ties.hpp"
+#include "algebra/multi_point_constraints.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::algebra {
 
-/// Which nodes couple: filled once by elements and by contributions from outside (contact pairs).
+/// Sparsity pattern of a block matrix as a graph: two nodes are neighbours if they couple. It is filled once,
+/// by the elements and by contributions from outside (contact pairs).
 class NodeGraph {
  public:
   explicit NodeGraph(const mesh::Mesh& mesh);
@@ -49,7 +50,7 @@ class BlockMatrix {
   static constexpr Slot k_no_slot = -1;
   enum class Storage {
     whole,
-    upper  ///< symmetric; without ties
+    upper  ///< symmetric; without constraints
   };
 
   BlockMatrix(const mesh::Mesh& mesh, int block_size, NodeGraph graph, Storage storage = Storage::whole);
@@ -60,7 +61,7 @@ class BlockMatrix {
   /// Another pattern, all zero: slots and PETSc's matrix are void, what is prescribed and tied stays.
   /// Collective.
   void set_graph(NodeGraph graph);
-  /// Counts the patterns: for whoever keeps slots.
+  /// Number of the present sparsity pattern, by which code that stores slots notices a new one.
   int pattern() const { return pattern_; }
 
   int block_size() const { return block_size_; }
@@ -85,21 +86,21 @@ class BlockMatrix {
   /// [local node][component], ghosts included and already exchanged. Set again only when the set changes.
   void set_fixed(std::vector<char> fixed);
   const std::vector<char>& fixed() const { return fixed_; }
-  /// The degrees of freedom of each group get one common value: matrix() is then Tᵀ A T of ties.hpp, with the
-  /// mean diagonal where an entry is no unknown. Once, before the first matrix(); no member may be fixed.
-  /// Collective.
-  void tie(std::vector<std::vector<Index>> groups);
-  const Ties& ties() const { return ties_; }
+  /// The degrees of freedom of each group get one common value: matrix() is then Tᵀ A T of
+  /// multi_point_constraints.hpp, with the mean diagonal where an entry is no unknown. Once, before the first
+  /// matrix(); no member may be fixed. Collective.
+  void constrain(std::vector<std::vector<Index>> groups);
+  const MultiPointConstraints& constraints() const { return constraints_; }
 
   /// Passes the values on and returns the PETSc matrix, which is made at the first call; owned by this
   /// object.
   Mat matrix();
-  /// Calls `read` while the blocks are those of the matrix with its fixed rows and columns; no ties.
+  /// Calls `read` while the blocks are those of the matrix with its fixed rows and columns; no constraints.
   /// Collective.
   void constrained(const std::function<void()>& read);
-  /// y = A x for local x (ghosts up to date), y on owned nodes; ignores set_fixed and tie.
+  /// y = A x for local x (ghosts up to date), y on owned nodes; ignores set_fixed and constrain.
   void multiply(std::span<const double> x, std::span<double> y) const;
-  /// The same with fixed rows and columns, whose diagonal is one; sets x to zero there. No ties.
+  /// The same with fixed rows and columns, whose diagonal is one; sets x to zero there. No constraints.
   void multiply_free(std::span<double> x, std::span<double> y) const;
   std::size_t bytes() const;
 
@@ -131,7 +132,7 @@ class BlockMatrix {
   std::vector<std::size_t> masked_;          ///< entries of values_ in fixed rows or columns
   std::vector<std::size_t> fixed_diagonal_;  ///< diagonal entries of fixed owned degrees of freedom
   std::vector<double> saved_;                ///< the masked values while PETSc sees zeros
-  Ties ties_;  ///< values_ then ends with one more diagonal entry for each follower
+  MultiPointConstraints constraints_;  ///< values_ then ends with one more diagonal entry for each follower
   struct Petsc;
   std::unique_ptr<Petsc> petsc_;
 };

@@ -20,7 +20,7 @@ struct Stage {
 class Contribution {
  public:
   virtual ~Contribution() = default;
-  /// Tells which nodes couple, before the matrix exists: once, or again where graph_outdated().
+  /// Adds the couplings of nodes to the graph before the matrix exists: once, or again if graph_outdated().
   virtual void add_to_graph(NodeGraph& graph) const = 0;
   /// Whether nodes may couple later that do not now. The same on every process.
   virtual bool graph_may_change() const { return false; }

@@ -46,17 +46,17 @@ void CoupledMatrix::create_rectangles() {
   heat_of_pressure_.assign(volume_.size(), 0.0);
 }
 
-/// PETSc leaves out entries with a negative number and adds up those of the same place: what is prescribed
-/// and what is tied needs nothing else.
+/// PETSc leaves out entries with a negative number and adds up those of the same place: prescribed and
+/// constrained degrees of freedom need nothing else.
 void CoupledMatrix::create_petsc_rectangles() {
   const int n_components = components(), n_fields = fields();
   const std::vector<char>&fixed_u = displacement_.fixed(), &fixed_t = temperature_.fixed();
   const auto displacement_number = [&](Index node, int i) -> PetscInt {
     const std::int64_t entry = std::int64_t{node} * n_components + i;
     if (fixed_u[at(entry)]) return -1;
-    const Ties& ties = displacement_.ties();
-    return static_cast<PetscInt>(ties.empty() ? mesh_.global_node[at(node)] * n_components + i
-                                              : ties.unknown(static_cast<Index>(entry)));
+    const MultiPointConstraints& constraints = displacement_.constraints();
+    return static_cast<PetscInt>(constraints.empty() ? mesh_.global_node[at(node)] * n_components + i
+                                                     : constraints.unknown(static_cast<Index>(entry)));
   };
   const auto temperature_number = [&](Index node, int field) -> PetscInt {
     return fixed_t[at(std::int64_t{node} * n_fields + field)]

@@ -12,7 +12,7 @@
 ///
 /// The diagonal blocks are the matrices of the two phases. The rectangular ones have the graph of K_uu, a
 /// block of `components` numbers per pair of nodes, and are added to through its slots. Prescribed degrees of
-/// freedom and ties of either field are eliminated as in BlockMatrix.
+/// freedom and constraints of either field are eliminated as in BlockMatrix.
 #pragma once
 
 #include <memory>
@@ -28,8 +28,8 @@ class CoupledMatrix {
  public:
   using Slot = BlockMatrix::Slot;
 
-  /// @param displacement, temperature  of the same mesh, prescribed degrees of freedom and ties set; must
-  ///                                   outlive this object
+  /// @param displacement, temperature  of the same mesh, prescribed degrees of freedom and constraints set;
+  ///                                   must outlive this object
   /// @param saddle  of this displacement matrix; null: there is no pressure. Collective.
   CoupledMatrix(const mesh::Mesh& mesh, BlockMatrix& displacement, BlockMatrix& temperature,
                 SaddleMatrix* saddle = nullptr);
@@ -45,8 +45,8 @@ class CoupledMatrix {
   SaddleMatrix* saddle() { return saddle_; }
   int pressures() const { return saddle_ != nullptr ? saddle_->fields() : 0; }
 
-  /// Of the rectangular blocks, made anew where the pattern of a diagonal one has changed; then true.
-  /// Collective.
+  /// Sets the rectangular blocks to zero. They are made anew if the pattern of a diagonal block has changed;
+  /// returns whether they were. Collective.
   bool set_zero();
   /// ∂r_u/∂Θ of a pair (row node, column node), [component][field]; slots of `displacement`, also the one
   /// without a row.

@@ -39,9 +39,9 @@ class CoupledTangentSolver {
                              double forcing = 0) = 0;
   /// Those that the next solve uses where it is given these: a preconditioner that stays may keep its own.
   virtual FieldWeights in_use(FieldWeights weights) const = 0;
-  /// As LinearSolver::forget().
+  /// Drops what the solver carries over from earlier solves, as LinearSolver::forget().
   virtual void forget() = 0;
-  /// As LinearSolver::reset().
+  /// Resets the solver as LinearSolver::reset().
   virtual void reset() = 0;
   virtual double seconds() const = 0;
 };
@@ -53,7 +53,8 @@ inline bool is_direct(CoupledSolverKind kind, int dimension, GlobalIndex n_unkno
   return dimension == 2 || n_unknowns < limit_3d;
 }
 
-/// Where there is no pressure; with one: coupling/coupled_saddle_solver.hpp.
+/// Solver of the coupled system of displacement and temperature without a nodal pressure; systems with one
+/// are solved by coupling/coupled_saddle_solver.hpp.
 class CoupledSolver final : public CoupledTangentSolver {
  public:
   CoupledSolver(const mesh::Mesh& mesh, int components, CoupledSolverKind kind, double relative_tolerance);

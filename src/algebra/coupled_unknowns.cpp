@@ -62,7 +62,7 @@ CoupledUnknowns::CoupledUnknowns(const mesh::Mesh& mesh, CoupledMatrix& matrix,
                                  std::span<const char> no_pressure, const GhostExchange& ghosts)
     : saddle_(mesh, *matrix.saddle(), no_pressure, ghosts),
       n_saddle_(at(mesh.n_owned_nodes) * at(matrix.components() + matrix.pressures())) {
-  assert(matrix.fields() == 1 && matrix.temperature().ties().empty());
+  assert(matrix.fields() == 1 && matrix.temperature().constraints().empty());
   const std::vector<char>& fixed = matrix.temperature().fixed();
   for (Index node = 0; node < mesh.n_owned_nodes; ++node)
     if (!fixed[at(node)]) temperatures_of_process_.push_back(node);

@@ -20,14 +20,15 @@ class CoupledUnknowns {
  public:
   /// @param matrix       with a saddle point and one temperature a node
   /// @param no_pressure  as of SaddleUnknowns
-  /// Ties and prescribed degrees of freedom are those of the matrices as they are now. Collective.
+  /// Constraints and prescribed degrees of freedom are those of the matrices as they are now. Collective.
   CoupledUnknowns(const mesh::Mesh& mesh, CoupledMatrix& matrix, std::span<const char> no_pressure,
                   const GhostExchange& ghosts);
 
   /// Unknowns of this process, and of all processes.
   std::size_t size() const { return saddle_.size() + temperatures_of_process_.size(); }
   GlobalIndex n_global() const { return n_global_; }
-  /// From unknowns to the whole, and from the whole to unknowns, as SaddleUnknowns. Collective with ties.
+  /// From unknowns to the whole, and from the whole to unknowns, as SaddleUnknowns. Collective with
+  /// constraints.
   void expand(std::span<const double> unknowns, std::span<double> whole) const;
   void restrict_to(std::span<const double> whole, std::span<double> unknowns) const;
 

@@ -16,7 +16,7 @@ namespace {
 /// Up to here every process keeps the whole: some 100 MB of factors.
 constexpr GlobalIndex k_redundant_limit = 40000;
 constexpr int k_attempts = 3;              ///< with three times the workspace each time
-constexpr int k_largest_workspace = 5000;  ///< per cent: who fails with it does not lack workspace
+constexpr int k_largest_workspace = 5000;  ///< per cent: a failure with it is not for lack of workspace
 
 bool is_redundant(PC pc) {
   PetscBool redundant = PETSC_FALSE;
@@ -59,7 +59,7 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   PC inner = innermost(pc);
   PCFailedReason why = PC_NOERROR;
   check(PCGetFailedReason(inner, &why), "PCGetFailedReason");
-  // Where every process factorises for itself, one may lack memory that another has.
+  // If every process factorises for itself, one may lack memory that another has.
   lacks_workspace_ = any_process(why == PC_FACTOR_OUTMEMORY || why == PC_FACTOR_OTHER);
   // MUMPS reports a random error for a matrix with entries that are not numbers, lack of workspace among
   // them.

@@ -1,4 +1,5 @@
-/// How far an iterative solver takes the linear system of a Newton iteration: to ‖r + A d‖ <= η ‖r‖.
+/// Forcing term of an inexact Newton method: the relative tolerance η of the linear solve, ‖r + A d‖ <= η
+/// ‖r‖.
 ///
 ///   η_0 = 0.01,  η_k = γ (‖r_k‖/‖r_{k−1}‖)^α          choice 2 of Eisenstat and Walker
 ///   η_k = max(η_k, goal/(10 ‖r_k‖)),  η_k <= η_max    goal: the ‖r‖ that ends the iteration

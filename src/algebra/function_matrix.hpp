@@ -1,4 +1,4 @@
-/// A square PETSc operator that is a function.
+/// A square PETSc operator (shell matrix) that is applied by a function.
 #pragma once
 
 #include <petscmat.h>

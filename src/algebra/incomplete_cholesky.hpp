@@ -1,5 +1,5 @@
-/// Incomplete Cholesky factors without fill, in single precision, of what a process has of a symmetric
-/// matrix: the preconditioner of a step of transient heat, which is diagonally strong.
+/// Incomplete Cholesky factors without fill, in single precision, of a process's part of a symmetric matrix:
+/// the preconditioner of a step of transient heat, which is diagonally strong.
 ///
 /// Made from half a BlockMatrix as it stands, whose pattern the factors share: a sixth of the memory of
 /// PETSc's copy and factors. Meijerink and van der Vorst, Math. Comp. 31 (1977) 148.

@@ -1,4 +1,4 @@
-/// A run that is asked to stop leaves its step, also from within a linear solver.
+/// Interruption: a run that is asked to stop leaves its step, also from within a linear solver.
 #pragma once
 
 #include <petscksp.h>

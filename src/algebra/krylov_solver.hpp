@@ -23,7 +23,7 @@ class KrylovSolver {
   explicit KrylovSolver(KrylovOptions options);
   ~KrylovSolver();
 
-  /// From here on the operator and what preconditions it, set up at the next solve.
+  /// Sets the operator and its preconditioner, which is set up at the next solve.
   void set(Mat op, Mat preconditioner);
   /// Solves to ‖b − A x‖ <= max(relative ‖b‖, absolute) from x = 0, on owned degrees of freedom. Collective.
   LinearReport solve(std::span<const double> b, std::span<double> x, double relative, double absolute = 0);

@@ -1,7 +1,7 @@
-/// Where the blocks of element matrices stand in a BlockMatrix, for batches of k_lanes elements.
+/// Slots of the blocks of element matrices in a BlockMatrix, for batches of k_lanes elements.
 ///
-/// Of each slot its place within its row is kept: 2 bytes, where a slot has 8. 64 of them belong to an 8-node
-/// hexahedron.
+/// For each slot only its place within its row is stored: 2 bytes instead of the 8 of a slot. 64 of them
+/// belong to an 8-node hexahedron.
 #pragma once
 
 #include <cstdint>

@@ -170,7 +170,7 @@ struct LinearSolver::Implementation {
   KspHandle ksp;
   VecHandle b, x, residual, correction;
   int rigid_components = 0;  ///< of displacements whose rigid-body modes cost no energy; zero: no such
-  SolverKind kind = SolverKind::automatic;  ///< as asked for; what runs may differ through PETSc options
+  SolverKind kind = SolverKind::automatic;  ///< as asked for; PETSc options may choose another one
   bool reuse_hierarchy = false;  ///< the preconditioner is set up again only when iterations have grown
   double first_rate = 0;         ///< iterations per digit with the hierarchy just set up
   double tightest = 0;           ///< relative tolerance
@@ -213,11 +213,11 @@ struct LinearSolver::Implementation {
 
 bool LinearSolver::Implementation::multigrid_of_blocks(const BlockMatrix& a) const {
   const int n_modes = rigid_components > 0 ? rigid_body_mode_count(rigid_components) : a.block_size();
-  return a.ties().empty() && !petsc_multigrid && is_ours(options, mesh, a.block_size(), n_modes);
+  return a.constraints().empty() && !petsc_multigrid && is_ours(options, mesh, a.block_size(), n_modes);
 }
 
 bool LinearSolver::Implementation::factor_of_blocks(const BlockMatrix& a) const {
-  return a.ties().empty() && a.storage() == BlockMatrix::Storage::upper &&
+  return a.constraints().empty() && a.storage() == BlockMatrix::Storage::upper &&
          is_our_factor(options, mesh, a.block_size());
 }
 
@@ -291,7 +291,7 @@ void LinearSolver::Implementation::create(Mat a) {
       factorisation.set_type(pc, options.prefix, options.symmetric, n_unknowns);
       break;
     case SolverKind::multigrid:
-      // The cycle rounds to single precision: what it makes of a sum is not the sum of what it made.
+      // The cycle rounds to single precision, so it is not exactly linear.
       check(KSPSetType(ksp, !options.symmetric && a == shell ? KSPFGMRES : krylov), "KSPSetType");
       reuse_hierarchy = true;
       if (a == shell)
@@ -343,7 +343,7 @@ void LinearSolver::Implementation::create_multigrid(PC pc) {
 
 /// Whether multigrid of the first field is ours.
 bool LinearSolver::Implementation::splits_blocks() const {
-  return blocks != nullptr && !split_failed && blocks->ties().empty() && rigid_components > 0 &&
+  return blocks != nullptr && !split_failed && blocks->constraints().empty() && rigid_components > 0 &&
          Multigrid::supports(blocks->block_size(), rigid_body_mode_count(rigid_components)) &&
          !user_gave_option(options.prefix + "fieldsplit_u_pc_type");
 }

@@ -30,8 +30,8 @@ struct LinearSolverOptions {
   int max_iterations = 2000;
 };
 
-/// What a matrix without ties is kept as for such a solver: half of a symmetric one will do for the
-/// preconditioners that need no copy of it (multigrid.hpp, incomplete_cholesky.hpp).
+/// Returns how a matrix without multi-point constraints is stored for such a solver: half of a symmetric
+/// matrix suffices for the preconditioners that need no copy of it (multigrid.hpp, incomplete_cholesky.hpp).
 /// @param modes  of multigrid
 BlockMatrix::Storage storage_for(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size,
                                  int modes);
@@ -42,7 +42,7 @@ struct LinearReport {
   std::string reason;  ///< PETSc's words when it did not converge
 };
 
-/// What Newton's method needs of a solver of K d = −r.
+/// Interface that Newton's method requires of a solver of K d = −r.
 class TangentSolver {
  public:
   virtual ~TangentSolver() = default;
@@ -66,8 +66,8 @@ class LinearSolver : public TangentSolver {
   ~LinearSolver() override;
   /// Rigid-body modes for multigrid from the coordinates of the owned nodes (mechanics).
   void use_rigid_body_modes(int components);
-  /// Gives a field split the blocks of its first field, which must have no ties: multigrid.hpp then replaces
-  /// GAMG. To be called before every solve; the blocks must outlive it.
+  /// Gives a field split the blocks of its first field, which must have no constraints: multigrid.hpp then
+  /// replaces GAMG. To be called before every solve; the blocks must outlive it.
   /// @param scale  the rows of the matrix that is solved over those of the blocks
   void use_blocks_of_first_field(BlockMatrix& blocks, double scale);
   /// Solves A x = b on owned degrees of freedom; keeps the analysis (direct) or hierarchy (multigrid, until

@@ -1,5 +1,5 @@
-/// Square matrices by block rows as others hold them: whole, or symmetric and without what is below the
-/// diagonal.
+/// View of a square matrix in block rows that another object stores: whole, or symmetric and without the
+/// blocks below the diagonal.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace solidus::algebra {
 
-/// Of a symmetric matrix that is held by its blocks on and above the diagonal: where the mirror images of
-/// those below stand.
+/// Positions of the transposed blocks below the diagonal of a symmetric matrix that is stored by its blocks
+/// on and above it.
 class LowerPart {
  public:
   struct Block {
@@ -19,7 +19,7 @@ class LowerPart {
     Index place;   ///< within that row
   };
   LowerPart(std::span<const std::int64_t> start, std::span<const Index> column);
-  /// Of a block row, columns rising.
+  /// Returns the blocks of a block row, columns rising.
   std::span<const Block> row(Index row) const {
     const auto i = static_cast<std::size_t>(row);
     return std::span(blocks_).subspan(static_cast<std::size_t>(start_[i]),
@@ -37,7 +37,7 @@ struct MatrixView {
   std::span<const std::int64_t> start;
   std::span<const Index> column;   ///< rising within a row
   const double* blocks = nullptr;  ///< [slot][row][column]
-  /// Where rows begin with their diagonal; null: they are whole.
+  /// The blocks left of the diagonal, if rows are stored from their diagonal on; null: rows are stored whole.
   const LowerPart* lower = nullptr;
 
   Index n_rows() const { return static_cast<Index>(start.size()) - 1; }

@@ -38,7 +38,7 @@ class Multigrid {
   ~Multigrid();
   /// Whether there are kernels for blocks of this size.
   static bool supports(int block_size, int modes);
-  /// Makes the hierarchy for the blocks of now, fixed rows included; no ties. Collective.
+  /// Makes the hierarchy for the blocks of now, fixed rows included; no constraints. Collective.
   void set_up(BlockMatrix& a);
   /// z ≈ A⁻¹ r on owned degrees of freedom. Collective.
   void apply(std::span<const double> r, std::span<double> z);

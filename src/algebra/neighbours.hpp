@@ -1,4 +1,5 @@
-/// Who holds copies of whose rows: what every exchange between processes starts from.
+/// Neighbouring processes of a process, with the rows of which each holds copies (ghosts): every exchange
+/// between processes starts from these lists.
 #pragma once
 
 #include <span>

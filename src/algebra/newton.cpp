@@ -29,7 +29,7 @@ double dot(std::span<const double> a, std::span<const double> b) {
   return global_sum(s);
 }
 
-/// One solve: the vectors and what the iteration and its line search share.
+/// One solve: the vectors and the data shared by the iteration and its line search.
 class Iteration {
  public:
   Iteration(NonlinearSystem& system, TangentSolver& solver, const GhostExchange& ghosts,
@@ -82,7 +82,7 @@ class Iteration {
   std::vector<double> r_, step_;            ///< on owned nodes
   std::vector<double> start_, local_step_;  ///< on local nodes
   const std::vector<char>* fixed_ = nullptr;
-  const Ties* ties_ = nullptr;
+  const MultiPointConstraints* constraints_ = nullptr;
   double norm_ = 0, reference_ = 0;
   double next_step_ = std::numeric_limits<double>::infinity();  ///< its estimated relative size
 };
@@ -105,11 +105,12 @@ void Iteration::evaluate() {
   if (fixed_) constrain();
 }
 
-/// Leaves what the unknowns can change: nothing where prescribed, the sum of what is tied together.
+/// Reduces the residual to the free unknowns: zero where prescribed, the sum over the members of a
+/// constraint.
 void Iteration::constrain() {
   for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
     if ((*fixed_)[i]) r_[i] = 0;
-  ties_->sum(std::span(r_).first(n_first_));
+  constraints_->sum(std::span(r_).first(n_first_));
   norm_ = std::sqrt(dot(r_, r_));
 }
 
@@ -179,7 +180,7 @@ NewtonReport Iteration::run() {
   evaluate();
   BlockMatrix* tangent = &system_.tangent();  // knows what is fixed, and serves the first solve
   fixed_ = &tangent->fixed();
-  ties_ = &tangent->ties();
+  constraints_ = &tangent->constraints();
   constrain();
   bool chord = false;
   Forcing forcing(options_.inexact);
@@ -214,7 +215,7 @@ NewtonReport Iteration::run() {
     }
     for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
       if ((*fixed_)[i]) step_[i] = 0;
-    ties_->share(std::span(step_).first(n_first_));
+    constraints_->share(std::span(step_).first(n_first_));
     spread_step();
 
     const double norm_before = norm_;

@@ -49,8 +49,8 @@ class NonlinearSystem {
   virtual double residual(std::span<const double> x, std::span<double> r) = 0;
   /// The tangent at the x of the last residual().
   virtual BlockMatrix& tangent() = 0;
-  /// How large the step d that has led to x is, as a share of what x has changed since the start of the time
-  /// step. Zero: no measure of it. Asked where NewtonOptions::step_tolerance is set.
+  /// Returns the size of the step d that has led to x, as a share of the change of x since the start of the
+  /// time step; zero: there is no measure of it. Called if NewtonOptions::step_tolerance is set.
   virtual double relative_step(std::span<const double> /*x*/, std::span<const double> /*d*/) { return 0; }
   /// Called with the accepted step: x is the new point, ghosts up to date. Systems with unknowns of their own
   /// (nodal enthalpy) follow. Without line search it comes before the residual at x, with line search after
@@ -58,10 +58,10 @@ class NonlinearSystem {
   virtual void accept(std::span<const double> /*x*/, std::span<const double> /*d*/, double /*alpha*/) {}
 };
 
-/// Solves r(x) = 0 from the start value x, whose fixed degrees of freedom already hold their
-/// values and whose ties are kept.
-/// Where the step before has contracted so much that the same tangent will do for the rest, it serves once
-/// more: a chord step, without assembly and set-up of the solver.
+/// Solves r(x) = 0 from the start value x, whose fixed degrees of freedom already hold their values and which
+/// satisfies the multi-point constraints.
+/// If the previous step has reduced the residual so much that the same tangent suffices for the rest, the
+/// tangent is used once more: a chord step, without assembly and set-up of the solver.
 /// With a step_tolerance the next step is taken to be as much smaller than the last one as the residual has
 /// become; there is at least one step, unless the residual at the start is within the absolute tolerance.
 /// A NaN in the residual at x ends the iteration as not converged; in a trial of the line search it shortens

@@ -11,7 +11,8 @@ namespace solidus::algebra {
 
 namespace {
 
-/// The register that a column of a block is read into; what it reads of the next column is never written.
+/// The register that a column of a block is read into; entries of the next column that it reads are never
+/// written.
 template <int rows>
 struct Vector;
 template <>
@@ -107,7 +108,7 @@ PackedRows::PackedRows(const MatrixView& a, Index n_local, bool symmetric, Patte
   }
 }
 
-/// What stands left of the diagonal is left out.
+/// Copies the sparsity pattern of the upper triangle; blocks left of the diagonal are omitted.
 void PackedRows::copy_upper_pattern(const MatrixView& a) {
   own_start_.assign(1, 0);
   own_start_.reserve(a.start.size());

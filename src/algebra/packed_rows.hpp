@@ -1,4 +1,5 @@
-/// Block rows in single precision, for preconditioners: what a multigrid cycle reads again and again.
+/// Block rows in single precision, for preconditioners: the copy of a matrix that a multigrid cycle reads
+/// repeatedly.
 ///
 /// A product is bound by memory: 4 bytes an entry and 4 bytes a block, where PETSc's AIJ reads 12 bytes an
 /// entry, and half of that where the matrix is symmetric (symmetric_product.hpp). Blocks of others stand
@@ -52,7 +53,7 @@ void with_block_sizes(int rows, int columns, const F& f) {
 
 class PackedRows {
  public:
-  /// Numbers behind the last block: what a product reads of a block reaches beyond it.
+  /// Numbers behind the last block: a product reads beyond the end of a block.
   static constexpr std::size_t k_overhang = 8;
   PackedRows() = default;
   enum class Pattern { referred_to, copied };

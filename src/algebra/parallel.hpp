@@ -20,7 +20,7 @@ bool any_process(bool value);
 class GhostExchange {
  public:
   explicit GhostExchange(const mesh::Mesh& mesh);
-  /// Of anything that is numbered as nodes are: owned ones contiguous, from `first_owned` on.
+  /// Exchange of entries that are numbered as nodes are: owned ones contiguous, from `first_owned` on.
   /// @param ghosts  numbers over all processes of the local entries behind the owned ones
   GhostExchange(Index n_owned, GlobalIndex first_owned, std::span<const GlobalIndex> ghosts);
   ~GhostExchange();

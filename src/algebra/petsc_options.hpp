@@ -1,4 +1,4 @@
-/// PETSc's options: the user's, and defaults of ours beside them.
+/// Options of PETSc: those of the user, and defaults of Solidus where the user gives none.
 #pragma once
 
 #include <string>

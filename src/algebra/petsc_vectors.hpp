@@ -1,4 +1,4 @@
-/// Between PETSc's vectors and arrays: the values of this process.
+/// Copies the values of this process between PETSc's vectors and arrays.
 #pragma once
 
 #include <algorithm>

@@ -61,7 +61,7 @@ double norm(const Eigen::Ref<const VectorXd>& v) {
 
 /// Takes the components along the orthonormal columns of q out of w, a second time where the first has
 /// cancelled digits (classical Gram-Schmidt, selective reorthogonalisation). Returns them, and behind them
-/// the norm of what is left.
+/// the norm of the remainder.
 template <class Columns>
 VectorXd orthogonalise(const Columns& q, Eigen::Ref<VectorXd> w) {
   constexpr double k_cancelled = 0.5;
@@ -155,11 +155,11 @@ struct RecyclingGmres::Implementation {
   RecyclingOptions options;
   Map op, preconditioner;
   Index n = 0;        ///< unknowns of this process
-  Index n_kept = 0;   ///< columns of what is kept
-  bool stale = true;  ///< the products of what is kept belong to an operator of before
+  Index n_kept = 0;   ///< number of recycled columns
+  bool stale = true;  ///< the recycled products belong to an earlier operator
   MatrixXd v;         ///< columns of C in front, then the directions of the cycle, orthonormal
-  MatrixXd z;         ///< what the operator makes them from: Z in front, then the preconditioned directions
-  MatrixXd u;         ///< Z before it was preconditioned, which gives the Ritz vectors their measure
+  MatrixXd z;  ///< the directions of which they are products: Z in front, then the preconditioned directions
+  MatrixXd u;  ///< Z before it was preconditioned, which gives the Ritz vectors their measure
 
   void set_size(Index size);
   void renew_products();

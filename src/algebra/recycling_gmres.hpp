@@ -22,7 +22,7 @@ namespace solidus::algebra {
 struct RecyclingOptions {
   int directions = 60;       ///< of a cycle, besides those that are kept
   int kept = 40;             ///< at most, from one system to the next
-  int worthwhile = 25;       ///< iterations of a cycle from which on a new choice is made of what is kept
+  int worthwhile = 25;       ///< iterations of a cycle from which on the recycled space is chosen anew
   int max_iterations = 500;  ///< of a solve
 };
 
@@ -34,7 +34,8 @@ class RecyclingGmres {
   explicit RecyclingGmres(RecyclingOptions options = {});
   ~RecyclingGmres();
 
-  /// The operator and what preconditions it. Both are called during solve() only. What is kept stays.
+  /// Sets the operator and its preconditioner. Both are called during solve() only. The recycled directions
+  /// are kept.
   void set(Map op, Map preconditioner);
   /// The values of the operator are other ones at the next solve.
   void operator_changed();

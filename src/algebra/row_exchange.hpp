@@ -1,5 +1,5 @@
-/// What a process found for rows of another one goes to its owner, and rows of any length to those who hold a
-/// copy.
+/// Exchange of matrix rows between processes: contributions to a row go to the process that owns it, and rows
+/// of any length go from their owner to the processes that hold a copy.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace solidus::algebra {
 
 class RowExchange {
  public:
-  /// As GhostExchange (parallel.hpp). Collective, as all its functions.
+  /// The arguments are those of GhostExchange (parallel.hpp). Collective, as all functions of the class.
   RowExchange(Index n_owned, GlobalIndex first_owned, std::span<const GlobalIndex> ghosts)
       : neighbours_(find_neighbours(n_owned, first_owned, ghosts)) {}
 
@@ -23,7 +23,7 @@ class RowExchange {
   using Unpack = std::function<void(Index row, std::span<const double> values)>;
   /// Owned rows go to the ghosts.
   void update(const Pack& pack, const Unpack& unpack) const { exchange(false, pack, unpack); }
-  /// Ghosts go to the owners, who may get several for a row.
+  /// Sends ghost rows to their owners, which may receive several for one row.
   void give_back(const Pack& pack, const Unpack& unpack) const { exchange(true, pack, unpack); }
 
  private:

@@ -37,7 +37,7 @@ class SaddleMatrix {
   const double* border(Slot s) const { return border_.data() + (s + 1) * border_size(); }
 
   /// (y_u, y_p) = K (u, p). u and p are [local node][…] with ghosts up to date, y_u and y_p are on owned
-  /// nodes. Prescribed degrees of freedom and ties are ignored.
+  /// nodes. Prescribed degrees of freedom and constraints are ignored.
   void multiply(std::span<const double> u, std::span<const double> p, std::span<double> y_u,
                 std::span<double> y_p) const;
   /// y_u = B p, likewise.

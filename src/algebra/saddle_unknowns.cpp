@@ -26,14 +26,16 @@ std::vector<PetscInt> rounded(std::span<const double> numbers) {
 
 SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matrix,
                                std::span<const char> no_pressure, const GhostExchange& ghosts)
-    : components_(matrix.components()), fields_(matrix.fields()), ties_(matrix.displacement().ties()) {
+    : components_(matrix.components()),
+      fields_(matrix.fields()),
+      constraints_(matrix.displacement().constraints()) {
   n_displacements_ = at(mesh.n_owned_nodes) * at(components_);
   const std::size_t n_pressures = at(mesh.n_owned_nodes) * at(fields_);
   std::vector<double> u(mesh.x.size() * at(components_), k_none), p(mesh.x.size() * at(fields_), k_none);
   const std::vector<char>& fixed = matrix.displacement().fixed();
   for (std::size_t i = 0; i < n_displacements_; ++i)
     if (!fixed[i]) u[i] = k_unknown;
-  for (const Index follower : ties_.followers()) u[at(follower)] = k_none;
+  for (const Index follower : constraints_.followers()) u[at(follower)] = k_none;
   for (std::size_t i = 0; i < n_pressures; ++i)
     if (!no_pressure[i]) p[i] = k_unknown;
 
@@ -47,7 +49,7 @@ SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matri
   auto number = static_cast<double>(first);
   for (const std::size_t entry : entries_)
     (entry < n_displacements_ ? u[entry] : p[entry - n_displacements_]) = number++;
-  ties_.share(std::span(u).first(n_displacements_));
+  constraints_.share(std::span(u).first(n_displacements_));
   ghosts.update(u, components_);
   ghosts.update(p, fields_);
   displacements_ = rounded(u);
@@ -57,16 +59,16 @@ SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matri
 void SaddleUnknowns::expand(std::span<const double> unknowns, std::span<double> whole) const {
   std::fill(whole.begin(), whole.end(), 0.0);
   for (std::size_t k = 0; k < entries_.size(); ++k) whole[entries_[k]] = unknowns[k];
-  ties_.share(whole.first(n_displacements_));
+  constraints_.share(whole.first(n_displacements_));
 }
 
 void SaddleUnknowns::restrict_to(std::span<const double> whole, std::span<double> unknowns) const {
-  if (ties_.empty()) {
+  if (constraints_.empty()) {
     for (std::size_t k = 0; k < entries_.size(); ++k) unknowns[k] = whole[entries_[k]];
     return;
   }
   std::vector<double> summed(whole.begin(), whole.end());
-  ties_.sum(std::span(summed).first(n_displacements_));
+  constraints_.sum(std::span(summed).first(n_displacements_));
   for (std::size_t k = 0; k < entries_.size(); ++k) unknowns[k] = summed[entries_[k]];
 }
 

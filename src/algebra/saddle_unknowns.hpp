@@ -1,5 +1,5 @@
 /// The unknowns of a saddle point (saddle_matrix.hpp): its degrees of freedom without those that are
-/// prescribed, that follow another one (ties.hpp) or whose node has no pressure.
+/// prescribed, that follow another one (multi_point_constraints.hpp) or whose node has no pressure.
 ///
 /// A linear solver works on these alone, so nodes of bodies that only conduct heat have no rows.
 #pragma once
@@ -19,16 +19,17 @@ namespace solidus::algebra {
 class SaddleUnknowns {
  public:
   /// @param no_pressure  [local node][field], ghosts included: nodes without a pressure of this field
-  /// The ties and prescribed displacements are those of A as they are now. Collective.
+  /// The constraints and prescribed displacements are those of A as they are now. Collective.
   SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matrix, std::span<const char> no_pressure,
                  const GhostExchange& ghosts);
 
   /// Unknowns of this process, and of all processes.
   std::size_t size() const { return entries_.size(); }
   GlobalIndex n_global() const { return n_global_; }
-  /// From unknowns to the whole: zero where prescribed, the leader's value where tied. Collective with ties.
+  /// From unknowns to the whole: zero where prescribed, the leader's value where tied. Collective with
+  /// constraints.
   void expand(std::span<const double> unknowns, std::span<double> whole) const;
-  /// From forces on the whole to those on the unknowns: the sum where tied. Collective with ties.
+  /// From forces on the whole to those on the unknowns: the sum where tied. Collective with constraints.
   void restrict_to(std::span<const double> whole, std::span<double> unknowns) const;
 
   /// The number over all processes, −1 where there is no unknown; of a local node.
@@ -41,7 +42,7 @@ class SaddleUnknowns {
 
  private:
   int components_, fields_;
-  const Ties& ties_;
+  const MultiPointConstraints& constraints_;
   std::size_t n_displacements_;  ///< of the whole
   GlobalIndex n_global_ = 0;
   std::vector<std::size_t> entries_;  ///< of the whole, [unknown]

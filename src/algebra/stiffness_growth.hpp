@@ -1,4 +1,4 @@
-/// How much stiffer a matrix has become since a preconditioner was made for it.
+/// Measures how much stiffer a matrix has become since a preconditioner was made for it.
 ///
 /// A multigrid hierarchy that was made for a softer matrix damps nothing where the new one is stiff: where
 /// metal has frozen by a factor of 1e4 since then, the eigenvalues of the preconditioned matrix reach 1e4,

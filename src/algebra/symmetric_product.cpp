@@ -9,8 +9,8 @@ namespace solidus::algebra {
 
 namespace {
 
-/// A row of a block in a register, whose lanes beyond the block hold what follows in memory: whatever they
-/// are multiplied with is zero there, or what comes out is not read.
+/// A row of a block in a register, whose lanes beyond the block hold what follows in memory: they are
+/// multiplied with zeros there, or the result is not read.
 template <class Number, int size>
 struct Register {
   static constexpr int lanes = static_cast<int>(std::bit_ceil(static_cast<unsigned>(size)));

@@ -1,5 +1,5 @@
-/// Products with symmetric matrices of which only the blocks on and above the diagonal are there: half the
-/// memory to read, which is what bounds them.
+/// Products with symmetric matrices of which only the blocks on and above the diagonal are there: they read
+/// half of the memory, and memory traffic bounds their speed.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-/// The command line as it is declared, without the library that parses it: what completion and the manual
-/// page are written from.
+/// The declared command line, without the library that parses it: completion and the manual page are
+/// generated from it.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace solidus::app {
 
 struct OptionInfo {
   std::vector<std::string> names;  ///< "-o", "--output"; of a positional argument none
-  std::string value;               ///< what follows it: "CASE", "FOLDER", "KEY=VALUE" ...; of a flag empty
+  std::string value;               ///< its value: "CASE", "FOLDER", "KEY=VALUE" ...; of a flag empty
   std::string doc;
   bool required = false, many = false;
   bool positional() const { return names.empty(); }

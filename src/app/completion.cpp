@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What stands for the value of an option or an argument: words, or what the shell looks for.
+/// Candidates for the value of an option or an argument: words, or files or folders that the shell looks for.
 struct Candidates {
   enum class Kind { none, words, files, folders } kind = Kind::none;
   Words words;

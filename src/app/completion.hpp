@@ -8,7 +8,7 @@
 
 namespace solidus::app {
 
-/// What words are known before the shell is asked.
+/// Words that the completion of the shell can offer besides verbs and options.
 struct KnownWords {
   std::vector<std::string> keys;       ///< of the case file: "time.step"
   std::vector<std::string> materials;  ///< of the library

@@ -24,7 +24,7 @@ void print(const std::string& given) {
   if (rank != 0) return;
   const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!whole || std::fflush(stdout) != 0) {
-    if (errno == EPIPE) return;  // nobody reads on, as with `| head`
+    if (errno == EPIPE) return;  // no process reads on, as with `| head`
     throw InputError({"standard output", 0, 0}, std::strerror(errno));
   }
 }

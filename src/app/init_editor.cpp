@@ -1,4 +1,4 @@
-/// The verb `init-editor`: what an editor needs to check and complete the files of a folder.
+/// The verb `init-editor`: writes the files by which an editor checks and completes the files of a folder.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -55,7 +55,7 @@ Instructions instructions_here() {
   has(13, __builtin_cpu_supports("avx512vnni"));
   return set;
 #else
-  return k_built_for;  // nobody builds for parts of another family
+  return k_built_for;  // no build is for processors of another family
 #endif
 }
 

@@ -1,5 +1,5 @@
-/// Whether this processor has the instructions that the compiler has used: a binary built for one machine
-/// dies on another with SIGILL, which says nothing.
+/// Checks that this processor has the instructions that the compiler has used: a binary built for one machine
+/// ends on another with SIGILL, without a message.
 #pragma once
 
 namespace solidus::app {

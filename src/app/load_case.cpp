@@ -1,4 +1,4 @@
-/// A case with what the command line says about it.
+/// Loads a case with the options of the command line.
 #include "app/verbs.hpp"
 
 namespace solidus::app {

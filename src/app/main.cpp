@@ -61,11 +61,11 @@ ExitCode guarded(const std::function<ExitCode()>& verb) {
   } catch (const InputError& error) {
     return fail(k_bad_input, error.what());
   } catch (const StepRejected& error) {
-    return fail(interrupted() ? k_interrupted : k_cannot_go_on, error.what());
+    return fail(interrupted() ? k_interrupted : k_cannot_continue, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(k_cannot_go_on, "the memory is exhausted; use a coarser mesh or more processes");
+    return fail(k_cannot_continue, "the memory is exhausted; use a coarser mesh or more processes");
   } catch (const std::exception& error) {
-    // PETSc reads options late, where a solver is made; what it does not know there is the user's.
+    // PETSc reads options late, when a solver is made; an option that it does not know is the user's error.
     if (std::string_view(error.what()).find("SetFromOptions") != std::string_view::npos)
       return fail(k_bad_input, fmt::format("an option behind -- is wrong: {}", error.what()));
     return fail(
@@ -129,7 +129,7 @@ void set_log_level(const std::string& wanted) {
   logging::set_level(level->second);
 }
 
-/// What completion offers beside verbs and options.
+/// Returns the words that completion offers besides verbs and options.
 KnownWords known_words() {
   return {key_paths(model::case_keys().info()), material::material_names(model::material_folders())};
 }
@@ -265,7 +265,8 @@ ExitCode parse_and_run(int argc, char** argv) {
     return k_done;
   } catch (const CLI::Success& help) {
     print(help.get_name() == "CallForHelp"
-              ? (program.get_subcommands().empty() ? program.help() : program.get_subcommands()[0]->help("solidus"))
+              ? (program.get_subcommands().empty() ? program.help()
+                                                   : program.get_subcommands()[0]->help("solidus"))
               : program.help("", CLI::AppFormatMode::All));
     return k_done;
   } catch (const CLI::ParseError& error) {
@@ -314,7 +315,7 @@ int main(int argc, char** argv) {
   if (const std::optional<int> code = mesh::serve_as_reader(argc, argv)) return *code;
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
-  // A reader downstream that has gone is no failure: what is printed to it is lost.
+  // A downstream reader that has ended is no failure: output to it is lost.
   std::signal(SIGPIPE, SIG_IGN);
   if (run_wanted) {
     listen_to_signals();
@@ -323,7 +324,7 @@ int main(int argc, char** argv) {
   keep_environment();
   profile::begin();
   give_large_arrays_back();
-  // What stands behind "--" is PETSc's; its first argument is the program's name.
+  // Arguments behind "--" are PETSc's; its first argument is the program's name.
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
   std::vector<char*> for_petsc(separator == end ? end : separator + 1, end);

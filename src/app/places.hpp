@@ -1,4 +1,4 @@
-/// Where results go, and how a script learns of it.
+/// Folders of results and of installed data, and the note by which a script learns the results folder.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@ namespace solidus::app {
 /// The repository that the present folder belongs to, else the present folder.
 std::filesystem::path results_root();
 
-/// What an installed program brings with it, share/solidus of its prefix; it need not be there.
+/// Folder of the data of an installed program, share/solidus of its prefix; it need not exist.
 std::filesystem::path shared_folder();
 
 /// Tells a script where the results are: the path goes to the file that SOLIDUS_RESULTS_NOTE names, because a

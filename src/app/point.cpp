@@ -1,4 +1,4 @@
-/// The verb `point`: a material point through a history, its tables and what the pictures are drawn from.
+/// The verb `point`: a material point through a history, its tables and the data of the pictures.
 #include <fmt/format.h>
 #include <petscsys.h>
 
@@ -60,7 +60,7 @@ std::string table(const point::Measured& measured) {
   return text + "\n";
 }
 
-/// Makes the folder, unless it holds what is not ours.
+/// Makes the folder, unless it holds files that Solidus did not write.
 void prepare(const fs::path& folder, const PointCase& point_case, const std::string& file) {
   const fs::path echo = folder / "point.toml";
   std::string first_line;
@@ -82,8 +82,8 @@ void prepare(const fs::path& folder, const PointCase& point_case, const std::str
                         to_toml(point_case.document)));
 }
 
-/// What to tell of properties whose data do not hold at the temperatures of the history; empty: nothing.
-/// Throws InputError where a table refuses.
+/// Returns a warning about properties whose data do not hold at the temperatures of the history; empty: there
+/// are none. Throws InputError for a table whose extrapolation is an error.
 std::string warning(const Curve& curve, const std::vector<Record>& records) {
   const auto [coldest, hottest] =
       std::minmax_element(records.begin(), records.end(),
@@ -210,7 +210,7 @@ ExitCode run_point(const CaseArguments& arguments) {
   print("Results in " + folder.lexically_normal().string() + "\n");
   if (summary.failures.empty()) return k_done;
   std::fputs(("solidus: " + summary.failures).c_str(), stderr);
-  return k_cannot_go_on;
+  return k_cannot_continue;
 }
 
 }  // namespace solidus::app

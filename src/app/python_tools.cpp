@@ -28,7 +28,7 @@ std::vector<std::string>& environment() {
   return kept;
 }
 
-/// Where the modules lie.
+/// Returns the folder of the Python modules.
 fs::path modules() {
   for (const fs::path& folder : {shared_folder() / "python", fs::path(SOLIDUS_PYTHON_DIR)})
     if (std::error_code error; fs::is_directory(folder / "solidus_plots", error)) return folder;
@@ -88,7 +88,7 @@ ExitCode run_python(const std::string& module, const std::vector<std::string>& a
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return k_our_bug;
-  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGINT ? k_interrupted : k_cannot_go_on;
+  if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGINT ? k_interrupted : k_cannot_continue;
   switch (WEXITSTATUS(status)) {
     case 0:
       return k_done;

@@ -1,5 +1,5 @@
-/// What Python does: pictures, comparisons and studies (python/ of the repository, share/solidus/python of an
-/// installed program).
+/// Verbs that run in Python: pictures, comparisons and studies (python/ of the repository,
+/// share/solidus/python of an installed program).
 #pragma once
 
 #include <string>

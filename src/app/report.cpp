@@ -1,4 +1,4 @@
-/// The verb `report`: what runs left, as one page for the browser.
+/// The verb `report`: the results of runs as one page for the browser.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -48,7 +48,7 @@ ExitCode run(const CaseArguments& arguments) {
     if (rank == 0)
       std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason
                 << std::endl;
-    return interrupted() ? k_interrupted : k_cannot_go_on;
+    return interrupted() ? k_interrupted : k_cannot_continue;
   }
   print("Results in " + options.folder.lexically_normal().string() + "\n");
   return k_done;

@@ -25,7 +25,7 @@ extern "C" void ask_to_stop(int signal) {
       "\ninfo: asked to stop: the run ends with a checkpoint as soon as its step or a factorisation in it "
       "allows; "
       "asked again, it ends at once, and the checkpoint before stays\n";
-  if (::write(STDERR_FILENO, k_text, sizeof k_text - 1) < 0) return;  // whoever has gone need not hear it
+  if (::write(STDERR_FILENO, k_text, sizeof k_text - 1) < 0) return;  // the reader has gone
 }
 
 /// Whether this is the first process of its launcher, before MPI can tell.
@@ -48,7 +48,7 @@ void listen_to_signals() {
     // `nohup` and shells that start jobs in the background ignore some on purpose.
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
-  // Once more may come before the run has ended: each is a write to whoever has gone.
+  // Further signals may come before the run has ended: each is a write to a reader that has gone.
   action.sa_flags = SA_RESTART;
   sigaction(SIGPIPE, &action, nullptr);
   // A file beyond the limit of the shell (`ulimit -f`) is an error of its write, as on a full disk.

@@ -1,5 +1,5 @@
-/// The verbs of the program. Each prints what the user asked for on stdout, from process 0; what goes wrong
-/// is thrown.
+/// The verbs of the program. Each prints what the user asked for on stdout, from process 0; errors are
+/// thrown.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace solidus::app {
 
-/// What a shell sees (design.md section 6).
-enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_go_on = 2, k_our_bug = 3, k_interrupted = 130 };
+/// Exit codes of the program (design.md section 6).
+enum ExitCode { k_done = 0, k_bad_input = 1, k_cannot_continue = 2, k_our_bug = 3, k_interrupted = 130 };
 
 struct CaseArguments {
   std::string path;              ///< a case file, or a folder with a case.toml

@@ -23,7 +23,8 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1));
 }
 
-/// Where the bracket opens that the last character closes; "k (W/(m K))" has another within.
+/// Returns the position of the opening bracket that the last character closes; "k (W/(m K))" has another one
+/// within.
 std::size_t opening_bracket(const std::string& text) {
   int open = 0;
   for (std::size_t i = text.size(); i-- > 0;) {
@@ -160,7 +161,8 @@ void append(Column& column, const Value& value) {
   column.lines.push_back(value.where.line);
 }
 
-/// { "T [K]": [..], "fraction_solid": [..], "method": "scheil" }: what is no list of numbers is no column.
+/// { "T [K]": [..], "fraction_solid": [..], "method": "scheil" }: a value that is no list of numbers is no
+/// column.
 void read_lists(const Value& object, ColumnTable& table) {
   for (const auto& [key, where, value] : object.entries()) {
     if (!value.is_list() || value.items().empty() || !value.items().front().is_number()) continue;

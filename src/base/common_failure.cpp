@@ -38,7 +38,7 @@ Failure failure_of(const std::function<void()>& work) {
 
 }  // namespace
 
-void together(const std::function<void()>& work, const ThrowInputError& throw_input_error) {
+void run_collectively(const std::function<void()>& work, const ThrowInputError& throw_input_error) {
   Failure failure = failure_of(work);
   const MPI_Comm comm = MPI_COMM_WORLD;
   int rank = 0, size = 1;
@@ -63,7 +63,7 @@ void together(const std::function<void()>& work, const ThrowInputError& throw_in
 void on_first_process(const std::function<void()>& work, const ThrowInputError& throw_input_error) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  together(
+  run_collectively(
       [&] {
         if (rank == 0) work();
       },

@@ -1,5 +1,5 @@
-/// Failures that all processes share: none waits for one that gave up, and none calls by another name what
-/// happened to it.
+/// Failures that all processes share: if one process throws, all throw, so that none waits for a process that
+/// has given up, and each reports its own exception.
 #pragma once
 
 #include <functional>
@@ -7,15 +7,15 @@
 
 namespace solidus {
 
-/// Throws what another process's InputError becomes here; its argument is the message of that one.
+/// Throws in place of another process's InputError; its argument is the message of that one.
 using ThrowInputError = std::function<void(const std::string& message)>;
 
-/// Runs `work` on every process. Where it throws anywhere, every process throws: the failing ones their own
-/// exception, the others what the lowest failing process met, an InputError (by `throw_input_error`, if
+/// Runs `work` on every process. If it throws on any of them, every process throws: the failing ones their
+/// own exception, the others that of the lowest failing process, as an InputError (by `throw_input_error`, if
 /// given), std::bad_alloc, or std::runtime_error for anything else. Collective.
-void together(const std::function<void()>& work, const ThrowInputError& throw_input_error = {});
+void run_collectively(const std::function<void()>& work, const ThrowInputError& throw_input_error = {});
 
-/// Runs `work` on process 0 alone, and fails as together() does. Collective.
+/// Runs `work` on process 0 alone, and fails as run_collectively() does. Collective.
 void on_first_process(const std::function<void()>& work, const ThrowInputError& throw_input_error = {});
 
 }  // namespace solidus

@@ -1,7 +1,8 @@
-/// Structs of lanes, one per quadrature point, of which what is the same at all points is kept once.
+/// Array of structs of lanes, one per quadrature point; a member that is the same at all points is stored
+/// once.
 ///
-/// Of the properties at a point most do not depend on temperature, and of its results most are zero until
-/// something melts or flows. A member that differs anywhere gets a place at every point, and keeps it.
+/// Most properties at a point do not depend on temperature, and most of its results are zero until something
+/// melts or flows. A member that differs anywhere gets a place at every point, and keeps it.
 #pragma once
 
 #include <array>

@@ -55,7 +55,7 @@ class Value {
   /// Sets or adds a key of this table.
   Value& set(std::string_view key, Value value);
 
-  /// What a user sees: `the text "1 s"`, `the number 3`, `a list of 2 values`, `a table`.
+  /// Describes the value for messages: `the text "1 s"`, `the number 3`, `a list of 2 values`, `a table`.
   std::string describe() const;
 
   SourceLocation where;    ///< of the value

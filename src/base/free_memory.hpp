@@ -1,4 +1,4 @@
-/// Memory that has been freed, but not given back.
+/// Returns freed memory to the system, which the allocator would keep.
 #pragma once
 
 namespace solidus {

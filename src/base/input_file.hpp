@@ -1,4 +1,4 @@
-/// Files that the user names: what must hold before one is opened.
+/// Checks of a file that the user names, before it is opened.
 #pragma once
 
 #include <filesystem>

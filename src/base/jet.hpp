@@ -1,5 +1,5 @@
-/// Number types beside double and Lane: what a template must do to work with all of them, and a jet, a number
-/// that carries its first two derivatives with respect to one variable.
+/// Number types besides double and Lane: the rules by which a template works with all of them, and a jet, a
+/// number that carries its first two derivatives with respect to one variable.
 #pragma once
 
 #include <cmath>

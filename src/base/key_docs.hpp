@@ -1,4 +1,4 @@
-/// What follows from the declaration of keys besides reading: explanations, the JSON Schema, the reference
+/// Documentation that is generated from the declaration of keys: explanations, the JSON Schema, the reference
 /// manual.
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace solidus {
 
-/// What a user reads about one key or section: "time.step", "body", "phase_change.NAME.latent_heat"; the
+/// Explains one key or section to the user: "time.step", "body", "phase_change.NAME.latent_heat"; the
 /// overview of all keys for an empty path. Throws InputError with the nearest name for a path that does not
 /// exist.
 std::string explain(const SectionInfo& root, const std::string& path);
 
-/// JSON Schema (draft 7) of a file, for editors: types, choices, ranges, no unknown keys. Keys that are
-/// required carry it in their description only, because a variant file that includes another gives just a
-/// part of them.
+/// Returns the JSON Schema (draft 7) of a file, for editors: types, choices, ranges, no unknown keys. Keys
+/// that are required carry it in their description only, because a variant file that includes another gives
+/// just a part of them.
 std::string json_schema(const SectionInfo& root, const std::string& title);
 
 /// The reference manual of a file in Markdown: one table of keys a section.

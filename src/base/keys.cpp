@@ -412,7 +412,7 @@ Value SectionInfo::completed(const Value& table, const std::string& path) const 
       const Value* kind = result.find(key.when_key);
       const std::string text = kind ? keys::choice_text(*kind, *find(key.when_key)) : std::string();
       if (std::find(key.when_values.begin(), key.when_values.end(), text) == key.when_values.end()) {
-        // A variant that chose another kind drops what it inherited for the old one.
+        // A variant that chose another kind drops the keys that it inherited for the old one.
         const bool dropped = value && kind && kind->laid_over && value->where.file != kind->where.file;
         if (value && !dropped)
           throw InputError(

@@ -33,7 +33,7 @@
 
 namespace solidus {
 
-/// What a table-valued quantity is a function of.
+/// The variable that a table-valued quantity depends on.
 enum class Argument { constant, time, temperature, gap, pressure, strain };
 std::string_view name(Argument argument);     ///< "time"
 std::string_view si_unit(Argument argument);  ///< "s"
@@ -164,7 +164,7 @@ void read(const Value& value, const Key& key, std::array<M, N>& out) {
 }
 
 template <class M>
-struct Plain {  ///< what a list or optional holds
+struct Plain {  ///< the value type of a list or optional
   using type = M;
   static constexpr bool list = false;
   static constexpr std::size_t length = 0;

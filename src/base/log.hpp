@@ -23,8 +23,8 @@ enum class Level { debug, info, warn, silent };
 void set_level(Level level);
 Level level();
 
-/// Where printed lines go instead of the terminal (a test, a graphical program); an empty function restores
-/// the terminal (stderr, so that stdout carries only what the user asked for).
+/// Redirects printed lines from the terminal to a function (of a test or a graphical program); an empty
+/// function restores the terminal (stderr, so that stdout carries only what the user asked for).
 void set_sink(std::function<void(Level, std::string_view)> sink);
 
 /// The different warnings so far, in the order in which they first came.

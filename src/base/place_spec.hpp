@@ -1,4 +1,4 @@
-/// A quantity over position and time as it stands in a case file: a formula, a table of points or a field of
+/// A quantity over position and time as specified in a case file: a formula, a table of points or a field of
 /// a results file (docs/guide/places.md).
 #pragma once
 

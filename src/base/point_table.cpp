@@ -59,7 +59,7 @@ Heading heading(std::string_view cell, const SourceLocation& where) {
           std::string(cell.substr(bracket + 1, cell.size() - bracket - 2))};
 }
 
-/// Which columns are read, and how their numbers become SI.
+/// Columns that are read, and the conversion of their numbers to SI.
 struct Layout {
   std::vector<std::size_t> columns;  ///< of the coordinates, t last, and of the value
   std::vector<units::Conversion> to_si;

@@ -1,5 +1,5 @@
-/// Where the wall time of this process goes: every moment counts for the innermost part that is running, so
-/// the parts add up to the whole.
+/// Profile of the wall time of this process by parts of the program: every moment counts for the innermost
+/// part that is running, so the parts add up to the whole.
 ///
 ///   const profile::Part part("solve");    // until the end of the block, within the parts around it
 ///

@@ -104,7 +104,8 @@ struct Lane {
   return mask ? a : b;
 }
 
-/// Where both, where either holds: for templates on the number type, whose masks may be plain truth values.
+/// Logical "and" and "or" of two masks, for templates on the number type, whose masks may be plain truth
+/// values.
 inline LaneMask both(LaneMask a, LaneMask b) {
   return a & b;
 }

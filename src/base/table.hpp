@@ -9,7 +9,7 @@
 
 namespace solidus {
 
-/// What a table answers outside its points: its end value, or the line through its last two points. `error`
+/// Value of a table outside its points: its end value, or the line through its last two points. `error`
 /// continues with the end value too, because nothing may throw inside a kernel, but `outside` then reports
 /// it: the caller asks once per step.
 enum class Extrapolation { constant, linear, error };

@@ -1,4 +1,4 @@
-/// Colours on a terminal, for what must not be overlooked. https://no-color.org is heeded.
+/// Colours on a terminal, for warnings and errors. https://no-color.org is heeded.
 #pragma once
 
 #include <string>

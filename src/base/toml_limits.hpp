@@ -1,4 +1,5 @@
-/// Checks a TOML text for what the parser could not survive, before it is parsed.
+/// Checks a TOML text, before it is parsed, for keys with so many parts that the parser would exhaust the
+/// stack.
 #pragma once
 
 #include <string>

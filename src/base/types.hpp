@@ -1,4 +1,4 @@
-/// Numbers that name things, and the kinds of analysis.
+/// Basic types: indices on one process and over all processes, the kinds of analysis, and physical constants.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace solidus {
 using Index = std::int32_t;        ///< counts and local numbers on one process
 using GlobalIndex = std::int64_t;  ///< numbers over all processes
 
-/// What the two or three coordinates of a mesh mean.
+/// Kind of analysis: the meaning of the two or three coordinates of a mesh.
 enum class AnalysisKind {
   plane_strain,  ///< x, y in the plane, thickness one metre
   axisymmetric,  ///< x = radius, y = axis; integrals run over the whole revolution (2π r)

@@ -54,7 +54,8 @@ double to_display(double value, std::string_view internal_unit, std::string_view
 /// True when `unit` can be read and has the dimension of `expected_unit`.
 bool compatible(std::string_view unit, std::string_view expected_unit);
 
-/// What a unit measures, for messages and the manual: "K" -> "a temperature", "Pa" -> "a stress or pressure".
+/// Returns the quantity that a unit measures, for messages and the manual: "K" -> "a temperature", "Pa" -> "a
+/// stress or pressure".
 std::string dimension_name(std::string_view expected_unit);
 
 /// A text that parse_quantity accepts for the expected unit: "K" -> "20 degC".

@@ -49,7 +49,7 @@ inline constexpr double k_facing_cosine = -0.3;
 /// The reference coordinates of the centre and of the vertices of a face shape.
 Point reference_centre(mesh::Shape shape);
 std::span<const Point> reference_vertices(mesh::Shape shape);
-/// How far ξ lies outside the reference shape (zero inside), in reference units.
+/// Distance of ξ from the reference shape (zero inside), in reference units.
 double outside_by(mesh::Shape shape, const Point& xi);
 /// The nearest point of the reference shape in the sense of reference coordinates.
 Point clamp(mesh::Shape shape, Point xi);

@@ -7,11 +7,12 @@
 namespace solidus::contact {
 namespace {
 
-/// What rounding leaves of a sum, in parts of its largest terms.
+/// Rounding error of a sum, in parts of its largest terms.
 constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
 /// Bisection alone needs 53, and a step is halved every other time.
 constexpr int k_max_iterations = 200;
-/// Of the temperatures after and before the isentropic phase: far beyond what the lines of tables hold for.
+/// Largest ratio of the temperatures after and before the isentropic phase: far beyond the validity of the
+/// lines of tables.
 constexpr double k_largest_ratio = 2;
 /// The range of ζ_c is cut into up to 2^k parts to prove that the solution is the only one.
 constexpr int k_halvings = 8;
@@ -143,7 +144,7 @@ bool FrictionLaw::unique_between(const FrictionInput& in, const FrictionResponse
   return unique_between(in, r, from, middle, halvings - 1) && unique_between(in, r, middle, to, halvings - 1);
 }
 
-/// What slip dissipates and what it does to the entropy.
+/// Adds to the response the dissipation by slip and its contribution to the entropy.
 FrictionResponse FrictionLaw::with_heat(const FrictionInput& in, FrictionResponse r) const {
   if (r.sticks) return r;
   if (r.status == FrictionStatus::converged && !unique(in, r)) r.status = FrictionStatus::not_unique;

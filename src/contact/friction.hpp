@@ -1,5 +1,6 @@
 /// Coulomb friction with a coefficient that hardens, softens and wears (monograph 3.5–3.7), as a point law in
-/// the magnitude of the traction: the return mapping is radial (3.54, 5.30), so direction is the caller's.
+/// the magnitude of the traction: the return mapping is radial (3.54, 5.30), so the caller supplies the
+/// direction.
 ///
 ///   Φ_c = ‖T‖ − μ(ζ_c, Θ_c) t_N <= 0                                                      (3.51, 3.63)
 ///   T   = T^trial (1 − ε_T γ/‖T^trial‖),   γ = Δt γ_c >= 0 the slip of the step             (5.31a)
@@ -21,21 +22,21 @@
 
 namespace solidus::contact {
 
-/// What ζ_c adds up.
+/// Quantity that is accumulated in the internal variable ζ_c.
 enum class InternalVariable { normal_work, frictional_work, slip };
 
-/// What the user says about friction.
+/// Friction as specified by the user, in SI.
 struct FrictionSpec {
   FrictionCoefficientSpec coefficient;
   InternalVariable internal_variable = InternalVariable::normal_work;
   std::optional<double> tangential_penalty;  ///< ε_T [Pa/m]; absent: the factor on ε_N
   double tangential_penalty_factor = 1;
-  /// Drops what makes the tangent unsymmetric: ∂‖T‖/∂t_N in it, not in the forces.
+  /// Drops the unsymmetric part of the tangent: ∂‖T‖/∂t_N in it, not in the forces.
   bool symmetric = false;
   SourceLocation where;
 };
 
-/// What the law is asked for at a point.
+/// Input of the friction law at a point.
 struct FrictionInput {
   double trial = 0;              ///< ‖T_n + ε_T ΔG‖ [Pa]
   double pressure = 0;           ///< t_N [Pa], >= 0
@@ -50,7 +51,7 @@ enum class FrictionStatus {
   not_unique,            ///< the step has no or several solutions that follow from its start
   not_converged          ///< numbers that are not finite
 };
-/// For StepRejected: what is wrong and what helps.
+/// Describes for StepRejected the failure and its remedy.
 const char* reason(FrictionStatus status);
 
 struct FrictionResponse {
@@ -62,8 +63,8 @@ struct FrictionResponse {
   double internal_variable = 0;  ///< ζ_c at t_{n+1}
   double temperature = 0;        ///< Θ_c: as it was (isothermal), intermediate (isentropic, 5.24)
   double dissipation = 0;        ///< D_c,mech Δt [J/m²] (3.58)
-  /// What slip adds to S^e_c at fixed Θ_c: −ΔK_Θ, with ∂K_c/∂Θ along the lines of the tables at Θ_n
-  /// [J/(m² K)] (3.42c). Θ_c times it is the frictional contact heating H^fc Δt (3.67b).
+  /// Increment of S^e_c by slip at fixed Θ_c: −ΔK_Θ, with ∂K_c/∂Θ along the lines of the tables at Θ_n [J/(m²
+  /// K)] (3.42c). Θ_c times it is the frictional contact heating H^fc Δt (3.67b).
   double structural_entropy = 0;
   /// ∂‖T‖/∂‖T^trial‖ (1 where it sticks) and ∂‖T‖/∂t_N, of the law as it was solved.
   double trial_slope = 1, pressure_slope = 0;

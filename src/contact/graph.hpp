@@ -1,4 +1,5 @@
-/// Which nodes a contact pair may couple: recorded for the matrices of both phases, so that they agree.
+/// Sparsity pattern of a contact pair: the cliques of nodes that it may couple. They are recorded once for
+/// the matrices of both phases, so that the patterns agree.
 #pragma once
 
 #include <vector>
@@ -20,7 +21,8 @@ class ContactGraph {
   bool outdated(int version) const { return renewed(version) || kinematics_.graph_outdated(); }
   /// Adds the cliques, recorded anew where nodes meet that did not. Returns their version.
   int add_to(algebra::NodeGraph& graph);
-  /// The next add_to() records anew, so that it depends on the present placement alone (checkpoints).
+  /// Makes the next add_to() record anew, so that it depends on the present configuration alone
+  /// (checkpoints).
   void forget() {
     if (may_change()) version_ = 0;
   }

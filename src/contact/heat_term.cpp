@@ -290,7 +290,7 @@ void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> tempera
   const double w = partners_.weight[at(s.point)], t = temperature[at(s.nodes[b])];
   const double across = w * (s.h.value * t + s.radiation * fourth(t));
   for (std::size_t a = 0; a < (nodal_ ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
-  // What the node takes itself.
+  // The derivative of the heat that the node itself gives off.
   heat[b] += nodal_
                  ? w * (s.h.value * (s.slave - t) + s.radiation * (s.slave_fourth - fourth(t)))
                  : w * (s.h.value * (s.slave - s.master) + s.radiation * (s.slave_fourth - s.master_fourth));

@@ -19,7 +19,7 @@
 
 namespace solidus::contact {
 
-/// What the mechanical phase has left at a point.
+/// Contact state of a point after the mechanical phase, as the thermal phase needs it.
 struct HeatPoint {
   double penetration = 0;        ///< g_N [m]
   double pressure = 0;           ///< t_N [Pa]
@@ -29,27 +29,27 @@ struct HeatPoint {
   std::optional<JointSlopes> joint;  ///< slip answers Θ_c: dissipation in `step` is that of its solution
 };
 
-/// How a point moves with the displacements of its nodes.
+/// Derivatives of the motion of a point with respect to the displacements of its nodes.
 struct HeatRates {
   std::span<const Point> penetration;  ///< ∂g_N/∂x_b
   std::span<const Point> trial;        ///< ∂‖T^trial‖/∂x_b [Pa/m]; empty: zero
   std::span<const Point> share;        ///< ∂B_a/∂x_b, [a][b]
 };
 
-/// Time over which a thermal phase spreads what one mechanical pass left, where the two differ.
+/// Time over which a thermal phase spreads the heat of a mechanical pass, if their time steps differ.
 struct HeatSpan {
   double dt = 0;           ///< [s]
   bool adiabatic = false;  ///< nothing flows: the dissipation alone is a term
 };
 
-/// Heat into the bodies at a point, slave and master [W/m²]: in all, and what of it is there by friction,
-/// that is beyond conduction and radiation between the two surfaces as they are. What friction makes less
-/// what the interface stores.
+/// Heat into the bodies at a point, slave and master [W/m²]: in all, and the part of it by friction, that is
+/// beyond conduction and radiation between the two surfaces as they are. What friction makes less what the
+/// interface stores.
 struct SurfaceHeat {
   std::array<double, 2> total{}, by_friction{};
 };
 
-/// What the interface took in a step, over the points that this process counts [J].
+/// Heat dissipated and stored in the interface in a step, over the points that this process counts [J].
 struct InterfaceHeat {
   double dissipated = 0;  ///< Σ w D_c,mech Δt
   double stored = 0;      ///< Σ w Θ_c (S^e_c − S^e_c,n)
@@ -94,7 +94,7 @@ class HeatTerm : public algebra::Contribution {
   /// Freezes the configuration, [point]; the partners are those of the list now.
   void place(std::vector<HeatPoint> points);
   const std::vector<HeatPoint>& points() const { return points_; }
-  /// Of a master without nodes [K]; absent: it takes no heat.
+  /// Sets the temperature of a master without nodes [K]; absent: it takes no heat.
   void set_tool_temperature(std::optional<double> temperature) { tool_temperature_ = temperature; }
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
@@ -121,7 +121,7 @@ class HeatTerm : public algebra::Contribution {
   /// @param rates  of a point that has a partner; valid until the next call
   void add_displacement_tangent(const std::function<HeatRates(Index point)>& rates,
                                 std::span<const double> temperature, algebra::CoupledMatrix& matrix);
-  /// Of every point at these temperatures; zero where there is no partner.
+  /// Returns the heat fluxes of every point at these temperatures; zero where there is no partner.
   std::vector<SurfaceHeat> surface_heat(std::span<const double> temperature) const;
   /// Its integral over the points that this process counts [W].
   SurfaceHeat counted_heat(std::span<const double> temperature) const;
@@ -129,14 +129,15 @@ class HeatTerm : public algebra::Contribution {
   std::vector<double> conductances(std::span<const double> temperature) const;
   /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.
   std::vector<double> interface_temperatures(std::span<const double> temperature) const;
-  /// Of the phase, at the temperatures of its end. What a point without a partner has in heat no body takes.
+  /// Returns the heat of the interface over the phase, at the temperatures of its end. The heat of a point
+  /// without a partner goes to no body.
   InterfaceHeat interface_heat(std::span<const double> temperature) const;
   std::size_t bytes() const {
     return slots_.bytes() + points_.capacity() * sizeof(HeatPoint) + fixed_.capacity() * sizeof(double);
   }
 
  private:
-  /// What a point sees.
+  /// Data of one contact point for the assembly.
   struct AtPoint {
     Index point = 0;
     std::span<const Index> nodes;
@@ -152,17 +153,19 @@ class HeatTerm : public algebra::Contribution {
   };
   struct Run;
   AtPoint see(Index point, std::span<const double> temperature) const;
-  /// Adds `weight_h` × h' + `weight_e` × e' of what every node gives off by conduction and radiation.
+  /// Adds `weight_h` × h' + `weight_e` × e' of the heat that every node gives off by conduction and
+  /// radiation.
   void add_exchange(const AtPoint& at, std::span<const double> temperature, double weight_h, double weight_e,
                     std::span<double> heat) const;
   /// Adds per-side fluxes by the shape functions.
   static void add_sides(const AtPoint& at, const std::array<double, 2>& flux, std::span<double> heat);
-  /// What the fluxes of the balance change with h at fixed Θ_s, Θ_m, beyond conduction.
+  /// Derivatives with respect to h of the fluxes Q_1 and Q_2 of the balance at fixed Θ_s, Θ_m, less those of
+  /// conduction.
   static std::array<double, 2> flux_by_conductance(const AtPoint& at);
   /// @param per_h  scratch
   void add_point_tangent(const AtPoint& at, std::span<const double> x, std::span<double> k,
                          std::vector<double>& per_h) const;
-  /// What every node gives off changes with g_N by this much.
+  /// Computes the derivative with respect to g_N of the heat that every node gives off.
   void add_gap_slope(const AtPoint& at, std::span<const double> temperature, std::span<double> heat) const;
   /// Adds ∂r_a/∂B_b for one node of the master.
   void add_share_slope(const AtPoint& at, std::span<const double> temperature, std::size_t b,

@@ -94,8 +94,8 @@ class HeatTransferLaw {
   /// Throws InputError for data that make no law: negative or missing values, or a jump at g = 0.
   explicit HeatTransferLaw(HeatTransferSpec spec);
 
-  /// Of an interface with this opening [m] (zero or negative: closed), pressure t_N [Pa] and mean temperature
-  /// Θ_g [K]. Temperatures below zero, which an iteration may pass, count as zero.
+  /// Returns the conductance of an interface with this opening [m] (zero or negative: closed), pressure t_N
+  /// [Pa] and mean temperature Θ_g [K]. Temperatures below zero, which an iteration may pass, count as zero.
   Conductance at(double opening, double pressure, double temperature) const;
   /// Whether h changes with Θ_g.
   bool of_temperature() const { return of_temperature_; }
@@ -105,7 +105,7 @@ class HeatTransferLaw {
   double radiation_factor() const { return radiation_factor_; }
 
  private:
-  /// Of one state, a function of the gap or of the pressure.
+  /// Conductance of one state (open or closed), a function of the gap or of the pressure.
   struct Branch {
     double value = 0, slope = 0, by_temperature = 0;
     double mixed = 0;  ///< change of the slope with the temperature

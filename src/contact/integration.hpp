@@ -1,4 +1,4 @@
-/// Where a contact pair is integrated: points on the slave surface, each with its partner on the master.
+/// Integration rule of a contact pair: points on the slave surface, each with its partner on the master.
 ///
 ///   ∫_Γs f dA  ≈  Σ_p w_p f_p
 ///

@@ -6,7 +6,7 @@
 namespace solidus::contact {
 namespace {
 
-/// What rounding leaves of a sum, in parts of its largest terms.
+/// Rounding error of a sum, in parts of its largest terms.
 constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr int k_max_iterations = 200;
 /// A relative correction after which Newton's method on a smooth function has reached rounding.
@@ -34,7 +34,8 @@ InterfaceResponse shared_heat(const InterfaceStep& step, const InterfaceSides& s
   return r;
 }
 
-/// How slip, and with it dissipation and entropy, answers trial traction and pressure at Θ_c = `theta`.
+/// Derivatives of the slip, and with it of dissipation and entropy, with respect to trial traction and
+/// pressure at Θ_c = `theta`.
 void add_slopes(const FrictionLaw& law, const FrictionInput& in, double theta, double rate,
                 InterfaceReturn& r) {
   const FrictionResponse& f = r.friction;

@@ -28,7 +28,7 @@ inline constexpr double k_interface_reference = 293.15;
 double interface_entropy(const FrictionLaw& law, double temperature, double internal_variable);
 /// E_c without the springs W_c: C_co (Θ_c − Θ_0) + K_c − Θ_c ∂K_c/∂Θ [J/m²] (3.34, 3.41).
 double interface_energy(const FrictionLaw& law, double temperature, double internal_variable);
-/// What slip adds to S^p_c, −γ t_N dμ_0/dΘ >= 0 [J/(m² K)] (3.53c); Θ_c times it is D_c,ther Δt (3.59).
+/// Increment of S^p_c by slip, −γ t_N dμ_0/dΘ >= 0 [J/(m² K)] (3.53c); Θ_c times it is D_c,ther Δt (3.59).
 double plastic_entropy_increment(const FrictionLaw& law, double slip, double pressure, double temperature);
 
 /// The bodies beside the interface: slave, master.
@@ -37,7 +37,7 @@ struct InterfaceSides {
   std::array<double, 2> conductance;  ///< h_i [W/(m² K)], >= 0
 };
 
-/// What the balance of an interface starts from.
+/// Data of the interface at the start of a step, for its balance.
 struct InterfaceStep {
   double time_step = 0;           ///< Δt [s]
   double heat_capacity = 0;       ///< C_co
@@ -74,8 +74,8 @@ struct InterfaceReturn {
   FrictionResponse friction;  ///< at Θ_c of the end; dissipation by μ_0(Θ_c) (5.51); slopes at fixed Θ_c
   InterfaceResponse heat;     ///< its stiffness holds how slip answers Θ_c
   double traction_by_temperature = 0;  ///< ∂‖T‖/∂Θ_c [Pa/K]
-  /// What the balance has in heat by trial traction and pressure, ∂(D_c,mech − Θ_c Ṡ^e_c)/∂x at fixed Θ_c
-  /// [W/(m² Pa)]: ∂Θ_c/∂x = source/stiffness, ∂Q_i/∂x = −by_side[i] source.
+  /// Derivatives of the heat source of the balance with respect to trial traction and pressure, ∂(D_c,mech −
+  /// Θ_c Ṡ^e_c)/∂x at fixed Θ_c [W/(m² Pa)]: ∂Θ_c/∂x = source/stiffness, ∂Q_i/∂x = −by_side[i] source.
   double source_by_trial = 0, source_by_pressure = 0;
 };
 InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionInput& in, double time_step,

@@ -1,5 +1,5 @@
-/// How the points of a contact pair move: what the laws need to know of a displacement, and the derivatives
-/// that a consistent tangent needs.
+/// Kinematics of the points of a contact pair: gap and slip of a displacement, for the laws, and the
+/// derivatives that a consistent tangent needs.
 ///
 /// At every point the bodies exchange the force w f on the slave and −w f on the master at the partner's
 /// place (3.73), as nodal forces
@@ -53,7 +53,7 @@ class ContactKinematics {
   enum class Asked { motion, rates };
   virtual ~ContactKinematics() = default;
   virtual Index n_points() const = 0;
-  /// What a point is whatever moves.
+  /// Data of a contact point that do not depend on the motion.
   struct Particle {
     GlobalIndex number = 0;         ///< of all processes alike, and of runs on another number of them
     bool counted = false;           ///< this process counts it in sums; over all processes every point once
@@ -72,10 +72,10 @@ class ContactKinematics {
   virtual bool partners_change() const { return true; }
   /// The time whose place prescribed motions of rigid surfaces have [s]; takes effect at the next place().
   virtual void set_time(double) {}
-  /// Which points place() brings in line: all, or those that concern this process, which suffice for its rows
-  /// and its part of sums.
+  /// The points that place() updates: all, or those that concern this process, which suffice for its rows and
+  /// its part of sums.
   enum class Points { all, own };
-  /// Brings partners in line with a displacement [local node][component], ghosts up to date [m]. The result
+  /// Updates the partners for a displacement [local node][component], ghosts up to date [m]. The result
   /// depends on displacement and time alone, not on earlier calls. Local: surfaces are held whole by every
   /// process.
   virtual void place(std::span<const double> displacement, Points points) = 0;
@@ -87,7 +87,7 @@ class ContactKinematics {
   /// @param old  at t_n: slip is counted from its anchor, whether it touched or not; where it had no partner,
   ///             from here (ΔG = 0)
   virtual PointMotion motion(Index point, const PointState& old, Asked asked) const = 0;
-  /// Adds what the forces change by the geometry at fixed t_N and T,
+  /// Adds the change of the forces by the geometry at fixed t_N and T,
   ///
   ///   K_bc += w [ ∂B_b/∂x_c ⊗ f + B_b (t_N ∂n/∂x_c + ∂(F T)/∂x_c) ],
   ///
@@ -96,12 +96,12 @@ class ContactKinematics {
                                      std::span<Tensor> k) const = 0;
   /// Adds ∂B_a/∂x_b, [a][b], for the nodes of the last motion() with rates: partners that stay have none.
   virtual void add_share_rates(std::span<Point> /*rates*/) const {}
-  /// How far the master's particle at the partner, as last placed, goes by a prescribed motion from one time
-  /// to another [m]: zero for masters with nodes.
+  /// Returns the displacement of the master's particle at the partner, as last placed, by a prescribed motion
+  /// from one time to another [m]: zero for masters with nodes.
   virtual Point master_way(Index /*point*/, double /*from*/, double /*to*/) const { return {}; }
   /// True when nodes meet that did not at the last add_to_graph(): matrices must be made anew.
   virtual bool graph_outdated() const = 0;
-  /// Cliques of nodes that may meet, with a margin for what comes next.
+  /// Cliques of nodes that may meet, with a margin for later displacements.
   /// @param add  called with each clique
   struct CliqueSink {
     virtual ~CliqueSink() = default;

@@ -1,4 +1,5 @@
-/// What a slave point may meet: a surface of a mesh or a rigid analytic one, seen alike by SlidingKinematics.
+/// Interface of a master surface, which slave points may meet: a surface of a mesh or a rigid analytic one,
+/// both used alike by SlidingKinematics.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace solidus::contact {
 
-/// Where on the master a slave point has its partner.
+/// Partner of a slave point on the master: its place and normal.
 struct Partner {
   /// The partner lies inside a face; or on an edge or at a vertex between faces, for all points of the wedge
   /// that their normals leave open: there the normal is the direction of the distance.
@@ -55,7 +56,7 @@ class Master {
   /// @param hint a face that may be near, or −1: speeds the search up, never changes its result
   virtual Partner find(const Point& x, const Point& slave_normal, Index hint) const = 0;
   /// Marks faces [face]: may_meet_watched() then tells points apart that find() need not be asked for.
-  virtual void watch(std::vector<char>) {}  // NOLINT: who overrides it keeps them
+  virtual void watch(std::vector<char>) {}  // NOLINT: overriding functions store them
   /// False only where find() has no partner, or one whose closest face is none of the marked ones.
   virtual bool may_meet_watched(const Point&, const Point& /*slave_normal*/, Index /*hint*/) const {
     return false;
@@ -64,7 +65,8 @@ class Master {
   virtual void frame(const Partner& partner, bool rates, MasterFrame& frame) const = 0;
   /// Whether a point with this partner at the start lies on the far side, where it never meets the surface.
   virtual bool behind(const Partner&) const { return false; }
-  /// How far the particle at a partner goes by a prescribed motion from one time to another [m].
+  /// Returns the displacement of the particle at a partner by a prescribed motion from one time to another
+  /// [m].
   virtual Point way(const Partner&, double /*from*/, double /*to*/) const { return {}; }
   /// The most nodes that a frame has.
   virtual std::size_t max_nodes() const = 0;

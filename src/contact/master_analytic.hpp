@@ -46,7 +46,7 @@ class AnalyticMaster : public Master {
   std::span<const Index> around(Index) const override { return {}; }
 
  private:
-  /// Where a particle of the reference configuration is at a time [m].
+  /// Returns the position at a time of a particle of the reference configuration [m].
   Point place_at(const Point& own, double time) const;
   /// The curvature 1/R in the directions in which the surface is curved, applied to a tangent vector.
   Point curvature(const Point& radial, const Point& tangent) const;

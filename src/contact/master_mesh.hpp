@@ -41,7 +41,7 @@ class MeshMaster : public Master {
   bool symmetric() const override { return !normals_; }
   std::span<const Index> nodes(Index face) const override;
   std::span<const Index> around(Index face) const override { return topology_.around(face); }
-  /// How often the tree was built.
+  /// Number of times that the tree was built.
   int n_builds() const { return search_.n_builds(); }
 
  private:

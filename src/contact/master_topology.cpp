@@ -8,7 +8,7 @@ namespace {
 
 constexpr double k_on_rim = 1e-12;  ///< in reference coordinates
 
-// How far ξ is from edge `e`, in reference coordinates.
+// Distance of ξ from edge `e`, in reference coordinates.
 double off_edge(mesh::Shape shape, const Point& xi, std::size_t e) {
   const auto v = reference_vertices(shape);
   const Point& a = v[e];

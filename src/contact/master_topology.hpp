@@ -1,4 +1,4 @@
-/// How the faces of a surface hang together: neighbours over edges, around vertices, free boundaries.
+/// Topology of a surface: neighbours of its faces over edges and around vertices, and its free boundaries.
 #pragma once
 
 #include <span>
@@ -21,7 +21,8 @@ class MasterTopology {
   explicit MasterTopology(const ContactSurface& surface);
   /// The face and those that share a node with it, sorted.
   std::span<const Index> around(Index face) const { return row(around_, first_around_, face); }
-  /// What of the face's rim ξ lies on, with a tolerance of 1e-12. The vertices of lines are vertices.
+  /// Returns the edge or vertex of the face that ξ lies on, or its interior, with a tolerance of 1e-12. The
+  /// vertices of lines are vertices.
   Feature feature(Index face, const Point& xi) const;
   /// The local number of a node in a face, −1 when it is not there.
   int local_vertex(Index face, Index node) const;

@@ -24,7 +24,7 @@ class MasterWear {
 
   /// Nothing worn yet.
   std::vector<WornNode> initial_state() const;
-  /// What one point has rubbed off in a step, and dissipated.
+  /// Adds the wear and the dissipation of one point in a step to the nodes of the master around it.
   /// @param depth [m], of the master; @param dissipation [J/m²]
   void add(const PointMotion& motion, double depth, double dissipation, std::vector<WornNode>& nodes) const;
 

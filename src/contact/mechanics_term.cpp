@@ -17,7 +17,7 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-/// What a residual found, this process's part.
+/// Counts and maxima over the points of a residual, this process's part.
 struct MechanicsTerm::Count {
   double points = 0, closed = 0, sticking = 0, penetration = 0, pressure = 0;
 
@@ -32,7 +32,7 @@ struct MechanicsTerm::Count {
   }
 };
 
-/// Points in a row that share their nodes, and what their tangents add up to.
+/// Consecutive points that share their nodes, and the sum of their tangents.
 struct MechanicsTerm::Run {
   Index first = -1;
   std::vector<Index> nodes;
@@ -40,14 +40,14 @@ struct MechanicsTerm::Run {
   std::vector<Tensor> geometric;  ///< [b][c]; scratch of one point
 };
 
-MechanicsTerm::MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components, Placement& placement,
-                             ContactGraph& graph, const PointLaw& law, const ContactStep& step,
-                             double stabilisation, bool symmetric)
+MechanicsTerm::MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components,
+                             CurrentConfiguration& configuration, ContactGraph& graph, const PointLaw& law,
+                             const ContactStep& step, double stabilisation, bool symmetric)
     : name_(std::move(name)),
       n_owned_(mesh.n_owned_nodes),
       components_(components),
-      placement_(placement),
-      kinematics_(placement.kinematics()),
+      configuration_(configuration),
+      kinematics_(configuration.kinematics()),
       graph_(graph),
       law_(law),
       step_(step),
@@ -68,14 +68,14 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
   changes_ = 0;
   failure_ = FrictionStatus::converged;
   if (!active_) return;
-  placement_.place(step_.time, x, ContactKinematics::Points::own);
+  configuration_.place(step_.time, x, ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(components_);
   Count count;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
-    const PointForces f = law_.forces(motion, from, step_.together.around(motion));
+    const PointForces f = law_.forces(motion, from, step_.coupled.around(motion));
     if (f.status != status_[at(p)] && from.counted) ++changes_;
     status_[at(p)] = f.status;
     count.add(from, motion, f);
@@ -109,7 +109,7 @@ void MechanicsTerm::log(const Count& count) const {
 
 template <int dim>
 void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) {
-  const PointForces f = law_.forces(motion, step_.from[at(point)], step_.together.around(motion));
+  const PointForces f = law_.forces(motion, step_.from[at(point)], step_.coupled.around(motion));
   if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_ == 0) return;
   const std::size_t n = motion.nodes.size();
   const double w = motion.weight;
@@ -200,7 +200,7 @@ void MechanicsTerm::add_tangents(algebra::BlockMatrix& matrix) {
 }
 
 void MechanicsTerm::add_temperature_tangent(algebra::CoupledMatrix& matrix) {
-  if (!active_ || step_.together.law == nullptr) return;
+  if (!active_ || step_.coupled.law == nullptr) return;
   if (coupled_ != &matrix.displacement()) {
     coupled_ = &matrix.displacement();
     coupled_slots_.bind(*coupled_, n_owned_, kinematics_.n_points());
@@ -209,7 +209,7 @@ void MechanicsTerm::add_temperature_tangent(algebra::CoupledMatrix& matrix) {
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
     const PointMotion motion = kinematics_.motion(p, step_.from[at(p)], ContactKinematics::Asked::motion);
-    const std::optional<Surroundings> around = step_.together.around(motion);
+    const std::optional<Surroundings> around = step_.coupled.around(motion);
     if (!around) continue;
     const PointForces f = law_.forces(motion, step_.from[at(p)], around);
     if (!f.joint || !(norm(f.traction) > 0)) continue;
@@ -235,7 +235,7 @@ void MechanicsTerm::add_temperature_tangent(algebra::CoupledMatrix& matrix) {
 
 void MechanicsTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {
   if (!active_) return;
-  placement_.place(step_.time, x, ContactKinematics::Points::own);
+  configuration_.place(step_.time, x, ContactKinematics::Points::own);
   if (components_ == 2)
     add_tangents<2>(matrix);
   else

@@ -6,17 +6,17 @@
 
 #include "algebra/contribution.hpp"
 #include "algebra/coupled_matrix.hpp"
+#include "contact/coupled_interface.hpp"
+#include "contact/current_configuration.hpp"
 #include "contact/graph.hpp"
 #include "contact/integration.hpp"
-#include "contact/placement.hpp"
 #include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
-#include "contact/together.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::contact {
 
-/// What a step starts from, shared by the parts of a pair.
+/// State at the start of a step, shared by the parts of a pair.
 struct ContactStep {
   /// At t_n, one per point; multipliers and tractions are those of the last turn of the augmented Lagrangian.
   std::vector<PointState> from;
@@ -24,7 +24,7 @@ struct ContactStep {
   double time = 0;                   ///< t_{n+1} [s]
   double begun = 0;                  ///< t_n [s]
   std::vector<double> displacement;  ///< u_n, [local node][component] [m]
-  Together together;                 ///< of the simultaneous scheme
+  CoupledInterface coupled;          ///< of the simultaneous scheme
   /// Wet points whose face has no coherent node, so that no shell moves them: [point].
   std::vector<char> liquid;
 };
@@ -44,7 +44,7 @@ class MechanicsTerm : public algebra::Contribution {
  public:
   /// Keeps references.
   /// @param name  of the pair, for the log: with level debug every residual leaves a line
-  MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components, Placement& placement,
+  MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components, CurrentConfiguration& configuration,
                 ContactGraph& graph, const PointLaw& law, const ContactStep& step, double stabilisation,
                 bool symmetric);
   /// Off: no term at all.
@@ -61,7 +61,8 @@ class MechanicsTerm : public algebra::Contribution {
   /// Adds ∂r/∂Θ at the displacement of the last call, where friction follows the bodies' temperatures.
   void add_temperature_tangent(algebra::CoupledMatrix& matrix);
 
-  /// How many points changed between open, sticking and slipping from the last but one residual to the last.
+  /// Number of points that changed between open, sticking and slipping from the last but one residual to the
+  /// last.
   Index changes() const { return changes_; }
   /// The first failure of the friction law at the last residual.
   FrictionStatus failure() const { return failure_; }
@@ -81,7 +82,7 @@ class MechanicsTerm : public algebra::Contribution {
   std::string name_;
   Index n_owned_;
   int components_;
-  Placement& placement_;
+  CurrentConfiguration& configuration_;
   const ContactKinematics& kinematics_;
   ContactGraph& graph_;
   const PointLaw& law_;

@@ -9,8 +9,8 @@ namespace solidus::contact {
 
 namespace {
 
-/// Of points that meet somebody, on both sides: opening, pressure, conductance, heat in all and by friction,
-/// status and the three components of the traction.
+/// Values of points that have a partner, on both sides: opening, pressure, conductance, heat in all and by
+/// friction, status and the three components of the traction.
 constexpr std::size_t k_met = 9;
 /// Of all points, on the slave: slip, ζ_c, μ, dissipation, wear, Θ_c.
 constexpr std::size_t k_kept = 6;
@@ -43,7 +43,7 @@ class NodalAverage {
 }  // namespace
 
 ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature) const {
-  placement_->place(time_, displacement_, ContactKinematics::Points::own);
+  configuration_->place(time_, displacement_, ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
   const std::vector<double> conductance =
       heat_ ? heat_->conductances(temperature) : std::vector<double>(now_.points.size(), 0.0);

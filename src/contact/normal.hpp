@@ -39,7 +39,7 @@ namespace solidus::contact {
 
 enum class NormalKind { penalty, augmented_lagrangian, energy_conserving };
 
-/// What the law remembers of t_n.
+/// Quantities of t_n that the normal law depends on.
 struct NormalHistory {
   bool partnered = false;       ///< there was a partner: the rest holds
   double penetration = 0;       ///< g_0 [m]

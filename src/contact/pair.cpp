@@ -123,10 +123,10 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
   std::sort(surface_nodes_.begin(), surface_nodes_.end());
   surface_nodes_.erase(std::unique(surface_nodes_.begin(), surface_nodes_.end()), surface_nodes_.end());
   std::erase_if(surface_nodes_, [&](Index node) { return node >= mesh.n_owned_nodes; });
-  placement_ = std::make_unique<Placement>(*kinematics_);
+  configuration_ = std::make_unique<CurrentConfiguration>(*kinematics_);
   graph_ = std::make_unique<ContactGraph>(*kinematics_);
   mechanics_ =
-      std::make_unique<MechanicsTerm>(spec_.name, mesh, components_, *placement_, *graph_, law_, step_,
+      std::make_unique<MechanicsTerm>(spec_.name, mesh, components_, *configuration_, *graph_, law_, step_,
                                       spec_.stabilisation, spec_.friction && spec_.friction->symmetric);
   if (spec_.heat) {
     heat_law_.emplace(*spec_.heat);
@@ -198,17 +198,16 @@ std::optional<double> ContactPair::tool_temperature_at(double time) const {
   return spec_.rigid_master->temperature->value(time);
 }
 
-void ContactPair::surround(std::span<const double> temperature) {
-  if (step_.together.law != nullptr)
-    step_.together.temperature.assign(temperature.begin(), temperature.end());
+void ContactPair::set_temperature(std::span<const double> temperature) {
+  if (step_.coupled.law != nullptr) step_.coupled.temperature.assign(temperature.begin(), temperature.end());
 }
 
 void ContactPair::begin_heat(double dt, bool adiabatic) {
   if (heat_ && law_.friction) heat_->begin_phase({dt, adiabatic});
 }
 
-void ContactPair::rest() {
-  ahead_.clear();
+void ContactPair::hold_deformation() {
+  predicted_.clear();
   if (!heat_ || !law_.friction) return;
   step_.from = now_.points;
   step_.dt = 0;
@@ -217,12 +216,12 @@ void ContactPair::rest() {
   heat_->place(std::move(heat));
 }
 
-void ContactPair::heat_ahead() {
+void ContactPair::predict_heat() {
   if (!heat_ || !law_.friction) return;
   std::vector<HeatPoint> heat = heat_->points();
-  ahead_.clear();
+  predicted_.clear();
   for (HeatPoint& point : heat) {
-    ahead_.push_back({point.step.dissipation, point.step.structural_entropy});
+    predicted_.push_back({point.step.dissipation, point.step.structural_entropy});
     point.step.dissipation *= 2;
     point.step.structural_entropy *= 2;
   }
@@ -234,10 +233,10 @@ bool ContactPair::symmetric() const {
 }
 
 ContactState ContactPair::initial_state() const {
-  Placement start(*kinematics_);
+  CurrentConfiguration start(*kinematics_);
   const std::vector<double> rest(mesh_.x.size() * static_cast<std::size_t>(components_), 0.0);
   start.place(0, rest);
-  placement_->forget();
+  configuration_->forget();
   ContactState state;
   state.points.resize(at(kinematics_->n_points()));
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
@@ -281,12 +280,12 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
   find_wet_points(pass.coherency);
   law_.isentropic = pass.isentropic;
   law_.share = pass.share;
-  step_.together = {};
+  step_.coupled = {};
   if (pass.simultaneous && heat_law_ && law_.friction)
-    step_.together = {.law = &*heat_law_,
-                      .time_step = pass.dt,
-                      .temperature = {pass.temperature.begin(), pass.temperature.end()},
-                      .tool_temperature = tool_temperature_at(pass.time)};
+    step_.coupled = {.law = &*heat_law_,
+                     .time_step = pass.dt,
+                     .temperature = {pass.temperature.begin(), pass.temperature.end()},
+                     .tool_temperature = tool_temperature_at(pass.time)};
   if (law_.friction && !pass.temperature.empty()) find_interface_temperatures(pass.temperature);
 }
 
@@ -296,7 +295,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
 void ContactPair::find_wet_points(std::span<const double> coherency) {
   const auto molten = [](double c) { return c < k_coherent; };
   const bool any = active_ && spec_.atmosphere > 0 && std::ranges::any_of(coherency, molten);
-  if (any) placement_->place(step_.begun, step_.displacement);
+  if (any) configuration_->place(step_.begun, step_.displacement);
   step_.liquid.assign(step_.from.size(), 0);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
@@ -312,13 +311,13 @@ void ContactPair::find_wet_points(std::span<const double> coherency) {
   }
 }
 
-/// Where the interface has no temperature yet, the mean of the two sides at t_n, wherever other iterates of
-/// the step have gone. A point without a partner at t_n counts no slip in the step in which it finds one, so
-/// friction does not ask for its temperature.
+/// Sets the temperature of interface points that have none yet to the mean of the two sides at t_n, whatever
+/// the other iterates of the step. A point without a partner at t_n counts no slip in the step in which it
+/// finds one, so friction does not need its temperature.
 void ContactPair::find_interface_temperatures(std::span<const double> temperature) {
   const auto known = [](const PointState& from) { return from.temperature > 0; };
   if (std::ranges::all_of(step_.from, known)) return;
-  placement_->place(step_.begun, step_.displacement);
+  configuration_->place(step_.begun, step_.displacement);
   const std::optional<double> tool = tool_temperature_at(step_.begun);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     PointState& from = step_.from[at(p)];
@@ -337,7 +336,7 @@ void ContactPair::find_interface_temperatures(std::span<const double> temperatur
 void ContactPair::update(std::span<const double> displacement) {
   displacement_.assign(displacement.begin(), displacement.end());
   time_ = step_.time;
-  placement_->place(time_, displacement_);
+  configuration_->place(time_, displacement_);
   if (heat_) heat_->set_tool_temperature(tool_temperature());
   const bool fixed = !kinematics_->partners_change() && partners_.n_points() > 0;
   if (!fixed) partners_.clear();
@@ -350,16 +349,16 @@ void ContactPair::update(std::span<const double> displacement) {
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
     const PointForces forces =
-        active_ ? law_.forces(motion, from, step_.together.around(motion)) : PointForces{};
+        active_ ? law_.forces(motion, from, step_.coupled.around(motion)) : PointForces{};
     now_.points[at(p)] = law_.next(motion, from, forces);
     if (!active_) now_.points[at(p)].anchored = false;
     if (worn_ && forces.status == PointStatus::slips) wear_master(motion, now_.points[at(p)], forces);
     if (!fixed) partners_.add(motion, kinematics_->particle(p).counted);
     before_heat_[at(p)] = now_.points[at(p)].temperature;
     if (heat_) heat.push_back(heat_point(from, now_.points[at(p)], forces));
-    if (ahead_.empty() || !heat_) continue;
-    heat.back().step.dissipation -= ahead_[at(p)][0];
-    heat.back().step.structural_entropy -= ahead_[at(p)][1];
+    if (predicted_.empty() || !heat_) continue;
+    heat.back().step.dissipation -= predicted_[at(p)][0];
+    heat.back().step.structural_entropy -= predicted_[at(p)][1];
   }
   if (heat_) heat_->place(std::move(heat));
 }
@@ -372,8 +371,8 @@ void ContactPair::wear_master(const PointMotion& motion, const PointState& now, 
 
 HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
                                   const PointForces& forces) const {
-  // What is pressed together is closed: a multiplier may carry the pressure where penetration and gap are of
-  // the size of the tolerance.
+  // A point with a pressure is closed, whatever its penetration: a multiplier may carry the pressure where
+  // penetration and gap are of the size of the tolerance.
   const double penetration = now.pressure > 0 ? std::max(now.penetration, 0.0) : now.penetration;
   HeatPoint point{.penetration = seen_by_heat(penetration, now.suction),
                   .pressure = now.pressure,
@@ -386,33 +385,33 @@ HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
   return point;
 }
 
-/// For what is shown: the heat of both passes, over the time of both.
+/// Sets the heat for results to that of both passes, over the time of both.
 void ContactPair::show_whole_step() {
   std::vector<HeatPoint> heat = heat_->points();
   for (std::size_t p = 0; p < heat.size(); ++p) {
     heat[p].step.time_step *= 2;
-    heat[p].step.dissipation += 2 * ahead_[p][0];
-    heat[p].step.structural_entropy += 2 * ahead_[p][1];
+    heat[p].step.dissipation += 2 * predicted_[p][0];
+    heat[p].step.structural_entropy += 2 * predicted_[p][1];
   }
   heat_->place(std::move(heat));
-  ahead_.clear();
+  predicted_.clear();
 }
 
-InterfaceSums ContactPair::settle(std::span<const double> temperature) {
+InterfaceSums ContactPair::commit_heat(std::span<const double> temperature) {
   InterfaceSums sums;
   if (!heat_ || !law_.friction) return sums;
-  const std::vector<double> settled = heat_->interface_temperatures(temperature);
+  const std::vector<double> found = heat_->interface_temperatures(temperature);
   const InterfaceHeat heat = heat_->interface_heat(temperature);
-  if (heat_->stores() && !ahead_.empty()) show_whole_step();
+  if (heat_->stores() && !predicted_.empty()) show_whole_step();
   heat_->end_phase();
   sums.dissipated = heat.dissipated;
   sums.stored = heat.stored;
   const FrictionLaw& law = *law_.friction;
-  for (std::size_t p = 0; p < settled.size(); ++p) {
+  for (std::size_t p = 0; p < found.size(); ++p) {
     const PointState& from = step_.from[p];
     PointState& now = now_.points[p];
     if (!(from.temperature > 0)) continue;
-    now.temperature = settled[p];
+    now.temperature = found[p];
     const double made = plastic_entropy_increment(law, now.slip - from.slip, now.pressure, now.temperature);
     now.plastic_entropy = from.plastic_entropy + made;
     const ContactKinematics::Particle particle = kinematics_->particle(static_cast<Index>(p));
@@ -439,14 +438,14 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   set_out_from(state);
   step_.time = step_.begun = time;
   step_.dt = 0;
-  step_.together = {};
-  ahead_.clear();
+  step_.coupled = {};
+  predicted_.clear();
   if (heat_) heat_->end_phase();
   step_.displacement.assign(displacement.begin(), displacement.end());
   const ContactState stands{step_.from, worn_from_};
   update(displacement);
   now_.master = worn_from_;
-  // Of the motion alone: what the last step did is in the state.
+  // The heat points follow from the motion alone: the effect of the last step is in the state.
   std::vector<HeatPoint> heat;
   for (std::size_t p = 0; p < now_.points.size(); ++p) {
     const double penetration = now_.points[p].penetration;
@@ -532,7 +531,7 @@ std::string ContactPair::worst_penetration() const {
   return text;
 }
 
-std::string ContactPair::trouble() const {
+std::string ContactPair::failure_text() const {
   const FrictionStatus failure = mechanics_->failure();
   if (algebra::any_process(failure != FrictionStatus::converged)) {
     const double worst = algebra::global_max(static_cast<double>(failure));

@@ -23,11 +23,11 @@ class HeatTerm;
 struct HeatPoint;
 struct HeatSpan;
 
-/// What the interface took, stored and made in a step, all processes.
+/// Sums over the interface of a pair in one step, of all processes: heat, stored energy and entropy.
 struct InterfaceSums {
   double dissipated = 0;          ///< D_c,mech [J]
   double stored = 0;              ///< Σ Θ_c (S^e_c − S^e_c,n), the heat that did not reach the bodies [J]
-  double hardening = 0;           ///< work of friction less what it dissipates [J]
+  double hardening = 0;           ///< work of friction less its dissipation [J]
   double energy = 0;              ///< change of E_c without springs [J] (3.69)
   double entropy = 0;             ///< change of S^e_c [J/K]
   double mechanical_energy = 0;   ///< the same up to the end of the mechanical phase [J]
@@ -45,7 +45,7 @@ struct ContactSums {
   double closed_area = 0;  ///< area of the closed points [m²]
   double energy = 0;       ///< in the springs, normal and tangential [J]
   double work = 0;         ///< of friction so far, ∫ ∫ ‖T‖ dγ dA [J]
-  double dissipation = 0;  ///< of friction so far [J]; the work less this is what hardening stores
+  double dissipation = 0;  ///< of friction so far [J]; the work less this is stored by hardening
   double wet_area = 0;     ///< of points that liquid metal wets [m²]
   /// The part of the liquid skin that has left its wall (ContactSpec::leaving_gap): points, area [m²] and the
   /// largest gap [m].
@@ -56,28 +56,30 @@ struct ContactSums {
 };
 
 /// Averages around the nodes of both surfaces, [owned node of the surface]; NaN at nodes without a point that
-/// has a partner. Weighted with w N_a²; what points remember of friction, with w N_a over all points of the
-/// slave, which keeps its integral, NaN on the master.
+/// has a partner. Weighted with w N_a²; the history of friction, with w N_a over all points of the slave,
+/// which keeps its integral, NaN on the master.
 struct ContactNodalFields {
   std::vector<Index> nodes;         ///< local numbers of owned nodes, slave's and master's, sorted
   std::vector<double> opening;      ///< [m], negative: penetration
   std::vector<double> pressure;     ///< t_N [Pa]
   std::vector<double> conductance;  ///< h without radiation [W/(m² K)]; zero without heat
-  /// ∫ N_a dA over what has a partner, of which the values here are means; zero where nothing has [m²].
+  /// ∫ N_a dA over the points that have a partner, of which the values here are means; zero where there is
+  /// none [m²].
   std::vector<double> paired_area;
-  /// Into the body of the node, through the gap, the spots and radiation and from friction; and what of it
-  /// is by friction (SurfaceHeat). Zero without heat or temperatures [W/m²].
+  /// Heat flux into the body of the node, through the gap, the spots and radiation and from friction; and its
+  /// part by friction (SurfaceHeat). Zero without heat or temperatures [W/m²].
   std::vector<double> heat_flux, frictional_heat_flux;
   /// With friction, else empty: 0 open, 1 sticks, 2 slips; and F T, on the master [Pa].
   std::vector<double> status;
   std::vector<Point> traction;
-  /// With friction, else empty: what points remember. μ is that of ζ_c and Θ_c. A master that wears has its
+  /// History of the points, with friction; else empty. μ is that of ζ_c and Θ_c. A master that wears has its
   /// own dissipation and depth.
   std::vector<double> slip, internal_variable, coefficient, dissipation, wear_depth;
   std::vector<double> temperature;  ///< Θ_c [K]
 };
 
-/// What a pass of the mechanical phase starts from.
+/// Input of a pass of the mechanical phase: the times, the fields at t_n and the way in which the interface's
+/// temperature is found.
 struct ContactPass {
   double time = 0, dt = 0;                 ///< t_{n+1} and the step [s]
   std::span<const double> displacement{};  ///< u_n, [local node][component] [m]
@@ -86,7 +88,7 @@ struct ContactPass {
   /// melts. Empty: nothing does.
   std::span<const double> coherency{};
   bool isentropic = false;    ///< the pass holds the entropy of the interface, not Θ_c
-  bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see surround()
+  bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see set_temperature()
   double share = 1;           ///< s of normal.hpp
 };
 
@@ -119,48 +121,50 @@ class ContactPair {
 
   /// The history of bodies that have not moved.
   ContactState initial_state() const;
-  /// A step sets out from `old`; empty: initial_state(). Local, no communication.
+  /// Begins a step from the state `old`; empty: initial_state(). Local, no communication.
   void begin(const ContactState& old, const ContactPass& pass);
-  /// Within a simultaneous pass: the bodies' temperatures of now, [local node], for mechanics() and the next
-  /// update(). Local.
-  void surround(std::span<const double> temperature);
-  /// Forces and history of every point for a displacement, and what heat sees of them: [local
+  /// Sets the present temperatures of the bodies within a simultaneous pass, [local node], for mechanics()
+  /// and the next update(). Local.
+  void set_temperature(std::span<const double> temperature);
+  /// Updates forces and history of every point for a displacement, and their data for the heat term: [local
   /// node][component], ghosts up to date [m]. Local, no communication.
   void update(std::span<const double> displacement);
-  /// Stands as the update() did that ended in `state` (empty: initial_state()) at this displacement and time.
-  /// Local.
+  /// Restores the pair as it was after the update() that ended in `state` (empty: initial_state()) at this
+  /// displacement and time. Local.
   void restore(const ContactState& state, std::span<const double> displacement, double time);
-  /// Of the last update() or restore().
+  /// State of the points at the last update() or restore().
   const ContactState& state() const { return now_; }
 
-  /// A thermal phase sets out, over `dt`, which need not be the time of the mechanical pass, nor need
-  /// anything flow in it; settle() ends it. Without this call heat is that of the pass.
+  /// Begins a thermal phase over `dt`, which need not be the time step of the mechanical pass; an adiabatic
+  /// phase has no fluxes. commit_heat() ends it. Without this call the heat is that of the mechanical pass.
   void begin_heat(double dt, bool adiabatic);
-  /// Drops the heat of friction of the last update(): what follows knows none.
-  void rest();
-  /// After the first of two equal mechanical passes of a step: the thermal phase that follows takes heat and
-  /// entropy of its slip twice, for the second pass too, whose heat is then counted less by as much.
-  void heat_ahead();
-  /// After the thermal phase: Θ_c and S^p_c of every point, at the temperatures found [local node]; state()
-  /// has them then. Zero without friction or heat. Collective.
-  InterfaceSums settle(std::span<const double> temperature);
+  /// Holds the present deformation: the heat of friction of the last update() is dropped, so that a thermal
+  /// phase that follows has none.
+  void hold_deformation();
+  /// Predicts the heat of the second of two equal mechanical passes of a step by that of the first. The
+  /// thermal phase between them takes heat and entropy of the slip of the first pass twice, and the same
+  /// amount is subtracted from those of the second pass.
+  void predict_heat();
+  /// Ends the thermal phase: computes Θ_c and S^p_c of every point at the temperatures found [local node] and
+  /// commits them to state(). Zero without friction or heat. Collective.
+  InterfaceSums commit_heat(std::span<const double> temperature);
 
-  /// Uzawa's step of the augmented Lagrangian: the multipliers grow by what the mean penetrations around the
-  /// slave's nodes ask for, λ += ε_N Σ N_a ḡ_a, and friction sets out from the tractions of the last
-  /// update(). Points are more than the unknowns of a face can bring to zero one by one: the means are not.
-  /// Collective.
+  /// Uzawa's step of the augmented Lagrangian: the multipliers grow with the mean penetrations around the
+  /// slave's nodes, λ += ε_N Σ N_a ḡ_a, and friction starts from the tractions of the last update(). There
+  /// are more points than the unknowns of a face can bring to zero penetration one by one, but their means
+  /// can be. Collective.
   void augment();
   /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a
   /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
   double excess() const;
-  /// Where the largest one is, for messages. Collective.
+  /// Describes the place of the largest mean penetration, for messages. Collective.
   std::string worst_penetration() const;
 
-  /// Drops what the pattern of matrices remembers (coupling/scheme.hpp, forget()).
+  /// Drops the recorded sparsity pattern (coupling/scheme.hpp, forget()).
   void forget() { graph_->forget(); }
-  /// What the last residual says of an iteration that fails, for messages: empty, or with the pair's name.
+  /// Describes why an iteration failed, from the last residual, for messages: empty, or with the pair's name.
   /// Collective.
-  std::string trouble() const;
+  std::string failure_text() const;
   /// Points that changed between open, sticking and slipping at the last residual. Collective.
   GlobalIndex changes() const;
 
@@ -185,13 +189,13 @@ class ContactPair {
   /// the node loses heat; the sum over all is zero. [owned node].
   std::vector<double> nodal_heat(std::span<const double> temperature) const;
 
-  /// Of a rigid master at the last update() or restore() [K]; absent: it takes no heat.
+  /// Temperature of a rigid master at the last update() or restore() [K]; absent: it takes no heat.
   std::optional<double> tool_temperature() const;
   const ContactSpec& spec() const { return spec_; }
   double penalty() const { return law_.normal.penalty; }  ///< ε_N [Pa/m]
   const ContactKinematics& kinematics() const { return *kinematics_; }
   const PointLaw& law() const { return law_; }
-  /// Of the last update().
+  /// Partners of the points at the last update().
   const PartnerList& partners() const { return partners_; }
   /// Part of the slave surface that has a partner at the start, 0 to 1.
   double coverage() const { return kinematics_->coverage(); }
@@ -207,7 +211,7 @@ class ContactPair {
   HeatPoint heat_point(const PointState& from, const PointState& now, const PointForces& forces) const;
   void show_whole_step();
   void find_interface_temperatures(std::span<const double> temperature);
-  /// Of the augmented Lagrangian: ḡ_a, weighted with w N_a², [local node] [m]. Collective.
+  /// Mean penetrations ḡ_a of the augmented Lagrangian, weighted with w N_a², [local node] [m]. Collective.
   std::vector<double> nodal_penetration() const;
   /// The state of a point at t_n, with the traction that it had there.
   PointState at_start(std::size_t point) const;
@@ -227,7 +231,7 @@ class ContactPair {
   double touching_ = 0;             ///< initial gaps up to this are none [m]
   double allowed_penetration_ = 0;  ///< [m]; augmented Lagrangian
   std::unique_ptr<ContactKinematics> kinematics_;
-  std::unique_ptr<Placement> placement_;
+  std::unique_ptr<CurrentConfiguration> configuration_;
   std::unique_ptr<ContactGraph> graph_;
   PointLaw law_;
   std::optional<HeatTransferLaw> heat_law_;
@@ -239,8 +243,8 @@ class ContactPair {
   std::vector<double> displacement_;  ///< of now_
   double time_ = 0;                   ///< likewise
   std::vector<double> before_heat_;   ///< Θ_c that the mechanical phase left, [point]
-  /// Of heat_ahead(), [point]: D_c,mech [J/m²] and entropy [J/(m² K)] that are taken already; or empty.
-  std::vector<std::array<double, 2>> ahead_;
+  /// D_c,mech [J/m²] and entropy [J/(m² K)] that predict_heat() has counted in advance, [point]; or empty.
+  std::vector<std::array<double, 2>> predicted_;
   PartnerList partners_;
   std::vector<Index> surface_nodes_;  ///< owned nodes of both surfaces, sorted
   std::unique_ptr<MechanicsTerm> mechanics_;

@@ -1,4 +1,4 @@
-/// What a contact pair tells of a step: work, forces, energies.
+/// Sums of a contact pair over a step: work, forces, energies.
 #include <petscsys.h>
 
 #include <algorithm>
@@ -39,8 +39,8 @@ std::vector<double> ContactPair::increment() const {
 
 double ContactPair::force_times_increment(End end, std::span<const double> increment) {
   const bool start = end == End::start;
-  placement_->place(start ? step_.begun : time_, start ? step_.displacement : displacement_,
-                    ContactKinematics::Points::own);
+  configuration_->place(start ? step_.begun : time_, start ? step_.displacement : displacement_,
+                        ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(components_);
   double work = 0;
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
@@ -58,8 +58,8 @@ double ContactPair::force_times_increment(End end, std::span<const double> incre
 
 double ContactPair::force_times_relative_way(End end, std::span<const double> increment) {
   const bool start = end == End::start;
-  placement_->place(start ? step_.begun : time_, start ? step_.displacement : displacement_,
-                    ContactKinematics::Points::own);
+  configuration_->place(start ? step_.begun : time_, start ? step_.displacement : displacement_,
+                        ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(components_);
   double work = 0;
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
@@ -84,30 +84,31 @@ double ContactPair::work(double share) {
   double work = 0;
   if (share != 1) work += (1 - share) * force_times_increment(End::start, increment);
   if (share != 0) work += share * force_times_increment(End::finish, increment);
-  placement_->place(time_, displacement_, ContactKinematics::Points::own);
+  configuration_->place(time_, displacement_, ContactKinematics::Points::own);
   return algebra::global_sum(work);
 }
 
 double ContactPair::rigid_work(double share) {
   if (!spec_.rigid_master) return 0;
   const std::vector<double> increment = this->increment();
-  double together = 0;
-  if (share != 1) together += (1 - share) * force_times_relative_way(End::start, increment);
-  if (share != 0) together += share * force_times_relative_way(End::finish, increment);
-  placement_->place(time_, displacement_, ContactKinematics::Points::own);
+  double work_and_rigid_work = 0;
+  if (share != 1) work_and_rigid_work += (1 - share) * force_times_relative_way(End::start, increment);
+  if (share != 0) work_and_rigid_work += share * force_times_relative_way(End::finish, increment);
+  configuration_->place(time_, displacement_, ContactKinematics::Points::own);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const PointState from = at_start(at(p)), &to = now_.points[at(p)];
     if (!to.counted || !from.anchored || !to.anchored) continue;
     const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
     const double pressure = share * to.balance_pressure + (1 - share) * from.balance_pressure;
     const Point traction = add_scaled(scale(share, to.traction), 1 - share, motion.carried);
-    together += motion.weight * (pressure * (to.penetration - from.penetration) + dot(traction, motion.slip));
+    work_and_rigid_work +=
+        motion.weight * (pressure * (to.penetration - from.penetration) + dot(traction, motion.slip));
   }
-  return algebra::global_sum(together) - work(share);
+  return algebra::global_sum(work_and_rigid_work) - work(share);
 }
 
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
-  placement_->place(time_, displacement_, ContactKinematics::Points::own);
+  configuration_->place(time_, displacement_, ContactKinematics::Points::own);
   std::array<double, 21> s{};
   double left_gap = 0;
   const auto n = static_cast<std::size_t>(components_);

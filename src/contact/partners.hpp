@@ -1,5 +1,5 @@
-/// What the points of a pair met at the last update(): for terms that exchange through partners that stay
-/// while they are solved for (heat).
+/// Partners of the points of a pair at the last update(), for terms whose partners are held fixed during the
+/// solve (heat).
 #pragma once
 
 #include <span>

@@ -15,7 +15,7 @@
 
 namespace solidus::contact {
 
-/// What an interface is in touch with while slip and Θ_c are found together (5.40).
+/// Boundary data of an interface point while slip and Θ_c are solved for simultaneously (5.40).
 struct Surroundings {
   const HeatTransferLaw* law = nullptr;
   double time_step = 0;                 ///< Δt [s]
@@ -31,7 +31,7 @@ struct Surroundings {
   }
 };
 
-/// How the solution of both equations moves, beyond what PointForces hold.
+/// Derivatives of the solution of both equations, besides those of PointForces.
 struct JointSlopes {
   double stiffness = 0;                                ///< dr/dΘ_c of the balance [W/(m² K)]
   double source_by_trial = 0, source_by_pressure = 0;  ///< InterfaceReturn
@@ -56,8 +56,9 @@ struct PointForces {
   Point traction_by_pressure{};  ///< ∂T/∂t_N
   double trial = 0;              ///< ‖T^trial‖ [Pa]
   FrictionResponse friction;     ///< void without a friction law and at open points
-  /// Where Θ_c is found with the slip. The slopes of T then hold how Θ_c answers trial traction and pressure;
-  /// through the conductance they change by traction_by_conductance.
+  /// Slopes of the simultaneous solution for Θ_c and slip, if there is one. The slopes of T then include the
+  /// dependence of Θ_c on trial traction and pressure; through the conductance they change by
+  /// traction_by_conductance.
   std::optional<JointSlopes> joint;
   /// ∂T/∂h, T ∥ T^trial; zero where Θ_c is not found with the slip [Pa m² K/W].
   Point traction_by_conductance{};
@@ -68,17 +69,17 @@ struct PointLaw {
   NormalLaw normal;
   std::optional<FrictionLaw> friction;
   std::optional<WearSpec> wear;  ///< with friction
-  bool isentropic = false;       ///< what the mechanical phase holds at the interface (5.24)
+  bool isentropic = false;       ///< the mechanical phase holds the entropy of the interface (5.24)
   double share = 1;              ///< s of normal.hpp
 
-  /// @param from  the state at t_n with the multipliers of now: λ_N, and T_n or what stands for it
+  /// @param from the state at t_n with the present multipliers: λ_N, and T_n or the traction that replaces it
   /// @param around  where slip and Θ_c are found together: the simultaneous scheme
   PointForces forces(const PointMotion& motion, const PointState& from,
                      const std::optional<Surroundings>& around = {}) const;
   /// The state that the forces lead to, at t_{n+1}. A point that is open, or where no friction acts, keeps
   /// what friction left.
   PointState next(const PointMotion& motion, const PointState& from, const PointForces& forces) const;
-  /// What the springs of a state hold, normal and tangential [J/m²].
+  /// Returns the elastic energy of the normal and tangential penalty springs in a state [J/m²].
   double stored(const PointState& state) const;
 
  private:

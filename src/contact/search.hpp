@@ -1,4 +1,5 @@
-/// Which face of a surface a point meets: Boost.Geometry's R-tree over the faces' bounding boxes.
+/// Search for the face of a surface that a point meets, with Boost.Geometry's R-tree over the faces' bounding
+/// boxes.
 #pragma once
 
 #include <memory>

@@ -83,8 +83,8 @@ class SlidingKinematics : public ContactKinematics {
   std::vector<Partner> partner_;
   std::vector<Index> hint_;   ///< the face met last
   std::vector<char> behind_;  ///< Master::behind, in the reference configuration
-  /// How a point concerns this process: from a face that it meets, the graph's rings reach a node of its own
-  /// (reached), or would from one that many faces on (near), so that the graph holds it before it comes.
+  /// Relation of a point to this process: from a face that it meets, the graph's rings reach a node of its
+  /// own (reached), or would from one that many faces on (near), so that the graph holds it before it comes.
   enum Concern : char { none, near, reached };
   std::vector<Concern> concern_;       ///< [point] at the last place()
   bool all_own_ = false;               ///< this process owns the whole slave
@@ -94,7 +94,7 @@ class SlidingKinematics : public ContactKinematics {
   std::vector<std::size_t> first_allowed_;
   std::vector<Index> allowed_;
 
-  // Of the last motion(), [node]; no allocation there.
+  // Work arrays of the last motion(), [node], which avoid allocations.
   mutable MasterFrame frame_;
   mutable std::size_t n_slave_ = 0, n_nodes_ = 0;
   mutable std::vector<Index> nodes_;

@@ -1,4 +1,4 @@
-/// Places of a contact term in a matrix, kept while the nodes that meet stay the same.
+/// Slots of a contact term in a matrix, stored as long as the nodes that meet stay the same.
 #pragma once
 
 #include <span>

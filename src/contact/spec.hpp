@@ -1,4 +1,4 @@
-/// What the user says about a pair of surfaces, in SI.
+/// Specification of a contact pair by the user, in SI.
 #pragma once
 
 #include <limits>
@@ -35,8 +35,8 @@ struct ContactSpec {
   double atmosphere = 101325;
   /// A liquid skin that is farther from its wall than this has left it, for reports [m].
   double leaving_gap = 0;
-  /// Of the augmented Lagrangian: the penetration that may be left, as a share of the mean size of the
-  /// slave's faces.
+  /// Tolerance of the augmented Lagrangian: the penetration that may be left, as a share of the mean size of
+  /// the slave's faces.
   double penetration_tolerance = 1e-6;
   std::optional<FrictionSpec> friction;  ///< absent: none
   std::optional<WearSpec> wear;          ///< absent: no depth of wear; needs friction
@@ -44,8 +44,9 @@ struct ContactSpec {
   /// ε_N [Pa/m], or the factor on the local stiffness E/h (`penalty_is_factor`).
   double penalty = 10;
   bool penalty_is_factor = true;
-  /// What a factor gives at most [Pa/m]: next to a melt, which is a million times softer than the solid, a
-  /// penalty of the solid's stiffness makes Newton's iteration open and close points without end.
+  /// Upper bound of a penalty that is given as a factor [Pa/m]: next to a melt, which is a million times
+  /// softer than the solid, a penalty of the solid's stiffness makes Newton's iteration open and close points
+  /// without end.
   double largest_penalty = std::numeric_limits<double>::infinity();
   /// Stiffness of every point in all directions, as a part of ε_N, that the tangent gets on top of the law's.
   /// It is not in the forces, so a converged solution does not feel it; it keeps the matrix regular while a
@@ -56,7 +57,8 @@ struct ContactSpec {
   double stabilisation = 1e-10;
   IntegrationRule integration = IntegrationRule::segments;
   int gauss_degree = 4;  ///< rule `gauss`
-  /// How far partners are looked for along the normal [m]; absent: a tenth of the slave's extent.
+  /// Distance up to which partners are searched for along the normal [m]; absent: a tenth of the slave's
+  /// extent.
   std::optional<double> search_distance;
   /// Initial gaps and penetrations up to this size are taken as touching, g_N = 0 [m]; absent: 1e-6 of the
   /// mean size of the slave's faces, which is rounding. Larger values close the gaps that faceted curved

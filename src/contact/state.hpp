@@ -1,5 +1,5 @@
-/// What a contact pair remembers of a step: written by ContactPair::update, committed or thrown away by the
-/// scheme with the rest of the state.
+/// History of a contact pair: written by ContactPair::update, committed or discarded by the scheme with the
+/// rest of the state.
 #pragma once
 
 #include <vector>
@@ -19,11 +19,11 @@ struct PointState {
   double offset = 0;       ///< closes an initial gap that counts as touching: added to g_N [m]
   double penetration = 0;  ///< g_N [m] (3.5)
   double pressure = 0;     ///< t_N [Pa]
-  /// What t_N counts as in the balance of forces at t_n [Pa]: the same, but with the energy-conserving
+  /// Contact pressure in the balance of forces at t_n [Pa]: equal to t_N, except with the energy-conserving
   /// quotient, which is a mean over the step (normal.hpp).
   double balance_pressure = 0;
   double multiplier = 0;  ///< λ_N [Pa]: of the augmented Lagrangian, else zero
-  /// Of the step that led here: the pressure of the atmosphere where liquid metal wets the wall, else zero
+  /// Pressure of the atmosphere in the step that led here, where liquid metal wets the wall; else zero
   /// (normal.hpp) [Pa].
   double suction = 0;
   // Friction.
@@ -41,7 +41,8 @@ struct PointState {
   double plastic_entropy = 0;  ///< S^p_c [J/(m² K)] (3.53c)
 };
 
-/// What a node of a master that wears remembers: it travels with the master's surface, whatever passes.
+/// History of a node of a master that wears. It moves with the master's surface, whichever slave points pass
+/// over it.
 struct WornNode {
   GlobalIndex number = 0;  ///< mesh::Mesh::input_node: of all processes alike
   bool counted = false;    ///< this process writes it to checkpoints

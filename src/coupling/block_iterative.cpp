@@ -38,7 +38,7 @@ double largest(std::span<const double> a) {
 struct BlockIterative::Iterate {
   double time = 0, dt = 0;
   int number = 0;                     ///< of the iteration
-  State now;                          ///< what the last passes found
+  State now;                          ///< results of the last passes
   std::vector<double> plateau_share;  ///< at t_n, [local node]
   /// Θ⁽ⁱ⁾ that the mechanical pass sees, and Θ⁽ⁱ⁻¹⁾ [K], [local node].
   std::vector<double> temperature, before;

@@ -32,7 +32,7 @@ struct IterationOptions {
   Sweep sweep = Sweep::gauss_seidel;
   Loop loop = Loop::nested;
   RelaxationOptions relaxation;  ///< of the temperature that the mechanical pass sees
-  /// Of the changes between two iterates, relative to those of the step.
+  /// Tolerance of the changes between two iterates, relative to those of the step.
   double tolerance = 1e-8;
   int max_iterations = 100;
 };
@@ -55,7 +55,7 @@ class BlockIterative final : public CouplingScheme {
     double temperature = 0;   ///< that the thermal pass asks for [K]
     double displacement = 0;  ///< [m]
   };
-  /// Of the last step, one an iteration.
+  /// Changes of the last step, one per iteration.
   const std::vector<Change>& changes() const { return changes_; }
 
  private:

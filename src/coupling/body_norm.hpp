@@ -19,7 +19,7 @@ class BodyNorm {
   /// process.
   /// @param values [local node][component]; empty: zero
   double operator()(std::span<const double> values) const { return (*this)(values, {}); }
-  /// Of the nodes that count; the others are zero, their volume counts in the mean all the same.
+  /// The same norm over the nodes that count; the others are zero, but their volume counts in the mean.
   /// @param counts [local node]; empty: all do
   double operator()(std::span<const double> values, std::span<const char> counts) const;
   /// The same of what is left of a displacement when the rigid motion that fits it best is taken away from

@@ -6,11 +6,11 @@
 namespace solidus::coupling {
 
 Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-                     const algebra::Presence& presence)
+                     const algebra::ActiveSet& active)
     : mesh_(mesh), material_(static_cast<std::size_t>(mesh.n_owned_nodes), nullptr) {
   for (const mesh::Block& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
-    if (!presence.body(block.body) || material.solidification() == nullptr) continue;
+    if (!active.body(block.body) || material.solidification() == nullptr) continue;
     melts_ = true;  // every process has every block
     for (const Index node : block.nodes)
       if (node < mesh.n_owned_nodes && material_[static_cast<std::size_t>(node)] == nullptr)

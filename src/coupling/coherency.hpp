@@ -1,13 +1,13 @@
-/// Which nodes are melt and which are casting: the solid fraction over that at which metal is coherent
-/// (material::Casting::coherency_fraction).
+/// Coherency of the nodes, which tells melt from casting: the solid fraction over that at which metal is
+/// coherent (material::Casting::coherency_fraction).
 ///
-/// The solid fraction is that of the nodes' enthalpy, which alone knows how much is solid where freezing is
-/// isothermal; without a thermal phase that of the temperature.
+/// The solid fraction is that of the nodes' enthalpy, which alone determines it where freezing is isothermal;
+/// without a thermal phase it is that of the temperature.
 #pragma once
 
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "heat/thermal_state.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
@@ -21,9 +21,9 @@ namespace solidus::coupling {
 class Coherency {
  public:
   /// @param materials  [body]; kept by reference
-  /// @param presence   of the mechanical phase at the start: bodies that only conduct heat do not count
+  /// @param active   of the mechanical phase at the start: bodies that only conduct heat do not count
   Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-            const algebra::Presence& presence);
+            const algebra::ActiveSet& active);
 
   /// Whether a body that deforms can melt. The same on every process.
   bool melts() const { return melts_; }

@@ -14,7 +14,7 @@ namespace solidus::coupling {
 namespace {
 
 constexpr int k_most_augmentations = 400;
-// Where points at the edge of contact open and close from turn to turn, penetrations do not settle: after
+// If points at the edge of contact open and close from turn to turn, the penetrations do not converge: after
 // k_enough_augmentations turns they may be k_tolerable times as large as allowed, with a warning.
 constexpr int k_enough_augmentations = 60;
 constexpr double k_tolerable = 10;
@@ -24,9 +24,10 @@ const contact::ContactState& state_of(const std::vector<contact::ContactState>& 
   return contacts.empty() ? k_unmoved : contacts[i];
 }
 
-/// A point's start of the second stage, from t_n and the end of the first one; `start` is the latter.
-void go_on(const contact::PointState& from, const contact::PointState& to, double carried,
-           contact::PointState& start) {
+/// Advances the history of a point to the start of the second stage, from t_n and the end of the first stage;
+/// `start` is the latter on entry.
+void advance_history(const contact::PointState& from, const contact::PointState& to, double carried,
+                     contact::PointState& start) {
   if (!from.anchored || !to.anchored) return;
   for (auto field :
        {&contact::PointState::penetration, &contact::PointState::internal_variable,
@@ -82,7 +83,7 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
         moved ? contact::ContactState{} : phases.contacts[i]->initial_state();
     const contact::ContactState& begun = moved ? old[i] : initial;
     for (std::size_t p = 0; p < stage[i].points.size(); ++p)
-      go_on(begun.points[p], stage[i].points[p], carried, start[i].points[p]);
+      advance_history(begun.points[p], stage[i].points[p], carried, start[i].points[p]);
     for (std::size_t a = 0; a < stage[i].master.size(); ++a)
       for (auto field : {&contact::WornNode::volume, &contact::WornNode::dissipation}) {
         const double from = begun.master[a].*field;
@@ -121,8 +122,8 @@ bool penetrations_small(const Phases& phases, int turn) {
 
 void reject_with_contacts(const Phases& phases, const StepRejected& rejected) {
   for (const contact::ContactPair* pair : phases.contacts)
-    if (const std::string trouble = pair->trouble(); !trouble.empty())
-      throw StepRejected(rejected.reason() + " (" + trouble + ")", rejected.where());
+    if (const std::string failure = pair->failure_text(); !failure.empty())
+      throw StepRejected(rejected.reason() + " (" + failure + ")", rejected.where());
   throw rejected;
 }
 

@@ -1,4 +1,4 @@
-/// The histories of all contact pairs together: between the states of a run and the pairs.
+/// Transfers the histories of all contact pairs between the states of a run and the pairs.
 #pragma once
 
 #include "coupling/phases.hpp"
@@ -10,9 +10,9 @@ namespace solidus::coupling {
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
                     const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
                     std::span<const double> coherency = {});
-/// Of the last update of the pairs.
+/// Returns the states of the pairs at their last update.
 std::vector<contact::ContactState> contact_states(const Phases& phases);
-/// Pairs stand as in `state`.
+/// Restores the pairs to their states in `state`.
 void restore_contacts(const Phases& phases, const State& state);
 /// y_n + carried (Y_1 − y_n) of all that integrates: the start of the second stage of Alexander's method.
 std::vector<contact::ContactState> second_start(const Phases& phases,
@@ -24,7 +24,7 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
 /// them; else the multipliers follow the pressures and the phase must be solved again. Throws StepRejected
 /// after too many turns. Collective.
 bool penetrations_small(const Phases& phases, int turn);
-/// The same error with what the pairs have to say. Collective.
+/// Throws the same error with the failure_text() of the pairs appended. Collective.
 [[noreturn]] void reject_with_contacts(const Phases& phases, const StepRejected& rejected);
 
 }  // namespace solidus::coupling

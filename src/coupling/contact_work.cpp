@@ -65,11 +65,11 @@ void add(const contact::InterfaceSums& next, contact::InterfaceSums& sum, double
     sum.*part += factor * next.*part;
 }
 
-void settle_contacts(const Phases& phases, std::span<const double> temperature,
-                     std::span<const double> into_bodies, EnergyAudit& energy) {
+void commit_contact_heat(const Phases& phases, std::span<const double> temperature,
+                         std::span<const double> into_bodies, EnergyAudit& energy) {
   std::size_t term = 0;  // the thermal terms of the pairs come first
   for (contact::ContactPair* pair : phases.contacts) {
-    const contact::InterfaceSums sums = pair->settle(temperature);
+    const contact::InterfaceSums sums = pair->commit_heat(temperature);
     add(sums, energy.interface);
     if (pair->heat() != nullptr) book_tool(*pair, into_bodies[term++], sums, energy);
   }

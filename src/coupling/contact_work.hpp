@@ -1,5 +1,5 @@
-/// Contact in the first law: what penalties and friction's hardening store, what friction dissipates, and
-/// what backward Euler loses on the springs.
+/// Contact in the first law: the energy stored by penalties and by friction's hardening, the dissipation by
+/// friction, and the numerical dissipation of backward Euler on the penalty springs.
 ///
 /// A step does the work Σ f·Δu on contact, f its forces at t_{n+1}. Without friction and sliding that is
 /// t_N,1 Δg on a spring that gains ½ ε_N (⟨g_1⟩² − ⟨g_0⟩²). The difference, ½ ε_N Δg² in closed contact, is
@@ -20,8 +20,8 @@ class ContactWork {
   /// The work of the last pass on contact, of forces that are the mean of those at its start and end with the
   /// share of the end; counted `factor` times. Collective.
   void add(double share = 1, double factor = 1);
-  /// Sets what is stored and dissipated and adds what was lost; the work of rigid masters is work on the
-  /// bodies. Collective.
+  /// Sets the stored and the dissipated energy and adds the numerical dissipation; the work of rigid masters
+  /// is work on the bodies. Collective.
   void book(EnergyAudit& energy) const;
 
  private:
@@ -42,13 +42,13 @@ class ContactWork {
 /// @param mechanical  false where deformation and heat exchange nothing: then friction's heat alone
 void book_interface(EnergyAudit& energy, bool mechanical);
 
-/// After a thermal pass: the interfaces take their temperatures, and the audit what they dissipate and store,
-/// and the heat, with its entropy, that rigid masters of given temperature give. Adds to energy.interface.
-/// Collective.
+/// Commits the temperatures of the interfaces after a thermal pass, and books into the audit what they
+/// dissipate and store, and the heat, with its entropy, from rigid masters of given temperature. Adds to
+/// energy.interface. Collective.
 /// @param temperature  found, [local node] [K]
 /// @param into_bodies  heat of the thermal phase's contributions, those of the pairs first [J]
-void settle_contacts(const Phases& phases, std::span<const double> temperature,
-                     std::span<const double> into_bodies, EnergyAudit& energy);
+void commit_contact_heat(const Phases& phases, std::span<const double> temperature,
+                         std::span<const double> into_bodies, EnergyAudit& energy);
 
 /// Sums over two passes.
 void add(const contact::InterfaceSums& next, contact::InterfaceSums& sum, double factor = 1);

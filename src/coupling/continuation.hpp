@@ -1,4 +1,5 @@
-/// Where a run stands between two steps, beside its state: what it needs to go on as if it had not stopped.
+/// Data of a run between two steps, besides its state, that a restart needs to continue as if the run had not
+/// stopped.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace solidus::coupling {
 
-/// Where the present stage of a run began; a run without stages has number zero.
+/// Start of the present stage of a run; a run without stages has number zero.
 struct StageStart {
   int number = 0;  ///< in the order of the run, from one
   std::string name;

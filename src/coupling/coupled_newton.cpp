@@ -63,14 +63,14 @@ std::size_t CoupledNewton::n_owned_displacements() const {
 CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
                                         const mechanics::MechanicalPass& pass, std::span<const double> x) {
   mechanics_.prepare(old, pass);
-  surround_contacts();
+  set_contact_temperatures();
   for (contact::ContactPair* pair : phases_.contacts) pair->update(x.first(mechanics_.n_displacements()));
   reference_ = mechanics_.residual(x, force_);
   const std::vector<char>& fixed = mechanics_.matrix().fixed();
   const std::span<double> of_displacement = std::span(force_).first(n_owned_displacements());
   for (std::size_t i = 0; i < of_displacement.size(); ++i)
     if (fixed[i]) of_displacement[i] = 0;
-  mechanics_.matrix().ties().sum(of_displacement);
+  mechanics_.matrix().constraints().sum(of_displacement);
   double squares = 0;
   for (const double r : force_) squares += r * r;
   norm_ = std::sqrt(algebra::global_sum(squares));
@@ -80,8 +80,8 @@ CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
   return present();
 }
 
-void CoupledNewton::surround_contacts() {
-  for (contact::ContactPair* pair : phases_.contacts) pair->surround(thermal_->temperature());
+void CoupledNewton::set_contact_temperatures() {
+  for (contact::ContactPair* pair : phases_.contacts) pair->set_temperature(thermal_->temperature());
 }
 
 CoupledResidual CoupledNewton::present() const {
@@ -206,7 +206,7 @@ bool CoupledNewton::find_direction(algebra::Forcing& forcing, CoupledReport& rep
   const std::span<double> owned_u = std::span(owned_step_).first(n_owned_displacements());
   for (std::size_t i = 0; i < owned_u.size(); ++i)
     if (fixed[i]) owned_u[i] = 0;
-  mechanics_.matrix().ties().share(owned_u);
+  mechanics_.matrix().constraints().share(owned_u);
   spread(owned_step_, step_u_);
   multiply_heat(step_u_, further_);
   thermal_->set_direction(step_t_, further_);
@@ -225,7 +225,7 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
     return {k_none, k_none};
   }
   if (in_equilibrium_) {
-    surround_contacts();
+    set_contact_temperatures();
     equilibrate(old, pass, x);
   }
   return evaluate(old, pass, x);

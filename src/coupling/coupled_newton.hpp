@@ -39,7 +39,7 @@
 
 namespace solidus::coupling {
 
-/// Both norms against what their phases measure them by.
+/// Both residual norms, relative to the references of their phases.
 struct CoupledResidual {
   double force = 0;  ///< ‖r_u‖ over its reference, pressures included
   double heat = 0;   ///< Σ|r_Θ| over the heat moved
@@ -86,9 +86,9 @@ class CoupledNewton {
                 std::span<double> heat);
 
  private:
-  /// Interfaces see the temperatures of thermal().
-  void surround_contacts();
-  /// Of the last evaluation.
+  /// Passes the temperatures of thermal() to the contact pairs.
+  void set_contact_temperatures();
+  /// Residuals of the last evaluation.
   CoupledResidual present() const;
   bool balanced() const;   ///< both residuals are within their tolerances
   bool converged() const;  ///< and the next step would be a small one (algebra::NewtonOptions)
@@ -98,9 +98,10 @@ class CoupledNewton {
   algebra::FieldWeights weights();
   /// δu and δΘ from the tangent; false when the linear solver fails, which `failure` names.
   bool find_direction(algebra::Forcing& forcing, CoupledReport& report, std::string& failure);
-  /// How far the linear solver goes: to where the phase that is further off would end the iteration.
+  /// Tolerance of the linear solver: the residual at which the phase that is further from convergence would
+  /// end the iteration.
   double forcing_term(algebra::Forcing& forcing, const algebra::FieldWeights& weights) const;
-  /// Moves along the direction as far as it is any good.
+  /// Moves along the direction, with a line search.
   double move(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
               std::vector<double>& x, const CoupledReport& report);
   CoupledResidual evaluate_at(double alpha, const mechanics::MechanicalState& old,

@@ -147,7 +147,7 @@ void CoupledSaddleSolver::multiply(std::span<const double> x, std::span<double> 
 }
 
 void CoupledSaddleSolver::find_temperatures(std::span<const double> heat, std::span<double> temperature) {
-  // A direction that is a little off does for a preconditioner: what the report says is of no use.
+  // An approximate direction suffices for a preconditioner: the report is not used.
   if (new_temperatures_)
     temperatures_->solve(matrix_.temperature(), heat, temperature, k_temperature_tolerance);
   else
@@ -185,7 +185,7 @@ algebra::LinearReport CoupledSaddleSolver::solve([[maybe_unused]] algebra::Coupl
   for (std::size_t i = n_displacements(); i < whole.size(); ++i) whole[i] = -whole[i];
   whole.insert(whole.end(), heat.begin(), heat.end());
   weight(whole, false);
-  // Right-hand sides are summed already: what followers have is zero.
+  // Right-hand sides are summed already: those of followers are zero.
   unknowns_->restrict_to(whole, right_);
   set_up();
   algebra::LinearReport report;

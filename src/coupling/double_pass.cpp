@@ -42,8 +42,8 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   const double middle = time - 0.5 * dt;
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, old.heat);
-  phases_.mechanics->rest(old.mechanics, old.heat.temperature, share);
-  for (contact::ContactPair* pair : phases_.contacts) pair->rest();
+  phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, share);
+  for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   State predicted;
   thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
   mechanical_pass(phases_, old, half,
@@ -56,7 +56,7 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
                   effort);
   contact.add();
   contact.book(effort.energy);
-  for (contact::ContactPair* pair : phases_.contacts) pair->heat_ahead();
+  for (contact::ContactPair* pair : phases_.contacts) pair->predict_heat();
   // The deformation of the whole step acts at once before it: temperatures that leave their range by it come
   // back in step 4.
   thermal_pass(phases_, old, half,

@@ -1,10 +1,11 @@
-/// The error of a step in temperature and displacement, without knowing the exact solution.
+/// Estimate of the error of a step in temperature and displacement.
 ///
 /// Temperature, where nodes hold the heat and the phase is solved once a step: heat::time_error() of the
-/// flows of heat, spread to temperatures (heat/heat_spread.hpp), for backward Euler and SDIRK2. Of this local
-/// error what shifts the mean of a body lasts, because conduction within the body does not level it: a
-/// casting that loses its heat too slowly is late until it has frozen. Steps are to commit it in proportion
-/// to the heat they move: with ε̄ the mean and s the change of heat in the step, S that of all steps so far,
+/// flows of heat, spread to temperatures (heat/heat_spread.hpp), for backward Euler and SDIRK2. The part of
+/// this local error that shifts the mean of a body lasts, because conduction within the body does not level
+/// it: a casting that loses its heat too slowly is late until it has frozen. Steps are to commit it in
+/// proportion to the heat they move: with ε̄ the mean and s the change of heat in the step, S that of all
+/// steps so far,
 ///
 ///   ε = max( ‖δ‖, |ε̄| min(S/s, 50) )
 ///
@@ -42,7 +43,7 @@
 namespace solidus::coupling {
 
 struct LocalError {
-  double temperature = 0;   ///< [K]; with what lasts, see above
+  double temperature = 0;   ///< [K]; with the lasting part, see above
   double displacement = 0;  ///< [m]
 };
 
@@ -57,13 +58,14 @@ class ErrorEstimate {
                          Displacement displacement = Displacement::motion)
       : norm_(std::move(norm)), phases_(phases), displacement_(displacement) {}
 
-  /// Of the step from `old` to `now` by its extrapolation from `rates`, which must be known.
+  /// Estimates the error of the step from `old` to `now` by its extrapolation from `rates`, which must be
+  /// known.
   LocalError predictor(const State& old, const State& now, double dt, const Rates& rates) const;
   /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old`; the
   /// second half must be the step solved last.
   LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates) const;
-  /// How much heat a step has moved: its change in the nodes in kelvin of sensible heat, as the norm has it.
-  /// Zero where flows are not known.
+  /// Heat that a step has moved: the norm of its change in the nodes in kelvin of sensible heat. Zero where
+  /// flows are not known.
   double change_of(const State& old, const State& now) const;
   /// The rates of the step from `old` to `now`.
   Rates rates_of(const State& old, const State& now, double dt) const;

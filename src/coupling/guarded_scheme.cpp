@@ -70,7 +70,7 @@ void require_continued(const Phases& phases, const State& old, const State& tria
   if (phases.heat == nullptr) return;
   const heat::ThermalPhase& phase = *phases.heat;
   const heat::TemperatureRange start = range_of(phase, old), range = including(start, range_around(phases));
-  // Where a side has no bound, what is found there is what there is.
+  // A side without a bound is replaced by the extreme temperature that was found.
   const heat::TemperatureRange found = including(start, range_of(phase, trial));
   const double lowest = std::isfinite(range.lowest) ? range.lowest : found.lowest,
                highest = std::isfinite(range.highest) ? range.highest : found.highest,

@@ -1,4 +1,5 @@
-/// Any scheme, and a look at the temperatures that it returns: are they those that continue the state at t_n?
+/// Guard around any scheme: it checks that the temperatures that the scheme returns are a continuation of the
+/// state at t_n, and rejects the step otherwise.
 ///
 /// The equations of a step need not have one solution alone. Conductances follow gaps, gaps follow
 /// temperatures, tables bend: a Newton iteration that sets out far away may end at a root that no sequence of
@@ -15,7 +16,7 @@
 /// beyond is rejected and repeated with a smaller one, from the same state: the root that is left is the one
 /// that t_n leads to.
 ///
-/// Where fluxes, sources or friction heat or cool, that side has no bound.
+/// Where fluxes, sources or friction heat or cool, the temperature has no bound on that side.
 #pragma once
 
 #include <memory>

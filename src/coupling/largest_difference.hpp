@@ -1,4 +1,4 @@
-/// By how much two iterates differ.
+/// Largest difference between two iterates.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// One step by a coupling scheme, and how large its local error is.
+/// Takes one step with a coupling scheme and estimates its local error.
 #pragma once
 
 #include <optional>
@@ -28,10 +28,11 @@ class MeasuredStep {
   Taken take(const State& old, State& trial, double time, double dt);
   /// The last step taken is committed.
   void commit() { rates_ = std::move(next_rates_); }
-  /// The last step committed does not say how it goes on: the next one is measured as a first step.
+  /// Drops the rates of the last committed step, because they do not predict the next one: it is measured as
+  /// a first step.
   void forget() { rates_ = {}; }
 
-  /// Of the last step committed; what a checkpoint keeps.
+  /// Rates of the last step committed, for checkpoints.
   const Rates& rates() const { return rates_; }
 
  private:

@@ -1,4 +1,4 @@
-/// What a running simulation tells to whoever writes results or shows progress.
+/// Interface by which a running simulation reports to the parts that write results or show progress.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ namespace solidus::coupling {
 
 struct State;
 
-/// What one phase did in a step.
+/// Effort of one phase in a step: iterations, residual and time.
 struct PhaseEffort {
   int iterations = 0;         ///< Newton iterations (linear solves)
   int linear_iterations = 0;  ///< iterations of the linear solver, summed
   double residual = 0;        ///< final relative residual
   double seconds = 0;
   int hardest = 0;  ///< as `iterations`, of two stages of a pass only the harder one; zero: not counted apart
-  /// How hard the step was: what the size of the next one follows.
+  /// Difficulty of the step, which the size of the next one depends on.
   int hard() const { return hardest > 0 ? hardest : iterations; }
 };
 
@@ -28,21 +28,21 @@ struct PhaseEffort {
 struct EnergyAudit {
   double stored_heat = 0;  ///< change of sensible and latent heat
   double structural = 0;   ///< change of the structural energy W + M + Θ S
-  double contact = 0;  ///< change of the energy in contact penalties, and of what friction's hardening stores
-  double kinetic = 0;  ///< change of the kinetic energy
-  double friction = 0;    ///< what friction dissipates
-  double numerical = 0;   ///< what the time integration of inertia and of contact penalties dissipates
-  double work = 0;        ///< work of loads and supports on the bodies
-  double unbalanced = 0;  ///< work of the forces that Newton's iteration left, a part of the defect
-  double heat_in = 0;     ///< through boundaries and from sources
-  double entropy_in = 0;  ///< that came with it, at the temperatures of the bodies there [J/K]
-  double heat_exchanged =
-      0;  ///< what the defect is measured against: the sum of magnitudes of heat moved in the step
+  double contact =
+      0;  ///< change of the energy in contact penalties, and of the energy stored by friction's hardening
+  double kinetic = 0;         ///< change of the kinetic energy
+  double friction = 0;        ///< dissipation by friction
+  double numerical = 0;       ///< dissipation by the time integration of inertia and of contact penalties
+  double work = 0;            ///< work of loads and supports on the bodies
+  double unbalanced = 0;      ///< work of the forces that Newton's iteration left, a part of the defect
+  double heat_in = 0;         ///< through boundaries and from sources
+  double entropy_in = 0;      ///< that came with it, at the temperatures of the bodies there [J/K]
+  double heat_exchanged = 0;  ///< reference of the defect: the sum of magnitudes of heat moved in the step
   double viscous_dissipation = 0;  ///< heat of the flowing melt (2.114)
   double plastic_dissipation = 0;  ///< heat of plastic flow (2.117)
   double plastic_work = 0;         ///< work of the deviator on plastic flow
-  double hardening() const { return plastic_work - plastic_dissipation; }  ///< what hardening stores
-  double frictional_heat = 0;        ///< what of the friction the thermal phase took up
+  double hardening() const { return plastic_work - plastic_dissipation; }  ///< stored by hardening
+  double frictional_heat = 0;        ///< heat of friction that the thermal phase took up
   contact::InterfaceSums interface;  ///< of the last thermal pass; sums of a step, not of a run
   double defect() const {
     return stored_heat + structural + contact + kinetic + numerical + friction - frictional_heat - work -
@@ -79,7 +79,7 @@ struct ContactSummary {
   double left_area = 0, left_gap = 0;
 };
 
-/// What a scheme reports of a step it took.
+/// Report of a scheme on a step that it took.
 struct StepEffort {
   PhaseEffort heat, mechanics;
   int coupling_iterations = 1;  ///< turns that the phases took until they agreed

@@ -88,7 +88,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
     effort.energy.friction = 0;
   }
   effort.energy.interface = {};
-  settle_contacts(phases, trial.heat.temperature, report.balance.contributions, effort.energy);
+  commit_contact_heat(phases, trial.heat.temperature, report.balance.contributions, effort.energy);
   if (phases.mechanics != nullptr) trial.contacts = contact_states(phases);
   add(report.newton, report.hardest, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;

@@ -1,5 +1,5 @@
-/// One pass through a phase, and what it adds to the report of the step: shared by the schemes that solve the
-/// phases one after the other, once a step or many times.
+/// One pass through a phase, and its contribution to the report of the step: shared by the schemes that solve
+/// the phases one after the other, once or several times a step.
 #pragma once
 
 #include "coupling/phases.hpp"

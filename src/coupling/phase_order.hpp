@@ -1,4 +1,4 @@
-/// Which phase of a sequential split comes first in a step (sequential_split.hpp).
+/// Order of the phases of a sequential split in a step (sequential_split.hpp).
 #pragma once
 
 namespace solidus::coupling {

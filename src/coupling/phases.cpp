@@ -9,13 +9,13 @@ namespace solidus::coupling {
 
 namespace {
 
-/// @param presence  null: of all nodes
-void range_of_owned(const std::vector<double>& temperature, Index n_owned, const algebra::Presence* presence,
+/// @param active  null: of all nodes
+void range_of_owned(const std::vector<double>& temperature, Index n_owned, const algebra::ActiveSet* active,
                     StepEffort& effort) {
   constexpr double k_far = std::numeric_limits<double>::max();  // of a process that owns nothing
   double low = k_far, high = -k_far;
   for (Index i = 0; i < n_owned; ++i) {
-    if (presence != nullptr && !presence->node(i)) continue;
+    if (active != nullptr && !active->node(i)) continue;
     low = std::min(low, temperature[static_cast<std::size_t>(i)]);
     high = std::max(high, temperature[static_cast<std::size_t>(i)]);
   }
@@ -36,8 +36,7 @@ std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState&
 
 void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   if (phases.heat != nullptr) {
-    range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &phases.heat->presence(),
-                   effort);
+    range_of_owned(state.heat.temperature, phases.heat->mesh().n_owned_nodes, &phases.heat->active(), effort);
     effort.solid_fraction = phases.heat->mean_solid_fraction(state.heat);
   } else {
     range_of_owned(phases.temperature, phases.mechanics->mesh().n_owned_nodes, nullptr, effort);

@@ -1,4 +1,4 @@
-/// The phases that a scheme drives, owned by whoever built them.
+/// References to the phases that a scheme drives; model::Assembly owns them.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Phases {
   mechanics::MechanicalPhase* mechanics = nullptr;  ///< null: heat alone
   mechanics::StructuralHeat* structural = nullptr;  ///< null: deformation does no heat
   std::vector<contact::ContactPair*> contacts;
-  const criteria::Criteria* criteria = nullptr;  ///< what State::criteria holds; null: nothing is followed
+  const criteria::Criteria* criteria = nullptr;  ///< criteria that State::criteria belongs to; null: none
   const Coherency* coherency = nullptr;          ///< null: nothing that deforms melts
   std::vector<double> temperature;               ///< [K], [local node]: of a mechanical phase alone
   std::optional<double> ambient_temperature;     ///< Θ_a of 2.24 [K]; absent: 𝓛 is not followed
@@ -35,7 +35,8 @@ std::vector<double> plateau_share(const Phases& phases, const heat::ThermalState
 /// Coherency::at of a state; empty where nothing that deforms melts. Collective.
 std::vector<double> coherency_of(const Phases& phases, const heat::ThermalState& heat);
 
-/// What every scheme reports of the state it reached: temperatures, solid fraction, contact.
+/// Adds to the report of a step the data of the state that every scheme reports: temperatures, solid
+/// fraction, contact.
 void summarise(const Phases& phases, const State& state, StepEffort& effort);
 
 }  // namespace solidus::coupling

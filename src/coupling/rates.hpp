@@ -1,4 +1,4 @@
-/// How temperatures and displacements changed over the last step: what the next one is predicted from.
+/// Rates of temperatures and displacements over the last step, from which the next one is predicted.
 #pragma once
 
 #include <vector>

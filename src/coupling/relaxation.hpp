@@ -1,4 +1,4 @@
-/// What becomes of the change that an iteration x ← F(x) asks for:
+/// Relaxation of a fixed-point iteration x ← F(x):
 ///
 ///   x ← x + ω r,   r = F(x) − x
 ///

@@ -79,8 +79,8 @@ StepEffort SequentialSplit::heat_first(const State& old, State& trial, double ti
 
 StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt) {
   StepEffort effort;
-  phases_.mechanics->rest(old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
-  for (contact::ContactPair* pair : phases_.contacts) pair->rest();
+  phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
+  for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   thermal_pass(phases_, old, warm, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, warm, effort);

@@ -176,7 +176,8 @@ std::optional<Outcome> Simulation::run_stage(Progress& p) {
         scheme_->synchronise(p.committed);
         break;
       case Try::stuck:
-        // Whoever continues has changed something: with the step asked for, not with the one that failed.
+        // A run that continues from here has a changed case, so it starts with the step asked for, not with
+        // the one that failed.
         save(p, {.size = options_.stages[p.stage].step.step});
         return stopped(p.stop, p, Outcome::stuck);
     }
@@ -214,8 +215,9 @@ Simulation::Try Simulation::try_step(Progress& p) {
   return Try::committed;
 }
 
-// A step that is committed beyond a limit holds a jump, or is the smallest: its rates predict nothing.
-void Simulation::look_at_excess(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
+// A step that is committed although it exceeds a limit contains a jump, or is the smallest one: its rates are
+// not used to predict the next step.
+void Simulation::check_limits(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
   if (!options_.stages[p.stage].step.adaptive) return;
   const Strictest limit = strictest(options_.stages[p.stage].step.limits, measure);
   if (!limit.exceeded) return;
@@ -234,7 +236,7 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
                     {p.trial.time, p.trial.heat, p.trial.mechanics}, p.trial.criteria);
   std::swap(p.committed, p.trial);
   p.step->commit();
-  look_at_excess(p, step, measure);
+  check_limits(p, step, measure);
   p.control->accepted(step, measure);
   p.solid_fraction = p.record.solid_fraction;
 

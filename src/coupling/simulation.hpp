@@ -74,18 +74,18 @@ class Simulation {
               const std::optional<Continuation>& from = {});
 
  private:
-  struct Progress;  ///< what changes from step to step
+  struct Progress;  ///< variables of the loop over steps
 
   enum class Try { committed, repeat, stuck };
   /// Begins the stage that holds at the committed time, or goes on in it.
   void enter_stage(Progress& p, const SolidFraction& solid_fraction, const std::optional<Continuation>& from);
-  /// As run(), within the stage; nothing where its end is reached.
+  /// Runs within the stage as run() does; returns nothing if the end of the stage is reached.
   std::optional<Outcome> run_stage(Progress& p);
   Outcome end_at_once(Progress& p, const StageStart& stage_start);
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
-  void look_at_excess(Progress& p, const PlannedStep& step, const StepMeasure& measure);
+  void check_limits(Progress& p, const PlannedStep& step, const StepMeasure& measure);
   static bool measures_error(const StepOptions& step);
   bool stop_asked() const;
   bool checkpoint_due(const StepRecord& record) const;

@@ -171,7 +171,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   energy.stored_heat = balance.stored;
   for (const heat::ConditionHeat& condition : balance.conditions) energy.heat_in += condition.heat;
   energy.entropy_in = balance.entropy_in;
-  settle_contacts(phases_, trial.heat.temperature, balance.contributions, energy);
+  commit_contact_heat(phases_, trial.heat.temperature, balance.contributions, energy);
   trial.contacts = contact_states(phases_);
   energy.heat_exchanged = balance.exchanged;
   effort.least_dissipation = work.least_dissipation;

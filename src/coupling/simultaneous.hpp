@@ -39,7 +39,7 @@ class SimultaneousScheme final : public CouplingScheme {
   void conditions_changed() override { newton_.emplace(phases_, options_.solver); }
   StepEffort advance(const State& old, State& trial, double time, double dt) override;
 
-  /// Of the last stage.
+  /// Report of the last stage.
   const CoupledReport& report() const { return report_; }
 
  private:

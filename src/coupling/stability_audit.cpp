@@ -29,8 +29,8 @@ StabilityAudit stability_audit(const Phases& phases, const State& old, const Sta
   }
 
   // In both inequalities residuals stand on the right (theory, 2 and 3); that of heat is weighted with
-  // 1 − Θ_a/Θ, of magnitude below one. So does what sub-scales of mixed elements give back: 𝓛 is without
-  // their energy.
+  // 1 − Θ_a/Θ, of magnitude below one. So does the energy that sub-scales of mixed elements give back: 𝓛 is
+  // without their energy.
   constexpr double k_rounding = 1e-14;  // of each entropy that is a difference
   r.tolerance = std::max(0.0, energy.unbalanced) + std::max(0.0, -energy.numerical) +
                 effort.heat.residual * energy.heat_exchanged + k_rounding * ambient * stored.magnitude;

@@ -12,7 +12,7 @@
 
 namespace solidus::coupling {
 
-/// How an increment is booked.
+/// Assignment of an increment to the phases.
 enum class Booking {
   by_phase,   ///< one mechanical phase, then one thermal phase
   mechanical  ///< all at once: the whole increment as mechanical (4.1.1, iterations)

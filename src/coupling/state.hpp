@@ -1,4 +1,4 @@
-/// The whole committed state of a run: what a step starts from and a checkpoint keeps, and nothing else.
+/// The whole committed state of a run, from which a step starts and which a checkpoint holds.
 #pragma once
 
 #include <vector>

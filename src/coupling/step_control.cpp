@@ -45,7 +45,8 @@ StepControl::StepControl(const StepOptions& options, double start, std::vector<d
 PlannedStep StepControl::plan(double time) const {
   const auto next = std::upper_bound(landings_.begin(), landings_.end(), time + k_same_time * state_.size);
   const double landing = next == landings_.end() ? end_ : *next;
-  // Less than what a cut takes off: a step that was rejected is not planned again.
+  // A step is stretched by less than a cut shortens it, so that a step that was rejected is not planned
+  // again.
   const double stretch = std::min(k_stretch, 0.5 * (1 / options_.cut - 1));
   const double rest = landing - time, tolerance = stretch * state_.size;
   if (rest <= state_.size + tolerance)

@@ -1,5 +1,5 @@
-/// The size of the next step: lands on output times, cuts after a rejection, and where it is adaptive grows
-/// and shrinks with what the step limits and the effort of the iteration say.
+/// The size of the next step: lands on output times, cuts after a rejection, and, where it is adaptive, grows
+/// and shrinks with the step limits and the effort of the iteration.
 #pragma once
 
 #include <string>
@@ -30,11 +30,11 @@ struct PlannedStep {
   std::string reason;  ///< why this size, for steps.csv
 };
 
-/// What the control carries from step to step, for checkpoints.
+/// State of the step control between steps, for checkpoints.
 struct ControlState {
   double size = 0;                  ///< the step wanted next, before landing [s]
   std::string reason = "as asked";  ///< why
-  /// Of the first step from here that exceeded a limit, and the size wanted before it; zero: none did.
+  /// Data of the first step from here that exceeded a limit, and the size wanted before it; zero: none did.
   double refused = 0, refused_ratio = 0, before_refusal = 0;
 };
 

@@ -14,8 +14,8 @@ namespace {
 constexpr double k_safety = 0.8;
 // Estimates are no sharper than this: a step is repeated only where it is above its limit by this factor.
 constexpr double k_tolerated = 1.5;
-// Without inertia a displacement is not integrated in time, it is what equilibrium asks for at t_{n+1}: its
-// error is not carried on, and that of one point of contact that opens is not worth a second try.
+// Without inertia a displacement is not integrated in time, it follows from equilibrium at t_{n+1}: its error
+// is not carried on, and that of one point of contact that opens is not worth a second try.
 constexpr double k_tolerated_displacement = 3;
 
 }  // namespace
@@ -26,7 +26,7 @@ Strictest strictest(const StepLimits& limits, const StepMeasure& measure) {
   const auto look = [&](const char* name, const char* unit, double value, double allowed, double order,
                         double tolerated) {
     if (value <= 0) return;
-    // What is not a number exceeds every limit by far.
+    // A value that is not a number exceeds every limit by far.
     const double ratio = std::isnan(value) ? std::numeric_limits<double>::infinity() : value / allowed;
     result.ratio = std::max(result.ratio, ratio);
     result.exceeded = result.exceeded || ratio > tolerated;

@@ -1,11 +1,11 @@
-/// What a step may commit in error and change at most, and which of these bounds its size.
+/// Limits on the error and on the change in a step, and the choice of the limit that bounds the step size.
 #pragma once
 
 #include <string>
 
 namespace solidus::coupling {
 
-/// How the local error is measured (coupling/error_estimate.hpp).
+/// Method by which the local error is estimated (coupling/error_estimate.hpp).
 enum class ErrorControl { none, predictor, doubling };
 
 struct StepLimits {
@@ -18,7 +18,7 @@ struct StepLimits {
   bool operator==(const StepLimits&) const = default;
 };
 
-/// What a step that went through shows.
+/// Measured errors and changes of a step that converged.
 struct StepMeasure {
   int iterations = 0;                                    ///< the largest Newton count of its phases
   double temperature_error = 0, displacement_error = 0;  ///< [K], [m]; zero where nothing measures them
@@ -32,7 +32,7 @@ struct Strictest {
   double factor = 0;
   std::string name;       ///< "temperature error"
   std::string excess;     ///< "temperature error 3.2 K, allowed 1 K"
-  double ratio = 0;       ///< of what is to what is allowed, of the limit exceeded most
+  double ratio = 0;       ///< of measured to allowed value, of the limit exceeded most
   bool exceeded = false;  ///< so far that the step is to be repeated
 };
 

@@ -34,7 +34,8 @@ class Joined {
   std::vector<Index> parent_;
 };
 
-/// What labels become when pairs of them mean the same part: the least of all that hang together.
+/// Merges labels when pairs of them denote the same part: each is mapped to the least of all that are
+/// connected with it.
 std::map<double, double> joined_labels(const std::vector<double>& pairs) {
   std::vector<double> labels = pairs;
   std::sort(labels.begin(), labels.end());

@@ -1,4 +1,4 @@
-/// All criteria of a run together.
+/// The list of all criteria of a run.
 #pragma once
 
 #include <limits>
@@ -19,11 +19,12 @@ class Criteria {
   bool empty() const { return list_.empty(); }
 
   State initial(const Moment& start) const;
-  /// Another run begins: nothing of the last one counts.
+  /// Forgets the stored phases, because another run begins.
   void forget() { phases_time_ = std::numeric_limits<double>::quiet_NaN(); }
-  /// As Criterion::step, for all of them. `state` is that of t_n and becomes that of t_{n+1}. Collective.
+  /// Advances all criteria over a step, as Criterion::step does. `state` is that of t_n and becomes that of
+  /// t_{n+1}. Collective.
   void step(const Moment& old, const Moment& next, State& state);
-  /// Of all criteria, one behind the other.
+  /// Returns the fields of all criteria, one after the other.
   std::vector<FieldInfo> fields() const;
   /// @param values  one span per field, in the order of fields()
   void fill(const Moment& now, const State& state, std::span<const std::span<double>> values) const;
@@ -32,7 +33,7 @@ class Criteria {
   double seconds() const { return seconds_; }  ///< spent in steps so far
 
  private:
-  /// What the thermal phase knows of phase changes at a moment.
+  /// Nodal solid fractions and plateau shares at a moment, from the thermal phase.
   struct NodalPhases {
     std::vector<double> solid_fraction, plateau_share;
     Moment of(const Moment& moment) const {
@@ -43,7 +44,7 @@ class Criteria {
 
   const heat::ThermalPhase* phase_;
   std::vector<std::unique_ptr<Criterion>> list_;
-  /// Of the last step's end, because the next step asks for it again.
+  /// Nodal phases at the end of the last step, stored because the next step needs them again.
   NodalPhases phases_;
   double phases_time_ = std::numeric_limits<double>::quiet_NaN();  ///< never equal to a time
   double seconds_ = 0;

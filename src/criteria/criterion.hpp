@@ -1,4 +1,4 @@
-/// A criterion: something the foundry engineer reads off that accumulates while the casting freezes.
+/// A criterion: a result for the foundry engineer that accumulates while the casting freezes.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ struct Moment {
   /// f_S of the materials around each node that can melt, 1 if none can; [local node], ghosts up to date.
   /// Empty without a thermal phase. Criteria fills it in.
   std::span<const double> solid_fraction = {};
-  /// heat::ThermalPhase::plateau_share: what isothermal changes of any material have come to at their nodes.
-  /// Empty without one. Criteria fills it in.
+  /// heat::ThermalPhase::plateau_share: the share of isothermal changes of any material that is done at their
+  /// nodes. Empty without one. Criteria fills it in.
   std::span<const double> plateau_share = {};
 };
 
@@ -54,7 +54,7 @@ class Criterion {
   /// Values of all fields at this moment, in their order; each span has the shape of a Column. Collective.
   virtual void fill(const Moment& now, const Record& record,
                     std::span<const std::span<double>> values) const = 0;
-  /// What the summary says at the end; the same on every process. Collective.
+  /// Returns the findings for the summary at the end; the same on every process. Collective.
   virtual std::vector<Finding> findings(const Record& /*record*/) const { return {}; }
   virtual std::size_t bytes() const { return 0; }
 };

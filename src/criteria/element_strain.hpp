@@ -1,4 +1,5 @@
-/// The mean strain of an element, ∫ sym ∇u dV / V: what B-bar and the standard operator agree in (6.24).
+/// The mean strain of an element, ∫ sym ∇u dV / V: the strain in which B-bar and the standard operator agree
+/// (6.24).
 #pragma once
 
 #include <span>

@@ -10,7 +10,8 @@ namespace solidus::criteria {
 
 namespace {
 
-// What a node remembers, one behind the other in the column "history". Times [s] are k_never before they are.
+// History of a node, stored consecutively in the column "history". Times [s] are k_never until the event has
+// occurred.
 enum Slot : std::size_t {
   k_liquidus_at,
   k_evaluated_at,
@@ -101,7 +102,7 @@ Record Freezing::initial(const Moment& start) const {
   for (std::size_t i = 0; i < mesh_.x.size(); ++i)
     for (const Slot time : {k_liquidus_at, k_evaluated_at, k_solidified_at})
       history[i * k_width + time] = k_never;
-  // What starts between liquidus and solidus freezes from the start on.
+  // Nodes that start between liquidus and solidus freeze from the start on.
   for (const FreezingNode& who : nodes_) {
     const auto i = static_cast<std::size_t>(who.node);
     if (start.solid_fraction[i] > 0 && start.solid_fraction[i] < 1)

@@ -64,7 +64,7 @@ class Freezing : public Criterion {
   std::size_t bytes() const override;
 
  private:
-  /// Of a body.
+  /// Freezing levels of a body.
   struct Levels : FreezingLevels {
     double evaluation = 0;  ///< T_e [K]
     bool at_end = false;    ///< that is where the last melt freezes

@@ -1,4 +1,4 @@
-/// Between which temperatures a body freezes, and when within a step a node passes them.
+/// Temperatures between which a body freezes, and the time within a step at which a node passes them.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-/// Small lists from all processes to all.
+/// Gathers small lists from all processes on all.
 #pragma once
 
 #include <span>

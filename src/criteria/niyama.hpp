@@ -27,7 +27,7 @@ namespace solidus::criteria {
 /// Zero where there is no cooling rate.
 double niyama(double gradient, double cooling_rate);
 
-/// What Ny* needs of a material.
+/// Properties of a material that the dimensionless Niyama criterion Ny* depends on.
 class FeedingLaw {
  public:
   /// Nothing where the material does not freeze over a range, does not shrink, or arm spacing or viscosity

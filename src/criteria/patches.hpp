@@ -64,7 +64,7 @@ class Patches {
   std::size_t bytes() const;
 
  private:
-  /// Of one block's shape at its centre.
+  /// Basis functions of the shape of one block at its centre.
   struct Centre {
     std::vector<double> values, gradients;  ///< N_a; ∂N_a/∂ξ_i as [node][dimension]
     double weight = 0;                      ///< volume of the reference shape

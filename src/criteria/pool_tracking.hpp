@@ -1,4 +1,4 @@
-/// Which part of the melt is which pool: numbers that last.
+/// Tracking of pools of melt: connected parts of the melt get pool numbers that persist from step to step.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct MeltPart {
   double temperature = -1, fraction = 1, number = 0;  ///< of its hottest node [K], 1, in the input
   mesh::Point where = {};                             ///< of that node
 };
-/// What a part shares with a pool of the step before.
+/// Volume that a part of the melt shares with a pool of the previous step.
 struct Overlap {
   double label = 0;
   int pool = 0;
@@ -36,7 +36,7 @@ struct Melt {
   std::vector<Overlap> overlaps;
   std::vector<LastNode> last;
 };
-/// Adds up what the processes found each; the same everywhere. Collective.
+/// Merges the parts of the melt that the processes have found; the result is the same on all. Collective.
 Melt gathered(const Melt& own);
 
 /// Brings the pools to the time of `melt`, and says the number of each part (zero: a crumb).

@@ -1,4 +1,4 @@
-/// Pools of melt that nothing feeds any more: where a casting freezes last (docs/theory/criteria.md).
+/// Pools of melt that are cut off from feeding, in which a casting freezes last (docs/theory/criteria.md).
 ///
 /// Melt is where the solid fraction lies below a limit, beyond which feeding through the mushy zone ends. A
 /// pool is a connected part of it, over the elements of all bodies that can melt. Pools keep their numbers
@@ -52,14 +52,14 @@ class Pools : public Criterion {
   std::vector<FieldInfo> fields() const override;
   void fill(const Moment& now, const Record& record,
             std::span<const std::span<double>> values) const override;
-  /// How many pools were closed off, and when and where the largest of them froze.
+  /// Returns the number of pools that were cut off, and when and where the largest of them froze.
   std::vector<Finding> findings(const Record& record) const override;
 
   static constexpr const char* k_name = "pools";
   static std::vector<Pool> pools(const Record& record);
 
  private:
-  /// Of the active bodies that can melt, around an owned node [m³].
+  /// Volume around an owned node of the active bodies that can melt [m³].
   double volume(std::size_t node) const;
   /// When a node of a pool passed the limit in a step [s]: its solid fraction grows evenly until it is solid.
   double passed_at(std::size_t node, const Moment& old, const Moment& next) const;

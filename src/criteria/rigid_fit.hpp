@@ -1,4 +1,4 @@
-/// The displacement of a body without its best rigid-body motion: what is left is distortion.
+/// The displacement of a body without its best rigid-body motion: the remainder is distortion.
 ///
 ///   t, θ  minimise  ∫ |u − t − θ × (x − c)|² dV,   c the centre of volume
 ///   t = ∫ u dV / V,   I θ = ∫ (x − c) × u dV,   I = ∫ (|x − c|² 1 − (x − c) ⊗ (x − c)) dV

@@ -1,8 +1,8 @@
-/// What criteria accumulate over committed steps: part of the state of a run (coupling::State).
+/// State of the criteria, accumulated over committed steps: part of the state of a run (coupling::State).
 ///
-/// It follows the rules of the state: only a committed step changes it (Criteria::step), a rejected one never
-/// sees it, and a checkpoint holds all of it. Everything is a plain column or table under a name, so the
-/// checkpoint writes and reads whatever there is without knowing what it means.
+/// It follows the rules of the state: only a committed step changes it (Criteria::step), a rejected one does
+/// not, and a checkpoint holds all of it. Everything is a plain column or table under a name, so the
+/// checkpoint writes and reads it without knowing its meaning.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ struct Table {
   std::vector<double> values;  ///< [row][column]
 };
 
-/// What one criterion remembers. Names and shapes of columns never change during a run.
+/// State of one criterion. Names and shapes of columns never change during a run.
 struct Record {
   std::string name;
   std::vector<Column> columns;

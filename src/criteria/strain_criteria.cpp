@@ -62,7 +62,7 @@ double largest_principal(const Sym<double>& e) {
   return 2 * std::sqrt(j2 / 3) * std::cos(std::acos(cosine) / 3);
 }
 
-/// The body of every local node; of ghosts from their owners, who see all of a node's elements.
+/// The body of every local node; of ghosts from their owners, which hold all of a node's elements.
 std::vector<int> bodies_of_nodes(const mesh::Mesh& mesh, const std::vector<material::Material>& materials) {
   std::vector<double> body(mesh.x.size(), -1.0);
   for (const bool melts : {true, false})

@@ -58,16 +58,16 @@ struct Source {
   PlaceFunction factor = 1.0;
 };
 
-/// Where nothing is said, a surface is insulated. Functions of time are taken at the end of the step
-/// (backward Euler). `name` is for messages and history columns.
+/// Thermal conditions of a model. A surface without a condition is insulated. Functions of time are taken at
+/// the end of the step (backward Euler). `name` is for messages and history columns.
 struct Conditions {
   std::vector<PrescribedTemperature> temperatures;
   std::vector<Flux> fluxes;
   std::vector<Film> films;
   std::vector<Radiation> radiations;
   std::vector<Source> sources;
-  /// Names of the bodies that have gone: their elements conduct and store nothing, nodes of theirs alone keep
-  /// their temperature, and conditions hold only where another body is.
+  /// Names of the bodies that have been removed: their elements neither conduct nor store heat, nodes that
+  /// belong to them alone keep their temperature, and conditions hold only where another body is.
   std::vector<std::string> absent_bodies;
 };
 

@@ -12,7 +12,7 @@ constexpr double k_supply = 20.0;     ///< c: large enough for linear fields at 
 /// Differences of temperature [K] below which a field counts as even, and nothing is let through: what
 /// rounding and tolerances leave must not decide over the flows of a front that arrives.
 constexpr double k_noise = 1e-4;
-constexpr double k_reserve = 1.5;                                ///< γ over what linear fields need
+constexpr double k_reserve = 1.5;  ///< γ over the least value for linear fields
 constexpr double k_least_factor = 0.25, k_largest_factor = 4.0;  ///< of γ
 
 double value(const KirchhoffPotential& u, double temperature) {
@@ -240,7 +240,8 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
     }
   }
   ghosts_.update(shares_, 2);
-  // Where nothing flows yet, both ways: the processes of the two nodes must agree.
+  // Where nothing flows yet the direction is unknown, and the processes of the two nodes must agree: the
+  // smaller share of both directions is taken.
   const auto left_of = [&](const Pair& p, double flow) {
     const std::size_t i = 2 * at(p.i), j = 2 * at(p.j);
     const double into_i = std::min(shares_[i], shares_[j + 1]), into_j = std::min(shares_[i + 1], shares_[j]);

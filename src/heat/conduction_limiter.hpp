@@ -21,7 +21,7 @@
 ///
 /// The shares α are found at given temperatures and held until they are found anew, so that conduction stays
 /// linear in u, symmetric and positive semi-definite, and the iteration of a step converges as it does
-/// without them. Whoever solves a step looks at them again at the temperatures reached.
+/// without them. The solver of a step updates them at the temperatures reached.
 ///
 /// D. Kuzmin, J. Comput. Appl. Math. 236 (2012) 2317 (linearity-preserving limiters); G. R. Barrenechea,
 /// V. John and P. Knobloch, Math. Models Methods Appl. Sci. 27 (2017) 525 (a limiter with a discrete maximum
@@ -45,7 +45,7 @@ class ConductionLimiter {
   /// @param potentials  one per body; must outlive this object, as the mesh must
   ConductionLimiter(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials);
 
-  /// Takes the pairs of all bodies anew: clear(), add_body() for each one, finish().
+  /// Collects the pairs of all bodies anew: clear(), add_body() for each one, finish().
   void clear();
   /// @param matrix  Σ K_ij of the body alone
   void add_body(int body, algebra::BlockMatrix& matrix);
@@ -68,12 +68,12 @@ class ConductionLimiter {
                    std::span<LimitedFlow* const> flows);
   /// All α = 1.
   void clear_shares() { std::fill(left_.begin(), left_.end(), 0.0); }
-  /// From here on α = 0 for flows into owned nodes above `highest` and out of those below `lowest`, until
-  /// release(); find_shares() makes it so. Collective.
+  /// Sets α = 0 from here on for flows into owned nodes above `highest` and out of those below `lowest`,
+  /// until release(); find_shares() makes it so. Collective.
   enum class Held { none, as_before, further };  ///< no node is there, the same ones as before, others too
   Held hold(std::span<const double> temperature, double lowest, double highest);
   void release() { held_nodes_.clear(); }
-  /// r += what is not let through.
+  /// r += the part of the flows that is not let through.
   void add_heat(std::span<const double> temperature, std::span<double> r) const;
   /// matrix += ∂/∂v of that, in the unknown of nodal_potential.hpp: symmetric, no less than zero.
   void add_symmetric_tangent(algebra::BlockMatrix& matrix) const;

@@ -28,7 +28,7 @@ class ConsistentHeat final : public algebra::Contribution {
                  NodalEnthalpy nodes);
 
   /// Bodies have left.
-  void remove_bodies(const algebra::Presence& presence) { nodes_.remove_bodies(presence); }
+  void remove_bodies(const algebra::ActiveSet& active) { nodes_.remove_bodies(active); }
   /// Off: a steady state stores nothing.
   void use(bool on) { on_ = on; }
 

@@ -56,7 +56,7 @@ double EnthalpyNewton::temperature_of(std::size_t i, double heat) const {
   return tilt_ > 0 ? t + tilt(i) * (heat - old_heat_[i]) : t;
 }
 
-/// Sets or takes away the tilt of the plateaus, and what follows from it.
+/// Sets or removes the tilt of the plateaus, and updates all that depends on it.
 void EnthalpyNewton::set_tilt(double tilt, std::span<double> temperature) {
   tilt_ = tilt;
   for (std::size_t i = 0; i < r_.size(); ++i)

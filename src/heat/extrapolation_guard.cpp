@@ -15,7 +15,7 @@ using material::k_sdirk_carried;
 /// Share of the range of temperatures by which an extrapolated one may leave it: what the iteration leaves
 /// in the heats of nodes far from all that happens is no overshoot.
 constexpr double k_beyond = 1e-9;
-/// How much further than in the first stage a temperature may go: by (1 − γ)/γ where the capacity is
+/// Factor by which a temperature may go further than in the first stage: by (1 − γ)/γ where the capacity is
 /// constant, and half as much again where it is not.
 constexpr double k_outside = 1.5 * k_sdirk_carried;
 /// Share of the range of temperatures below which a difference is none.
@@ -43,7 +43,7 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
   };
   for (std::size_t i = 0; i < ahead_.size(); ++i) {
     const auto node = static_cast<Index>(i);
-    if (!system.presence().node(node)) continue;
+    if (!system.active().node(node)) continue;
     look(first, before_[i]);
     look(second, now_[i]);
     ahead_[i] = now_[i];
@@ -80,7 +80,7 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
 }
 
 bool ExtrapolationGuard::free(std::size_t i) const {
-  return system_.presence().node(static_cast<Index>(i)) && !system_.fixed()[i];
+  return system_.active().node(static_cast<Index>(i)) && !system_.fixed()[i];
 }
 
 /// Calls f(node, neighbour) for all neighbours of the owned nodes, which may be ghosts.

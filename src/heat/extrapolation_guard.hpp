@@ -1,4 +1,4 @@
-/// Looks at what the extrapolation between the stages of SDIRK2 makes of temperatures.
+/// Guard of SDIRK2: checks the temperatures that follow from the extrapolation between its two stages.
 ///
 /// The second stage starts from H* = H_n + (1 − γ)/γ (H¹ − H_n), an extrapolation of heats. Where a node
 /// gives off the last of its latent heat in the step, its flow of heat goes on as if there were more of it,

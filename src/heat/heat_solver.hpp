@@ -13,7 +13,7 @@ namespace solidus::heat {
 class HeatSolver {
  public:
   HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool symmetric, double relative_tolerance);
-  /// What the matrix is best kept as for such a solver.
+  /// Returns the storage of the matrix that suits such a solver best.
   static algebra::BlockMatrix::Storage storage_for(const mesh::Mesh& mesh, algebra::SolverKind kind,
                                                    bool symmetric);
   /// Call at the start of a step, so that the same step gives the same bits.
@@ -24,9 +24,9 @@ class HeatSolver {
                               double forcing = 0);
   /// The solver that runs now, for algebra::newton().
   algebra::LinearSolver& strong();
-  /// As algebra::LinearSolver::forget().
+  /// Drops what the solvers carry over from earlier solves, as algebra::LinearSolver::forget().
   void forget();
-  /// As algebra::LinearSolver::reset().
+  /// Resets the solvers as algebra::LinearSolver::reset().
   void reset();
   double seconds() const;
 

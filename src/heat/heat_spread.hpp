@@ -1,7 +1,7 @@
-/// Which temperatures an error in the heat of the nodes makes.
+/// Temperature error that follows from an error in the heat of the nodes.
 ///
-/// What a step puts into the wrong node of two neighbours is no error of temperature that lasts: conduction
-/// takes it back within the step. So the heat Q_i spreads for a time τ first,
+/// Heat that a step puts into the wrong one of two neighbouring nodes is no lasting error of temperature:
+/// conduction takes it back within the step. So the heat Q_i spreads for a time τ first,
 ///
 ///   (C/τ + A) δ = Q/τ                                                                      [W]
 ///

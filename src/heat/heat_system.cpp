@@ -33,7 +33,7 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        const std::vector<material::Material>& materials, const Conditions& conditions,
                        bool closed, std::vector<algebra::Contribution*> contributions,
                        algebra::BlockMatrix::Storage storage)
-    : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), presence_(mesh) {
+    : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), active_(mesh) {
   contributions_heat_ = std::any_of(contributions_.begin(), contributions_.end(),
                                     [](const algebra::Contribution* c) { return !c->stores(); });
   for (const material::Material& m : materials) at_nodes_.push_back(closed || m.changes_isothermally());
@@ -41,7 +41,7 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
   if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
 
-  nodal_ = std::make_unique<NodalPotential>(mesh, potentials_, presence_);
+  nodal_ = std::make_unique<NodalPotential>(mesh, potentials_, active_);
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, graph(), storage);
   matrix_->set_fixed(fixed_);
   bind();
@@ -56,7 +56,7 @@ HeatSystem::~HeatSystem() = default;
 algebra::NodeGraph HeatSystem::graph() const {
   algebra::NodeGraph graph(mesh_);
   for (const mesh::Block& block : mesh_.blocks)
-    if (presence_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+    if (active_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   return graph;
 }
@@ -79,7 +79,7 @@ bool HeatSystem::follow_graph() {
 void HeatSystem::add_conditions(const Conditions& conditions) {
   const auto add_surface = [&](const auto& condition) {
     surfaces_.emplace_back(mesh_, kind_,
-                           presence_.part(mesh_, find(mesh_.surfaces, condition.surface, "surface")),
+                           active_.part(mesh_, find(mesh_.surfaces, condition.surface, "surface")),
                            condition.name, SurfaceLaw(condition), closed_);
   };
   for (const Flux& flux : conditions.fluxes) add_surface(flux);
@@ -98,9 +98,9 @@ void HeatSystem::add_conditions(const Conditions& conditions) {
 
 // Without a body that leaves the graph need not change: the nodes of a face are nodes of one element.
 bool HeatSystem::set_conditions(const Conditions& conditions) {
-  const algebra::Presence presence(mesh_, conditions.absent_bodies);
-  const bool leaves = presence != presence_;
-  if (leaves) remove_bodies(presence);
+  const algebra::ActiveSet active(mesh_, conditions.absent_bodies);
+  const bool leaves = active != active_;
+  if (leaves) remove_bodies(active);
   surfaces_.clear();
   sources_.clear();
   prescribed_.clear();
@@ -114,17 +114,17 @@ bool HeatSystem::set_conditions(const Conditions& conditions) {
   return leaves;
 }
 
-void HeatSystem::remove_bodies(const algebra::Presence& presence) {
+void HeatSystem::remove_bodies(const algebra::ActiveSet& active) {
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     const int body = mesh_.blocks[b].body;
-    if (presence.body(body) && !presence_.body(body))
+    if (active.body(body) && !active_.body(body))
       throw std::invalid_argument("a body that has gone cannot come back");
-    if (presence.body(body)) continue;
+    if (active.body(body)) continue;
     conduction_[b].reset();
     fields_[static_cast<std::size_t>(body)].nodes.clear();
   }
-  presence_ = presence;
-  nodal_ = std::make_unique<NodalPotential>(mesh_, potentials_, presence_);
+  active_ = active;
+  nodal_ = std::make_unique<NodalPotential>(mesh_, potentials_, active_);
 }
 
 void HeatSystem::add_conduction(const std::vector<material::Material>& materials) {
@@ -165,7 +165,7 @@ void HeatSystem::add_sources(const std::vector<Source>& sources) {
 void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
   std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
   for (const mesh::Block& block : mesh_.blocks) {
-    if (block.body != body || !presence_.body(body)) continue;
+    if (block.body != body || !active_.body(body)) continue;
     const PackVector<Lane> weights = at_nodes_[static_cast<std::size_t>(body)] != 0
                                          ? mesh::nodal_weights(mesh_, block, kind_)
                                          : mesh::basis_integrals(mesh_, block, kind_);
@@ -189,7 +189,7 @@ void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
 /// Σ_q N_i(x_q) R(x_q) w_q over the elements around the owned nodes.
 void HeatSystem::add_gauss_shares(int body, Volume& volume) const {
   for (const mesh::Block& block : mesh_.blocks) {
-    if (block.body != body || !presence_.body(body)) continue;
+    if (block.body != body || !active_.body(body)) continue;
     const mesh::BlockGeometry g(mesh_, block, kind_,
                                 mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1));
     for (Index e = 0; e < block.size(); ++e)
@@ -228,7 +228,7 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
   for (const PrescribedTemperature& c : conditions) prescribed_.push_back({c.name, c.value, {}, {}, {}});
   fixed_.assign(mesh_.x.size(), 0);
   for (std::size_t node = 0; node < holder.size(); ++node) {
-    if (!presence_.node(static_cast<Index>(node))) {
+    if (!active_.node(static_cast<Index>(node))) {
       fixed_[node] = 1;
       continue;
     }
@@ -243,7 +243,7 @@ void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& condit
 
 void HeatSystem::set_time(double time) {
   if (placed_)
-    together([&] { evaluate(time); });
+    run_collectively([&] { evaluate(time); });
   else
     evaluate(time);
 }
@@ -471,7 +471,7 @@ void HeatSystem::assemble(std::span<const double> temperature) {
     }
   for (std::size_t b = 0; b < conduction_.size(); ++b) {
     const auto body = static_cast<std::size_t>(mesh_.blocks[b].body);
-    if (!presence_.body(static_cast<int>(body))) continue;
+    if (!active_.body(static_cast<int>(body))) continue;
     if (potentials_[body].constant())
       conduction(b).add_tangent(potentials_[body].reference(), {}, *matrix_);
     else
@@ -481,8 +481,8 @@ void HeatSystem::assemble(std::span<const double> temperature) {
   if (limiter_) limiter_->add_tangent(temperature, *matrix_);
 }
 
-/// Assembles what never changes while the pattern stays. Without contributions the pattern changes only where
-/// a body leaves: then the geometry of the elements, 137 bytes a node of tetrahedra, is not kept.
+/// Assembles the part that does not change while the pattern stays. Without contributions the pattern changes
+/// only where a body leaves: then the geometry of the elements, 137 bytes a node of tetrahedra, is not kept.
 void HeatSystem::keep_conduction() {
   const auto n = static_cast<std::size_t>(matrix_->row_start().back());
   find_node_bodies();
@@ -494,7 +494,7 @@ void HeatSystem::keep_conduction() {
   for (std::size_t body = 0; body < potentials_.size(); ++body) {
     matrix_->set_zero();
     for (std::size_t b = 0; b < conduction_.size(); ++b) {
-      if (mesh_.blocks[b].body != static_cast<int>(body) || !presence_.body(static_cast<int>(body))) continue;
+      if (mesh_.blocks[b].body != static_cast<int>(body) || !active_.body(static_cast<int>(body))) continue;
       conduction(b).add_tangent_once(1.0, *matrix_);
       if (contributions_.empty()) conduction_[b].reset();
     }
@@ -520,7 +520,7 @@ void HeatSystem::find_node_bodies() {
   constexpr int k_none = -2;
   node_body_.assign(mesh_.x.size(), k_none);
   for (const mesh::Block& block : mesh_.blocks) {
-    if (!presence_.body(block.body)) continue;
+    if (!active_.body(block.body)) continue;
     for (const Index node : block.nodes) {
       int& body = node_body_[static_cast<std::size_t>(node)];
       if (body == k_none) body = block.body;

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "algebra/active_set.hpp"
 #include "algebra/contribution.hpp"
-#include "algebra/presence.hpp"
 #include "heat/conditions.hpp"
 #include "heat/conduction_block.hpp"
 #include "heat/conduction_limiter.hpp"
@@ -36,10 +36,11 @@ class HeatSystem {
              algebra::BlockMatrix::Storage storage = algebra::BlockMatrix::Storage::whole);
   ~HeatSystem();
 
-  /// From here on other conditions hold. Where bodies leave, the matrix gets another pattern; then true.
-  /// Throws InputError as the constructor does, std::invalid_argument for a body that comes back. Collective.
+  /// Replaces the conditions from here on. If bodies leave, the matrix gets another pattern; returns whether
+  /// it did. Throws InputError as the constructor does, std::invalid_argument for a body that comes back.
+  /// Collective.
   bool set_conditions(const Conditions& conditions);
-  const algebra::Presence& presence() const { return presence_; }
+  const algebra::ActiveSet& active() const { return active_; }
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
   /// value that is allowed.
   void set_time(double time);
@@ -47,7 +48,8 @@ class HeatSystem {
   void exchange(bool on) { exchange_ = on; }
   /// Writes the prescribed temperatures of the time set, ghosts too.
   void prescribe(std::span<double> temperature) const;
-  /// [local node]: one where the temperature is prescribed, or stays since the bodies there have gone.
+  /// [local node]: one where the temperature is prescribed, or stays because the bodies there have been
+  /// removed.
   const std::vector<char>& fixed() const { return fixed_; }
 
   /// Whether conduction is limited from here on (conduction_limiter.hpp). Off at first, and with the open
@@ -84,10 +86,11 @@ class HeatSystem {
   /// The unknown of assemble_symmetric().
   const NodalPotential& potential() const { return *nodal_; }
   algebra::BlockMatrix& matrix() { return *matrix_; }
-  /// Gives the matrix another pattern where a contribution asks for it; then true. Collective.
+  /// Gives the matrix another pattern if a contribution asks for it; returns whether it did. Collective.
   bool follow_graph();
 
-  /// What contributions that store took up at the last residual(), [owned node] [W]; empty: none stores.
+  /// Returns the heat that storing contributions took up at the last residual(), [owned node] [W]; empty:
+  /// none stores.
   std::span<const double> stored_by_contributions() const { return storing_; }
   /// The least and the greatest temperature that is prescribed, or that surfaces exchange heat with, at the
   /// time set [K]; +∞ and −∞ where there is none. Collective.
@@ -119,8 +122,8 @@ class HeatSystem {
   struct Volume {
     std::string name;
     PlaceFunction power, factor;
-    /// What a point of integration gives to the nodes [m³]: at the nodes themselves, or at Gauss points where
-    /// the body stores its heat there and its source varies with position.
+    /// Volume of a point of integration that counts for a node [m³]. The points are the nodes themselves, or
+    /// Gauss points where the body stores its heat there and its source varies with position.
     struct Share {
       Index node;
       Index point;
@@ -147,7 +150,7 @@ class HeatSystem {
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);
   void add_conditions(const Conditions& conditions);
-  void remove_bodies(const algebra::Presence& presence);
+  void remove_bodies(const algebra::ActiveSet& active);
   void conduct(std::span<const double> temperature);
   double add_flows(std::span<const double> temperature);
   void keep_conduction();
@@ -159,7 +162,7 @@ class HeatSystem {
   bool closed_;
   std::vector<char> at_nodes_;  ///< [body]: whether it stores its heat there
   std::vector<algebra::Contribution*> contributions_;
-  algebra::Presence presence_;
+  algebra::ActiveSet active_;
   /// One per mesh block; null until it is asked for, and of a body that left.
   std::vector<std::unique_ptr<ConductionBlock>> conduction_;
   std::vector<KirchhoffPotential> potentials_;  ///< one per body
@@ -186,7 +189,7 @@ class HeatSystem {
   std::vector<double> local_, roots_;  ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]
   std::vector<double> contributed_;  ///< work, [owned node]
-  std::vector<double> storing_;      ///< what of it contributions that store take up, last residual
+  std::vector<double> storing_;      ///< its part taken up by storing contributions, last residual
   std::vector<double> surface_power_, source_power_, contribution_power_;  ///< of this process, last residual
 };
 

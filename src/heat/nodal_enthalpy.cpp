@@ -49,24 +49,23 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   }
 }
 
-double NodalEnthalpy::held_by(const algebra::Presence& presence, Index node, double heat,
+double NodalEnthalpy::held_by(const algebra::ActiveSet& active, Index node, double heat,
                               double temperature) const {
   const auto list = shares(node);
-  if (std::all_of(list.begin(), list.end(), [&](const Share& s) { return presence.body(s.body); }))
-    return heat;
+  if (std::all_of(list.begin(), list.end(), [&](const Share& s) { return active.body(s.body); })) return heat;
   const double share = plateau_share(node, heat, temperature);
   double held = 0;
   for (const Share& s : list) {
-    if (!presence.body(s.body)) continue;
+    if (!active.body(s.body)) continue;
     const double low = curve(s).lower(temperature);
     held += s.weight * (low + share * (curve(s).upper(temperature) - low));
   }
   return held;
 }
 
-void NodalEnthalpy::remove_bodies(const algebra::Presence& presence) {
+void NodalEnthalpy::remove_bodies(const algebra::ActiveSet& active) {
   std::vector<char> kept;
-  for (std::size_t b = 0; b < materials_.size(); ++b) kept.push_back(presence.body(static_cast<int>(b)));
+  for (std::size_t b = 0; b < materials_.size(); ++b) kept.push_back(active.body(static_cast<int>(b)));
   keep_bodies(kept);
 }
 

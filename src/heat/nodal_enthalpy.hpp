@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -21,9 +21,9 @@ class NodalEnthalpy {
   NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials);
 
   /// The part of a node's heat that bodies which are there hold [J].
-  double held_by(const algebra::Presence& presence, Index node, double heat, double temperature) const;
-  /// Nodes lose what they hold of bodies that are not there; nodes of theirs alone store nothing.
-  void remove_bodies(const algebra::Presence& presence);
+  double held_by(const algebra::ActiveSet& active, Index node, double heat, double temperature) const;
+  /// Removes the heat of inactive bodies from the nodes; nodes that belong to them alone store nothing.
+  void remove_bodies(const algebra::ActiveSet& active);
   /// The same for bodies of which kept[body] is zero.
   void keep_bodies(std::span<const char> kept);
 
@@ -41,9 +41,11 @@ class NodalEnthalpy {
   /// H_i at a temperature; at a jump both ends.
   double lower(Index node, double temperature) const;
   double upper(Index node, double temperature) const;
-  /// How far the isothermal change at this temperature has come: 0 cold end to 1 hot end; 1 without a jump.
+  /// Share of the isothermal change at this temperature that is done: from 0 at the cold end to 1 at the hot
+  /// end; 1 without a jump.
   double plateau_share(Index node, double heat, double temperature) const;
-  /// Where the node stands among its plateaus: twice the number of those below it, and one more on a plateau.
+  /// Returns the position of the node among its plateaus: twice the number of those below it, and one more on
+  /// a plateau.
   int branch(Index node, double heat, double temperature) const;
   /// Mean solid fraction of the materials of a node that can melt, 1 if none can (2.65).
   double solid_fraction(Index node, double heat, double temperature) const;

@@ -6,14 +6,14 @@
 namespace solidus::heat {
 
 NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials,
-                               const algebra::Presence& presence)
+                               const algebra::ActiveSet& active)
     : potentials_(potentials),
       identity_(std::all_of(potentials.begin(), potentials.end(),
                             [](const KirchhoffPotential& u) { return u.constant(); })) {
   if (identity_) return;
   std::vector<std::pair<Index, int>> pairs;
   for (const mesh::Block& block : mesh.blocks) {
-    if (!presence.body(block.body)) continue;
+    if (!active.body(block.body)) continue;
     std::vector<Index> nodes = block.nodes;
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

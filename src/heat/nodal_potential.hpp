@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "heat/kirchhoff_potential.hpp"
 #include "mesh/mesh.hpp"
 
@@ -21,7 +21,7 @@ class NodalPotential {
  public:
   /// @param potentials  one per body of the mesh; must outlive this object
   NodalPotential(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials,
-                 const algebra::Presence& presence);
+                 const algebra::ActiveSet& active);
 
   /// Whether v = Θ at every node.
   bool identity() const { return identity_; }

@@ -1,4 +1,4 @@
-/// Tells when the front of an isothermal change passes many nodes in one iteration of a step.
+/// Detects that the front of an isothermal change passes many nodes in one iteration of a step.
 #pragma once
 
 #include <span>

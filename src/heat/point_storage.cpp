@@ -136,7 +136,7 @@ class Storage final : public PointStorage {
   Lane enthalpy(Lane t) const {
     return for_each_lane(t, [this](double x) { return curve_.upper(x); });
   }
-  /// What the printed form has more than the difference of enthalpies.
+  /// Returns the excess of the printed form over the difference of enthalpies.
   Lane printed(std::size_t at, Lane t, double PrintedExcess::*part) const {
     Lane excess(0.0);
     if (form_ == SensibleForm::enthalpy) return excess;

@@ -1,5 +1,5 @@
-/// The closed rule's sensible heat in a printed form (sensible_form.hpp): what it is more than the difference
-/// of enthalpies, node by node.
+/// The closed rule's sensible heat in a printed form (sensible_form.hpp): its excess over the difference of
+/// enthalpies, node by node.
 ///
 ///   r_i += Σ_m w_im (printed form − (h_1 − h_n))/Δt
 #pragma once

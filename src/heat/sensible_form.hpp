@@ -14,8 +14,8 @@ namespace solidus::heat {
 
 enum class SensibleForm { enthalpy, entropy, temperature };
 
-/// What a printed form has more than the difference of enthalpies, and its derivative with respect to the
-/// end.
+/// Excess of a printed form over the difference of enthalpies, and its derivative with respect to the
+/// temperature at the end.
 struct PrintedExcess {
   double heat = 0;   ///< [J/m³]
   double slope = 0;  ///< [J/(m³ K)]

@@ -294,7 +294,7 @@ void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::Bloc
     *matrix.block(p.ij) += of_j;
     *matrix.block(p.ji) += of_i;
   }
-  // The corner's own part: what the middles of the edges get by it would not be symmetric.
+  // The corner's own part: the entries of the mid-edge nodes would not be symmetric.
   for (std::size_t i = 0; i < flows_.size(); ++i) {
     const Index from = flows_[i].from;
     *matrix.block(matrix.slot(from, from)) -=

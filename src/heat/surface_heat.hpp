@@ -33,8 +33,8 @@ class SurfaceLaw {
   void set_points(std::vector<Position> points) { points_ = std::move(points); }
   /// Throws InputError where a function of position has no value that is allowed. Not collective.
   void set_time(double time);
-  /// Where the derivative would make heat run away (a film coefficient that falls steeply with temperature),
-  /// the slope is that of the frozen coefficient.
+  /// Returns the flux and its slope at a temperature. If the exact derivative would make heat run away (a
+  /// film coefficient that falls steeply with temperature), the slope is that of the frozen coefficient.
   /// @param point  number in set_points(); without meaning where the law is the same everywhere
   SurfaceFlux at(double temperature, std::size_t point = 0) const;
   /// Whether heat is exchanged with surroundings, by a film or by radiation.
@@ -95,8 +95,8 @@ class SurfaceHeat {
   /// points; adds its magnitude, before heat into the body cancels heat out of it, to `moved`.
   double add_residual(std::span<const double> temperature, std::span<double> r, double& moved) const;
   void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const;
-  /// The flows from corners with negative weights; `left` is for whoever limits them. Not of a flux, which
-  /// has no ambient temperature to stay within.
+  /// The flows from corners with negative weights; `left` is set by the limiter. Not of a flux, which has no
+  /// ambient temperature to stay within.
   std::span<LimitedFlow> flows() { return flows_; }
   void update_flows(std::span<const double> temperature);
   /// Heat that comes to owned nodes and leaves them [W], both positive, spread with positive weights: a node

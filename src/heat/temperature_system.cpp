@@ -9,7 +9,7 @@ namespace solidus::heat {
 
 namespace {
 
-/// Divides what another solver finds by the slopes of the unknown: δΘ = δv/c.
+/// Divides the solution of another solver by the slopes of the unknown: δΘ = δv/c.
 class SlopeSolver final : public algebra::TangentSolver {
  public:
   SlopeSolver(algebra::TangentSolver& solver, const std::vector<double>& slope)

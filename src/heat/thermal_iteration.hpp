@@ -5,7 +5,7 @@
 ///
 /// With the closed rule the nodal enthalpy is the unknown and Θ_i(H) follows: a node on a plateau has δΘ = 0
 /// and takes its δH from its row (enthalpy_newton.hpp). With the open rule the temperature is the unknown.
-/// What depends on the displacements enters r through the contributions of the phase.
+/// Terms that depend on the displacements enter r through the contributions of the phase.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,7 @@ class ThermalIteration {
 
   /// Θ of now, [local node], ghosts up to date.
   std::span<const double> temperature() const { return now_.temperature; }
-  /// F at the Θ of now and what the contributions hold. Collective.
+  /// Evaluates F at the present Θ with the present contributions. Collective.
   void evaluate();
   /// F, [owned node] [W]; where the temperature is prescribed, the heat that holds it.
   std::span<const double> residual() const;

@@ -139,37 +139,37 @@ std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
 }
 
 double ThermalPhase::set_conditions(const Conditions& conditions, ThermalState* state) {
-  const algebra::Presence before = system_->presence();
+  const algebra::ActiveSet before = system_->active();
   if (!system_->set_conditions(conditions)) {
     solver_->forget();
     return 0;
   }
-  const double carried = state != nullptr ? take_out(system_->presence(), *state) : 0.0;
+  const double carried = state != nullptr ? take_out(system_->active(), *state) : 0.0;
   remove_bodies(before);
   solver_->reset();
   return carried;
 }
 
-const algebra::Presence& ThermalPhase::presence() const {
-  return system_->presence();
+const algebra::ActiveSet& ThermalPhase::active() const {
+  return system_->active();
 }
 
 /// The heat of the bodies that are not there, out of the nodes that hold it.
-double ThermalPhase::take_out(const algebra::Presence& presence, ThermalState& state) const {
+double ThermalPhase::take_out(const algebra::ActiveSet& active, ThermalState& state) const {
   constexpr double k_counted_from = 293.15;
   double carried = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
     const double heat = heat_at(state, i), cold = storage_->upper(i, k_counted_from);
-    const double left = storage_->held_by(presence, i, heat, state.temperature[at(i)]);
-    carried += heat - left - (cold - storage_->held_by(presence, i, cold, k_counted_from));
+    const double left = storage_->held_by(active, i, heat, state.temperature[at(i)]);
+    carried += heat - left - (cold - storage_->held_by(active, i, cold, k_counted_from));
     if (!state.enthalpy.empty()) state.enthalpy[at(i)] = left;
   }
   if (options_.integration == Integration::closed) ghosts_.update(state.enthalpy, 1);
   return algebra::global_sum(carried);
 }
 
-void ThermalPhase::remove_bodies(const algebra::Presence& before) {
-  const algebra::Presence& now = system_->presence();
+void ThermalPhase::remove_bodies(const algebra::ActiveSet& before) {
+  const algebra::ActiveSet& now = system_->active();
   storage_->remove_bodies(now);
   if (at_nodes_) at_nodes_->remove_bodies(now);
   if (consistent_) consistent_->remove_bodies(now);
@@ -247,7 +247,7 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
   system_->exchange(!pass.adiabatic);
   ThermalState next;
   PhaseReport report;
-  // A pass in which nothing flows leaves what is known of the flow of the step.
+  // An adiabatic pass keeps the known flow of the step.
   if (!pass.adiabatic) flows_ = {};
   const bool flows = nodal() && !pass.adiabatic;
   if (pass.stepping == ThermalStepping::sdirk2) {
@@ -314,7 +314,8 @@ ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalSta
   return from;
 }
 
-// What the nodes have taken up, less what contributions that store have given them.
+// Computes the heat flow into the nodes: the heat that they have taken up, less that from contributions that
+// store heat.
 std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalState& next,
                                        const algebra::Stage& stage) const {
   std::vector<double> flow(reactions_.size());
@@ -432,7 +433,7 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
   return balance;
 }
 
-/// Splits what is stored.
+/// Splits the stored heat.
 void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const {
   double latent = 0;
   if (!nodal()) {

@@ -26,8 +26,8 @@
 #include <string>
 #include <vector>
 
+#include "algebra/active_set.hpp"
 #include "algebra/contribution.hpp"
-#include "algebra/presence.hpp"
 #include "base/types.hpp"
 #include "heat/conditions.hpp"
 #include "heat/sensible_form.hpp"
@@ -58,15 +58,15 @@ enum class Integration {
 
 enum class ThermalStepping { backward_euler, sdirk2 };
 
-/// Default tolerances. Nodes that hold heat take up what the iteration leaves (ThermalPhase::book), so that
-/// theirs is one of accuracy; in the open rule and in a steady state the residual is heat lost or gained
+/// Default tolerances. Nodes that hold heat take up the residual of the iteration (ThermalPhase::book), so
+/// that theirs is one of accuracy; in the open rule and in a steady state the residual is heat lost or gained
 /// (docs/decisions/0013).
 inline constexpr double k_nodal_tolerance = 1e-6, k_point_tolerance = 1e-9;
 
 struct HeatOptions {
   Integration integration = Integration::closed;
   int open_degree = 0;  ///< polynomial degree of the open rule; 0: by element
-  /// What the nodal residuals may add up to, as a share of the heat moved in the step; zero:
+  /// Tolerance of the sum of the nodal residuals, as a share of the heat moved in the step; zero:
   /// k_nodal_tolerance where the nodes hold the heat, else k_point_tolerance.
   double tolerance = 0;
   int max_iterations = 50;
@@ -78,14 +78,15 @@ struct HeatOptions {
   bool symmetric = true;  ///< false when a contribution's tangent is not
   /// No scheme makes its tangent part of a larger, unsymmetric one: half of a symmetric matrix will do.
   bool alone = false;
-  /// Of schemes that solve the phase once a step; absent: backward Euler.
+  /// Time stepping of schemes that solve the phase once a step; absent: backward Euler.
   std::optional<ThermalStepping> stepping;
-  /// Anything but enthalpy loses heat and needs backward Euler; what is lost is in the balance as its defect.
+  /// All forms but the enthalpy lose heat and need backward Euler; the lost heat is in the balance as its
+  /// defect.
   SensibleForm sensible = SensibleForm::enthalpy;
 };
 
-/// What one pass through the thermal phase goes to. The further fields belong to schemes that solve the phase
-/// several times a step; empty, the pass is the first one.
+/// Input of one pass of the thermal phase. The further fields belong to schemes that solve the phase several
+/// times a step; empty, the pass is the first one.
 struct ThermalPass {
   double time = 0, dt = 0;                ///< t_{n+1} and the step [s]
   const ThermalState* iterate = nullptr;  ///< Newton's start; absent: the state at t_n
@@ -114,8 +115,8 @@ class ThermalPhase {
   /// @param state  loses what bodies that leave carry away; null where it has lost it before
   /// Returns that heat, counted from 20 °C [J].
   double set_conditions(const Conditions& conditions, ThermalState* state = nullptr);
-  /// Who takes part.
-  const algebra::Presence& presence() const;
+  /// Bodies and nodes that are active in the present stage.
+  const algebra::ActiveSet& active() const;
 
   /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
   /// their heats add up. A body that starts at the temperature of an isothermal change is molten.
@@ -161,16 +162,16 @@ class ThermalPhase {
   /// The temperatures around the bodies at the time of the last solve, prescribed, of films and of radiation,
   /// beyond which nothing is heated or cooled; without end where fluxes, sources or contributions can.
   /// Collective.
-  /// @param with_contributions  false: who asks knows whether contributions heat
+  /// @param with_contributions  false: the caller knows whether contributions heat
   TemperatureRange ambient_range(bool with_contributions = true) const;
 
   /// Heat needed to hold prescribed temperatures in the last solve, [owned node] [W], zero elsewhere.
   std::span<const double> reactions() const { return reactions_; }
 
-  /// How far isothermal changes have come at the nodes that have their temperature, from 0 (cold) to 1 (hot);
-  /// one at other nodes. What temperatures and this say together is how much of every material has changed:
-  /// PhaseFraction::value. [local node], ghosts up to date; empty where no material has such a change.
-  /// Collective.
+  /// Plateau shares: the shares of isothermal changes that are done at the nodes at their temperature, from 0
+  /// (cold) to 1 (hot); one at other nodes. Temperature and plateau share together determine how much of
+  /// every material has changed: PhaseFraction::value. [local node], ghosts up to date; empty where no
+  /// material has such a change. Collective.
   std::vector<double> plateau_share(const ThermalState& state) const;
   /// Solid fraction of the materials around each node that can melt, 1 if none can; [local node].
   std::vector<double> solid_fraction(const ThermalState& state) const;
@@ -217,7 +218,7 @@ class ThermalPhase {
   /// Keeps the reactions and measures a solved step.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,
                       double moved, double dt);
-  /// Puts what the iteration has left, F of the free nodes, into their heats: H_i = H*_i − Δt r_i then holds
+  /// Adds the residual of the iteration, F of the free nodes, to their heats: H_i = H*_i − Δt r_i then holds
   /// to rounding, and the heat balance is exact for every tolerance. The temperatures stay those for which
   /// the fluxes r are; the next step begins from these heats. Updates the ghosts.
   void book(std::span<const double> residual, double dt, std::span<double> heat) const;
@@ -229,8 +230,8 @@ class ThermalPhase {
   /// Whether a body stores its heat at the nodes.
   bool at_nodes(int body) const;
   double heat_at(const ThermalState& state, Index node) const;
-  double take_out(const algebra::Presence& presence, ThermalState& state) const;
-  void remove_bodies(const algebra::Presence& before);
+  double take_out(const algebra::ActiveSet& active, ThermalState& state) const;
+  void remove_bodies(const algebra::ActiveSet& before);
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const algebra::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;

@@ -1,4 +1,4 @@
-/// What the thermal phase reads at t_n and writes at t_{n+1}, and what it reports of a step.
+/// State of the thermal phase, which it reads at t_n and writes at t_{n+1}, and its report of a step.
 #pragma once
 
 #include <cmath>
@@ -36,8 +36,7 @@ struct HeatBalance {
   std::vector<ConditionHeat> conditions;  ///< prescribed temperatures, fluxes, films, radiations, sources
   std::vector<double> contributions;      ///< heat into the bodies by each contribution, in their order [J]
   double entropy_in = 0;  ///< ∫ dQ/Θ of the heat by conditions, Θ of the bodies there [J/K]
-  double exchanged =
-      0;  ///< half the sum of the magnitudes of all heat moved: what the defect is measured against
+  double exchanged = 0;   ///< half the sum of the magnitudes of all heat moved: the reference of the defect
 
   double heat_in() const {  ///< by conditions and contributions [J]
     double sum = 0;
@@ -48,10 +47,10 @@ struct HeatBalance {
   double defect() const { return stored - heat_in(); }
 };
 
-/// Of the entropy of sensible and latent heat [J/K].
+/// Change of the entropy of sensible and latent heat [J/K].
 struct EntropyChange {
   double change = 0;
-  double magnitude = 0;  ///< sum of what was subtracted from each other: the scale of rounding
+  double magnitude = 0;  ///< sum of the magnitudes subtracted from each other: the scale of rounding
 };
 
 struct PhaseReport {

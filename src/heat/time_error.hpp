@@ -1,4 +1,4 @@
-/// The error that a step of the thermal phase commits in time, from how its heat flowed.
+/// Error in time of a step of the thermal phase, estimated from its flows of heat.
 ///
 /// With f the heat that flows into a node [W], f_n at the end of the step before, f¹ and f² in the stages:
 ///
@@ -16,7 +16,7 @@
 
 namespace solidus::heat {
 
-/// How heat flowed in a step that nodes hold the heat of.
+/// Flows of heat in a step in which the nodes hold the heat.
 struct StageFlows {
   double dt = 0;              ///< the step [s]; zero: nothing is known
   double share = 1;           ///< of the step that lies before the end of the first stage; 1: the only one

@@ -15,7 +15,7 @@ namespace {
 constexpr double k_round_off = 2e-15;  ///< of heat contents and of conductance × temperature
 constexpr double k_plateau_stiffness =
     1e13;                           ///< times the diagonal: δ = 0 to rounding, without a change of structure
-constexpr double k_relaxed = 1e-3;  ///< what a sweep leaves of a node's own residual
+constexpr double k_relaxed = 1e-3;  ///< share of a node's own residual after a sweep
 constexpr double k_negligible = 1e-1;   ///< share of the tolerance that nodes which are not relaxed may have
 constexpr int k_relaxations = 60;       ///< evaluations of a node's curve in one visit
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
@@ -31,8 +31,7 @@ constexpr double k_chord_change = 0.1;   ///< change of the heats by a round, ov
 constexpr double k_chord_forcing = 0.1;  ///< of these linear solves, where the step is not worth less
 constexpr double k_chord_differs = 1.5;  ///< a chord that is not so much steeper than the tangent is not used
 constexpr double k_chord_holds = 1e8;    ///< times the diagonal: no chord is steeper
-constexpr double k_chord_worth =
-    0.5;  ///< what chords leave of the residual for them to be used again at once
+constexpr double k_chord_worth = 0.5;    ///< share of the residual left up to which chords are used again
 
 }  // namespace
 
@@ -315,7 +314,8 @@ bool TruncatedNewton::search(bool short_too) {
     }
     return false;
   }
-  // A holds what is not linear in v by its derivative: the step must stand before F itself.
+  // A holds the terms that are not linear in v by their derivatives only: the step must be checked with F
+  // itself.
   const double slope = true_slope(alpha);
   if (start < 0 && !(slope <= -k_accept_rise * start)) minimise(start, alpha, &TruncatedNewton::true_slope);
   return true;

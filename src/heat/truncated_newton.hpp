@@ -29,11 +29,11 @@
 /// Truncated nonsmooth Newton multigrid methods for convex minimization problems, Domain Decomposition
 /// Methods XVIII (Springer 2009), where one multigrid cycle stands for the linear solver.
 ///
-/// What else the residual holds (radiation, films and contributions that bend in v, materials of different
-/// conductivity curves that share nodes) enters A by its derivative. That goes beyond the argument: the line
-/// search then looks at F itself. With several processes each sweeps over its own nodes; the magnitudes of
-/// couplings to other processes' nodes are added to the diagonal, with which E falls although the neighbours
-/// move at the same time.
+/// Further terms of the residual (radiation, films and contributions that are nonlinear in v, materials of
+/// different conductivity curves that share nodes) enter A by their derivatives. The argument above does not
+/// cover them: the line search then uses F itself. With several processes each sweeps over its own nodes; the
+/// magnitudes of couplings to other processes' nodes are added to the diagonal, with which E falls although
+/// the neighbours move at the same time.
 #pragma once
 
 #include <span>
@@ -81,7 +81,7 @@ class TruncatedNewton {
   void relax_nodes(bool all);
   void sweep(Order order);
   double relax(std::size_t i, double residual);
-  /// Adds to F what the change of v since then makes of it.
+  /// Adds to F the effect of the change of v since then.
   void follow(std::span<double> step);
   /// @param chords  slopes that stand for those of the tangents, [owned node]; empty: none
   algebra::LinearReport correct(double forcing, std::span<const double> chords = {});

@@ -1,4 +1,4 @@
-/// The place where something is worst, for messages.
+/// Finds the node with the largest value of a quantity, for messages.
 #pragma once
 
 #include <cmath>

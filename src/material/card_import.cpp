@@ -22,7 +22,7 @@ struct Range {
   }
 };
 
-/// Closes what programs leave open at the ends: a Scheil calculation stops at a few per mille of melt.
+/// Completes the ends of a curve: a Scheil calculation stops at a few per mille of melt.
 Range freezing_range(ImportColumns& c, std::vector<std::string>& remarks) {
   constexpr double k_most_melt = 0.1, k_most_solid = 0.05;
   const auto repeat = [&](std::size_t row, double fraction) {  // the same row again with another fraction
@@ -110,7 +110,7 @@ struct FreezingHeat {
   Points specific_heat;            ///< at the rows between solidus and liquidus
   double latent_heat = 0;          ///< of the solid fraction [J/kg]
   double rest = 0;                 ///< the heat that is left [J/kg]
-  std::vector<double> rest_share;  ///< what of it is still to come on heating, by row from the solidus on
+  std::vector<double> rest_share;  ///< its part still to be absorbed on heating, by row from the solidus on
 };
 
 /// Splits the heat of the freezing range. The specific heat is a line from c_s to c_l, lowered where the
@@ -387,7 +387,7 @@ class Importer {
     }
   }
 
-  /// Up to the solidus: what programs print of the melt is no property of a solid.
+  /// Cuts a column at the solidus: values that programs print for the melt are no property of a solid.
   Points solid_points(const std::string& quantity) const {
     Points points = points_of(c_, quantity);
     const double solidus = c_.temperature[range_.solidus];

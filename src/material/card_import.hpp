@@ -31,7 +31,7 @@ struct ImportOptions {
 
 struct ImportedCard {
   Value document;                    ///< as it stands in a material file
-  std::vector<std::string> remarks;  ///< what was taken, left out or chosen
+  std::vector<std::string> remarks;  ///< notes on values taken, left out or chosen
 };
 
 /// The quantities that a column may hold: "temperature", "solid_fraction", "liquid_fraction", "enthalpy",

@@ -1,5 +1,5 @@
-/// What the criteria of the foundry engineer need of a material beside its properties: [casting] of its file
-/// (docs/theory/criteria.md, docs/theory/melt.md).
+/// Parameters of a material that the foundry engineer's criteria need besides its properties: [casting] of
+/// its file (docs/theory/criteria.md, docs/theory/melt.md).
 #pragma once
 
 #include <array>

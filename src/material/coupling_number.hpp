@@ -1,4 +1,5 @@
-/// How strongly deformation and temperature of a material are coupled (docs/theory/coupling_stability.md, 5).
+/// Coupling number: the strength of the coupling of deformation and temperature of a material
+/// (docs/theory/coupling_stability.md, 5).
 ///
 ///   δ = β² Θ/(C (λ + 2μ)),  β = 3 α_eff k,  3 α_eff = de^θ/dΘ                             (monograph 4.2.4)
 ///   δ_K = β² Θ/(C K*),  K* = λ + 2μ in uniaxial strain, λ + μ in plane strain, k in three dimensions

@@ -10,8 +10,8 @@
 
 namespace solidus::material {
 
-/// What the constitutive update needs at one point and temperature. Evaluated once per phase, kept per
-/// quadrature point.
+/// Properties that the constitutive update needs at one point and temperature. They are evaluated once per
+/// phase and stored per quadrature point.
 template <class T>
 struct PointProperties {
   T bulk;            ///< k [Pa]
@@ -35,14 +35,15 @@ struct PointCurvatures {
   T bulk, shear, thermal_strain;  ///< d²k/dΘ², d²G/dΘ², d²e^θ/dΘ² = 6 α_Θ
 };
 
-/// How far the phase changes of a material have come, as stress and strain see it.
+/// Solid fraction and straining of the phase changes of a material at a point.
 template <class T>
 struct PhaseState {
   T solid_fraction;  ///< f_S of 2.65
   T straining;       ///< e^pc − e^pc(Θ_0) of 2.75, 2.76a
 };
 
-/// Where nothing but the temperatures is known: an isothermal change is molten at its own.
+/// Phase state if nothing but the temperatures is known: at the temperature of an isothermal change the
+/// material is molten.
 template <class T>
 PhaseState<T> phase_state_at(const Material& material, const T& temperature, const T& initial_temperature);
 
@@ -52,7 +53,7 @@ PhaseState<T> phase_state_at(const Material& material, const T& temperature, con
 template <class T>
 PointProperties<T> properties_at(const Material& material, const T& temperature, const T& initial_temperature,
                                  const PhaseState<T>& phase);
-/// With the phases that the temperatures tell.
+/// Evaluates the properties with the phase state that follows from the temperatures.
 template <class T>
 PointProperties<T> properties_at(const Material& material, const T& temperature,
                                  const T& initial_temperature);

@@ -1,5 +1,5 @@
-/// How a material yields, hardens and creeps: the data of the flow rule (monograph 2.49d, 2.106–2.112), every
-/// parameter a table over absolute temperature. The laws are in hardening.hpp and viscoplastic.hpp.
+/// Data of the flow rule, by which a material yields, hardens and creeps (monograph 2.49d, 2.106–2.112),
+/// every parameter a table over absolute temperature. The laws are in hardening.hpp and viscoplastic.hpp.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct Property {
 enum class IsotropicHardening { none, linear, saturation, power, table };
 enum class KinematicHardening { none, linear, armstrong_frederick };
 
-/// How the liquid is modelled (2.3.1).
+/// Models of the liquid (2.3.1).
 enum class LiquidModel {
   maxwell,         ///< 2.50: spring G/f_S in series with a dashpot η/(1 − f_S)
   modified_shear,  ///< 2.77, 2.78: shear modulus f_S G(Θ_S), zero in the liquid

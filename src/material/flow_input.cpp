@@ -1,4 +1,5 @@
-/// From the keys of [plasticity] to the flow data of a material: what a single key cannot tell.
+/// Makes the flow data of a material from the keys of [plasticity], with the checks that concern several
+/// keys.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// The parameters of the flow rule at one temperature: what the return mapping reads.
+/// The parameters of the flow rule at one temperature, for the return mapping.
 #pragma once
 
 #include <array>

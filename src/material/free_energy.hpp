@@ -82,7 +82,7 @@ FreeEnergy<T> free_energy(const Viscoplastic& law, const StateVariables<T>& stat
   return r;
 }
 
-/// What drives the evolution (2.45a, 2.47, 2.59).
+/// Thermodynamic forces that drive the evolution of the internal variables (2.45a, 2.47, 2.59).
 template <class T>
 struct Forces {
   Sym<T> stress;       ///< σ [Pa]

@@ -1,5 +1,5 @@
-/// What hardening stores: the part K of the free energy and the entropy, internal energy and capacity that
-/// follow from its temperature (monograph 2.49d, 2.52b, 2.55, 2.127a).
+/// Energy stored by hardening: the part K of the free energy and the entropy, internal energy and capacity
+/// that follow from its dependence on temperature (monograph 2.49d, 2.52b, 2.55, 2.127a).
 ///
 ///   K(ξ, ζ, Θ) = K_iso(ξ, Θ) + 1/3 K(Θ) ζ:ζ
 ///   S = −K_Θ,  E = K − Θ K_Θ,  C = Θ ∂S/∂Θ = −Θ K_ΘΘ

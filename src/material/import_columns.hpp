@@ -1,4 +1,4 @@
-/// The columns of an imported table by what they hold, in SI and by rising temperature.
+/// The columns of an imported table by their quantity, in SI and by rising temperature.
 #pragma once
 
 #include <map>

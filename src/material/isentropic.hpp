@@ -31,7 +31,8 @@ class Isentropic {
   template <class T>
   using State = Viscoplastic::State<T>;
 
-  /// The law's numbers at Θ_n: lines of what follows the temperature, values of what is frozen.
+  /// Properties of the law at Θ_n: lines for those that follow the temperature, values for those that are
+  /// frozen.
   template <class T>
   struct Properties {
     T temperature;      ///< Θ_n [K]

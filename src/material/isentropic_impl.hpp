@@ -7,8 +7,8 @@
 namespace solidus::material {
 namespace detail {
 
-/// What may be left of ΔS^E, in parts of C_v: a temperature of 1000 K is then exact to 1e-8 K. Rounding
-/// leaves 1e-16, with a strain of 1 about 1e-14.
+/// Tolerance of ΔS^E as a share of C_v: a temperature of 1000 K is then exact to 1e-8 K. Rounding leaves
+/// 1e-16, with a strain of 1 about 1e-14.
 inline constexpr double k_entropy_tolerance = 1e-11;
 inline constexpr int k_max_temperatures = 100;
 /// A defect after which one more step of Newton's method, which squares it, reaches the tolerance.
@@ -16,10 +16,11 @@ inline constexpr double k_last_defect = 3e-6;
 inline constexpr int k_max_coupled = 4;
 /// A property keeps this part of its value along its line.
 inline constexpr double k_kept_share = 0.25;
-/// What is added to hardening moduli before that is asked of them, as a part of Young's modulus.
+/// Value added to hardening moduli before k_kept_share is required of them, as a part of Young's modulus.
 inline constexpr double k_spare_modulus = 0.01;
 
-/// Where positive numbers stay above k_kept_share of their values.
+/// Range of temperatures in which positive properties, extrapolated along their lines, stay above
+/// k_kept_share of their values.
 template <class T>
 class Range {
  public:
@@ -51,7 +52,7 @@ template <class T>
 struct Defect {
   T value, slope;
 
-  /// Where Newton's method goes from θ.
+  /// Returns the next iterate of Newton's method from θ.
   [[gnu::always_inline]] T step(const T& theta) const {
     const T by = T(0.0) - value / slope;
     return theta * (T(1.0) + by * (T(1.0) + T(0.5) * by));
@@ -125,8 +126,8 @@ template <class T>
   return result;
 }
 
-/// Where the iteration starts. Where nothing yields at Θ_n, near enough to Θ̄ for the isothermal mapping there
-/// to be the only one; else Θ_n.
+/// Returns the start temperature of the iteration. If nothing yields at Θ_n it is close enough to Θ̄ for one
+/// isothermal mapping there to suffice; else it is Θ_n.
 template <class T>
 [[gnu::always_inline]] inline T first_temperature(const Material& material,
                                                   const Isentropic::Properties<T>& p,

@@ -92,7 +92,7 @@ fs::path locate(const std::string& reference, std::span<const fs::path> library,
                    one_of(material_names(library), reference));
 }
 
-/// The document of a file with what it inherits.
+/// The document of a file with the values that it inherits.
 Value load_with_base(const fs::path& file, std::span<const fs::path> library, int depth) {
   Value document = load_document(file);
   const Value* like = document.find("like");

@@ -50,10 +50,10 @@ struct MaterialData {
 /// The declaration of the keys, for reading, `explain`, the schema and the manual.
 const Section<MaterialData>& material_section();
 
-/// Checks what a single key cannot tell and builds the material. Throws InputError with the place.
+/// Checks the values that depend on several keys and builds the material. Throws InputError with the place.
 Material make_material(std::string name, const MaterialData& data);
 
-/// What a run's report says about a property.
+/// Returns the note on a property for the report of a run.
 PropertyNote note_of(std::string property, const Function& function);
 
 /// Reads a material file; its name is the file's name without ".toml". A file with `like = "other"` takes

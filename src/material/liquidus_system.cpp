@@ -117,7 +117,8 @@ class Freezing {
     return rule_ == SolidificationRule::scheil ? part.percent * std::pow(f, k - 1)
                                                : part.percent / (f + k * (1 - f));
   }
-  /// Of what freezes in the valley the share w is the primary solid; the second phase takes up nothing.
+  /// Of the metal that freezes in the valley the share w is the primary solid; the second phase takes up no
+  /// solute.
   double concentration_in_valley(const Part& part, double f) const {
     const double k = part.solute->partition, w = valley_->solvent_share;
     if (rule_ == SolidificationRule::scheil)

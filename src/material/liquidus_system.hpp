@@ -34,7 +34,7 @@ struct LiquidusSystem {
   struct Eutectic {
     std::string solute, source;
     double temperature = 0;    ///< T_e of the binary [K]
-    double solvent_share = 0;  ///< w, mass fraction of the primary solid in what freezes
+    double solvent_share = 0;  ///< w, mass fraction of the primary solid in the freezing metal
     std::vector<Slope> other;
     SourceLocation where;
   };
@@ -80,7 +80,7 @@ struct SolidificationPath {
   double primary_fraction = 0;       ///< solid fraction where the primary solid alone ends
   double primary_end = 0;            ///< temperature there [K]
   double end = 0;                    ///< temperature of the last melt [K]
-  double last_fraction = 0;          ///< what freezes at that temperature
+  double last_fraction = 0;          ///< fraction that freezes at that temperature
   std::vector<std::string> remarks;  ///< solutes beyond their lines, without a line in the valley
 };
 

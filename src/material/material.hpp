@@ -14,13 +14,13 @@
 
 namespace solidus::material {
 
-/// Where a property comes from and where it holds; used to warn when a run leaves the range.
+/// Source and range of validity of a property; used to warn when a run leaves the range.
 struct PropertyNote {
   std::string property, source;
   double valid_from = 0, valid_to = 0;  ///< [K]; both zero: no range stated
 };
 
-/// What a specific heat was measured at (docs/theory/constitutive.md, "Two specific heats").
+/// Condition under which a specific heat was measured (docs/theory/constitutive.md, "Two specific heats").
 enum class SpecificHeatAt {
   constant_pressure,  ///< free of stress: C_p of calorimeters and handbooks
   constant_strain,    ///< at ε = 0: C_v of the monograph (2.49c)
@@ -39,7 +39,7 @@ struct Material {
   Table expansion;                      ///< α(Θ), mean linear coefficient from Θ_ref [1/K]
   double expansion_reference = 293.15;  ///< Θ_ref of 2.51 [K]
   /// η of s = η ε̇ (2.83, 2.104), twice the Newtonian shear viscosity [Pa s]; used where f_S < 1. Not given
-  /// (zero): whoever updates the law chooses it (material/melt.hpp).
+  /// (zero): the mechanical phase chooses it (material/melt.hpp).
   Table liquid_viscosity;
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::optional<Flow> flow;  ///< absent: the solid is elastic

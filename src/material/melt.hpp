@@ -1,9 +1,10 @@
-/// The stiffness of a melt whose viscosity nobody gives: the numerical choice of η in s = η ε̇ (2.83, 2.104).
+/// The stiffness of a melt whose viscosity is not given: the numerical choice of η in s = η ε̇ (2.83, 2.104).
 ///
 /// The viscosity of molten metal, some 1e-3 Pa s, has no effect on stress, so η is a number of the method and
 /// not of the metal. What counts is the modulus that the melt has in a step, 2Ĝ = η/Δt, times the strain
-/// increment of the step, Δε ≈ 1e-3 to 1e-2 where a skin follows its wall. It has to be small against what
-/// carries the melt and against what the melt becomes, and not below what the arithmetic stands:
+/// increment of the step, Δε ≈ 1e-3 to 1e-2 where a skin follows its wall. It has to be small against the
+/// pressure that carries the melt and against the strength of the later solid, and not so small that rounding
+/// prevails:
 ///
 ///   2Ĝ = max(min(k_heads p, k_of_strength σ_s), k_least_melt_share k),    η = 2Ĝ Δt
 ///
@@ -26,14 +27,14 @@ namespace solidus::material {
 inline constexpr double k_melt_heads = 10;
 /// 2Ĝ in yield stresses of the shell: a strain increment of 1e-2 then costs a hundredth of it.
 inline constexpr double k_melt_strengths = 1;
-/// What an elastic shell stands, as a share of its shear modulus.
+/// Strength of an elastic shell, as a share of its shear modulus.
 inline constexpr double k_shell_strain = 1e-3;
 /// 2Ĝ as a share of the bulk modulus: less gains nothing.
 inline constexpr double k_least_melt_share = 1e-7;
 /// The pressure of the atmosphere at sea level [Pa].
 inline constexpr double k_atmosphere = 101325;
 
-/// What the modulus was measured against.
+/// Modulus of a melt, with the quantity that it was chosen in proportion to.
 struct MeltModulus {
   enum class Bound { head, atmosphere, strength, arithmetic };
   double modulus = 0;    ///< 2Ĝ of a step [Pa]; zero: the material gives its viscosity, or has no melt

@@ -1,5 +1,5 @@
 /// Elastic entropy and yield function of an update as functions of two numbers, the flow multiplier γ and the
-/// temperature Θ, with their derivatives: what Newton's method for 4.97 iterates on. The tensors of the trial
+/// temperature Θ, with their derivatives: the unknowns of Newton's method for 4.97. The tensors of the trial
 /// state enter through tr ε, ê:ê, ê:ζ* and ζ*:ζ* only.
 ///
 ///   β̂ = s ê + m ζ*,  s = 2Ĝ,  m = ⅔wK B,  B = 1/(1 + b γ),  ν = ‖β̂‖,  n = β̂/ν
@@ -50,7 +50,7 @@ class ReducedEntropy {
  public:
   using Properties = Isentropic::Properties<T>;
 
-  /// What flow adds at one (γ, Θ); zero where none does.
+  /// Terms of plastic flow at one (γ, Θ); zero without flow.
   struct Flowing {
     T squared, back_squared;            ///< a:a − ê:ê, ζ:ζ − ζ*:ζ*
     T entropy_theta, entropy_gamma;     ///< in S_Θ by n alone, S_γ

@@ -21,7 +21,7 @@ inline constexpr double k_two_thirds = 2.0 / 3.0;
 inline constexpr double k_root_two_thirds = 0.81649658092772603;
 /// A correction of γ below which one more reaches rounding, in γ and in the slope that the tangent uses.
 inline constexpr double k_last_correction = 1e-7;
-/// What rounding leaves of a sum, in parts of its largest terms.
+/// Rounding error of a sum, in parts of its largest terms.
 inline constexpr double k_rounding = 8 * std::numeric_limits<double>::epsilon();
 /// Bisection alone would get there: the bracket is never wider than 1e12 solutions or so.
 inline constexpr int k_max_iterations = 80;
@@ -52,11 +52,11 @@ struct Problem {
   T stiffness() const { return twice_shear + strength * kinematic(); }                  ///< 2Ĝ + ⅔w²K
 };
 
-/// Φ and what belongs to it at one γ.
+/// Φ and its derivatives and noise at one γ.
 template <class T>
 struct Yield {
   T value, slope;   ///< Φ, Φ'
-  T noise;          ///< what rounding leaves of Φ [Pa]
+  T noise;          ///< rounding error of Φ [Pa]
   Sym<T> relative;  ///< β̂; n = β̂/‖β̂‖
   T norm;           ///< ‖β̂‖
   T fading;         ///< B
@@ -95,7 +95,7 @@ template <class T>
   return {value, slope, noise, relative, norm, fading, drift};
 }
 
-/// The scalars of Yield alone: what the iteration needs.
+/// The scalars of Yield alone, which suffice for the iteration.
 template <class T>
 struct Point {
   T value, slope, noise;
@@ -163,7 +163,7 @@ struct Solution {
   bool converged;
 };
 
-/// Where there is plastic flow: outside the yield surface, and neither liquid nor without any stiffness.
+/// Whether there is plastic flow: outside the yield surface, and neither liquid nor without any stiffness.
 template <class T>
 [[gnu::always_inline]] inline auto flows(const Problem<T>& p, const Yield<T>& trial) {
   const T zero(0.0);

@@ -1,4 +1,4 @@
-/// How sure a value of the material library is, by the words that stand in its source text
+/// Grade of certainty of a value of the material library, from the words in its source text
 /// (docs/guide/materials.md).
 #pragma once
 

@@ -1,5 +1,5 @@
-/// Moduli, thermal strain and hardening near Θ_n, every table being its line there: what the structural
-/// entropy and energy of a step are made of.
+/// Moduli, thermal strain and hardening near Θ_n, where every table is replaced by its line there: the
+/// structural entropy and energy of a step are computed from them.
 ///
 /// S = −(W_Θ + M_Θ + K_Θ) holds slopes of tables (2.52b) and would jump where a table bends, E = W + M + K +
 /// Θ S with it. A thermal phase that crosses the bend then has a balance without a solution. The jump is one

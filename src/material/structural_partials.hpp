@@ -1,5 +1,5 @@
-/// The structural entropy S = −(W_Θ + M_Θ + K_Θ) and energy E = W + M + K + Θ S as functions of what
-/// they depend on, with their partial derivatives: the tangent of the heat balance (monograph 2.52b, 2.55).
+/// The structural entropy S = −(W_Θ + M_Θ + K_Θ) and energy E = W + M + K + Θ S as functions of their
+/// variables, with their partial derivatives: the tangent of the heat balance (monograph 2.52b, 2.55).
 ///
 ///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − R_Θ − G_Θ a:a − K_Θ(ξ, Θ) − ⅓ K_Θ ζ:ζ
 ///   E = ½ k tr² − k e^θ tr + R + G a:a + K(ξ, Θ) + ⅓ K ζ:ζ + Θ S,   E_Θ = Θ S_Θ

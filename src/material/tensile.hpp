@@ -1,4 +1,5 @@
-/// What a tensile test of the solid shows, from the flow data alone: for looking at a material card.
+/// Stress-strain curve of a tensile test of the solid, from the flow data alone: for inspecting a material
+/// card.
 ///
 /// Uniaxial, monotonic, at one temperature, without the elastic part:
 ///   σ(ξ) = σ_0 + K_ξ(ξ) + X(ξ)          slow test; X the back stress, K ξ or K/recall (1 − exp(−recall ξ))

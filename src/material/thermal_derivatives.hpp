@@ -1,5 +1,6 @@
-/// How the update moves with temperature and strain, the flow multiplier γ eliminated: what the thermal
-/// phase, the simultaneous scheme and the isentropic mapping need (monograph 2.127, 4.97–4.99).
+/// Derivatives of the constitutive update with respect to temperature and strain, the flow multiplier γ
+/// eliminated (monograph 2.127, 4.97–4.99), for the thermal phase, the simultaneous scheme and the isentropic
+/// mapping.
 ///
 ///   γ(Θ, ε) solves Φ(γ, Θ, ε) = x(γ, Θ):  γ_Θ = D⁻¹ (Φ_Θ − x_Θ),  γ_ε = D⁻¹ Φ_ε,  D = x_γ − Φ_γ
 ///   a = ê − γ n,  s = 2Ĝ a,  n = β̂/‖β̂‖:  a_Θ = −γ_Θ n − γ n_Θ,  n_Θ = (I − n⊗n) β̂_Θ/‖β̂‖
@@ -18,8 +19,8 @@
 
 namespace solidus::material {
 
-/// What keeps its value while the temperature varies: all of it in the mechanical phase of the isentropic
-/// split (docs/decisions/0006), nothing in the simultaneous scheme.
+/// Properties that are frozen while the temperature varies: all of them in the mechanical phase of the
+/// isentropic split (docs/decisions/0006), none in the simultaneous scheme.
 struct Frozen {
   bool phase = false;        ///< f_S, the straining e^pc, and with f_S the strength factor (4.76, 4.81)
   bool flow_stress = false;  ///< σ_0 of the yield radius (4.85)

@@ -1,5 +1,5 @@
-/// How history advances in time: backward Euler, and the two-step method of Gear (BDF2) with variable steps
-/// (monograph 4.64–4.73, errata to 4.66, 4.70).
+/// Time integration of the history: backward Euler, and the two-step method of Gear (BDF2) with variable
+/// steps (monograph 4.64–4.73, errata to 4.66, 4.70).
 ///
 ///   ż(t_{n+1}) ≈ (z_{n+1} − z*)/Δt_eff
 ///   backward Euler  z* = z_n,                                          Δt_eff = Δt

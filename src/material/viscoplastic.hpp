@@ -56,11 +56,11 @@ class Viscoplastic {
     Sym<T> direction;       ///< n, where flow_increment > 0
     T flow_increment;       ///< γ over the effective step
     T viscous_dissipation;  ///< 2.114 [W/m³]
-    T plastic_dissipation;  ///< 2.117; what hardening stores is not in it [W/m³]
+    T plastic_dissipation;  ///< 2.117, without the power stored by hardening [W/m³]
     T plastic_power;        ///< s : ε̇^vp [W/m³]
     T dissipation;          ///< D_mech, the sum of both (2.113) [W/m³]
     Status status = Status::converged;
-    // What thermal_derivatives.hpp and isentropic.hpp read where flow_increment > 0:
+    // These members are read by thermal_derivatives.hpp and isentropic.hpp if flow_increment > 0:
     T overstress{};         ///< x = η γ̇/m for n = 1 [Pa]
     T inverse_stiffness{};  ///< ∂γ/∂Φ^trial [1/Pa]
     T relative_norm{1.0};   ///< ‖β̂‖ [Pa]
@@ -94,7 +94,7 @@ class Viscoplastic {
   template <class T>
   Sym<T> loading(const Properties<T>& p, const State<T>& state, const Sym<T>& strain, double dt) const;
 
-  /// What the liquid model makes of stiffness and strength.
+  /// Stiffness and strength with the liquid model.
   template <class T>
   struct Shear {
     T twice_shear;    ///< 2Ĝ [Pa]
@@ -118,7 +118,7 @@ class Viscoplastic {
   bool recalls() const {
     return flow_ != nullptr && flow_->kinematic == KinematicHardening::armstrong_frederick;
   }
-  /// What plastic flow has made of a point: members as in Response and State.
+  /// Result of plastic flow at a point: members as in Response and State.
   template <class T>
   struct Flowed {
     Sym<T> plastic_strain, back_strain;

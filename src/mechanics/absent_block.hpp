@@ -1,5 +1,5 @@
-/// A mesh block that takes no part in mechanics: of a body that only conducts heat or that has gone. No
-/// stiffness, stress, history, weight or structural heat; its fields are zero.
+/// A mesh block that takes no part in mechanics: of a body that only conducts heat or that has been removed.
+/// No stiffness, stress, history, weight or structural heat; its fields are zero.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   double add_forces(std::span<const double>, std::span<double>) override { return 0; }
   void add_tangent(std::span<const double>, algebra::BlockMatrix&) override {}
   BlockWork finish(std::span<const double>, std::span<const double>, BlockHistory&) override { return {}; }
-  void rest(const StepStart&) override {}
+  void hold_deformation(const StepStart&) override {}
   std::string failure(std::span<const double>) const override { return {}; }
   FlowingVolume flowing(std::span<const double>) const override { return {}; }
   void get_field(ElementField which, std::span<double> out) const override;

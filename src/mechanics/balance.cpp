@@ -17,11 +17,11 @@ constexpr double k_internal_share = 1e-6;
 constexpr double k_at_rest = 1e-8;
 
 // Bodies that share a node, directly or by way of others, get the same number.
-std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const algebra::Presence& presence) {
+std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const algebra::ActiveSet& active) {
   const std::size_t n = mesh.bodies.size();
   std::vector<int> touching(n * n, 0), first_body(mesh.x.size(), -1);
   for (const mesh::Block& block : mesh.blocks) {
-    if (!presence.body(block.body)) continue;
+    if (!active.body(block.body)) continue;
     for (const Index node : block.nodes) {
       int& first = first_body[static_cast<std::size_t>(node)];
       if (first < 0) first = block.body;
@@ -64,14 +64,14 @@ std::vector<double> extents(const mesh::Mesh& mesh, std::span<const std::size_t>
 
 }  // namespace
 
-BodyBalance::BodyBalance(const mesh::Mesh& mesh, const algebra::Presence& presence, int components)
+BodyBalance::BodyBalance(const mesh::Mesh& mesh, const algebra::ActiveSet& active, int components)
     : components_(components),
-      body_group_(groups_of_bodies(mesh, presence)),
+      body_group_(groups_of_bodies(mesh, active)),
       node_group_(static_cast<std::size_t>(mesh.n_owned_nodes), 0),
       n_groups_(mesh.bodies.size()),
       sums_(mesh.bodies.size()) {
   for (const mesh::Block& block : mesh.blocks) {
-    if (!presence.body(block.body)) continue;
+    if (!active.body(block.body)) continue;
     for (const Index node : block.nodes)
       if (node < mesh.n_owned_nodes)
         node_group_[static_cast<std::size_t>(node)] = body_group_[static_cast<std::size_t>(block.body)];

@@ -1,4 +1,4 @@
-/// How far each body is from equilibrium, measured against the forces that this body exchanges.
+/// Residual of each body's equilibrium, measured against the forces that this body exchanges.
 ///
 /// Thermal stresses cancel within a body and can be a million times larger than its weight; a mould clamped
 /// at its bottom has support forces a thousand times larger than the weight of the casting in it. Measured
@@ -9,15 +9,15 @@
 #include <span>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::mechanics {
 
 class BodyBalance {
  public:
-  /// Finds which of the bodies that are there share nodes. Collective.
-  BodyBalance(const mesh::Mesh& mesh, const algebra::Presence& presence, int components);
+  /// Finds which of the active bodies share nodes. Collective.
+  BodyBalance(const mesh::Mesh& mesh, const algebra::ActiveSet& active, int components);
 
   void begin();
   /// Squares of the internal forces of a block before they cancel.
@@ -35,9 +35,9 @@ class BodyBalance {
   /// Collective.
   double reference();
 
-  /// How large a step is beside the increment since t_n: the largest ‖step‖/‖increment‖ of a body. Where
-  /// the root mean square of its increment over its nodes is below 1e-8 of its extent, a body is at rest, and
-  /// its step is compared with that. Collective.
+  /// Size of a step relative to the increment since t_n: the largest ‖step‖/‖increment‖ of a body. Where the
+  /// root mean square of its increment over its nodes is below 1e-8 of its extent, a body is at rest, and its
+  /// step is compared with that. Collective.
   /// @param step, increment  [owned node][component] [m]
   double relative_step(std::span<const double> step, std::span<const double> increment) const;
 

@@ -44,7 +44,7 @@ struct StepStart {
 /// Sums over the counted elements of a block.
 struct BlockWork {
   double internal_work = 0, dissipation = 0, plastic_dissipation = 0, plastic_work = 0;  ///< [J]
-  /// Of the pressure on the volume that mixed elements leave to their sub-scales [J].
+  /// Work of the pressure on the volume that mixed elements leave to their sub-scales [J].
   double stabilisation_work = 0;
   double least_dissipation = 0, largest_dissipation = 0;  ///< [W/m³]
 };
@@ -58,7 +58,7 @@ class BlockKernel {
  public:
   virtual ~BlockKernel() = default;
 
-  /// Whether the tangent is, at every state.
+  /// Whether the tangent is symmetric at every state.
   virtual bool symmetric() const = 0;
   /// Looks up matrix slots.
   virtual void bind(const algebra::BlockMatrix& matrix) = 0;
@@ -73,17 +73,19 @@ class BlockKernel {
   virtual double add_forces(std::span<const double> u, std::span<double> forces) = 0;
   /// matrix += ∫ B̄ᵀ C B̄ dV at u.
   virtual void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) = 0;
-  /// Writes the new history, keeps stresses and what the thermal phase needs.
+  /// Writes the new history, and stores stresses and the data for the thermal phase.
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
-  /// As prepare() and finish() of a body that stays at the held displacement and history.
-  virtual void rest(const StepStart& start) = 0;
+  /// Holds the deformation: has the effect of prepare() and finish() for a body that stays at the held
+  /// displacement and history.
+  virtual void hold_deformation(const StepStart& start) = 0;
   /// The first element whose law finds no state at u, with its inputs; empty if there is none.
   virtual std::string failure(std::span<const double> u) const = 0;
-  /// How much of the block flows plastically at u; counted elements only.
+  /// Volume of the block that flows plastically at u; counted elements only.
   virtual FlowingVolume flowing(std::span<const double> u) const = 0;
-  /// out[element][component]: averages over the elements, of the last finish() or of the one that is kept.
+  /// out[element][component]: averages over the elements. The values are those of the last finish(), or those
+  /// stored by keep_fields().
   virtual void get_field(ElementField which, std::span<double> out) const = 0;
-  /// get_field() stays with the last finish() until the next call.
+  /// Stores the values of the last finish(), which get_field() returns until the next call.
   virtual void keep_fields() = 0;
   /// out_i += weight × ∫ N_i dV, [local node].
   virtual void add_nodal_volume(double weight, std::span<double> out) const = 0;
@@ -94,7 +96,7 @@ class BlockKernel {
   virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                    std::span<double> out) const = 0;
   virtual void begin_heat_stage(const algebra::Stage& stage, std::span<const double> temperature) = 0;
-  /// What the heat balance and the audit need of the deformation, of the last finish().
+  /// Returns the data of the deformation that the heat balance and the audit need, as of the last finish().
   virtual const StructuralPoints& structural_points() const = 0;
   virtual std::size_t bytes() const = 0;
 };

@@ -47,7 +47,7 @@ struct Conditions {
   std::vector<Traction> tractions;
   std::vector<PlaneFace> plane_faces;
   std::array<double, 3> gravity{};  ///< acceleration [m/s²], times each body's density
-  /// Names of the bodies that take no part: those that only conduct heat, and those that have gone. Their
+  /// Names of the inactive bodies: those that only conduct heat, and those that have been removed. Their
   /// elements carry nothing, nodes of theirs alone stay where they are, and conditions hold only where
   /// another body is.
   std::vector<std::string> absent_bodies;

@@ -1,5 +1,5 @@
-/// What the simultaneous scheme asks of a mesh block beside BlockKernel: how stress moves with temperature
-/// and structural heat with both fields.
+/// Interface of a mesh block for the simultaneous scheme besides BlockKernel: the derivatives of stress with
+/// respect to temperature and of structural heat with respect to both fields.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace solidus::mechanics {
 
-/// Where the tangent is asked for; fields are [local node][component].
+/// Iterate at which the tangent is evaluated; fields are [local node][component].
 struct CoupledIterate {
   StructuralForm form;                  ///< of structural heat: energy or entropy
   std::span<const double> old_u;        ///< from which the strain increment counts

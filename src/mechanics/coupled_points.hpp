@@ -1,6 +1,6 @@
-/// What the kernels of the simultaneous scheme add to those of a formulation, whatever it is: the law at the
-/// temperature of the iterate, the derivatives of stress and heat at a point, and the entropy and energy that
-/// the second stage of a two-stage method counts from.
+/// Common part of the kernels of the simultaneous scheme, added to those of any element formulation: the law
+/// at the temperature of the iterate, the derivatives of stress and heat at a point, and the entropy and
+/// energy that the second stage of a two-stage method starts from.
 ///
 ///   energy form   h Δt = E − E_n − σ : Δε,      h_ε Δt = E_ε − (Cᵀ : Δε + σ),  h_Θ Δt = E_Θ − σ_Θ : Δε
 ///   entropy form  h Δt = Θ (S − S_n) − D Δt,    h_ε Δt = Θ S_ε − D_ε Δt,
@@ -143,7 +143,7 @@ class CoupledPoints : public Block, public CoupledKernel {
 
   std::span<const double> initial_temperature_;  ///< of the phase, which outlives the block
   algebra::LaneSlots heat_slots_;
-  // Of the second stage, [batch][point]; else empty.
+  // Data of the second stage, [batch][point]; else empty.
   PackVector<StructuralDensities> carried_;  ///< S*, E*
   PackVector<StructuralDensities> before_;   ///< S_n, E_n
 };

@@ -1,4 +1,4 @@
-/// The shapes of the coupled kernels.
+/// Makes coupled kernels: the element shapes that they exist for.
 #pragma once
 
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 namespace solidus::mechanics {
 
-/// Of two-dimensional analyses.
+/// Makes the kernel of a block of a two-dimensional analysis.
 template <AnalysisKind kind>
 std::unique_ptr<BlockKernel> make_coupled_plane_block(const mesh::Mesh& mesh, const mesh::Block& block,
                                                       const material::Material& material, bool b_bar) {
@@ -27,7 +27,7 @@ std::unique_ptr<BlockKernel> make_coupled_plane_block(const mesh::Mesh& mesh, co
   }
 }
 
-/// Of three-dimensional analyses.
+/// Makes the kernel of a block of a three-dimensional analysis.
 inline std::unique_ptr<BlockKernel> make_coupled_solid_block(const mesh::Mesh& mesh, const mesh::Block& block,
                                                              const material::Material& material, bool b_bar) {
   constexpr AnalysisKind kind = AnalysisKind::solid;

@@ -1,4 +1,4 @@
-/// What results show of elements.
+/// Fields of elements for results.
 #pragma once
 
 namespace solidus::mechanics {

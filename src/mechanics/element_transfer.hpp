@@ -1,4 +1,4 @@
-/// Between the lanes of a batch of elements and nodal arrays or matrix blocks.
+/// Gathers and scatters values between the lanes of a batch of elements and nodal arrays or matrix blocks.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 /// Inertia in the balance of momentum (⟨η, ρ v'⟩, missing in monograph 4.40, 4.46): the term that a step adds
-/// to the residual and to the tangent, and what kinetic energy becomes.
+/// to the residual and to the tangent, and the change of the kinetic energy.
 ///
 /// Divided by 1 − α_f, motion.hpp's balance is g_1 + J = 0 with
 ///   J(u_1) = { M [(1−α_m) a_1 + α_m a_n] + α_f g_n } / (1−α_f).
@@ -26,7 +26,7 @@ struct MotionWork {
   double external = 0;   ///< of the loads
   double support = 0;    ///< of the supports, which move their nodes' mass too
   double kinetic = 0;    ///< change of ½ v·Mv
-  double numerical = 0;  ///< what the integrator takes out of the motion
+  double numerical = 0;  ///< energy that the integrator dissipates
 };
 
 class InertialForces {
@@ -38,8 +38,8 @@ class InertialForces {
   const Motion& motion() const { return options_.motion; }
   const MassMatrix& mass() const { return mass_; }
   void bind(const algebra::BlockMatrix& matrix) { mass_.bind(matrix); }
-  /// Of the bodies; where they share a node, that of their common momentum. [local node][component], owned
-  /// nodes.
+  /// Initial velocity of the bodies; where they share a node, that of their common momentum. [local
+  /// node][component], owned nodes.
   const std::vector<double>& initial_velocity() const { return initial_velocity_; }
 
   /// A step from a state, which must live until conclude(). Collective.

@@ -22,7 +22,7 @@ namespace solidus::mechanics {
 template <class T, int n_nodes, int dim>
 using NodalVectors = std::array<std::array<T, dim>, n_nodes>;
 
-/// Where strain components sit in Sym: the shear of x and y is 3, of y and z 4, of x and z 5.
+/// Index of strain components in Sym: the shear of x and y is 3, of y and z 4, of x and z 5.
 template <int dim>
 inline constexpr std::array<std::array<int, 3>, 3> k_component{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
 

@@ -67,7 +67,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         const Operator b = at_point(batch, q);
         const auto response = this->update(batch, q, b.strain(displacement));
         b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
-        if (response.status != material::Status::converged) this->spoil(f);
+        if (response.status != material::Status::converged) this->invalidate(f);
       }
       total += this->counted(batch) * this->squares(f);
       scatter<n_nodes, Operator::dim>(f, nodes_of(batch), forces);
@@ -119,14 +119,15 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     return this->total(tally);
   }
 
-  void rest(const StepStart& start) override {
+  void hold_deformation(const StepStart& start) override {
     prepare(start);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(start.held_displacement, batch);
       for (int q = 0; q < geometry_.n_points; ++q)
-        this->points_.rest(batch, q,
-                           this->deformation(at_point(batch, q).strain(displacement),
-                                             this->old_state(batch, q), this->is_solid(batch, q)));
+        this->points_.hold_deformation(
+            batch, q,
+            this->deformation(at_point(batch, q).strain(displacement), this->old_state(batch, q),
+                              this->is_solid(batch, q)));
     }
   }
 

@@ -13,7 +13,7 @@ void put(const Sym<double>& tensor, double* to) {
   std::copy(tensor.c.begin(), tensor.c.end(), to);
 }
 
-/// What every law knows.
+/// Writes the fields that every law has.
 template <class Values>
 void put_common(ElementField which, const Values& values, double* to) {
   switch (which) {

@@ -1,5 +1,5 @@
-/// What the kernels ask of a law beside its update: one overload per law, found by the types of its
-/// properties and state.
+/// Functions that the kernels require of a law besides its update: one overload per law, selected by the
+/// types of its properties and state.
 #pragma once
 
 #include <array>
@@ -68,7 +68,7 @@ std::vector<std::size_t> kept_lanes(const material::Viscoelastic& law);
 std::vector<std::size_t> kept_lanes(const material::Viscoplastic& law);
 std::vector<std::size_t> kept_lanes(const material::Isentropic& law);
 
-/// What to subtract from the strain for the elastic one.
+/// Returns the strain to be subtracted from the total strain to obtain the elastic one.
 template <class T>
 Sym<T> inelastic_strain(const material::Viscoelastic::State<T>& state) {
   return state.viscous_strain;
@@ -78,7 +78,7 @@ Sym<T> inelastic_strain(const material::Viscoplastic::State<T>& state) {
   return state.viscous_strain + state.plastic_strain;
 }
 
-/// What hardening has stored, beside temperature: ξ and ζ:ζ.
+/// Returns the variables of the energy stored by hardening besides temperature: ξ and ζ:ζ.
 template <class T>
 std::array<T, 2> hardening_of(const material::Viscoelastic::State<T>&) {
   return {T(0.0), T(0.0)};
@@ -88,7 +88,7 @@ std::array<T, 2> hardening_of(const material::Viscoplastic::State<T>& state) {
   return {state.hardening, dot(state.back_strain, state.back_strain)};
 }
 
-/// How that changed since `old`: Δξ and ζ : Δζ.
+/// Returns their change since `old`: Δξ and ζ : Δζ.
 template <class T>
 std::array<T, 2> hardening_change(const material::Viscoelastic::State<T>&,
                                   const material::Viscoelastic::State<T>&) {
@@ -117,7 +117,7 @@ PlasticPower plastic_power(const material::Isentropic&, const Response& r) {
   return {r.plastic_power, r.plastic_dissipation};
 }
 
-/// What results show of a point or, averaged, of an element (units as in ElementField).
+/// Values of a point or, averaged, of an element for results (units as in ElementField).
 template <class T>
 struct ViscoelasticValues {
   using OfOne = ViscoelasticValues<double>;
@@ -142,7 +142,8 @@ ViscoelasticValues<Lane> values_of(const material::Viscoelastic&, const material
                                    const Response& r, const Sym<Lane>& strain) {
   return {r.stress, strain, r.state.viscous_strain, r.dissipation};
 }
-/// The flow stress and what follows from state and properties: everything but stress, strain and dissipation.
+/// The flow stress and all values that follow from state and properties: everything but stress, strain and
+/// dissipation.
 ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
                                    const material::Viscoplastic::Properties<Lane>& p,
                                    const material::Viscoplastic::State<Lane>& state);
@@ -156,7 +157,7 @@ ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
   v.dissipation = r.dissipation;
   return v;
 }
-/// The same of the isentropic mapping, at Θ̄ but for what it freezes.
+/// The same for the isentropic mapping, at Θ̄ but for the frozen properties.
 ViscoplasticValues<Lane> values_of(const material::Isentropic& law,
                                    const material::Isentropic::Properties<Lane>& p,
                                    const material::Isentropic::State<Lane>& state, const Lane& temperature);

@@ -21,16 +21,16 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
   throw InputError({}, std::string("no ") + what + " '" + name + "' in the mesh", allowed);
 }
 
-/// Calls visit(owned node, ∫ N dA, ∫ N n dA) for every node of every face that is there, n out of the body
-/// there. Closed surfaces of quadratic
-/// shapes are integrated with the degree that is exact for straight faces: N times the radius.
-void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+/// Calls visit(owned node, ∫ N dA, ∫ N n dA) for every node of every active face, n out of the body there.
+/// Closed surfaces of quadratic shapes are integrated with the degree that is exact for straight faces: N
+/// times the radius.
+void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
                const mesh::Surface& surface,
                const std::function<void(Index, double, const mesh::Point&)>& visit) {
-  for (const mesh::Block& faces : presence.part(mesh, surface).faces) {
+  for (const mesh::Block& faces : active.part(mesh, surface).faces) {
     const mesh::FaceGeometry geometry(mesh, faces, kind,
                                       mesh::gauss_rule(faces.shape, 2 * mesh::order(faces.shape) + 1));
-    const double out = presence.reversed(faces) ? -1.0 : 1.0;
+    const double out = active.reversed(faces) ? -1.0 : 1.0;
     for (Index face = 0; face < geometry.n_faces; ++face)
       for (int a = 0; a < geometry.n_nodes; ++a) {
         const Index node = faces.element(face)[a];
@@ -86,14 +86,14 @@ void merge(std::vector<std::pair<Index, double>>& force) {
 }  // namespace
 
 Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions,
-             const algebra::Presence& presence, std::span<const double> start)
+             const algebra::ActiveSet& active, std::span<const double> start)
     : conditions_(std::move(conditions)),
       components_(displacement_components(kind)),
       constant_(static_cast<std::size_t>(mesh.n_owned_nodes * components_), 0.0),
       fixed_(static_cast<std::size_t>(mesh.n_nodes() * components_), 0),
       supported_(fixed_.size(), 0) {
-  for (const Pressure& pressure : conditions_.pressures) add_surface(mesh, kind, presence, pressure);
-  for (const Traction& traction : conditions_.tractions) add_surface(mesh, kind, presence, traction);
+  for (const Pressure& pressure : conditions_.pressures) add_surface(mesh, kind, active, pressure);
+  for (const Traction& traction : conditions_.tractions) add_surface(mesh, kind, active, traction);
   if (kind == AnalysisKind::axisymmetric) {
     double largest = 0;
     for (const mesh::Point& x : mesh.x) largest = std::max(largest, std::abs(x[0]));
@@ -105,23 +105,23 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions,
     supports_.push_back(std::move(axis));
   }
   for (const PrescribedDisplacement& condition : conditions_.displacements)
-    add_support(mesh, presence, condition, start);
+    add_support(mesh, active, condition, start);
   for (const Support& support : supports_)
     for (Index entry : support.entries) fixed_[static_cast<std::size_t>(entry)] = 1;
   std::vector<char> tied(conditions_.plane_faces.empty() ? 0 : fixed_.size(), 0);
-  for (const PlaneFace& face : conditions_.plane_faces) add_plane_face(mesh, presence, face, tied);
+  for (const PlaneFace& face : conditions_.plane_faces) add_plane_face(mesh, active, face, tied);
   for (Index node = 0; node < mesh.n_nodes(); ++node)
-    if (!presence.node(node)) std::fill_n(fixed_.begin() + node * components_, components_, 1);
+    if (!active.node(node)) std::fill_n(fixed_.begin() + node * components_, components_, 1);
 }
 
-void Loads::add_support(const mesh::Mesh& mesh, const algebra::Presence& presence,
+void Loads::add_support(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
                         const PrescribedDisplacement& condition, std::span<const double> start) {
   if (condition.component < 0 || condition.component >= components_)
     throw InputError({}, "displacement component " + std::to_string(condition.component) + " of '" +
                              condition.node_set + "' does not exist in this analysis");
   Support support{condition.value, {}, {}};
   for (Index node : find(mesh.node_sets, condition.node_set, "group"))
-    if (presence.node(node)) support.entries.push_back(node * components_ + condition.component);
+    if (active.node(node)) support.entries.push_back(node * components_ + condition.component);
   if (condition.relative)
     for (const Index entry : support.entries)
       support.start.push_back(start.empty() ? 0.0 : start[static_cast<std::size_t>(entry)]);
@@ -129,7 +129,7 @@ void Loads::add_support(const mesh::Mesh& mesh, const algebra::Presence& presenc
   supports_.push_back(std::move(support));
 }
 
-void Loads::add_plane_face(const mesh::Mesh& mesh, const algebra::Presence& presence, const PlaneFace& face,
+void Loads::add_plane_face(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const PlaneFace& face,
                            std::vector<char>& tied) {
   const std::vector<Index>& nodes = find(mesh.node_sets, face.node_set, "group");
   const int normal = common_coordinate(mesh, nodes);
@@ -140,7 +140,7 @@ void Loads::add_plane_face(const mesh::Mesh& mesh, const algebra::Presence& pres
   std::vector<Index> group;
   bool is_fixed = false, is_tied = false;
   for (const Index node : nodes) {
-    if (!presence.node(node)) continue;
+    if (!active.node(node)) continue;
     const Index entry = node * components_ + normal;
     const auto at = static_cast<std::size_t>(entry);
     is_fixed = is_fixed || fixed_[at] != 0;
@@ -157,13 +157,13 @@ void Loads::add_plane_face(const mesh::Mesh& mesh, const algebra::Presence& pres
     throw InputError({},
                      "the plane face '" + face.node_set + "' shares nodes with another in the same direction",
                      "one group for both");
-  ties_.push_back(std::move(group));
+  constraint_groups_.push_back(std::move(group));
 }
 
-void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
                         const Pressure& pressure) {
   Unit unit{pressure.value, {}};
-  integrate(mesh, kind, presence, find(mesh.surfaces, pressure.surface, "surface"),
+  integrate(mesh, kind, active, find(mesh.surfaces, pressure.surface, "surface"),
             [&](Index node, double, const mesh::Point& normal) {
               for (int i = 0; i < components_; ++i)
                 unit.force.emplace_back(node * components_ + i, -normal[static_cast<std::size_t>(i)]);
@@ -172,12 +172,12 @@ void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra
   units_.push_back(std::move(unit));
 }
 
-void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
                         const Traction& traction) {
   const mesh::Surface& surface = find(mesh.surfaces, traction.surface, "surface");
   for (int i = 0; i < components_; ++i) {
     Unit unit{traction.value[static_cast<std::size_t>(i)], {}};
-    integrate(mesh, kind, presence, surface, [&](Index node, double area, const mesh::Point&) {
+    integrate(mesh, kind, active, surface, [&](Index node, double area, const mesh::Point&) {
       unit.force.emplace_back(node * components_ + i, area);
     });
     merge(unit.force);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "mechanics/conditions.hpp"
 #include "mesh/mesh.hpp"
 
@@ -15,9 +15,9 @@ class Loads {
  public:
   /// Throws InputError for a condition that names no group of the mesh, and for a plane face that is not
   /// normal to a coordinate, prescribed in that direction or tied to another. Collective.
-  /// @param presence  that of the conditions' bodies
+  /// @param active  that of the conditions' bodies
   /// @param start     displacement that relative ones count from, [local node][component]; empty: zero
-  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, const algebra::Presence& presence,
+  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, const algebra::ActiveSet& active,
         std::span<const double> start = {});
 
   /// Adds a load that does not change in time, [local node][component] [N].
@@ -25,16 +25,18 @@ class Loads {
   /// The loads at a time, [owned node][component] [N].
   void evaluate(double time, std::span<double> force) const;
 
-  /// Which degrees of freedom are prescribed or belong to no body that is there, [local node][component].
+  /// Non-zero for degrees of freedom that are prescribed or belong to no active body, [local
+  /// node][component].
   const std::vector<char>& fixed() const { return fixed_; }
-  /// The same without what no support holds: the radial direction on an axis of revolution, absent bodies.
+  /// The same without those that are held by no support: the radial direction on an axis of revolution,
+  /// absent bodies.
   const std::vector<char>& supported() const { return supported_; }
   /// Writes the prescribed values of a time into a displacement, [local node][component].
   void prescribe(double time, std::span<double> displacement) const;
   /// The same for velocities: the slopes of the tables from that time on.
   void prescribe_rate(double time, std::span<double> velocity) const;
-  /// The degrees of freedom of each plane face, ghosts included, for BlockMatrix::tie.
-  const std::vector<std::vector<Index>>& ties() const { return ties_; }
+  /// The degrees of freedom of each plane face, ghosts included, for BlockMatrix::constrain.
+  const std::vector<std::vector<Index>>& constraint_groups() const { return constraint_groups_; }
   const Conditions& conditions() const { return conditions_; }
 
  private:
@@ -48,20 +50,20 @@ class Loads {
     std::vector<Index> entries;  ///< local degrees of freedom
     std::vector<double> start;   ///< of a relative one, one per entry; else empty
   };
-  void add_support(const mesh::Mesh& mesh, const algebra::Presence& presence,
+  void add_support(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
                    const PrescribedDisplacement& condition, std::span<const double> start);
-  void add_plane_face(const mesh::Mesh& mesh, const algebra::Presence& presence, const PlaneFace& face,
+  void add_plane_face(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const PlaneFace& face,
                       std::vector<char>& tied);
-  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
                    const Pressure& pressure);
-  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::Presence& presence,
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
                    const Traction& traction);
 
   Conditions conditions_;
   int components_;
   std::vector<Unit> units_;
   std::vector<Support> supports_;
-  std::vector<std::vector<Index>> ties_;
+  std::vector<std::vector<Index>> constraint_groups_;
   std::vector<double> constant_;  ///< [owned node][component]
   std::vector<char> fixed_, supported_;
 };

@@ -1,4 +1,4 @@
-/// Where a step of the mechanical phase fails, in words.
+/// Describes where and why a step of the mechanical phase fails, for messages.
 #include <fmt/format.h>
 #include <mpi.h>
 
@@ -46,7 +46,7 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
   std::vector<double> r(n_residuals());
   residual(x, r);
   r.resize(n_forces());
-  matrix_->ties().sum(r);
+  matrix_->constraints().sum(r);
   struct {
     double value;
     int rank;

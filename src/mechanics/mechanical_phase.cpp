@@ -40,10 +40,10 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
       components_(displacement_components(kind)),
       options_(std::move(options)),
       contributions_(std::move(contributions)),
-      presence_(mesh, conditions.absent_bodies),
-      loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions), presence_)),
+      active_(mesh, conditions.absent_bodies),
+      loads_(std::make_unique<Loads>(mesh, kind, std::move(conditions), active_)),
       ghosts_(mesh),
-      balance_(mesh, presence_, components_),
+      balance_(mesh, active_, components_),
       initial_temperature_(initial_temperature.begin(), initial_temperature.end()),
       nodal_phases_(mesh, materials, initial_temperature) {
   assert(materials.size() == mesh.bodies.size() && initial_temperature.size() == mesh.x.size());
@@ -53,13 +53,13 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   if (options_.dynamics) {
     std::vector<double> density;
     for (std::size_t b = 0; b < materials.size(); ++b)
-      density.push_back(presence_.body(static_cast<int>(b)) ? materials[b].density : 0.0);
+      density.push_back(active_.body(static_cast<int>(b)) ? materials[b].density : 0.0);
     inertia_ = std::make_unique<InertialForces>(mesh, kind, components_, density, *options_.dynamics);
     inertial_.resize(static_cast<std::size_t>(mesh.n_owned_nodes * components_));
   }
   find_weight(loads_->conditions().gravity);
   loads_->add_constant(weight_);
-  melt_ = melt_moduli(mesh, materials, presence_, loads_->conditions().gravity);
+  melt_ = melt_moduli(mesh, materials, active_, loads_->conditions().gravity);
 
   for (const auto& block : blocks_) options_.symmetric = options_.symmetric && block->symmetric();
   create_pressure();
@@ -75,7 +75,7 @@ MechanicalPhase::~MechanicalPhase() = default;
 void MechanicalPhase::create_blocks(const std::vector<material::Material>& materials) {
   for (const mesh::Block& block : mesh_.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
-    if (!presence_.body(block.body)) {
+    if (!active_.body(block.body)) {
       blocks_.push_back(std::make_unique<AbsentBlock>(mesh_, block, kind_, material));
       continue;
     }
@@ -108,35 +108,35 @@ void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
     for (std::size_t i = 0; i < n; ++i) weight_[node * n + i] = mass[node] * gravity[i];
 }
 
-/// What the elements of bodies that have gone need is given back: at once, or once a step without them is
-/// committed, where results show fields of the last one until then.
-void MechanicalPhase::remove_bodies(const algebra::Presence& presence) {
+/// Frees the memory of the elements of removed bodies: at once, or, if results show fields of the last step,
+/// once a step without them is committed.
+void MechanicalPhase::remove_bodies(const algebra::ActiveSet& active) {
   if (inertia_) throw std::invalid_argument("bodies can leave in quasi-statics only");
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const mesh::Block& block = mesh_.blocks[b];
-    if (presence.body(block.body) && !presence_.body(block.body))
+    if (active.body(block.body) && !active_.body(block.body))
       throw std::invalid_argument("a body that has gone cannot come back");
-    if (presence.body(block.body) || !presence_.body(block.body)) continue;
-    // What is kept for results is shown until the next step is committed.
+    if (active.body(block.body) || !active_.body(block.body)) continue;
+    // Fields that are kept for results are shown until the next step is committed.
     std::unique_ptr<BlockKernel> kept = keeps_fields_ ? std::move(blocks_[b]) : nullptr;
     blocks_[b] = std::make_unique<AbsentBlock>(
         mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)], std::move(kept));
   }
-  presence_ = presence;
-  balance_ = BodyBalance(mesh_, presence_, components_);
+  active_ = active;
+  balance_ = BodyBalance(mesh_, active_, components_);
 }
 
 algebra::NodeGraph MechanicalPhase::graph() const {
   algebra::NodeGraph graph(mesh_);
   // The coupled matrix of the simultaneous scheme has this pattern: what a body that only conducts takes
   // depends on the displacement of those that it touches.
-  if (!presence_.complete() && options_.mapping != Mapping::simultaneous) {
+  if (!active_.complete() && options_.mapping != Mapping::simultaneous) {
     std::vector<char> absent(mesh_.x.size());
-    for (std::size_t i = 0; i < absent.size(); ++i) absent[i] = !presence_.node(static_cast<Index>(i));
+    for (std::size_t i = 0; i < absent.size(); ++i) absent[i] = !active_.node(static_cast<Index>(i));
     graph.leave_out(std::move(absent));
   }
   for (const mesh::Block& block : mesh_.blocks)
-    if (presence_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
+    if (active_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
   for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   return graph;
 }
@@ -144,8 +144,10 @@ algebra::NodeGraph MechanicalPhase::graph() const {
 void MechanicalPhase::create_matrix() {
   using Storage = algebra::BlockMatrix::Storage;
   Storage storage = Storage::whole;
-  // What couples displacements with temperatures has their pattern.
-  if (options_.mapping != Mapping::simultaneous && !algebra::any_process(!loads_->ties().empty())) {
+  // The blocks that couple displacements with temperatures share the pattern of this matrix, so it is then
+  // stored whole.
+  if (options_.mapping != Mapping::simultaneous &&
+      !algebra::any_process(!loads_->constraint_groups().empty())) {
     if (!pressure_)
       storage = algebra::storage_for(linear_options(options_), mesh_, components_,
                                      algebra::rigid_body_mode_count(components_));
@@ -154,7 +156,7 @@ void MechanicalPhase::create_matrix() {
   }
   matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, graph(), storage);
   matrix_->set_fixed(loads_->fixed());
-  matrix_->tie(loads_->ties());
+  matrix_->constrain(loads_->constraint_groups());
   bind();
 }
 
@@ -219,15 +221,16 @@ void MechanicalPhase::create_solver() {
 }
 
 void MechanicalPhase::set_conditions(Conditions conditions, std::span<const double> start) {
-  const algebra::Presence presence(mesh_, conditions.absent_bodies);
-  auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), presence, start);
-  const bool same_matrix = presence == presence_ && !algebra::any_process(loads->ties() != loads_->ties());
-  if (presence != presence_) {
-    remove_bodies(presence);
+  const algebra::ActiveSet active(mesh_, conditions.absent_bodies);
+  auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), active, start);
+  const bool same_matrix =
+      active == active_ && !algebra::any_process(loads->constraint_groups() != loads_->constraint_groups());
+  if (active != active_) {
+    remove_bodies(active);
     find_weight(loads->conditions().gravity);
   }
   loads->add_constant(weight_);
-  melt_ = melt_moduli(mesh_, materials_, presence_, loads->conditions().gravity);
+  melt_ = melt_moduli(mesh_, materials_, active_, loads->conditions().gravity);
   loads_ = std::move(loads);
   create_pressure();
   if (same_matrix && !pressure_) {
@@ -253,7 +256,7 @@ MechanicalState MechanicalPhase::initial_state() {
 void MechanicalPhase::set_in_motion(MechanicalState& state) {
   state.velocity = inertia_->initial_velocity();
   loads_->prescribe_rate(0, state.velocity);
-  matrix_->ties().share(std::span(state.velocity).first(external_.size()));
+  matrix_->constraints().share(std::span(state.velocity).first(external_.size()));
   ghosts_.update(state.velocity, components_);
 
   loads_->evaluate(0, external_);
@@ -265,7 +268,7 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
     net[i] -= external_[i];
     free[i] = loads_->fixed()[i] != 0 ? 0.0 : -net[i];
   }
-  matrix_->ties().sum(free);
+  matrix_->constraints().sum(free);
   matrix_->set_zero();
   inertia_->mass().add_to(*matrix_, 1.0);
   // Scaled by its diagonal a mass matrix is well conditioned on every mesh (Wathen 1987).
@@ -278,7 +281,7 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
   if (!report.converged) throw StepRejected("mechanics: no initial acceleration, " + report.reason);
   for (std::size_t i = 0; i < owned.size(); ++i)
     if (loads_->fixed()[i] != 0) owned[i] = 0;
-  matrix_->ties().share(owned);
+  matrix_->constraints().share(owned);
   ghosts_.update(state.acceleration, components_);
 
   if (!inertia_->motion().remembers()) return;

@@ -44,7 +44,7 @@ struct BlockWork;
 
 enum class TimeIntegration { backward_euler, two_step };
 
-/// What the mechanical phase holds.
+/// Thermal variable that is held fixed in the mechanical phase.
 enum class Mapping {
   isothermal,    ///< Θ = Θ_n
   simultaneous,  ///< Θ is an unknown as well: only for coupling/simultaneous.hpp
@@ -79,12 +79,12 @@ struct MechanicalWork {
   double internal_work = 0;        ///< ∫ σ_{n+1} : Δε dV
   double dissipation = 0;          ///< Δt ∫ D_mech dV, viscous and plastic (2.113)
   double plastic_dissipation = 0;  ///< the plastic part of it (2.117)
-  double plastic_work = 0;         ///< Δt ∫ s : ε̇^vp dV: plastic dissipation and what hardening stores
+  double plastic_work = 0;  ///< Δt ∫ s : ε̇^vp dV: plastic dissipation and energy stored by hardening
   /// The least and the largest D_mech at any point and zero [W/m³]; the least is negative by rounding at
   /// most.
   double least_dissipation = 0, largest_dissipation = 0;
   double kinetic = 0;  ///< change of the kinetic energy
-  /// What the time integration of inertia takes out of it, and what the pressure of mixed elements works on
+  /// Energy that the time integration of inertia dissipates, and work of the pressure of mixed elements on
   /// the volume of their sub-scales.
   double numerical = 0;
 };
@@ -99,8 +99,8 @@ struct PhaseReport {
 /// (coupling/double_pass.hpp).
 enum class StressAtWork { end, end_kept, kept };
 
-/// What one pass through the mechanical phase goes from and to. The fields of an iterate belong to schemes
-/// that solve the phase several times a step; empty, the pass is the first one.
+/// Input of one pass of the mechanical phase. The fields of an iterate belong to schemes that solve the phase
+/// several times a step; empty, the pass is the first one.
 struct MechanicalPass {
   double time = 0, dt = 0;              ///< t_{n+1} and the step [s]
   std::span<const double> temperature;  ///< Θ_n [K], [local node], ghosts up to date
@@ -115,7 +115,7 @@ struct MechanicalPass {
   int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
   StressAtWork work = StressAtWork::end;
   std::span<const double> start{};  ///< of Newton's iteration, instead of the iterate's displacement
-  /// Another start, taken where it leaves less out of balance.
+  /// Another start value, used if its residual is smaller.
   std::span<const double> guess{};
   std::span<const double> guessed_pressure{};  ///< that goes with it [Pa], [local node][field]
 };
@@ -144,8 +144,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// @param start  displacement that relative supports count from, [local node][component]; empty: zero
   /// Throws InputError as the constructor does, and std::invalid_argument for a body that comes back.
   void set_conditions(Conditions conditions, std::span<const double> start);
-  /// Who takes part.
-  const algebra::Presence& presence() const { return presence_; }
+  /// Bodies and nodes that are active in the present stage.
+  const algebra::ActiveSet& active() const { return active_; }
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
   /// prescribed displacements, and the accelerations that the loads of that time cause. Collective.
   MechanicalState initial_state();
@@ -166,9 +166,10 @@ class MechanicalPhase : private algebra::NonlinearSystem {
     return solve(old, trial, {.time = time, .dt = dt, .temperature = temperature});
   }
 
-  /// Hands StructuralHeat a body that does not move: a thermal phase of its own can follow.
-  void rest(const MechanicalState& state, std::span<const double> temperature,
-            std::span<const double> plateau_share = {});
+  /// Holds the deformation of `state` for StructuralHeat, so that a thermal phase of bodies that do not move
+  /// can follow.
+  void hold_deformation(const MechanicalState& state, std::span<const double> temperature,
+                        std::span<const double> plateau_share = {});
 
   // The pieces of solve(), for an iteration that has further unknowns (coupling/simultaneous.hpp).
   /// Loads, state at t_n and properties at the temperature of the pass; `old` must live until conclude().
@@ -182,17 +183,17 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::size_t n_residuals() const;
   /// The properties at another temperature of the iterate, after begin().
   void prepare(const MechanicalState& old, const MechanicalPass& pass);
-  /// As algebra::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
+  /// Implements algebra::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
   double residual(std::span<const double> x, std::span<double> r) override;
   /// At the x of the last residual().
   algebra::BlockMatrix& tangent() override;
-  /// How large a step is beside the displacement since t_n: BodyBalance::relative_step, of the unknowns x and
+  /// Size of a step relative to the displacement since t_n: BodyBalance::relative_step, of the unknowns x and
   /// of the step d that has led to them.
   double relative_step(const MechanicalState& old, std::span<const double> x,
                        std::span<const double> d) const;
-  /// Of the tangent: what is prescribed and what is tied.
+  /// The matrix of the tangent, with its fixed degrees of freedom and multi-point constraints.
   algebra::BlockMatrix& matrix() { return *matrix_; }
-  /// Hands what happened at x to StructuralHeat and writes the history there.
+  /// Passes the deformation at x to StructuralHeat and writes the history at x.
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
   /// finish() at the solution, and the state and work that follow from it.
   MechanicalWork conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
@@ -206,27 +207,28 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// A residual that is rounding [N].
   double round_off() const { return round_off_; }
 
-  /// Of the last solve, or of the one that is kept: [block of the mesh][element][component].
+  /// Values of the last solve, or of the one stored by keep_fields(): [block of the
+  /// mesh][element][component].
   std::vector<double> element_field(ElementField which) const;
-  /// The last solution is committed: element_field() stays with it until the next call, whatever is tried and
-  /// rejected in between.
+  /// Stores the fields of the last, committed solution: element_field() returns them until the next call,
+  /// whatever is tried and rejected in between.
   void keep_fields();
   /// True when a material can flow plastically: then there are plastic fields to show.
   bool plastic() const { return plastic_; }
   /// Support forces of the last solve, [owned node][component] [N], zero where nothing is prescribed.
   std::span<const double> reactions() const { return reactions_; }
 
-  /// From now on conclude() leaves the stress at the points in MechanicalState::stress, as with inertia.
+  /// Makes conclude() store the stress at the points in MechanicalState::stress from now on, as with inertia.
   void keep_stress() { keeps_stress_ = true; }
-  /// What loads and contact do to the nodes at the last solution, [owned node][component] [N].
+  /// Nodal forces of loads and contact at the last solution, [owned node][component] [N].
   std::vector<double> applied_forces() const;
-  /// What is held where it is, and what moves as one (Loads).
+  /// Fixed degrees of freedom, and multi-point constraints (Loads).
   const std::vector<char>& fixed() const { return matrix_->fixed(); }
-  const algebra::Ties& ties() const { return matrix_->ties(); }
+  const algebra::MultiPointConstraints& constraints() const { return matrix_->constraints(); }
 
   /// The block kernels, for StructuralHeat.
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
-  /// How stiff the melt of every body is in a step where its material leaves that open, [body].
+  /// Stiffness of the melt of every body whose material does not give its viscosity, [body].
   std::span<const material::MeltModulus> melt() const { return melt_; }
   /// Drops what the linear solver carried over from earlier steps.
   void forget() { solver_->forget(); }
@@ -239,8 +241,8 @@ class MechanicalPhase : private algebra::NonlinearSystem {
  private:
   algebra::NodeGraph graph() const;
   void create_blocks(const std::vector<material::Material>& materials);
-  void remove_bodies(const algebra::Presence& presence);
-  /// Of the bodies that are there.
+  void remove_bodies(const algebra::ActiveSet& active);
+  /// Mass of the active bodies.
   std::vector<double> nodal_mass() const;
   void find_weight(const std::array<double, 3>& gravity);
   void create_matrix();
@@ -257,10 +259,11 @@ class MechanicalPhase : private algebra::NonlinearSystem {
     return relative_step(*solved_from_, x, d);
   }
   void add_residual_to_balance(std::span<const double> r);
-  /// ‖r(x)‖ of what the unknowns can change.
+  /// ‖r(x)‖ of the free unknowns: without prescribed ones, and with constraints summed.
   double unbalanced(std::span<const double> x);
-  /// Moves the start to the guess of the pass where that is nearer to equilibrium; whether it did.
-  bool look_ahead(const MechanicalPass& pass, std::vector<double>& x);
+  /// Tries the guess of the pass: takes it as the start if it is nearer to equilibrium. Returns whether it
+  /// did.
+  bool try_guess(const MechanicalPass& pass, std::vector<double>& x);
   std::string law_failure(std::span<const double> x) const;
   std::string flowing_body(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
@@ -274,7 +277,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   int components_;
   MechanicsOptions options_;
   std::vector<algebra::Contribution*> contributions_;
-  algebra::Presence presence_;
+  algebra::ActiveSet active_;
   bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;
@@ -292,13 +295,13 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   NodalPhases nodal_phases_;
   std::vector<BlockHistory> start_;               ///< z* of the two-step method, one per block
   bool keeps_stress_ = false;                     ///< without inertia
-  bool keeps_fields_ = false;                     ///< somebody has asked for it
+  bool keeps_fields_ = false;                     ///< keep_fields() has been called
   std::vector<BlockHistory> no_stress_;           ///< to keep it against
   double round_off_ = 0;                          ///< residual that is rounding [N]
   const MechanicalState* solved_from_ = nullptr;  ///< t_n of the solve that goes on
   std::vector<double> x_;                         ///< unknowns of the last residual
   std::vector<double> residual_;                  ///< there
-  bool residual_is_known_ = false;                ///< for what prepare() was last called with
+  bool residual_is_known_ = false;                ///< for the arguments of the last prepare()
   std::vector<double> forces_;        ///< internal forces, [local node][component]; ghost rows are scrap
   std::vector<double> external_;      ///< loads at t_{n+1}, [owned node][component]
   std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia

@@ -1,4 +1,5 @@
-/// What the mechanical phase carries from step to step: all of it, so a checkpoint is this and nothing else.
+/// State of the mechanical phase between steps. It is complete: a checkpoint of the phase is this and nothing
+/// else.
 #pragma once
 
 #include <vector>
@@ -21,7 +22,7 @@ struct MechanicalState {
   /// The mean stress of mixed elements at the nodes, [local node][field] [Pa] (nodal_pressure.hpp); empty
   /// where there are none.
   std::vector<double> pressure;
-  /// Of the two-step method: the history at t_{n−1} and t_n − t_{n−1} [s], zero where none is known. Empty
+  /// The history at t_{n−1} for the two-step method, and t_n − t_{n−1} [s], zero if it is not known. Empty
   /// with backward Euler.
   std::vector<BlockHistory> before;
   double dt_before = 0;

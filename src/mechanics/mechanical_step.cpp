@@ -24,7 +24,8 @@ constexpr double k_round_off_strain = 1e-13;
 
 }  // namespace
 
-/// The first step, and one that grows beyond what the two-step method stands, are backward Euler steps.
+/// The first step, and one that grows beyond the limit of stability of the two-step method, are backward
+/// Euler steps.
 material::TimeStep MechanicalPhase::time_step(const MechanicalState& old, double dt) const {
   const bool two_step = options_.integration == TimeIntegration::two_step && old.dt_before > 0 &&
                         dt <= material::k_largest_growth * old.dt_before;
@@ -118,20 +119,20 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   return balance_.reference();
 }
 
-/// What keeps a face plane are forces that the body exchanges, like those of a support; their sum is
+/// The forces that keep a face plane are exchanged with the body like those of a support; their sum is a
 /// residual.
 void MechanicalPhase::add_residual_to_balance(std::span<const double> r) {
-  if (matrix_->ties().empty()) {
+  if (matrix_->constraints().empty()) {
     balance_.add_residual(r, loads_->fixed(), loads_->supported());
     return;
   }
   std::vector<double> holding(r.size(), 0.0), rest(r.begin(), r.end());
-  for (const auto& group : loads_->ties())
+  for (const auto& group : loads_->constraint_groups())
     for (const Index entry : group) {
       const auto at = static_cast<std::size_t>(entry);
       if (at < r.size()) holding[at] = r[at];
     }
-  matrix_->ties().sum(rest);
+  matrix_->constraints().sum(rest);
   balance_.add_exchanged(holding);
   balance_.add_residual(rest, loads_->fixed(), loads_->supported());
 }
@@ -171,11 +172,11 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
   std::vector<double> x = start(old, pass);
-  const bool guessed = look_ahead(pass, x);
+  const bool guessed = try_guess(pass, x);
   PhaseReport report;
   report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
   if (guessed && !report.newton.converged) {
-    // A guess may lift a body off what holds it, which leaves a singular tangent.
+    // A guess may lift a body off its support, which leaves a singular tangent.
     const algebra::NewtonReport from_guess = std::move(report.newton);
     x = start(old, pass);
     report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
@@ -193,13 +194,13 @@ double MechanicalPhase::unbalanced(std::span<const double> x) {
   residual(x, r);
   for (std::size_t i = 0; i < n_forces(); ++i)
     if (loads_->fixed()[i] != 0) r[i] = 0;
-  matrix_->ties().sum(std::span(r).first(n_forces()));
+  matrix_->constraints().sum(std::span(r).first(n_forces()));
   double squares = 0;
   for (const double value : r) squares += value * value;
   return std::sqrt(algebra::global_sum(squares));
 }
 
-bool MechanicalPhase::look_ahead(const MechanicalPass& pass, std::vector<double>& x) {
+bool MechanicalPhase::try_guess(const MechanicalPass& pass, std::vector<double>& x) {
   if (!algebra::any_process(!pass.guess.empty())) return false;
   std::vector<double> guess = x;
   std::copy(pass.guess.begin(), pass.guess.end(), guess.begin());
@@ -232,21 +233,22 @@ std::vector<double> MechanicalPhase::start(const MechanicalState& old, const Mec
   return x;
 }
 
-void MechanicalPhase::rest(const MechanicalState& state, std::span<const double> temperature,
-                           std::span<const double> plateau_share) {
+void MechanicalPhase::hold_deformation(const MechanicalState& state, std::span<const double> temperature,
+                                       std::span<const double> plateau_share) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    blocks_[b]->rest({.temperature = temperature,
-                      .pass_temperature = temperature,
-                      .initial_temperature = initial_temperature_,
-                      .old_displacement = state.displacement,
-                      .held_displacement = state.displacement,
-                      .held_history = &state.history[b],
-                      .old_history = &state.history[b],
-                      .start_history = &state.history[b],
-                      .dt = 1,
-                      .effective_dt = 1,
-                      .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
-                      .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
+    blocks_[b]->hold_deformation(
+        {.temperature = temperature,
+         .pass_temperature = temperature,
+         .initial_temperature = initial_temperature_,
+         .old_displacement = state.displacement,
+         .held_displacement = state.displacement,
+         .held_history = &state.history[b],
+         .old_history = &state.history[b],
+         .start_history = &state.history[b],
+         .dt = 1,
+         .effective_dt = 1,
+         .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
+         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
@@ -258,7 +260,7 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     history[b].n_components = old.history[b].n_components;
     history[b].n_points = old.history[b].n_points;
-    if (presence_.body(mesh_.blocks[b].body))
+    if (active_.body(mesh_.blocks[b].body))
       history[b].values.resize(old.history[b].values.size());
     else  // of the layout that a checkpoint knows
       history[b].values.assign(old.history[b].values.size(), Lane(0.0));
@@ -284,7 +286,8 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
   x.resize(n_displacements());
   next.displacement = std::move(x);
   next.stress = std::move(stress_);
-  // Where the last body with a pressure has left its values stay, as checkpoints have room for them.
+  // If the last body with a pressure has been removed, the old values are kept, because checkpoints have room
+  // for them.
   next.pressure = pressure_ ? pressure_->pressure() : old.pressure;
   if (options_.integration == TimeIntegration::two_step) {
     next.before = old.history;

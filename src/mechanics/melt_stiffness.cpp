@@ -29,7 +29,7 @@ double extent_along(const mesh::Mesh& mesh, int body, const std::array<double, 3
 
 std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
                                                const std::vector<material::Material>& materials,
-                                               const algebra::Presence& presence,
+                                               const algebra::ActiveSet& active,
                                                const std::array<double, 3>& gravity) {
   const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
   std::array<double, 3> direction{};
@@ -37,7 +37,7 @@ std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
   std::vector<material::MeltModulus> melt(materials.size());
   for (std::size_t b = 0; b < materials.size(); ++b) {
     const auto body = static_cast<int>(b);
-    if (!presence.body(body) || !materials[b].mechanical() || !materials[b].chooses_viscosity()) continue;
+    if (!active.body(body) || !materials[b].mechanical() || !materials[b].chooses_viscosity()) continue;
     melt[b] = material::melt_modulus(materials[b], g, g > 0 ? extent_along(mesh, body, direction) : 0.0);
   }
   return melt;

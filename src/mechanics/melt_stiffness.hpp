@@ -1,11 +1,10 @@
-/// How stiff the melts of a mesh are in a step where their materials leave the viscosity open
-/// (material/melt.hpp).
+/// Stiffness, in a step, of the melts of a mesh whose materials do not give a viscosity (material/melt.hpp).
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "material/melt.hpp"
 #include "mesh/mesh.hpp"
 
@@ -17,7 +16,7 @@ namespace solidus::mechanics {
 /// @param gravity    acceleration [m/s²]
 std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
                                                const std::vector<material::Material>& materials,
-                                               const algebra::Presence& presence,
+                                               const algebra::ActiveSet& active,
                                                const std::array<double, 3>& gravity);
 
 }  // namespace solidus::mechanics

@@ -11,7 +11,7 @@ namespace solidus::mechanics {
 /// Volumetric strain that may be wrong where it is found by iteration; the stress has its mean anyway.
 inline constexpr double k_volume_tolerance = 1e-11;
 inline constexpr int k_max_volumes = 30;
-/// Of one step of that iteration: beyond it no law holds.
+/// Largest volumetric strain of one step of that iteration: beyond it no law holds.
 inline constexpr double k_largest_volume_step = 0.05;
 /// Behind the law's state at a point: e_v, and in axisymmetry p_a − p̄ of its nodes.
 template <int n_nodes, AnalysisKind kind>
@@ -91,7 +91,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
         change[a] = mass[a] * changed;
       }
       this->subtract_stabilisation(b, batch, p, defect);
-      if (point.response.status != material::Status::converged) this->spoil(f);
+      if (point.response.status != material::Status::converged) this->invalidate(f);
       total += this->counted(batch) * this->squares(f);
       scatter<n_nodes, Operator::dim>(f, nodes_of(batch), forces);
       this->scatter_pressure(defect, batch, this->field_.volume_residual);
@@ -136,7 +136,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Sym<Lane> at_work = this->record(batch, 0, strain(old_gradient, old_volume), point.strain,
                                              point.response, trial, average, tally);
       keep_volume(trial, batch, point.volume);
-      // What the pressure works on the difference of the volumes: the sub-scales take it up.
+      // The work of the pressure on the difference of the volumes is taken up by the sub-scales.
       const Nodal now = this->volume_change(b, batch, displacement),
                   before = this->volume_change(b, batch, old_displacement);
       const Nodal variation = variation_at_work(batch, trial);
@@ -149,13 +149,13 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     return this->total(tally);
   }
 
-  void rest(const StepStart& start) override {
+  void hold_deformation(const StepStart& start) override {
     prepare(start);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Sym<Lane> gradient = at_point(batch).strain(gather(start.held_displacement, batch));
-      this->points_.rest(batch, 0,
-                         this->deformation(strain(gradient, volume_[at(batch)]), this->old_state(batch, 0),
-                                           this->is_solid(batch, 0)));
+      this->points_.hold_deformation(batch, 0,
+                                     this->deformation(strain(gradient, volume_[at(batch)]),
+                                                       this->old_state(batch, 0), this->is_solid(batch, 0)));
     }
   }
 
@@ -338,7 +338,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   PackVector<Lane> old_volume_;        ///< e_v at t_n, [batch]
   PackVector<Lane> old_divergence_;    ///< div u at t_n, [batch]
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
-  PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where nobody asked for it
+  PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where it is not requested
 };
 
 }  // namespace solidus::mechanics

@@ -1,4 +1,5 @@
-/// What the pressure of mixed elements asks of a mesh block beside BlockKernel (nodal_pressure.hpp).
+/// Interface of a mesh block of mixed elements besides BlockKernel, for the nodal pressure
+/// (nodal_pressure.hpp).
 ///
 /// Linear triangles and tetrahedra with nodal displacements u and a continuous nodal mean stress p. At the
 /// one point of an element the law works at the strain dev ε(u) + ⅓ e_v 1, whose volumetric part e_v is the
@@ -54,7 +55,7 @@ class MixedKernel {
   virtual int field() const = 0;
   /// Looks up the slots of a scalar matrix of this field's pressures.
   virtual void bind_pressure(const algebra::BlockMatrix& matrix) = 0;
-  /// Of the algebraic sub-scales [N/m³]; zero with orthogonal ones.
+  /// Sets the body force of the algebraic sub-scales [N/m³]; zero with orthogonal ones.
   virtual void set_body_force(const std::array<double, 3>& force) = 0;
 
   /// ∫ 1 dV and ∫ 2Ĝ dV over the counted elements.

@@ -1,5 +1,5 @@
-/// What mixed elements ask of a law: the volumetric strain of a mean stress, its part of the tangent, and the
-/// modulus of the stabilisation. One overload per law where they differ.
+/// Functions that mixed elements require of a law: the volumetric strain of a mean stress, its part of the
+/// tangent, and the modulus of the stabilisation. One overload per law where they differ.
 #pragma once
 
 #include "mechanics/law_parts.hpp"

@@ -1,4 +1,5 @@
-/// How velocity and acceleration follow the displacement of a step, and where in the step forces balance.
+/// Velocity and acceleration as functions of the displacement of a step, and the time within the step at
+/// which forces balance.
 ///
 ///   β Δt² a_1 = Δu − Δt v_n − μ Δt² a_n          v_1 = v_n + Δt [(1−γ) a_n + γ a_1]
 ///   M [(1−α_m) a_1 + α_m a_n] + (1−α_f) g_1 + α_f g_n = 0        g: internal and contact forces less loads
@@ -40,8 +41,8 @@ struct Motion {
   double velocity(double v, double a, double a_new, double dt) const {
     return v + dt * ((1.0 - gamma) * a + gamma * a_new);
   }
-  /// Of forces that act as a mean over the step (contact/normal.hpp): their share at t_{n+1} in what changes
-  /// the velocity. With it a force that has ended leaves nothing that grows.
+  /// Share of the forces at t_{n+1} in the change of velocity, for forces that act as a mean over the step
+  /// (contact/normal.hpp). With it a force that has ended leaves nothing that grows.
   double force_share() const { return alpha_f > 0 ? 1 - alpha_f : gamma; }
   /// Whether a step needs the forces and the stress of t_n.
   bool remembers() const { return work_share < 1 || alpha_f > 0; }

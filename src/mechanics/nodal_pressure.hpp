@@ -1,6 +1,6 @@
 /// The nodal pressure of mixed elements (mixed_kernel.hpp): a second unknown of Newton's iteration beside the
-/// displacement. This class knows where it lives, in which unit it is counted, and its stabilisation as far
-/// as that couples neighbours of neighbours.
+/// displacement. This class holds the nodes that have a pressure, the unit in which it is counted, and the
+/// part of its stabilisation that couples neighbours of neighbours.
 ///
 ///   r_p(u, p) = ∫ N (div u − e_v(dev ε, p)) dV − S p = 0
 ///
@@ -66,7 +66,8 @@ class NodalPressure {
   /// y += factor × unit² × the part of S that couples neighbours of neighbours, taken as positive: S is its
   /// compact part less this one. x are unknowns; both on owned nodes. Collective.
   void add_projection_to(std::span<const double> x, double factor, std::span<double> y);
-  /// The pattern of one field's pressures: what couples within the elements that have them.
+  /// The sparsity pattern of the pressures of one field: the nodes that couple within the elements that have
+  /// them.
   algebra::NodeGraph graph() const;
 
   std::size_t bytes() const;

@@ -1,6 +1,6 @@
-/// The lanes behind the last element of a block repeat it in everything but weights (mesh::BlockGeometry),
-/// also in history and means: what is decided over all lanes of a batch, as how long a local iteration goes
-/// on, is then decided by elements alone, and a run that is continued decides alike.
+/// Padding of the last batch of a block: the lanes behind the last element repeat it in everything but
+/// weights (mesh::BlockGeometry), also in history and means. Decisions over all lanes of a batch, such as the
+/// number of local iterations, then depend on elements alone, and are the same in a run that is continued.
 #pragma once
 
 #include "base/simd.hpp"

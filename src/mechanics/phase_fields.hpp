@@ -1,4 +1,4 @@
-/// How far phase changes have come, from the nodes to the points of a step.
+/// Fractions of phase changes during a step, taken from the nodes to the quadrature points.
 ///
 /// Where a change is isothermal the temperature alone does not tell how much is solid, the heat content of a
 /// node does. So mechanics takes all fractions from the nodes, those of changes with a range too: one rule
@@ -18,7 +18,7 @@
 
 namespace solidus::mechanics {
 
-/// Of one body, [local node]; values at nodes of other bodies mean nothing.
+/// Phase fields of one body, [local node]; values at nodes of other bodies are without meaning.
 struct PhaseFields {
   std::span<const double> solid_fraction;  ///< f_S,i; empty: the material does not melt, f_S = 1
   std::span<const double> straining;       ///< e^pc_i − e^pc_i(Θ_0); empty: zero
@@ -31,14 +31,14 @@ class NodalPhases {
   NodalPhases(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
               std::span<const double> initial_temperature);
 
-  /// Of the body of a mesh block, at its nodes; holds until the next call.
+  /// Evaluates the fields of the body of a mesh block at its nodes; they are valid until the next call.
   /// @param temperature, plateau_share  of MechanicalPass
   PhaseFields evaluate(std::size_t block, std::span<const double> temperature,
                        std::span<const double> plateau_share);
   std::size_t bytes() const;
 
  private:
-  /// What a block needs whose material changes its phase.
+  /// Data of a block whose material changes its phase.
   struct OfBlock {
     const material::Material* material = nullptr;  ///< null: nothing
     bool strains = false;                          ///< a change of it has a change of volume

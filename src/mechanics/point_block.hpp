@@ -1,5 +1,5 @@
-/// What the kernels of a block have in common whatever the element's formulation: geometry, law, history and
-/// what a step leaves at the points, eight elements at a time.
+/// Common base of all element kernels: geometry, law, history and the results of a step at the points, eight
+/// elements at a time.
 #pragma once
 
 #include <fmt/format.h>
@@ -145,7 +145,7 @@ class PointBlock : public BlockKernel {
     Lane internal_work{0.0}, stabilisation_work{0.0}, dissipation{0.0}, least{0.0}, largest{0.0};
     PlasticPower plastic;
   };
-  /// Of the points of a batch, weighted with their volumes.
+  /// Average over the points of a batch, weighted with their volumes.
   struct Average {
     Values sums;
     Lane volume{0.0};
@@ -406,8 +406,8 @@ class PointBlock : public BlockKernel {
     return mechanics::gather<n_nodes, static_cast<int>(dim)>(u, nodes_of(batch));
   }
 
-  /// Newton's iteration takes what is not a number for a step too far.
-  static void spoil(Vectors& f) {
+  /// Sets the forces to NaN, which Newton's iteration treats as a step that is too long.
+  static void invalidate(Vectors& f) {
     for (auto& node : f)
       for (Lane& value : node) value = Lane(std::numeric_limits<double>::quiet_NaN());
   }
@@ -443,7 +443,7 @@ class PointBlock : public BlockKernel {
   double stress_share_ = 1;
   double dt_ = 0, effective_dt_ = 0;
   StressAtWork work_ = StressAtWork::end;
-  PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where nobody asked for it
+  PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where it is not requested
 };
 
 }  // namespace solidus::mechanics

@@ -1,5 +1,5 @@
-/// What mixed elements do whatever the law: the pressure at the nodes of a block of linear simplices, its
-/// integrals and its stabilisation (mixed_kernel.hpp), eight elements at a time.
+/// Part of the mixed elements that does not depend on the law: the pressure at the nodes of a block of linear
+/// simplices, its integrals and its stabilisation (mixed_kernel.hpp), eight elements at a time.
 #pragma once
 
 #include <algorithm>
@@ -136,7 +136,7 @@ class PressureNodes : public MixedKernel {
     return Operator(geometry_.gradients_at(batch, 0), geometry_.values.data(), inverse_radius(batch),
                     nullptr);
   }
-  /// Of the stabilisation at the start of a step, and 1/κ_v.
+  /// Sets the modulus of the stabilisation at the start of a step, and 1/κ_v.
   void set_step(Index batch, const Operator& b, const Lane& twice_shear, const Lane& compliance) {
     twice_shear_[at(batch)] = tangent_shear_[at(batch)] = twice_shear;
     tau_[at(batch)] = Lane(orthogonal_ ? k_orthogonal : k_algebraic) * squared_length(b) / twice_shear;
@@ -231,7 +231,7 @@ class PressureNodes : public MixedKernel {
         for (std::size_t i = 0; i < dim; ++i) change[c] += divergence(b, batch, a, i, c, mass) * u[a][i];
     return change;
   }
-  /// Of a node of an element in an array of [local node][field].
+  /// Position of a node of an element in an array of [local node][field].
   std::size_t place(Index batch, std::size_t node, std::size_t lane) const {
     const Index local = nodes(batch)[node * k_lanes + lane];
     return static_cast<std::size_t>(local) * static_cast<std::size_t>(field_.n_fields) +

@@ -15,7 +15,7 @@ constexpr double k_augmentation = 1.0 / 3.0 + 0.5;
 
 bool SaddlePreconditioner::serves(const algebra::BlockMatrix& displacement) {
   const int components = displacement.block_size();
-  return displacement.ties().empty() &&
+  return displacement.constraints().empty() &&
          algebra::Multigrid::supports(components, algebra::rigid_body_mode_count(components));
 }
 

@@ -162,7 +162,7 @@ algebra::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::
 }
 
 void SaddleSolver::forget() {
-  // What a factorisation keeps is the analysis of a pattern, which does not depend on the past.
+  // A factorisation keeps only the analysis of a pattern, which does not depend on earlier steps.
   if (direct_ == factorises() && direct_ && options_.symmetric) return;
   make_solver(factorises());
 }

@@ -37,7 +37,7 @@ struct SaddleSolverOptions {
 
 class SaddleSolver final : public algebra::TangentSolver {
  public:
-  /// @param displacement  prescribed degrees of freedom and ties set
+  /// @param displacement  prescribed degrees of freedom and constraints set
   /// Keeps references to all its arguments but the last. Collective.
   SaddleSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacement, NodalPressure& pressure,
                const algebra::GhostExchange& ghosts, SaddleSolverOptions options);

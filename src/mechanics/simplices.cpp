@@ -3,7 +3,7 @@
 namespace solidus::mechanics {
 
 namespace {
-/// Bulk over shear modulus is ten there; what a constant strain costs is seen from about here on.
+/// Bulk over shear modulus is ten there; from about here on a constant strain affects the accuracy visibly.
 constexpr double k_incompressible = 0.45;
 }  // namespace
 

@@ -1,4 +1,4 @@
-/// Which formulation linear triangles and tetrahedra have.
+/// Element formulations of linear triangles and tetrahedra.
 #pragma once
 
 #include "material/material.hpp"

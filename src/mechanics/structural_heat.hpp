@@ -1,5 +1,5 @@
-/// What deformation does to the heat balance: structural heating and mechanical dissipation
-/// (monograph 2.123a, 2.127b).
+/// Heat of deformation in the heat balance: structural heating and mechanical dissipation (monograph 2.123a,
+/// 2.127b).
 ///
 /// With S = −(W_Θ + M_Θ + K_Θ) the structural entropy and E = W + M + K + Θ S the structural energy per
 /// volume (K: what hardening stores), the thermal phase (at the configuration of the last mechanical solve)

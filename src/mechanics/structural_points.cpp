@@ -71,7 +71,7 @@ void StructuralPoints::set_old(Index batch, int point, const Deformation& deform
   p.old_energy = old.internal_energy;
 }
 
-void StructuralPoints::rest(Index batch, int point, const Deformation& deformation) {
+void StructuralPoints::hold_deformation(Index batch, int point, const Deformation& deformation) {
   if (!kept()) return;
   Point& p = at(batch, point);
   p.now = deformation;
@@ -124,7 +124,7 @@ StructuralPoints::Sloped StructuralPoints::structural_heating(const Point& at, L
   return {-temperature * stress_theta, -stress_theta - temperature * stress_theta2};
 }
 
-/// What the stage stores at a point [J/m³]; the slope without third derivatives.
+/// Computes the heat that the stage stores at a point [J/m³]; the slope without third derivatives.
 StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t point,
                                                 Lane temperature) const {
   const Point& at = points_[point];

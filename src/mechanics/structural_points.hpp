@@ -1,4 +1,4 @@
-/// What the thermal phase needs of the deformation, kept at the quadrature points of a block (see
+/// Data of the deformation that the thermal phase needs, stored at the quadrature points of a block (see
 /// structural_heat.hpp).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace solidus::mechanics {
 
-/// What the structural energy of a point depends on beside its temperature.
+/// Variables of the structural energy of a point besides its temperature.
 struct Deformation {
   Lane strain_trace;     ///< tr ε
   Lane elastic_squared;  ///< dev ε^E : dev ε^E, zero unless solid
@@ -18,7 +18,7 @@ struct Deformation {
   Lane back_squared;     ///< ζ : ζ
 };
 
-/// Of deformation and hardening.
+/// Densities of entropy and energy of deformation and hardening.
 struct StructuralDensities {
   Lane entropy;  ///< S [J/(m³ K)]
   Lane energy;   ///< E [J/m³]
@@ -42,8 +42,8 @@ class StructuralPoints {
   /// Keeps a reference to the geometry.
   StructuralPoints(const mesh::BlockGeometry& geometry, const material::Material& material);
 
-  /// Until this is called nothing is kept, and only what says so may be called: nobody asks without
-  /// structural heat.
+  /// Until this is called nothing is stored, and only the functions that say so may be called: nothing is
+  /// needed without structural heat.
   void keep() { points_.resize(n_points_); }
   bool kept() const { return !points_.empty(); }
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }
@@ -65,12 +65,12 @@ class StructuralPoints {
   void set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature, Lane thermal_strain);
   /// Fills the old entropy and energy from the deformation at t_n.
   void set_old(Index batch, int point, const Deformation& old);
-  /// Fills all but the temperatures of a point that does not move, if kept.
-  void rest(Index batch, int point, const Deformation& deformation);
+  /// Fills all but the temperatures of a point whose deformation is held, if kept.
+  void hold_deformation(Index batch, int point, const Deformation& deformation);
 
   /// At a temperature and the deformation at t_{n+1}.
   StructuralDensities densities(Index batch, int point, Lane temperature) const;
-  /// What spread_as_stored adds to the basis functions, [node]; null: nothing.
+  /// Correction of the basis functions by spread_as_stored, [node]; null: none.
   const Lane* spread(Index batch) const {
     return correction_.empty() ? nullptr
                                : correction_.data() + static_cast<std::ptrdiff_t>(batch) * geometry_.n_nodes;
@@ -109,7 +109,7 @@ class StructuralPoints {
   material::Material material_;  ///< without phase changes: their fraction and straining are held
   std::size_t n_points_;         ///< of all batches
   PackVector<Point> points_;
-  PackVector<Lane> correction_;  ///< share of a node less what the points give it, [batch][node]; empty: none
+  PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
   algebra::Stage stage_;
   struct Start {
     Lane entropy, energy;

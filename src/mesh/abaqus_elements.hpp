@@ -1,4 +1,4 @@
-/// What the element types and face labels of Abaqus and CalculiX mean.
+/// Shapes and faces that the element types and face labels of Abaqus and CalculiX denote.
 #pragma once
 
 #include <optional>

@@ -26,7 +26,7 @@ std::vector<std::vector<int>> bodies_at_nodes(const RawMesh& mesh, const std::ve
   return here;
 }
 
-/// Which of the bodies at a node stay together: the number of the part of each, parts from zero.
+/// Groups the bodies at a node that stay connected: returns the number of the group of each, from zero.
 std::vector<int> parts_of(const std::vector<int>& bodies, const std::set<BodyPair>& apart) {
   std::vector<int> part(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) part[i] = static_cast<int>(i);

@@ -29,7 +29,7 @@ double least_quality(const RawMesh& mesh) {
   return least;
 }
 
-/// What the reader says, without the file, which stands before the whole message.
+/// Returns the message of the reader without the file, which already precedes the whole message.
 std::string complaint_of(const InputError& error, const std::string& path) {
   std::string text = error.what();
   if (const std::size_t at = text.find(path); at == 0) text = text.substr(path.size());

@@ -1,5 +1,5 @@
-/// From the geometry of parts to a mesh of parts and mould that can be computed with: a block of mould around
-/// them, a riser on them, half of them; sizes that follow the thickness of walls. Rank 0 only.
+/// Makes a mesh of parts and mould from the geometry of parts: a block of mould around them, a riser on them,
+/// half of them; sizes that follow the thickness of walls. Rank 0 only.
 ///
 /// Bodies that touch share the faces between them, and so their nodes (the model splits them where there is
 /// an interface). What is mould within closed cavities of the parts is a core.
@@ -14,7 +14,7 @@
 
 namespace solidus::mesh {
 
-/// How large the elements of a body are. All in metres.
+/// Sizes of the elements of a body. All in metres.
 struct BodySize {
   std::string body;
   double size = 0, smallest = 0;
@@ -33,7 +33,7 @@ struct RiserCylinder {
   double diameter = 0, height = 0;  ///< [m]
 };
 
-/// What lies above `at` along an axis is cut off.
+/// Half-space that is cut off: everything above `at` along an axis.
 struct HalfSpace {
   int axis = 0;
   double at = 0;  ///< [m]
@@ -44,15 +44,15 @@ struct CastingGeometry {
   std::optional<MouldBlock> mould;
   std::optional<RiserCylinder> riser;
   std::optional<HalfSpace> symmetry;
-  /// Which of the ways to mesh is taken, from zero: mesh_casting() tries them in turn.
+  /// Number of the meshing attempt, from zero: mesh_casting() tries them in turn.
   int attempt = 0;
 };
 
 /// Least quality (mesh/quality.hpp) of a mesh that is taken at once.
 inline constexpr double k_sound_quality = 0.15;
-/// How many ways to mesh there are: as the file is, with HXT, healed, finer, …
+/// Number of meshing attempts: as the file is, with HXT, healed, finer, …
 int n_meshing_attempts();
-/// What a way does, for messages: "healed, elements of 0.7 of the size".
+/// Describes an attempt for messages: "healed, elements of 0.7 of the size".
 std::string meshing_attempt(int attempt);
 
 /// Meshes a STEP, BREP, IGES or STL file in one way after the other until every body has elements and the

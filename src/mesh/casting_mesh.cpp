@@ -204,7 +204,7 @@ class Maker {
     std::erase_if(parts_, [](const Part& part) { return part.volumes.empty(); });
   }
 
-  /// All bodies, riser and mould, cut with each other so that they share what they touch in.
+  /// Cuts all bodies, riser and mould with each other, so that they share the faces in which they touch.
   void fragment() {
     gmsh::vectorpair objects, tools, out;
     std::vector<gmsh::vectorpair> map;
@@ -531,7 +531,7 @@ class Maker {
     return (last.empty() ? "" : " (" + last + ")") + text;
   }
 
-  static constexpr double k_slack = 1e-7;  ///< what Gmsh adds to bounding boxes, in units of the file
+  static constexpr double k_slack = 1e-7;  ///< margin of bounding boxes of Gmsh, in units of the file
 
   const MeshSource& source_;
   const CastingGeometry& geometry_;

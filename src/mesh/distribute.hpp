@@ -8,7 +8,7 @@
 
 namespace solidus::mesh {
 
-/// What a body is computed for: the phases differ in their cost, and so in what fills a process.
+/// Phases that a body takes part in. The phases differ in their cost, and so in the load of a process.
 enum class BodyWork {
   all,  ///< mechanics, with or without heat
   heat  ///< heat alone

@@ -1,4 +1,4 @@
-/// Groups of faces by rule: whose they are, where they look, where they lie. Of any mesh. Rank 0 only.
+/// Groups of faces by rule: by their body, their direction and their place. Of any mesh. Rank 0 only.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-/// Which element a boundary face belongs to.
+/// Search for the element that a boundary face belongs to.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,8 @@ inline FaceKey face_key(const Index* nodes, int n_vertices) {
   return k;
 }
 
-/// Where a face was found: body (index in the list given), block, element and its face. Bodies are searched
-/// in order, so a face between two bodies that share nodes belongs to the first.
+/// Owner of a face: body (index in the list given), block, element and its face. Bodies are searched in
+/// order, so a face between two bodies that share nodes belongs to the first.
 struct FaceOwner {
   int body = -1, block = -1, face = -1;
   Index element = -1;

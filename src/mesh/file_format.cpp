@@ -60,7 +60,7 @@ struct Known {
   /// Endings as Gmsh compares them: ".Step" is none of a CAD file to it, so it is none here.
   std::vector<std::string_view> endings;
   Test begins;
-  const char* begins_with;  ///< what the test looks for, for a message
+  const char* begins_with;  ///< description of the sign tested for, for a message
 };
 
 const std::vector<Known>& known_formats() {

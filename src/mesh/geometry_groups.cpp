@@ -14,8 +14,8 @@ namespace solidus::mesh {
 
 namespace {
 
-/// What a label says after its last slash: "Shapes/crankshaft/web" is "web". Empty for those that Gmsh's
-/// kernel makes up.
+/// Returns the part of a label after its last slash: "Shapes/crankshaft/web" is "web". Empty for those that
+/// Gmsh's kernel makes up.
 std::string short_label(int dimension, int tag) {
   std::string label;
   gmsh::model::getEntityName(dimension, tag, label);
@@ -115,7 +115,7 @@ class Choice {
   double unit_, slack_ = 0;
 };
 
-/// Names for what no group has.
+/// Names for the entities that belong to no group.
 void name_the_rest(int full) {
   std::map<std::string, int> labels;
   for (const int tag : entities(full)) ++labels[short_label(full, tag)];

@@ -1,5 +1,5 @@
-/// Groups of a geometry that has none of its own (STEP, BREP, IGES), or more of them, chosen by what its
-/// reader knows of its volumes and surfaces.
+/// Groups of a geometry that has none of its own (STEP, BREP, IGES), or more of them, chosen from the data of
+/// the reader on its volumes and surfaces.
 #pragma once
 
 #include <array>

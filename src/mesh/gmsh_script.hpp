@@ -1,9 +1,9 @@
-/// Gmsh scripts (.geo) that strangers wrote: what they may say before Gmsh runs them.
+/// Check of Gmsh scripts (.geo) from untrusted sources, before Gmsh runs them.
 ///
 /// A script is a program. Gmsh's language starts other programs, writes files and ends the process; a script
 /// that makes a geometry needs none of it. The script and all that it includes is read token by token and
 /// refused unless it keeps to geometry, mesh sizes and arithmetic. The lists name what is allowed, not what
-/// is dangerous: a word that a later Gmsh adds is refused until somebody has looked at it.
+/// is dangerous: a word that a later Gmsh adds is refused until it has been examined.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// Words of Gmsh's language, by what the check of scripts does with them (mesh/gmsh_script.hpp).
+/// Words of Gmsh's language, classified for the check of scripts (mesh/gmsh_script.hpp).
 #pragma once
 
 #include <string_view>

@@ -133,8 +133,8 @@ void face_centre_and_normal(const RawMesh& mesh, const std::vector<Index>& face,
 // Faces that only one element of the grid has.
 void add_boundary(RawMesh& mesh, const Grid& grid, const std::vector<Index>& elements) {
   const int nn = node_count(grid.shape), n_vertices = vertex_count(face_shape(grid.shape));
-  // A second element takes the face out again: what stays is the boundary, and the set stays small on the
-  // way.
+  // A second element takes the face out again: the remaining faces are the boundary, and the set stays small
+  // on the way.
   std::unordered_set<FaceKey, FaceKeyHash> alone;
   std::vector<Index> face;
   const auto collect = [&](std::size_t e, int f) {

@@ -1,4 +1,4 @@
-/// Structured grids of every element shape, with cells left out: the material of the built-in shapes.
+/// Structured grids of every element shape, with cells left out, from which the built-in shapes are made.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-/// Where a body is thickest: the largest spheres that lie in it. Rank 0 only.
+/// Finds the thickest places of a body: the largest spheres that lie in it. Rank 0 only.
 #pragma once
 
 #include <string>

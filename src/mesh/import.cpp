@@ -69,7 +69,7 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// What Gmsh complained about, in its words.
+  /// Returns the errors and warnings of Gmsh, in its words.
   static std::string complaints() {
     std::vector<std::string> log;
     gmsh::logger::get(log);
@@ -138,7 +138,7 @@ void open(const std::string& path, FileFormat format) {
   } catch (...) {  // the CAD kernel's own exceptions
     throw InputError({path}, "the mesh cannot be read", advice);
   }
-  // A damaged .msh does not make open() throw; what it logs is the only sign.
+  // A damaged .msh does not make open() throw; its log is the only sign.
   if (const std::string complaints = Session::complaints(); !complaints.empty())
     throw InputError({path}, "the mesh cannot be read: " + complaints, advice);
 }

@@ -141,7 +141,7 @@ Point along(Point d, const Corner* first, const Corner* last) {
   return normalise(d) > 0.3 ? d : Point{};
 }
 
-/// Where the vertices of the wall would go if there was room.
+/// Returns the displacements of the vertices of the wall if there was enough room.
 std::vector<Point> wanted(const RawMesh& mesh, const RawGroup& body, const WallTopology& wall,
                           const std::vector<Corner>& corners, double thickness) {
   const std::vector<Corner> around = corners_of(mesh, body, wall, wall.around);
@@ -229,7 +229,7 @@ class Room {
   }
 
  private:
-  /// Finds what is bad and multiplies the displacements of its vertices. True: nothing is bad.
+  /// Finds bad elements and multiplies the displacements of their vertices. True: there are none.
   bool good(double factor) {
     for (std::size_t i = 0; i < u_.size(); ++i) {
       moved_.x[i] = mesh_.x[i];

@@ -1,4 +1,5 @@
-/// How far and where to the vertices of a wall can move into their body, to make room for layers.
+/// Computes how far and in which direction the vertices of a wall can move into their body, to make room for
+/// layers.
 #pragma once
 
 #include <vector>

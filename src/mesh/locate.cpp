@@ -27,7 +27,7 @@ bool on_any_process(bool value) {
 
 struct Candidate {
   double distance = std::numeric_limits<double>::infinity();
-  double body = 0, number = 0, process = 0;  // who answers when several are equally near
+  double body = 0, number = 0, process = 0;  // that decide when several are equally near
   auto key() const { return std::array{distance, body, number, process}; }
 };
 
@@ -107,7 +107,7 @@ GroupKind kind_of(const Mesh& mesh, const std::string& group) {
   return GroupKind::none;
 }
 
-// ∫ N_a over what this process counts, summed into the nodes; zero-weight terms left out.
+// ∫ N_a over the elements that this process counts, summed into the nodes; zero-weight terms left out.
 NodalFunctional integral(const Mesh& mesh, const std::string& group, GroupKind group_kind,
                          AnalysisKind kind) {
   std::vector<double> weight(static_cast<std::size_t>(mesh.n_nodes()), 0.0);

@@ -1,5 +1,4 @@
-/// Values of nodal fields at points and averages over groups: what probes need. All functions are
-/// collective.
+/// Values of nodal fields at points and averages over groups, for probes. All functions are collective.
 #pragma once
 
 #include <span>
@@ -21,7 +20,7 @@ struct NodalFunctional {
   double share(std::span<const double> field, int n_components = 1, int component = 0) const;
 };
 
-/// Where a point lies. Exactly one process is `here` and has nodes and weights N_a(ξ).
+/// Location of a point in the mesh. Exactly one process is `here` and has nodes and weights N_a(ξ).
 struct LocatedPoint : NodalFunctional {
   bool here = false;
   Index block = -1, element = -1;  ///< of Mesh::blocks, on the process that is `here`; else −1

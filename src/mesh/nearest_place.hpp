@@ -24,7 +24,7 @@ struct Box {
   Point low{}, high{};
 };
 Box element_box(const Mesh& mesh, const Block& block, Index e);
-/// A lower bound of the distance to what the box holds.
+/// A lower bound of the distance to the elements in the box.
 double distance_to_box(const Box& box, const Point& p);
 
 }  // namespace solidus::mesh

@@ -1,4 +1,4 @@
-/// Which process owns which node, and in what order.
+/// Partition of a mesh: the owner process of every node, and the order of the nodes.
 #pragma once
 
 #include <cstdint>

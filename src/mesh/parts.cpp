@@ -33,7 +33,8 @@ Parts::Parts(const RawMesh& raw, const Whole& whole, const std::vector<std::stri
   find_sets();
 }
 
-/// A process holds what touches a node it owns, and counts what has its lowest number among its own.
+/// A process holds the elements and faces that touch a node it owns, and counts those whose lowest node
+/// number is among its own.
 /// Elements go in the order of these, so that neighbours in memory are neighbours in space.
 std::vector<Parts::Elements> Parts::sort_out(const RawBlock& block, bool for_all) const {
   const int nn = node_count(block.shape), n_processes = whole_.n_processes();

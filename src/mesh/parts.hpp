@@ -1,4 +1,4 @@
-/// A whole mesh cut into the parts of the processes: packed on process 0, unpacked where it arrives.
+/// Cuts a whole mesh into the parts of the processes: packed on process 0, unpacked by the receiving process.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ class Parts {
  public:
   /// Keeps references.
   Parts(const RawMesh& raw, const Whole& whole, const std::vector<std::string>& bodies);
-  /// What unpack_part() reads. Each process' part can be packed once.
+  /// Packs the part of a process for unpack_part(). Each process' part can be packed once.
   std::vector<char> pack(int process);
 
  private:

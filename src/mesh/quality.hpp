@@ -1,4 +1,4 @@
-/// What a mesh is made of and how good it is: the report of `solidus mesh-info`. Rank 0 only, as reading is.
+/// Contents and quality of a mesh: the report of `solidus mesh-info`. Rank 0 only, as reading is.
 #pragma once
 
 #include <cstddef>

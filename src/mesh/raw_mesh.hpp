@@ -36,8 +36,8 @@ struct MeshSource {
   /// units.
   std::map<std::string, double> constants = {};
   GeometryChoice geometry = {};  ///< groups of files that Gmsh meshes
-  /// Run a script whatever it says, and the options file beside a mesh: it can do what a program can do. Else
-  /// a script may only make geometry (mesh/gmsh_script.hpp).
+  /// Run a script without checks, and the options file beside a mesh: it can do whatever a program can do.
+  /// Else a script may only make geometry (mesh/gmsh_script.hpp).
   bool trust_script = false;
 };
 

@@ -13,7 +13,7 @@
 
 namespace solidus::mesh {
 
-/// Takes bytes to where they go; fills bytes from where they come. Both throw where that ends too soon.
+/// Functions that send and receive bytes. Both throw if the connection ends too soon.
 using PutBytes = std::function<void(const void* bytes, std::size_t n)>;
 using TakeBytes = std::function<void(void* bytes, std::size_t n)>;
 
@@ -24,7 +24,7 @@ void put_casting(const CastingGeometry& casting, const PutBytes& put);
 CastingGeometry take_casting(const TakeBytes& take);
 
 void put_mesh(const RawMesh& mesh, const PutBytes& put);
-/// Throws std::runtime_error for what is no mesh: an unknown shape, a node that is not there, more than
+/// Throws std::runtime_error for data that are no mesh: an unknown shape, a node that is not there, more than
 /// `most_bytes`.
 RawMesh take_mesh(const TakeBytes& take, double most_bytes);
 

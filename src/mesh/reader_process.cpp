@@ -135,7 +135,7 @@ class Reader {
   void take(void* bytes, std::size_t n);
 
  private:
-  /// Waits until bytes are there or the reader has gone.
+  /// Waits until bytes arrive or the reader has ended.
   void wait_for_bytes();
   [[noreturn]] void ended();
   int wait() {
@@ -314,7 +314,7 @@ std::optional<int> serve_as_reader(int argc, char** argv) {
     int code = 3;
     try {
       code = serve();
-    } catch (const std::exception&) {  // NOLINT: nobody listens any more
+    } catch (const std::exception&) {  // NOLINT: the parent reads no more
     }
     _exit(code);  // what libraries do at the end of a process must not spoil an answer that is given
   }

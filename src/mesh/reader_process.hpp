@@ -1,5 +1,5 @@
-/// Foreign meshes are read, and geometries meshed, in a process of its own: what crashes, hangs or eats
-/// memory there takes nothing with it.
+/// Reader process: foreign meshes are read, and geometries meshed, in a process of their own, so that a
+/// crash, an endless loop or a lack of memory there does not end the program.
 ///
 /// The reader is the program itself, started with a verb that no user types. It reads a request, hands the
 /// mesh back through a pipe and ends. It may start no program, write no file and open no connection, unless
@@ -21,7 +21,8 @@ std::optional<int> serve_as_reader(int argc, char** argv);
 /// @param asked  called about ten times a second; nullptr: wait on
 void give_up_reading_when(bool (*asked)());
 
-/// What a reader may use. The environment sets both: SOLIDUS_MESH_MEMORY="8 GB", SOLIDUS_MESH_TIME="2 h".
+/// Memory and time that a reader process may use. The environment sets both: SOLIDUS_MESH_MEMORY="8 GB",
+/// SOLIDUS_MESH_TIME="2 h".
 struct ReaderLimits {
   double memory = 0;  ///< [byte]
   double time = 0;    ///< [s]

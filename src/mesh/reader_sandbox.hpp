@@ -1,4 +1,5 @@
-/// What the reader of foreign files gives up before it opens one (mesh/reader_process.hpp).
+/// Restrictions that the reader of foreign files puts on itself before it opens one
+/// (mesh/reader_process.hpp).
 #pragma once
 
 namespace solidus::mesh {

@@ -1,4 +1,4 @@
-/// The reference shapes: node counts, dimensions, basis functions. Node order is Gmsh's.
+/// The reference shapes: node counts, dimensions, basis functions. The order of nodes is Gmsh's.
 #pragma once
 
 #include <array>

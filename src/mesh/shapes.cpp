@@ -100,7 +100,7 @@ RawMesh make_cylinder_in_mould(const CylinderInMould& c, Shape shape) {
   Grid mould;
   mould.shape = shape;
   mould.body = "mould";
-  // Where the casting lies, the mould has the casting's lines, or denser or coarser ones of the same grading.
+  // Along the casting, the mould has the casting's grid lines, or denser or coarser ones of the same grading.
   const double size = c.element_size / c.interface_ratio, fine_size = fine / c.interface_ratio;
   const bool matching = c.interface_ratio == 1;
   const Axis cavity_r = matching ? part_r : graded_axis(0, c.radius, size, fine_size);

@@ -46,8 +46,9 @@ double radius_of(const Triangle& t, const Point& centre) {
   return radius;
 }
 
-/// How far along a ray, of a direction of length one, a triangle is met; negative: not at all or behind.
-/// Möller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection", J. Graph. Tools 2, 21-28.
+/// Distance along a ray, of a direction of length one, at which it meets a triangle; negative: not at all or
+/// behind. Möller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection", J. Graph. Tools 2,
+/// 21-28.
 double meet(const Point& from, const Point& direction, const Triangle& triangle) {
   constexpr double k_edge = 1e-9;
   const Point e1 = minus(triangle[1], triangle[0]), e2 = minus(triangle[2], triangle[0]);

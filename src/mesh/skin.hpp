@@ -1,5 +1,5 @@
-/// The skins of bodies as flat faces, for measuring: where they are, which way they look, how near they are
-/// to each other. Rank 0 only, as reading a mesh is. Curved faces count by their vertices.
+/// The skins of bodies as flat faces, for measuring their places, normals and distances from each other. Rank
+/// 0 only, as reading a mesh is. Curved faces count by their vertices.
 #pragma once
 
 #include <array>

@@ -40,7 +40,8 @@ double extent(const RawMesh& mesh, Shape shape, const Index* element) {
   return longest;
 }
 
-// Where an element of the opposite orientation has its nodes: a mirror image of the reference shape.
+// Returns the order of the nodes in an element of the opposite orientation: a mirror image of the reference
+// shape.
 std::vector<int> mirrored(Shape shape) {
   switch (shape) {
     case Shape::tri3:

@@ -39,7 +39,7 @@ double mean_edge(const RawMesh& mesh, const WallTopology& wall) {
   return n > 0 ? sum / static_cast<double>(n) : 0;
 }
 
-/// Where the layers end, as shares of all of them.
+/// Returns the depths at which the layers end, as shares of the thickness of all of them.
 std::vector<double> shares(const WallLayers& layers) {
   std::vector<double> levels;
   double sum = 0, thickness = 1;

@@ -18,7 +18,7 @@ struct WallLayers {
   std::optional<double> first{};  ///< thickness of the one on the wall [m]; else 0.8 edges for all
 };
 
-/// What came of it, for the log and for tests.
+/// Report on the layers that were made, for the log and for tests.
 struct WallLayerReport {
   double first = 0;     ///< thickness of the first layer that was asked for [m]
   double whole = 0;     ///< of all layers that was asked for [m]

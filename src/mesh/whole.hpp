@@ -1,4 +1,5 @@
-/// The mesh of the chosen bodies with its owners and new numbers, on process 0, before it goes out in parts.
+/// The mesh of the chosen bodies with its owners and new numbers, on process 0, before its parts are
+/// distributed.
 #pragma once
 
 #include <string>

@@ -43,7 +43,7 @@ const Function* surroundings(const ThermalConditionSpec& c) {
   return nullptr;
 }
 
-/// Whatever takes heat at a temperature of its own.
+/// Returns all temperatures at which conditions and tools exchange heat, with their names.
 std::vector<std::pair<std::string, const Function*>> all_surroundings(const CaseSpec& spec) {
   std::vector<std::pair<std::string, const Function*>> all;
   for (const auto& c : spec.thermal_conditions)

@@ -18,8 +18,8 @@ struct Admissibility {
   bool holds() const { return violations.empty(); }
 };
 
-/// Of a thermo-mechanical case. Admissible: dead loads, supports that do not move, no source and no flux,
-/// surroundings at Θ_a, and a time integration for which the decay is proved (backward Euler).
+/// Checks a thermo-mechanical case. Admissible are dead loads, supports that do not move, no source and no
+/// flux, surroundings at Θ_a, and a time integration for which the decay is proved (backward Euler).
 /// @param coldest  the lowest initial temperature of bodies that have several [K]
 Admissibility admissibility(const CaseSpec& spec, double coldest = std::numeric_limits<double>::infinity());
 

@@ -144,9 +144,9 @@ const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) 
 
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
                       const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
-  const std::string go_on = fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
+  const std::string checkpoint_line = fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
   if (stop.asked)
-    return fmt::format("stopped as asked at t = {:.6g} s\n", time) + go_on +
+    return fmt::format("stopped as asked at t = {:.6g} s\n", time) + checkpoint_line +
            "  to continue: the same command with --restart";
   std::string text =
       fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time, stop.reason);
@@ -155,7 +155,7 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
   if (steps)
     text += fmt::format("  tried: {} {}, the smallest {:.4g} s\n", stop.tries,
                         stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +
-            go_on;
+            checkpoint_line;
   text += "  what may help:";
   const CouplingEstimate* unstable = too_strong(couplings);
   if (unstable != nullptr)

@@ -1,4 +1,4 @@
-/// What a user reads when a run stops before its end.
+/// Text for the user when a run stops before its end.
 #pragma once
 
 #include <span>

@@ -22,8 +22,9 @@ namespace solidus::model {
 
 namespace {
 
-/// At which nodes are free of thermal strain, and what they have in mechanics alone: every body at its
-/// temperature. A node of several bodies takes that of one that deforms, of these the hottest: the casting's.
+/// Temperatures at which nodes are free of thermal strain, and which they have in mechanics alone: every body
+/// at its temperature. A node of several bodies takes that of one that deforms, of these the hottest: the
+/// casting's.
 std::vector<double> nodal_temperature(const CaseSpec& spec, const InitialTemperatures& start,
                                       const mesh::Mesh& mesh) {
   using Rank = std::pair<bool, double>;
@@ -95,7 +96,7 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
       a.mesh, spec.analysis.kind, a.materials, initial_temperature,
       mechanical_conditions(spec, a.first_stage()), std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
-  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->presence());
+  a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->active());
   if (a.coherency->melts()) a.phases.coherency = a.coherency.get();
   a.initial.mechanics = a.mechanics->initial_state();
 }
@@ -120,7 +121,8 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Says which bodies leave when a stage begins, with how much heat, and what ends with them.
+/// Reports which bodies are removed when a stage begins, with how much heat, and the conditions that end with
+/// them.
 void announce_departure(const CaseSpec& spec, const StageRun& stage, const StageRun* before, double carried,
                         const std::vector<std::string>& idle) {
   std::vector<std::string> leaving;
@@ -150,7 +152,7 @@ void apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& 
   if (a.mechanics) a.mechanics->set_conditions(mechanical_conditions(spec, &stage), displacement);
   double carried = 0;
   if (a.heat) {
-    // Where a run goes on at the end of a stage, the bodies that left before it have taken their heat
+    // If a run continues at the end of a stage, the heat of the bodies that left before it has been removed
     // already.
     if (begins != nullptr && number > 0) a.heat->set_conditions(thermal_conditions(spec, &stage - 1));
     carried =

@@ -1,4 +1,5 @@
-/// Observers that compare what every step reports with the laws it has to obey, and say so once.
+/// Observers that compare the report of every step with the laws of thermodynamics, and warn once of a
+/// violation.
 #pragma once
 
 #include "coupling/observer.hpp"
@@ -47,11 +48,11 @@ class FirstLawWatch : public coupling::Observer {
   const heat::ThermalPhase* heat_;
   coupling::EnergyAudit sum_;
   double heat_content_ = 0;  ///< at the start [J]
-  double unsolved_ = 0;      ///< what residuals explain, summed [J]
+  double unsolved_ = 0;      ///< imbalance by residuals, summed [J]
 };
 
-/// Says at the end of a run whose displacements and stresses lag by a step (lags_a_step) how much that is:
-/// the change of displacements in the last step as a part of all their change.
+/// Reports at the end of a run whose displacements and stresses lag by a step (lags_a_step) how large the lag
+/// is: the change of displacements in the last step as a part of all their change.
 class LagWatch : public coupling::Observer {
  public:
   void begin(const coupling::State& state) override;
@@ -64,7 +65,8 @@ class LagWatch : public coupling::Observer {
   double dt_ = 0;
 };
 
-/// Says at the end of a run where liquid metal left its wall (contact::ContactSpec::leaving_gap).
+/// Reports at the end of a run that liquid metal has left its wall, and where
+/// (contact::ContactSpec::leaving_gap).
 class WallWatch : public coupling::Observer {
  public:
   /// @param contacts  kept by reference

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "algebra/active_set.hpp"
 #include "algebra/parallel.hpp"
-#include "algebra/presence.hpp"
 
 namespace solidus::model {
 
@@ -15,18 +15,18 @@ bool named(const std::vector<std::string>& stages, const StageRun* stage) {
   return !stages.empty() && stage != nullptr && holds(stages, stage);
 }
 
-/// Whether a group has a node, or as a surface a face, of a body that is there. Collective.
-bool stands(const mesh::Mesh& mesh, const algebra::Presence& presence, const std::string& group,
+/// Whether a group has a node, or as a surface a face, of an active body. Collective.
+bool stands(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const std::string& group,
             bool needs_faces) {
   bool found = false;
   if (needs_faces) {
     const auto surface = mesh.surfaces.find(group);
     if (surface != mesh.surfaces.end())
-      for (const mesh::Block& faces : presence.part(mesh, surface->second).faces)
+      for (const mesh::Block& faces : active.part(mesh, surface->second).faces)
         found = found || faces.size() > 0;
   } else if (const auto nodes = mesh.node_sets.find(group); nodes != mesh.node_sets.end()) {
     found = std::any_of(nodes->second.begin(), nodes->second.end(),
-                        [&](Index node) { return presence.node(node); });
+                        [&](Index node) { return active.node(node); });
   }
   return algebra::any_process(found);
 }
@@ -37,16 +37,16 @@ bool stands(const mesh::Mesh& mesh, const algebra::Presence& presence, const std
                    "stages in which the body is there, or no 'stages': then it ends with the body");
 }
 
-/// Whether bodies behind a contact surface have gone, and whether others have not. Collective.
+/// Whether bodies behind a contact surface have been removed, and whether others are active. Collective.
 struct Sides {
   bool gone = false, there = false;
 };
-Sides sides(const mesh::Mesh& mesh, const algebra::Presence& presence, const std::string& surface) {
+Sides sides(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const std::string& surface) {
   Sides found;
   const auto group = mesh.surfaces.find(surface);
   if (group == mesh.surfaces.end()) return found;  // a rigid surface
   for (const mesh::Block& faces : group->second.faces)
-    if (faces.size() > 0) (presence.reversed(faces) ? found.gone : found.there) = true;
+    if (faces.size() > 0) (active.reversed(faces) ? found.gone : found.there) = true;
   return {algebra::any_process(found.gone), algebra::any_process(found.there)};
 }
 
@@ -128,7 +128,7 @@ void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactSpe
   std::vector<std::string> conductors;
   for (const BodySpec& body : spec.bodies)
     if (only_conducts(body)) conductors.push_back(body.mesh_group());
-  const algebra::Presence deforms(mesh, conductors);
+  const algebra::ActiveSet deforms(mesh, conductors);
   if (deforms.complete()) return;
   const auto is_wall = [&](const std::string& surface) {
     const Sides side = sides(mesh, deforms, surface);
@@ -146,16 +146,16 @@ void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactSpe
 
 bool holds(const CaseSpec& spec, const ContactSpec& contact, const mesh::Mesh& mesh, const StageRun* stage) {
   if (!holds(contact.stages, stage)) return false;
-  const algebra::Presence presence(mesh, gone_bodies(spec, stage));
-  if (presence.complete()) return true;
+  const algebra::ActiveSet active(mesh, gone_bodies(spec, stage));
+  if (active.complete()) return true;
   const auto surfaces = contact.sides();
   return std::none_of(surfaces.begin(), surfaces.end(),
-                      [&](const std::string& surface) { return sides(mesh, presence, surface).gone; });
+                      [&](const std::string& surface) { return sides(mesh, active, surface).gone; });
 }
 
 std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& mesh, const StageRun* stage) {
   std::vector<std::string> idle;
-  const algebra::Presence there(mesh, gone_bodies(spec, stage)),
+  const algebra::ActiveSet there(mesh, gone_bodies(spec, stage)),
       deforms(mesh, absent_from_mechanics(spec, stage));
   if (deforms.complete()) return idle;
   for (const ThermalConditionSpec& c : spec.thermal_conditions) {

@@ -28,7 +28,8 @@ void check_bodies(const CaseSpec& spec);
 /// Between two such walls no force acts, and the penalty is any. Collective.
 void set_walls(const CaseSpec& spec, const mesh::Mesh& mesh, contact::ContactSpec& pair);
 
-/// Whether a contact holds in a stage: it is one of its stages, and no body of its surfaces has gone.
+/// Whether a contact is active in a stage: it is one of its stages, and no body of its surfaces has been
+/// removed.
 bool holds(const CaseSpec& spec, const ContactSpec& contact, const mesh::Mesh& mesh, const StageRun* stage);
 
 /// The names of the conditions and contacts of a stage that find no body: all they stand on has gone, or only

@@ -16,7 +16,7 @@ namespace solidus::model {
 
 namespace {
 
-/// Which bodies meet at a node, as a set of bits; bodies beyond the 63rd count as one.
+/// Set of the bodies that meet at a node, as bits; bodies beyond the 63rd count as one.
 using BodySet = std::uint64_t;
 
 BodySet bit(int body) {
@@ -89,7 +89,7 @@ std::vector<BoundaryFace> faces_of_part(const mesh::Mesh& mesh, AnalysisKind kin
   return faces;
 }
 
-/// Adds the skins, and what bodies share of them.
+/// Adds the skins, and the areas that bodies share.
 void measure_skins(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<BodyMeasures>& bodies) {
   Index elements = 0;
   for (const mesh::Block& block : mesh.blocks) elements += block.size();

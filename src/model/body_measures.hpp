@@ -8,12 +8,13 @@
 
 namespace solidus::model {
 
-/// Of one body. In plane strain of one metre of thickness, in axisymmetry of the whole revolution.
+/// Measures of one body. In plane strain they are of one metre of thickness, in axisymmetry of the whole
+/// revolution.
 struct BodyMeasures {
-  mesh::Point low{}, high{};                   ///< corners of the bounding box [m]
-  double volume = 0;                           ///< [m³]
-  double skin = 0;                             ///< area of the boundary [m²]
-  std::vector<double> shared;                  ///< [other body] of it what both bodies have as a face [m²]
+  mesh::Point low{}, high{};   ///< corners of the bounding box [m]
+  double volume = 0;           ///< [m³]
+  double skin = 0;             ///< area of the boundary [m²]
+  std::vector<double> shared;  ///< [other body] part of it that is a face of both bodies [m²]
   double shortest_edge = 0, longest_edge = 0;  ///< between vertices of elements [m]
   double mean_edge = 0;                        ///< [m]
   GlobalIndex nodes = 0, elements = 0;

@@ -229,7 +229,8 @@ void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
                      "a section [contact.heat], or physics = \"mechanics\"");
 }
 
-/// What an interface stores shows in the heat of friction alone.
+/// Checks that an interface that stores heat has friction: the stored heat affects the heat of friction
+/// alone.
 void check_interface(const CaseSpec& spec, const ContactSpec& c) {
   if (c.interface.heat_capacity == 0 || (c.friction && spec.coupled())) return;
   throw InputError(

@@ -1,4 +1,4 @@
-/// From a case file to a validated case.
+/// Reads a case file and validates the case.
 #pragma once
 
 #include <filesystem>

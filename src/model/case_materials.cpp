@@ -42,7 +42,7 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
   std::vector<material::Material> materials;
   for (const BodySpec& body : spec.bodies) {
     materials.push_back(material::find_material(body.material, folders, body.where));
-    // What a chill or a die is made of may melt, but that is no casting that solidifies.
+    // The material of a chill or a die may melt, but it is no casting that solidifies.
     if (const Role role = role_of(body, materials.back()); role != Role::casting && role != Role::riser)
       for (material::PhaseChange& change : materials.back().phase_changes) change.solidification = false;
     if (spec.has_mechanics() && !only_conducts(body) && !materials.back().mechanical())

@@ -9,9 +9,9 @@
 
 namespace solidus::model {
 
-/// Where materials are looked up by name, the first that has it wins: the folders of the environment variable
-/// SOLIDUS_MATERIALS (separated by colons), `share/solidus/materials` and `materials` in the folders above
-/// the program, and `materials` of the sources it was built from.
+/// Folders in which materials are looked up by name; the first one that has the name wins: the folders of the
+/// environment variable SOLIDUS_MATERIALS (separated by colons), `share/solidus/materials` and `materials` in
+/// the folders above the program, and `materials` of the sources it was built from.
 std::vector<std::filesystem::path> material_folders();
 
 /// One material per body, in the order of the bodies.

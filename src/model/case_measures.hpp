@@ -1,5 +1,5 @@
-/// What a case amounts to, measured on its mesh: bodies, skins, what is poured and how long it may take to
-/// freeze, and what the run may cost. Findings and the table of `check` read it.
+/// Measures of a case on its mesh: bodies, skins, pours with an estimate of their freezing time, and an
+/// estimate of the cost of the run. Findings and the table of `check` read them.
 #pragma once
 
 #include <string>
@@ -24,7 +24,8 @@ struct Pour {
   FreezingEstimate freezing;
 };
 
-/// What a run may take, from the number of its steps and nodes (docs/guide/findings.md says how well).
+/// Estimate of time and memory of a run, from the number of its steps and nodes (docs/guide/findings.md
+/// states its accuracy).
 struct Effort {
   double steps = 0;
   bool steps_known = true;
@@ -39,7 +40,7 @@ struct CaseMeasures {
   Effort effort;
 };
 
-/// Of a case that is built. Collective.
+/// Measures a case that has been built. Collective.
 CaseMeasures measure(const CaseSpec& spec, const Assembly& a);
 
 /// The bodies that are poured, with estimates; `m` has bodies, contacts and surfaces. Collective.

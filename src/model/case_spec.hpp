@@ -77,12 +77,10 @@ struct MeshGroupSpec {
   std::vector<double> nearest;          ///< a point [m]: the smooth part of the skin that is nearest to it
   SourceLocation where;
   /// Whether faces of the mesh are chosen, in place of surfaces of the geometry.
-  bool by_rule() const {
-    return !owner.empty() || !normal.empty() || !plane.empty() || !nearest.empty();
-  }
+  bool by_rule() const { return !owner.empty() || !normal.empty() || !plane.empty() || !nearest.empty(); }
 };
 
-/// How large the elements of a body are (mesh/casting_geometry.hpp).
+/// Sizes of the elements of a body (mesh/casting_geometry.hpp).
 struct MeshSizeSpec {
   std::string body;                ///< group of the mesh
   double size = 0;                 ///< the largest [m]
@@ -138,7 +136,8 @@ struct MeshSpec {
   std::optional<MouldBlockSpec> mould;
   std::optional<RiserBlockSpec> riser;
   std::optional<SymmetrySpec> symmetry;
-  /// Run a .geo script whatever it says. Never a key: who runs a case trusts its scripts, not who wrote it.
+  /// Run a .geo script without checks. This is never a key of a case file: the user who runs a case decides
+  /// whether to trust its scripts, not its author.
   bool trust_script = false;
   std::string element;  ///< of the built-in shapes: "tri3", ...
   std::optional<CylinderInMouldSpec> cylinder_in_mould;
@@ -178,10 +177,10 @@ struct CycleSpec {
   SourceLocation where;
 };
 
-/// What functions of time count from: the start of the run, or that of the stage.
+/// Origin of the time of functions: the start of the run, or that of the stage.
 enum class Clock { run, stage };
 
-/// What a body is to the foundry. Criteria, solid fraction and summary are of castings and risers.
+/// Role of a body in the foundry. Criteria, solid fraction and summary are of castings and risers.
 enum class Role { casting, riser, mould, core, chill, sleeve, die, insulation };
 
 struct BodySpec {
@@ -189,7 +188,7 @@ struct BodySpec {
   std::optional<std::string> group;  ///< of the mesh; absent: as `name`
   std::string material;              ///< name in the library, or a file
   Function initial_temperature;      ///< [K], of position
-  std::optional<Role> role;              ///< absent: deduced (model/roles.hpp)
+  std::optional<Role> role;          ///< absent: deduced (model/roles.hpp)
   /// automatic: heat where it is no casting and its material has no elastic properties, else all
   enum class Physics { automatic, all, heat };
   Physics physics = Physics::all;
@@ -203,7 +202,7 @@ struct ThermalConditionSpec {
   enum class Kind { temperature, flux, film, radiation, source };
   std::string name, group;
   Kind kind = Kind::temperature;
-  // Of time, or of position and time.
+  // Functions of time, or of position and time.
   Function temperature;             ///< [K]
   Function flux;                    ///< into the body [W/m²]
   Function coefficient;             ///< film [W/(m² K)]; or of the surface's temperature
@@ -232,7 +231,7 @@ struct MechanicalConditionSpec {
 /// A contact pair; model/contact_input.hpp makes the contact room's specification of it.
 struct ContactSpec {
   std::string name, slave, master;
-  std::vector<std::string> surfaces;  ///< both, where the program chooses who is the slave
+  std::vector<std::string> surfaces;  ///< both, where the program chooses the slave
   std::array<std::string, 2> sides() const {
     return surfaces.empty() ? std::array{slave, master} : std::array{surfaces[0], surfaces[1]};
   }
@@ -261,11 +260,11 @@ struct ContactSpec {
 /// Contacts between bodies whose faces are found by themselves (model/interfaces.hpp).
 struct BodyInterfaceSpec {
   std::string name;
-  std::vector<std::string> bodies;         ///< names of two, or "all"
-  std::optional<double> distance;          ///< up to which faces face each other [m]
-  std::optional<double> touching;          ///< as of a contact [m]
-  std::string law;                         ///< name of a card of the library; empty: by the pair
-  bool wet = true;                         ///< as of a contact
+  std::vector<std::string> bodies;                ///< names of two, or "all"
+  std::optional<double> distance;                 ///< up to which faces face each other [m]
+  std::optional<double> touching;                 ///< as of a contact [m]
+  std::string law;                                ///< name of a card of the library; empty: by the pair
+  bool wet = true;                                ///< as of a contact
   std::optional<contact::HeatTransferSpec> heat;  ///< in place of the library
   std::optional<FrictionSpec> friction;
   std::vector<std::string> stages;  ///< in which it holds; empty: all
@@ -333,7 +332,7 @@ struct CouplingSpec {
   enum class Scheme { isentropic, isothermal, simultaneous, block_iterative, double_pass };
   Scheme scheme = Scheme::isentropic;
   std::optional<coupling::PhaseOrder> order;  ///< of the sequential splits; absent: phase_order() chooses
-  /// How deformation enters the heat balance (mechanics/structural_heat.hpp); none: not at all.
+  /// Form in which deformation enters the heat balance (mechanics/structural_heat.hpp); none: it does not.
   enum class StructuralHeating { energy, entropy, literal, temperature, none };
   StructuralHeating structural_heating = StructuralHeating::energy;
   bool as_printed = false;  ///< the sensible heat in the same form, not as a difference of enthalpies
@@ -380,7 +379,7 @@ struct OutputSpec {
   bool stage_ends = true;  ///< outputs at the end of every stage
 };
 
-/// What is read off a casting that freezes (model/criteria_input.hpp).
+/// Settings of the criteria that are evaluated on a freezing casting (model/criteria_input.hpp).
 struct CriteriaSpec {
   bool follow = true;
   double evaluation = 0.1, feeding_limit = 0.7;

@@ -1,4 +1,5 @@
-/// Which bodies are cast, and which of them feed: the one place that decides it for criteria and summary.
+/// Selection of the bodies that are cast and of the feeders among them: the one place that decides it for
+/// criteria and summary.
 #pragma once
 
 #include <vector>

@@ -4,7 +4,7 @@ namespace solidus::model {
 
 namespace {
 
-/// When a condition holds, and what its tables of time count from.
+/// Keys for the stages of a condition and for the origin of time of its tables.
 template <class C>
 void add_stage_keys(Section<C>& s) {
   s.key("stages", &C::stages)

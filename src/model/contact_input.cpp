@@ -16,7 +16,8 @@ namespace {
 
 /// ε_N over the stiffness of the elements behind a surface.
 constexpr double k_penalty_factor = 10;
-/// By how much the atmosphere moves a liquid skin that it holds on its wall, over what counts as leaving it.
+/// Displacement by the atmosphere of a liquid skin that it holds on its wall, over the gap that counts as
+/// leaving it.
 constexpr double k_wet_share = 0.1;
 
 contact::NormalKind normal_kind(ContactSpec::Normal normal, bool dynamic) {

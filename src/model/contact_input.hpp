@@ -1,4 +1,4 @@
-/// From the case to the contact pairs.
+/// Builds the contact pairs of a case.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-/// What a case can expect of the isothermal split, before it runs (monograph 4.2.4;
+/// Estimate of the stability of the isothermal split for a case, before it runs (monograph 4.2.4;
 /// docs/theory/coupling_stability.md, 5).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace solidus::model {
 
-/// Of one body.
+/// Estimate of one body.
 struct CouplingEstimate {
   std::string body;
   double initial = 0, worst = 0;  ///< temperatures [K]: at the start, and where the coupling is strongest
@@ -22,8 +22,8 @@ struct CouplingEstimate {
   double decisive() const { return plane ? at_worst.plane : at_worst.bound; }
 };
 
-/// Of a thermo-mechanical case, one per body. The range of temperatures is that of all initial, ambient and
-/// prescribed ones but those of conditions that vary with position. Collective.
+/// Estimates of a thermo-mechanical case, one per body. The range of temperatures is that of all initial,
+/// ambient and prescribed ones but those of conditions that vary with position. Collective.
 /// @param start  of each body; `initial` is the highest
 std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
                                                  const std::vector<material::Material>& materials,
@@ -33,8 +33,8 @@ std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
 /// "casting: delta = 0.0400 at 319.85 degC, ...".
 std::string text(const CouplingEstimate& estimate);
 
-/// Tells at the start of a run that chose isothermal passes what to expect of them; a warning where they will
-/// be unstable. Nothing for other schemes.
+/// Prints the expected stability at the start of a run with isothermal passes, as a warning where they will
+/// be unstable. Prints nothing for other schemes.
 void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates);
 
 }  // namespace solidus::model

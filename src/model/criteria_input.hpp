@@ -1,4 +1,4 @@
-/// From the case to the criteria of a run.
+/// Builds the criteria of a run from the case.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace solidus::model {
 
-/// What is followed of this case; null: nothing, because nothing can freeze or the case says so. Collective.
+/// Creates the criteria of a case; null: none, because nothing can freeze or the case says so. Collective.
 /// @param start      temperatures, [body]: what is poured is followed (cast_bodies.hpp)
 /// @param phases     without criteria yet; it, mesh and materials outlive the criteria
 /// Throws InputError for a feeder that is no group of the mesh.

@@ -1,4 +1,4 @@
-/// From the case to inertia and its integrator.
+/// Builds inertia and its time integrator from the case.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ std::optional<mechanics::DynamicsOptions> dynamics_options(const CaseSpec& spec)
 /// "newmark", for messages; the trapezoidal rule is one of Newmark's methods.
 std::string method_name(const DynamicsSpec& dynamics);
 
-/// Throws InputError for what does not fit together.
+/// Throws InputError for settings that contradict each other.
 void check_dynamics(const CaseSpec& spec);
 
 }  // namespace solidus::model

@@ -1,5 +1,5 @@
-// What a run may take. The figures are those of one core of a server of 2020, measured on the project's cases
-// (docs/guide/findings.md); another machine differs by its speed.
+// Estimates the effort of a run. The figures are those of one core of a server of 2020, measured on the
+// project's cases (docs/guide/findings.md); another machine differs by its speed.
 #include <petscsys.h>
 
 #include <algorithm>

@@ -115,7 +115,7 @@ void balance_triangles(results::StructuralDeck& deck) {
   std::vector<double> force(deck.force.size(), 0.0);
   for (std::size_t b = 0; b < deck.mesh.blocks.size(); ++b) {
     const mesh::Block& block = deck.mesh.blocks[b];
-    if (!deck.presence.body(block.body)) continue;
+    if (!deck.active.body(block.body)) continue;
     const mesh::BlockGeometry geometry(deck.mesh, block, deck.kind, mesh::stiffness_rule(block.shape));
     const auto n = static_cast<std::size_t>(geometry.n_nodes);
     for (Index e = 0; e < block.size(); ++e) {
@@ -143,10 +143,11 @@ void balance_triangles(results::StructuralDeck& deck) {
     for (std::size_t i = 0; i < 2 && around[node] != 0; ++i) deck.force[2 * node + i] = force[2 * node + i];
 }
 
-std::vector<std::vector<Index>> tied_entries(const algebra::Ties& ties, std::size_t n_entries) {
+std::vector<std::vector<Index>> tied_entries(const algebra::MultiPointConstraints& constraints,
+                                             std::size_t n_entries) {
   std::map<GlobalIndex, std::vector<Index>> groups;
-  for (std::size_t i = 0; i < n_entries && !ties.empty(); ++i)
-    groups[ties.unknown(static_cast<Index>(i))].push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < n_entries && !constraints.empty(); ++i)
+    groups[constraints.unknown(static_cast<Index>(i))].push_back(static_cast<Index>(i));
   std::vector<std::vector<Index>> tied;
   for (auto& [leader, entries] : groups)
     if (entries.size() > 1) tied.push_back(std::move(entries));
@@ -192,21 +193,22 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
     report.adjusted = std::max(report.adjusted,
                                std::abs(still.mechanics.displacement[i] - state.mechanics.displacement[i]));
 
-  const algebra::Presence& presence = a.mechanics->presence();
-  results::StructuralDeck deck{.title = spec.title.empty() ? "Solidus" : spec.title,
-                               .kind = spec.analysis.kind,
-                               .mesh = a.mesh,
-                               .presence = presence,
-                               .materials = a.materials,
-                               .displacement = {},
-                               .temperature = temperature,
-                               .stress = {},
-                               .plastic_strain = {},
-                               .fixed = a.mechanics->fixed(),
-                               .ties = tied_entries(a.mechanics->ties(), still.mechanics.displacement.size()),
-                               .force = a.mechanics->applied_forces()};
+  const algebra::ActiveSet& active = a.mechanics->active();
+  results::StructuralDeck deck{
+      .title = spec.title.empty() ? "Solidus" : spec.title,
+      .kind = spec.analysis.kind,
+      .mesh = a.mesh,
+      .active = active,
+      .materials = a.materials,
+      .displacement = {},
+      .temperature = temperature,
+      .stress = {},
+      .plastic_strain = {},
+      .fixed = a.mechanics->fixed(),
+      .constraints = tied_entries(a.mechanics->constraints(), still.mechanics.displacement.size()),
+      .force = a.mechanics->applied_forces()};
   for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
-  deck.supports = results::missing_supports(a.mesh, presence, spec.analysis.kind, deck.fixed, deck.ties);
+  deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   report.supports = deck.supports.size();
   if (options.deformed) deck.displacement = still.mechanics.displacement;
   const std::vector<double> plastic_strain =
@@ -217,7 +219,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
     deck.stress.emplace_back();
     deck.plastic_strain.emplace_back(of_block, of_block + block.size());
     of_block += block.size();
-    if (!presence.body(block.body)) continue;
+    if (!active.body(block.body)) continue;
     const int n_modes = spec.mechanics.b_bar ? volumetric_modes(block.shape) : 0;
     deck.stress[b] = point_stress(a.mesh, block, spec.analysis.kind, still.mechanics.stress[b], n_modes);
     report.elements += deck.stress[b].size();

@@ -1,4 +1,4 @@
-/// The end of a run, from its folder, as the start of a structural analysis elsewhere.
+/// Exports the end of a run, from its folder, as the start of a structural analysis in another program.
 #pragma once
 
 #include <filesystem>

@@ -110,7 +110,7 @@ MappedEnthalpy map_enthalpy(const PlaceSpec& place, AnalysisKind kind, const mat
   MappedEnthalpy mapped;
   mapped.values.resize(nodes.size());
   Source source;
-  together([&] {
+  run_collectively([&] {
     source = read_source(place, kind, curve);
     const mesh::ElementSearch search(source.mesh);
     for (std::size_t k = 0; k < nodes.size(); ++k) {

@@ -1,4 +1,5 @@
-/// What is possible but not sensible in a case: slips that no check of a key finds. One file per family.
+/// Findings: values of a case that are possible but not sensible, and that no check of a single key detects.
+/// One file per family.
 #pragma once
 
 #include <string>
@@ -13,8 +14,8 @@ namespace solidus::model {
 struct Finding {
   bool is_error = false;  ///< no sensible case looks so; else a warning
   SourceLocation where;
-  std::string what;   ///< what was found, with its number
-  std::string usual;  ///< the usual range, or what was perhaps meant
+  std::string what;   ///< the finding, with its number
+  std::string usual;  ///< the usual range, or the value that was perhaps meant
 };
 using Findings = std::vector<Finding>;
 
@@ -33,15 +34,15 @@ inline bool always_on(const ThermalConditionSpec& c) {
 void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Properties that no metal, mould or gas has.
 void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findings);
-/// What is poured, at what temperature.
+/// Pouring temperature, and bodies that are poured.
 void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Surroundings, coefficients and gravity; the length of the run in steps. Collective: size of the mesh.
 void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings);
 
 /// Bodies that overlap, share nodes or are too coarsely meshed.
 void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
-/// What keeps a casting from freezing, runs that end before, steps that are too long for it, feeders and
-/// chills. Collective.
+/// Conditions that keep a casting from freezing, runs that end before it has frozen, steps that are too long
+/// for it, feeders and chills. Collective.
 void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Supports and loads. Collective.
 void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);

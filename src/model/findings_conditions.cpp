@@ -105,7 +105,7 @@ void steps(const CaseSpec& spec, Findings& findings) {
                         "some hundred steps; time.adaptive chooses them"});
 }
 
-/// What a step may be wrong by, against what the run passes through.
+/// Compares the error allowed per step with the range of temperatures of the run.
 void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   double high = 0, low = std::numeric_limits<double>::max();
   for (const TemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);

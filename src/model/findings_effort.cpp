@@ -1,4 +1,4 @@
-// Findings on what a run takes: memory, time, files.
+// Findings on the effort of a run: memory, time, files.
 #include <fmt/format.h>
 #include <unistd.h>
 

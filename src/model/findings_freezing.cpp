@@ -1,4 +1,5 @@
-// Findings on how the casting freezes: what keeps it from it, and whether the run is long and fine enough.
+// Findings on the freezing of the casting: conditions that prevent it, and whether the run is long and fine
+// enough.
 #include <fmt/format.h>
 
 #include <algorithm>

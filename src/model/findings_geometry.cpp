@@ -1,4 +1,5 @@
-// Findings on bodies and their meshes: what overlaps, what is glued together, what is too coarse.
+// Findings on bodies and their meshes: bodies that overlap or are glued together, and meshes that are too
+// coarse.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Findings on what joins the bodies: contacts, and films beside them.
+// Findings on the interfaces of the bodies: contacts, and films beside them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,8 @@ void contacts_given_twice(const CaseSpec& spec, Findings& findings) {
                             "one contact for a pair of surfaces, whichever is named first"});
 }
 
-/// Which bodies hang together, by shared nodes and by contacts: the number of the first body of each group.
+/// Groups of bodies that are connected by shared nodes and by contacts: the number of the first body of each
+/// group.
 class Groups {
  public:
   explicit Groups(std::size_t n_bodies) : first_(n_bodies) { std::iota(first_.begin(), first_.end(), 0); }

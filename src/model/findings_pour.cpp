@@ -1,4 +1,4 @@
-// Findings on what is poured: is it liquid, and is it the right body?
+// Findings on the pour: is it liquid, and is it the right body?
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ int hottest(const Assembly& a) {
 
 void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   constexpr double k_most_superheat = 400;  // [K]
-  // Who follows no criteria of a casting says that nothing freezes here.
+  // A case that switches the criteria of castings off states that nothing freezes in it.
   if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
   const auto poured = static_cast<std::size_t>(hottest(a));
   const BodySpec& body = spec.bodies[poured];

@@ -19,7 +19,8 @@ namespace solidus::model {
 
 namespace {
 
-// What the history of triangles and tetrahedra is made of; the material decides where nothing is said.
+// Describes the formulation of triangles and tetrahedra, on which their history depends; by default the
+// material decides.
 std::string simplices_text(const MechanicsSpec& m) {
   const char* const formulation[] = {"", ", mixed simplices", ", displacement simplices"};
   return std::string(formulation[static_cast<std::size_t>(m.simplices)]) +
@@ -37,7 +38,7 @@ std::string analysis_text(const CaseSpec& spec) {
                      simplices_text(spec.mechanics));
 }
 
-// What a state holds of a body depends on what it takes part in, and how long.
+// Describes the physics and the stages of a body, on which the contents of a state depend.
 std::string body_text(const BodySpec& body) {
   std::string text = body.name + (only_conducts(body) ? " that only conducts" : "");
   for (std::size_t i = 0; i < body.stages.size(); ++i) text += (i == 0 ? " in " : " + ") + body.stages[i];

@@ -1,4 +1,4 @@
-/// What a case must have in common with the one whose checkpoint it continues.
+/// Fingerprint of a case: the data that it must have in common with the case whose checkpoint it continues.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-/// How long a casting takes to freeze, before anything is computed: Chvorinov's rule with a constant that
-/// comes from the case's own data.
+/// Estimate of the freezing time of a casting before anything is computed: Chvorinov's rule with a constant
+/// that comes from the case's own data.
 ///
 ///   t = C (V/A)²
 ///
@@ -16,7 +16,7 @@
 /// √(k ρ C) and its finite thickness, the resistance of the interface and that of the metal, whichever
 /// governs.
 ///
-/// What it does not see: that thick and thin places of a casting feed heat to each other, other bodies behind
+/// The estimate neglects the exchange of heat between thick and thin places of a casting, other bodies behind
 /// a mould, and the flow of metal. Measured: within a factor of two of the runs of all cases that freeze
 /// (docs/guide/findings.md).
 ///
@@ -64,7 +64,7 @@ struct FreezingProblem {
 
 struct FreezingEstimate {
   std::optional<double> time;  ///< until the last place is at its solidus [s]; absent: it stays liquid
-  std::string governed_by;     ///< what took the largest drop of temperature on the way
+  std::string governed_by;     ///< part of the way of heat with the largest drop of temperature
   double mould_reach = 0;      ///< √(α t) of the mould with the largest share [m]; zero: no mould
   /// Temperature that everything comes to where it never freezes [K].
   double rest = 0;

@@ -1,4 +1,4 @@
-/// From [contact.friction] and [contact.wear] to what the contact room needs.
+/// Makes the specifications of friction and wear (contact/) from [contact.friction] and [contact.wear].
 #pragma once
 
 #include "contact/friction.hpp"
@@ -7,8 +7,8 @@
 
 namespace solidus::model {
 
-/// Throws InputError for what a single key cannot tell: a unit of the wrong dimension, curves that do not
-/// fit, coefficients that make no law (contact/friction_coefficient.hpp).
+/// Throws InputError for errors that the check of a single key cannot find: a unit of the wrong dimension,
+/// curves that do not fit, coefficients that make no law (contact/friction_coefficient.hpp).
 contact::FrictionSpec friction_spec(const FrictionSpec& spec);
 
 contact::WearSpec wear_spec(const WearSpec& spec);

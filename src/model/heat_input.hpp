@@ -1,4 +1,4 @@
-/// From the case to the thermal phase's conditions and options.
+/// Makes the thermal phase's conditions and options from the case.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace solidus::model {
 heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
 /// Why the thermal phase cannot have two stages a step in this case; empty: it can.
 std::string against_two_stages(const CaseSpec& spec);
-/// With what the coupling asks of the thermal phase: the form of sensible heat, and the stepping where the
-/// case leaves it open.
+/// Includes the settings that the coupling requires of the thermal phase: the form of sensible heat, and the
+/// stepping where the case leaves it open.
 heat::HeatOptions heat_options(const CaseSpec& spec);
 
 }  // namespace solidus::model

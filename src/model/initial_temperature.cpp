@@ -86,7 +86,7 @@ InitialTemperatures::Body InitialTemperatures::evaluated(const PlaceSpec& place,
   } else {
     std::vector<Position> x;
     for (const Index node : nodes) x.push_back(mesh.x[static_cast<std::size_t>(node)]);
-    together([&] { place_law(place, kind)->values(x, 0, temperatures); });
+    run_collectively([&] { place_law(place, kind)->values(x, 0, temperatures); });
     for (double& t : temperatures) enthalpies.push_back(curve.upper(t = snapped(t, curve)));
   }
   body.temperatures.assign(mesh.x.size(), std::numeric_limits<double>::quiet_NaN());

@@ -30,8 +30,8 @@ class InitialTemperatures {
   /// Reads the files that the case names. Collective. Throws InputError on every process.
   InitialTemperatures(const CaseSpec& spec, const std::vector<material::Material>& materials,
                       const mesh::Mesh& mesh);
-  /// Of a body at one of its nodes [K]; at the temperature of an isothermal change molten unless the file
-  /// says otherwise.
+  /// Returns the initial temperature of a body at one of its nodes [K]; at the temperature of an isothermal
+  /// change it is molten unless the file says otherwise.
   double temperature(Index node, int body) const;
   /// The same as enthalpy per volume, by the material's curve [J/m³].
   double enthalpy(Index node, int body) const;

@@ -49,7 +49,7 @@ const Section<InterfaceCard>& card_keys() {
   return declaration;
 }
 
-/// How well a side fits; nothing where it does not.
+/// Returns how well a side fits; nothing if it does not.
 std::optional<int> score(const InterfaceSide& side, const InterfacePartner& partner) {
   const std::string material = fs::path(partner.material).stem().string();
   int best = side.materials.empty() ? 0 : -1;

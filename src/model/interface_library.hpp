@@ -1,5 +1,5 @@
-/// The library of interface laws: how heat crosses from a metal to what it is cast in, by pair of materials
-/// and roles (interfaces/*.toml, docs/guide/interfaces.md).
+/// The library of interface laws: the heat transfer from a metal to the material it is cast in, by pair of
+/// materials and roles (interfaces/*.toml, docs/guide/interfaces.md).
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ struct InterfaceCard {
   /// Only by its name, since process or coating decide it and not the materials.
   bool by_name_alone = false;
   contact::HeatTransferSpec heat;
-  std::string source, range;  ///< where the numbers come from, and between what the conductance lies
+  std::string source, range;  ///< origin of the numbers, and range of the conductance
   bool estimate = false;      ///< not checked against the source
 };
 
@@ -33,7 +33,7 @@ std::vector<std::filesystem::path> interface_folders();
 /// All cards, sorted by name; of equal names that of the first folder. Throws InputError for a wrong card.
 std::vector<InterfaceCard> interface_cards();
 
-/// What a card has to fit.
+/// One side of an interface that a card is searched for.
 struct InterfacePartner {
   std::string material;  ///< name in the library, or a file
   Role role = Role::casting;

@@ -30,7 +30,7 @@ BodyPair pair_of(const CaseSpec& spec, const BodyInterfaceSpec& i) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Roles where the materials can be read: what cannot is said by load_materials().
+/// Roles of the bodies whose materials can be read; load_materials() reports those that cannot.
 std::vector<Role> roles_of(const CaseSpec& spec) {
   std::vector<Role> roles;
   for (const BodySpec& body : spec.bodies)
@@ -63,7 +63,7 @@ std::set<BodyPair> pairs_with_contacts(const CaseSpec& spec, const mesh::RawMesh
   return pairs;
 }
 
-/// Which section each pair of bodies belongs to.
+/// Returns the pairs of bodies, each with the section that it belongs to.
 std::vector<std::pair<BodyPair, std::size_t>> wanted_pairs(const CaseSpec& spec, const mesh::RawMesh& mesh,
                                                            const std::vector<Role>& roles,
                                                            const std::vector<mesh::SplitNodes>& shared) {

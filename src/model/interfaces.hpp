@@ -1,4 +1,4 @@
-/// From [[interface]] sections to contacts: the faces of the mesh that face each other, the laws of the
+/// Makes contacts from [[interface]] sections: the faces of the mesh that face each other, the laws of the
 /// library (docs/guide/interfaces.md).
 #pragma once
 
@@ -17,11 +17,11 @@ struct FoundInterface {
   int a = 0, b = 0;         ///< bodies
   std::string surface_a, surface_b;
   double distance = 0;  ///< that was looked within [m]
-  double facets = 0;    ///< what facets of curved faces may leave between the two [m]
+  double facets = 0;    ///< gap that facets of curved faces may leave [m]
 };
 
 /// Looks for the faces of all [[interface]] sections, gives bodies that share nodes their own, and makes the
-/// groups A_to_B and A_free. Says what it has found. On process 0.
+/// groups A_to_B and A_free. Prints what it has found. On process 0.
 /// Throws InputError where a section that names two bodies finds nothing.
 std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh& mesh,
                                             const std::string& source);

@@ -1,4 +1,4 @@
-/// From the case to the mechanical phase's conditions and options.
+/// Makes the mechanical phase's conditions and options from the case.
 #pragma once
 
 #include <array>

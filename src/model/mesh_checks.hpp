@@ -10,8 +10,8 @@ namespace solidus::model {
 void check_bodies_of(const CaseSpec& spec, const mesh::RawMesh& mesh);
 
 /// That the mesh has the dimension of the analysis and every group the case names, each of a dimension that
-/// can do what is asked of it. Throws InputError with the place in the case and the groups there are. Where
-/// the mesh is: on process 0.
+/// supports what the case asks of it. Throws InputError with the place in the case and the groups there are.
+/// Where the mesh is: on process 0.
 void check_groups(const CaseSpec& spec, const mesh::RawMesh& mesh);
 
 }  // namespace solidus::model

@@ -126,7 +126,7 @@ mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) 
   return result;
 }
 
-/// What process 0 has found, on all.
+/// Distributes the interfaces that process 0 has found to all processes.
 std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found) {
   mesh::Packer packer;
   packer.put_size(found.size());

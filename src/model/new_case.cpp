@@ -197,7 +197,7 @@ class NewCase {
     measure();
     choose();
     write();
-    settle();
+    refine_draft();
     NewCaseReport report;
     report.file = draft_.folder / "case.toml";
     report.text = text();
@@ -408,9 +408,9 @@ class NewCase {
       throw InputError({draft_.folder.string()}, "the case cannot be written there", "a folder with room");
   }
 
-  /// The case as it is drafted tells its cores and free skins, its nodes and the time to freeze: bodies,
-  /// films, sizes, walls and the end of the run follow.
-  void settle() {
+  /// Refines the draft by building it: the built case shows cores and free skins, the number of nodes and the
+  /// freezing time, from which bodies, films, sizes, walls and the end of the run follow.
+  void refine_draft() {
     const logging::Level level = logging::level();
     logging::set_level(std::max(level, logging::Level::silent));
     try {

@@ -1,4 +1,4 @@
-/// The verb `new`: from the geometry of a casting to a case that runs (docs/guide/new_case.md).
+/// The verb `new`: makes a case that runs from the geometry of a casting (docs/guide/new_case.md).
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ std::vector<std::string> processes();
 
 struct NewCaseReport {
   std::filesystem::path file;  ///< the case
-  std::string text;            ///< what was measured and chosen, several lines
+  std::string text;            ///< report on measured and chosen values, several lines
 };
 
 /// Measures the parts, chooses mould, sizes, temperatures, laws and the length of the run, writes the folder

@@ -35,7 +35,7 @@ struct DraftSymmetry {
   double at = 0;  ///< [m]
 };
 
-/// What was measured and chosen; SI but for temperatures in °C.
+/// Draft of a new case, from measured and chosen values; SI but for temperatures in °C.
 struct Draft {
   std::filesystem::path folder, geometry;
   std::string unit, process, alloy, law;

@@ -1,4 +1,4 @@
-/// The table of what a case was understood to be (results/overview.hpp).
+/// Makes the overview of a case (results/overview.hpp).
 #pragma once
 
 #include "model/case_measures.hpp"

@@ -50,7 +50,7 @@ std::string text_of(const Value& table, std::string_view key) {
   return value != nullptr && value->is_text() ? value->text() : "";
 }
 
-/// Takes sections out of a document and notes what they are called.
+/// Removes sections from a document and notes their names.
 class Removal {
  public:
   explicit Removal(Value& document) : document_(document) {}

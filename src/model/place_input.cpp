@@ -135,7 +135,7 @@ class Field {
   units::Conversion conversion_;
 };
 
-/// Moves the place, checks the values, keeps what cannot change.
+/// Moves the place, checks the values, and stores those that cannot change.
 class CheckedLaw : public PlaceLaw {
  public:
   CheckedLaw(const PlaceSpec& spec, AnalysisKind kind) : spec_(spec), kind_(kind) {

@@ -1,4 +1,4 @@
-/// From a quantity of the case that varies from place to place to the law that the phases evaluate.
+/// Makes the function that the phases evaluate from a quantity of the case that varies with position.
 #pragma once
 
 #include <memory>

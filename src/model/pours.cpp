@@ -1,4 +1,4 @@
-// What is poured: the skins that cool it, as a problem in one dimension (model/freezing_estimate.hpp).
+// Poured bodies and the skins that cool them, as a problem in one dimension (model/freezing_estimate.hpp).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -61,7 +61,7 @@ std::function<double(double, double)> averaged(heat::SurfaceLaw law, const Surfa
   return [shared](double temperature, double time) { return (*shared)(temperature, time); };
 }
 
-/// What thermal conditions of the first stage do on the skin of a body.
+/// Returns the parts of the skin of a body that thermal conditions of the first stage cool.
 std::vector<CooledSkin> conditions_on(std::size_t body, const CaseSpec& spec, const Assembly& a,
                                       const CaseMeasures& m) {
   std::vector<CooledSkin> skins;
@@ -97,7 +97,7 @@ std::vector<CooledSkin> conditions_on(std::size_t body, const CaseSpec& spec, co
   return skins;
 }
 
-/// h of a contact at a further gap, with what radiates across.
+/// Conductance h of a contact at a further gap, including radiation across the gap.
 std::function<double(double, double, double)> conductance_of(const ContactSpec& contact, const Assembly& a,
                                                              const ContactMeasures& m) {
   const auto law = std::make_shared<contact::HeatTransferLaw>(*contact.heat);
@@ -201,7 +201,7 @@ double depth_below(const mesh::Mesh& mesh, std::size_t body, const std::vector<m
   return std::sqrt(algebra::global_max(depth));
 }
 
-/// What a skin takes at the start or later in the run, at the temperature of the pour [W/m²].
+/// Largest heat flux into a skin at the start or later in the run, at the temperature of the pour [W/m²].
 double cooling_of(const CooledSkin& skin, double start, const Assembly& a, double end) {
   if (skin.other) {
     const double there = a.start[*skin.other].low;
@@ -238,7 +238,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
     pour.no_estimate = "nothing cools it";
     return;
   }
-  // Skin that loses a hundredth of what the rest does is not what V/A is about.
+  // Skin that loses less than a hundredth of the heat of the rest does not count in V/A.
   constexpr double k_little = 0.03;
   std::vector<mesh::Point> cloud;
   std::vector<char> on_skin(a.mesh.x.size(), 0);

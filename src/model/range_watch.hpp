@@ -14,9 +14,9 @@
 
 namespace solidus::model {
 
-/// What a body at these temperatures [K] uses outside of its data: one text for all properties that are not
-/// among `said`, to which they are added; empty: nothing. Throws InputError for a table that refuses to go
-/// on.
+/// Returns a warning about properties that a body at these temperatures [K] uses outside of their data: one
+/// text for all that are not among `said`, to which they are added; empty: there are none. Throws InputError
+/// for a table whose extrapolation is an error.
 std::string left_data(const CaseSpec& spec, std::size_t body, const material::Material& material, double low,
                       double high, std::vector<std::string>& said);
 

@@ -1,4 +1,4 @@
-/// From [[rigid_surface]] to the analytic masters of contact.
+/// Makes the analytic masters of contact from [[rigid_surface]].
 #pragma once
 
 #include "contact/master_analytic.hpp"

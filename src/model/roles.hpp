@@ -1,4 +1,4 @@
-/// What bodies are to the foundry, and what follows from it.
+/// Roles of bodies in the foundry, and decisions that follow from them.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ std::string_view name(Role role);  ///< "casting"
 /// The role that a name tells, in English or German ("riser_2", "Kern"); nothing where it tells none.
 std::optional<Role> role_in_name(const std::string& name);
 
-/// As the user says; else a casting where the material can melt, what the names of body and material tell, or
-/// a mould.
+/// Returns the role that the user gives; else a casting if the material can melt, the role that the names of
+/// body and material tell, or a mould.
 Role role_of(const BodySpec& body, const material::Material& material);
 
 /// Decides bodies with physics = "automatic": those that are no castings and whose material has no elastic

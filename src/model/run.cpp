@@ -128,7 +128,8 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
       record.energy.heat_in += condition.heat;
     record.energy.entropy_in = report.balance.entropy_in;
     record.energy.heat_exchanged = report.balance.exchanged;
-    coupling::settle_contacts(a.phases, steady.heat.temperature, report.balance.contributions, record.energy);
+    coupling::commit_contact_heat(a.phases, steady.heat.temperature, report.balance.contributions,
+                                  record.energy);
     coupling::summarise(a.phases, steady, record);
   } catch (const StepRejected& rejected) {
     const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};
@@ -220,7 +221,7 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   return found;
 }
 
-// Tells early, before the mesh is read, what a look at case and folder shows.
+// Reports errors that case and folder show before the mesh is read.
 void check_restart(const CaseSpec& spec, const RunOptions& options) {
   if (!options.restart) return;
   if (spec.time.steady)

@@ -1,4 +1,4 @@
-/// From a checked case to a finished results folder.
+/// Runs a checked case and fills its results folder.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +32,7 @@ struct RunResult {
 /// known.
 RunResult run_case(Case c, const RunOptions& options);
 
-/// What a look at a case shows.
+/// Result of checking a case without running it.
 struct CheckedRun {
   results::MeshCounts mesh;
   results::Overview overview;

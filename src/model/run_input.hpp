@@ -1,4 +1,4 @@
-/// From the case to the probes of a run.
+/// Makes the probes of a run from the case.
 #pragma once
 
 #include <vector>

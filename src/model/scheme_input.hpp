@@ -11,8 +11,8 @@
 
 namespace solidus::model {
 
-/// Of the sequential splits: as the case says, or heat first unless friction between bodies that do not melt,
-/// inertia or a printed form of structural heat speaks against it.
+/// Returns the order of the phases of a sequential split: as the case says, or heat first unless friction
+/// between bodies that do not melt, inertia or a printed form of structural heat forbids it.
 /// @param melts  something that deforms does
 coupling::PhaseOrder phase_order(const CaseSpec& spec, bool melts);
 /// Whether displacements and stresses of a step belong to the temperatures at its start: a sequential split

@@ -1,4 +1,4 @@
-/// What lies on the skins of the bodies at the start: contacts with their gaps, and the surfaces of thermal
+/// Measures of the skins of the bodies at the start: contacts with their gaps, and the surfaces of thermal
 /// conditions. Over all processes.
 #pragma once
 
@@ -11,18 +11,19 @@
 
 namespace solidus::model {
 
-/// Of a contact as it was built, bodies where they are in the mesh. Body −1: a rigid tool; −2: several.
+/// Measures of a contact as it was built, with the bodies at their place in the mesh. Body −1: a rigid tool;
+/// −2: several.
 struct ContactMeasures {
   std::string slave, master;  ///< as the program chose them
   int slave_body = -1, master_body = -1;
-  double area = 0, paired = 0;            ///< of the slave: all of it, and what has a partner [m²]
-  double least_gap = 0, largest_gap = 0;  ///< over what has a partner, negative: overlap [m]
-  double mean_gap = 0;                    ///< of the gaps above zero, over what has a partner [m]
+  double area = 0, paired = 0;            ///< of the slave: all of it, and the part with a partner [m²]
+  double least_gap = 0, largest_gap = 0;  ///< over points with a partner, negative: overlap [m]
+  double mean_gap = 0;                    ///< of the gaps above zero, over points with a partner [m]
   double face_size = 0;                   ///< mean of the slave's faces [m]
   GlobalIndex shared_nodes = 0;           ///< nodes that lie on both surfaces
 };
 
-/// Of a named surface.
+/// Measures of a named surface.
 struct SurfaceMeasures {
   int body = -1;                     ///< −1: it has no faces; −2: several bodies
   double area = 0;                   ///< [m²]

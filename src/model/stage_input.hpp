@@ -34,7 +34,7 @@ double first_step(const StageSpec& stage, const TimeSpec& time);
 /// InputError.
 void resolve_stages(CaseSpec& spec);
 
-/// Checks that what names stages names those there are. Throws InputError.
+/// Checks that everything that names stages names existing ones. Throws InputError.
 void check_stage_names(const CaseSpec& spec);
 
 /// Throws InputError unless the stage that a checkpoint of this time stands in is the same in the case.

@@ -1,4 +1,4 @@
-/// From the section [time] to the options of the simulation, and what its keys must agree in.
+/// Makes the options of the simulation from the section [time], and checks that its keys agree.
 #pragma once
 
 #include "coupling/simulation.hpp"

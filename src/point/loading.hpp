@@ -1,4 +1,4 @@
-/// What is done to the point: segments of linear ramps of strain or stress components and of temperature.
+/// Loading of a material point: segments of linear ramps of strain or stress components and of temperature.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace solidus::point {
 
-/// What is imposed on a component; the other of the two is the answer.
+/// Quantity that is imposed on a component; the other of the two is computed.
 enum class Control { strain, stress };
 
 /// A straight line in time from the present value: to a target, at a rate, or (neither) held.

@@ -42,7 +42,7 @@ struct StepResult {
   bool converged = false;
 };
 
-/// What a state stores.
+/// Energy, entropy and heat capacity of a state.
 struct Stored {
   double energy;    ///< E + L [J/m³], zero for the free material at Θ_0
   double entropy;   ///< S^E + S^pc [J/(m³ K)]
@@ -65,8 +65,7 @@ class MaterialPoint {
   /// target's temperature.
   StepResult attempt(const Target& end, double dt) const;
   void accept(const StepResult& result);
-  /// The next step is one of backward Euler: the loading turns here, and what went before does not foretell
-  /// what comes.
+  /// Makes the next step one of backward Euler: the loading turns here, so earlier steps do not predict it.
   void restart() { step_before_ = 0; }
 
   const PointState& state() const { return now_; }

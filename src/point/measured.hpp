@@ -1,4 +1,4 @@
-/// Measured points beside a computed history: read from CSV, and how far the history is from them.
+/// Measured points beside a computed history: they are read from CSV and compared with the history.
 #pragma once
 
 #include <filesystem>

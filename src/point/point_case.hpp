@@ -1,4 +1,4 @@
-/// From a point file to the curves to compute.
+/// Reads a point file: the curves to compute.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-/// What is kept of every step, and the columns in which it is shown.
+/// Record of every step of a material point, and the columns in which it is shown.
 #pragma once
 
 #include <string>

@@ -22,7 +22,7 @@ double strength(const MaterialPoint& point, double temperature) {
   return point.law().shear(p.elastic, 1.0).strength;  // the same for every step
 }
 
-/// What the state of the point holds beside stress and strain.
+/// Makes the record of a state: stress, strain and the quantities that follow from them.
 Record record_of(const MaterialPoint& point, const PointState& state) {
   const material::Material& material = point.law().material();
   const auto p = point.law().properties_at(state.temperature, point.strain_reference());

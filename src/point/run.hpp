@@ -1,4 +1,4 @@
-/// From a material and a loading to its history.
+/// Computes the history of a material point under a loading.
 #pragma once
 
 #include <string>

@@ -38,7 +38,7 @@ class Largest {
   double number_ = -1;
 };
 
-/// Values of a field that somebody reads; empty where the run has no such field.
+/// Values of a field; empty if the run has no such field.
 struct Values {
   std::vector<double> storage;
   std::span<const double> values;
@@ -167,7 +167,7 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
   }
 }
 
-/// A relative defect of the first law beyond which nobody calls it closed.
+/// Relative defect of the first law beyond which it is not reported as closed.
 constexpr double k_closed = 1e-6;
 
 std::string place(const mesh::Point& p) {
@@ -185,7 +185,7 @@ std::string cast_text(const CastAnswer& answer, double time) {
     return answer.froze ? fmt::format("solid; its last melt froze {:.4g} s after pouring {}",
                                       answer.froze->value, place(answer.froze->where))
                         : "solid";
-  // Never "100 % solid" of what is not.
+  // A body that is not solid is never reported as "100 % solid".
   const double percent = std::min(100 * answer.solid_fraction, 99.9);
   std::string text = fmt::format("{:.1f} % solid {:.6g} s after pouring", percent, time);
   if (answer.hottest)
@@ -232,7 +232,7 @@ std::string pools_text(const Answers::CutOffPools& pools) {
       place(pools.where));
 }
 
-/// What people read of the criteria, and the names that findings have for it.
+/// Line of the printed answers on a criterion, and the name of the finding that it shows.
 struct Line {
   std::string_view text, finding, unit;
   double factor;

@@ -1,8 +1,8 @@
-/// What a run answers to a foundry engineer: is it solid, where was the last melt, did the riser outlive the
-/// part, which pools were cut off, gaps, distortion, stress, and whether energy is closed. Printed at the end
-/// of a run, also of one that stops, and "answers" of summary.json.
+/// Answers of a run to a foundry engineer's questions: is it solid, where was the last melt, did the riser
+/// outlive the part, which pools were cut off, gaps, distortion, stress, and whether the energy balance is
+/// closed. Printed at the end of a run, also of one that stops, and "answers" of summary.json.
 ///
-/// Every body is there from the start of a run, so that its clock counts from pouring.
+/// Every body exists from the start of a run, so times count from pouring.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ struct ValueAt {
   mesh::Point where{};  ///< of the nominal shape [m]
 };
 
-/// How far a cast body has come.
+/// Progress of the freezing of a cast body.
 struct CastAnswer {
   CastBody cast;
   bool there = true;               ///< false: it has left by now
@@ -56,8 +56,8 @@ struct Answers {
   };
   std::optional<CutOffPools> pools;
   std::vector<GapAnswer> gaps;        ///< by contact, those that are open somewhere
-  std::optional<ValueAt> distortion;  ///< of what is cast, the largest [m]
-  std::optional<ValueAt> stress;      ///< von Mises, the largest: of what is cast, else of all bodies [Pa]
+  std::optional<ValueAt> distortion;  ///< of cast bodies, the largest [m]
+  std::optional<ValueAt> stress;      ///< von Mises, the largest: of cast bodies, else of all [Pa]
   std::string stressed_body;
   std::optional<double> energy_defect;  ///< relative, as relative_energy_defect of the summary
 };

@@ -1,4 +1,4 @@
-/// How evenly work and memory lie on the processes.
+/// Balance of work and memory over the processes.
 #pragma once
 
 #include <string>

@@ -15,7 +15,8 @@
 
 namespace solidus::results {
 
-/// What a checkpoint must agree in with the case that reads it: name and text, compared one by one.
+/// Properties in which a checkpoint must agree with the case that reads it: name and text, compared one by
+/// one.
 using Fingerprint = std::vector<std::pair<std::string, std::string>>;
 
 struct Checkpoint {
@@ -26,7 +27,7 @@ struct Checkpoint {
   coupling::StabilityAudit stability = {};  ///< summed likewise
 };
 
-/// What is written, without a copy of the state.
+/// References to the data that are written, without a copy of the state.
 struct CheckpointView {
   const coupling::State& state;
   const coupling::Continuation& continuation;
@@ -57,7 +58,7 @@ class CheckpointFolder {
                   const coupling::State& layout) const;
 
  private:
-  /// Which of the two are there, as process 0 sees it.
+  /// Whether latest() and previous() exist, as process 0 sees it.
   std::pair<bool, bool> there() const;
 
   std::filesystem::path root_;

@@ -23,7 +23,7 @@ std::string element_path(std::size_t block, const std::string& name) {
   return "criteria/block_" + std::to_string(block) + "/" + name;
 }
 
-/// Where the rows of a column stand: all nodes, or the elements of a block.
+/// Rows of a column that belong to all nodes, or to the elements of a block.
 struct Part {
   std::size_t first = 0, owned = 0;      ///< rows of the column; those that this process writes
   std::span<const GlobalIndex> numbers;  ///< in the input, one per row

@@ -1,4 +1,4 @@
-/// What criteria remember, in a checkpoint: a table per column, by the numbers of nodes and elements.
+/// State of the criteria in a checkpoint: one table per column, by the numbers of nodes and elements.
 #pragma once
 
 #include <cstdint>

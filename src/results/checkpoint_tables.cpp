@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::int64_t k_rows_at_once = 1 << 16;
 constexpr std::size_t k_widest = 1 << 14;  ///< numbers in a row: of the points of one element
-/// What HDF5 writes beside the numbers, of a file and of a table, amply [bytes].
+/// Upper bounds of the bytes that HDF5 writes besides the numbers, for a file and for a table [bytes].
 constexpr std::int64_t k_of_file = 1 << 16, k_of_table = 1 << 12;
 
 /// Reserves the first bytes of a file; an error number where there is no room for them, else zero. A file
@@ -67,7 +67,7 @@ TableWriter::~TableWriter() {
   std::filesystem::remove(path_, ignored);
 }
 
-/// Goes on after a failure: the others would wait in what they do together.
+/// Continues after a failure: the other processes would wait in collective calls.
 void TableWriter::attempt(const std::function<void()>& work) {
   try {
     work();
@@ -93,7 +93,7 @@ bool TableWriter::reserve(std::int64_t more) {
 }
 
 void TableWriter::text(const std::string& name, const std::string& of_first) {
-  // Its length is part of what the processes create together.
+  // Its length is needed in the collective creation of the table.
   const std::string text = from_first(of_first);
   if (full_ || !reserve(static_cast<std::int64_t>(text.size()) + k_of_table)) return;
   if (file_) attempt([&] { file_->write_text(name, text); });
@@ -129,7 +129,7 @@ void TableWriter::finish(const std::function<void()>& last) {
       ftruncate(descriptor_, written.st_size) != 0)
     attempt(
         [&] { throw OutputError(path_.string(), std::string("cannot be cut: ") + std::strerror(errno)); });
-  together([&] {
+  run_collectively([&] {
     if (error_) std::rethrow_exception(error_);
   });
   on_first_process([&] { write_checksum(path_); });
@@ -139,18 +139,18 @@ void TableWriter::finish(const std::function<void()>& last) {
 
 TableReader::TableReader(std::filesystem::path path) : path_(std::move(path)) {
   on_first_process([&] { check_checksum(path_); });
-  together([&] { file_.emplace(path_, Hdf5File::Mode::read); });
+  run_collectively([&] { file_.emplace(path_, Hdf5File::Mode::read); });
 }
 
 std::string TableReader::text(const std::string& name) {
   std::string text;
-  together([&] { text = file_->read_text(name); });
+  run_collectively([&] { text = file_->read_text(name); });
   return text;
 }
 
 std::vector<double> TableReader::numbers(const std::string& name, std::size_t n) {
   std::vector<double> values(n);
-  together([&] {
+  run_collectively([&] {
     if (file_->rows(name) != static_cast<std::int64_t>(n) || file_->width(name) != 1)
       throw OutputError(path_.string(), "its '" + name + "' are not as many as they should be");
     file_->read_rows<double>(name, 0, values);
@@ -160,7 +160,7 @@ std::vector<double> TableReader::numbers(const std::string& name, std::size_t n)
 
 void TableReader::each(const std::string& keys, const std::string& values,
                        const std::function<void(std::int64_t, std::span<const double>)>& take) {
-  together([&] {
+  run_collectively([&] {
     const std::int64_t n_rows = file_->rows(values);
     const auto width = static_cast<std::size_t>(file_->width(values));
     if (file_->rows(keys) != n_rows || file_->width(keys) != 1 || width > k_widest)

@@ -1,4 +1,5 @@
-/// Elements of Abaqus and CalculiX for ours: names, and where their integration points are.
+/// Element types of Abaqus and CalculiX for the shapes of Solidus: names, and positions of their integration
+/// points.
 #pragma once
 
 #include <string>

@@ -12,7 +12,8 @@ namespace solidus::results {
 namespace {
 
 constexpr std::size_t k_most_modes = 6;
-/// What a degree of freedom does in each rigid motion; rotations about the centre, over the size of the part.
+/// Displacement of a degree of freedom in each rigid motion; rotations are about the centre, over the size of
+/// the part.
 using Row = std::array<double, k_most_modes>;
 
 double dot(const Row& a, const Row& b) {
@@ -22,7 +23,7 @@ double dot(const Row& a, const Row& b) {
 /// Motions that are held, as an orthonormal basis.
 class Held {
  public:
-  /// What a row holds that is not held yet.
+  /// Returns the part of a row that is orthogonal to the motions held already.
   Row rest(Row row) const {
     for (int turn = 0; turn < 2; ++turn)  // a second time for rounding
       for (const Row& held : basis_) {
@@ -48,14 +49,14 @@ class Held {
 };
 
 /// For each node the least node of its connected part; −1 where nothing is.
-std::vector<Index> connected_parts(const mesh::Mesh& mesh, const algebra::Presence& presence) {
+std::vector<Index> connected_parts(const mesh::Mesh& mesh, const algebra::ActiveSet& active) {
   std::vector<Index> part(mesh.x.size(), -1);
   const auto root = [&part](Index node) {
     while (part[static_cast<std::size_t>(node)] != node) node = part[static_cast<std::size_t>(node)];
     return node;
   };
   for (const mesh::Block& block : mesh.blocks) {
-    if (!presence.body(block.body)) continue;
+    if (!active.body(block.body)) continue;
     const int n = mesh::node_count(block.shape);
     for (Index e = 0; e < block.size(); ++e)
       for (int a = 0; a < n; ++a) {
@@ -134,11 +135,11 @@ std::map<Index, Part> parts_of(const mesh::Mesh& mesh, const std::vector<Index>&
 
 }  // namespace
 
-std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::Presence& presence,
+std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
                                     AnalysisKind kind, std::span<const char> fixed,
-                                    std::span<const std::vector<Index>> ties) {
+                                    std::span<const std::vector<Index>> constraints) {
   const auto components = static_cast<std::size_t>(displacement_components(kind));
-  const std::vector<Index> part_of = connected_parts(mesh, presence);
+  const std::vector<Index> part_of = connected_parts(mesh, active);
   std::vector<Index> supports;
   for (const auto& [first, part] : parts_of(mesh, part_of)) {
     const Motions motions(mesh, kind, part);
@@ -148,7 +149,7 @@ std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::Prese
         if (fixed[static_cast<std::size_t>(node) * components + k] != 0) held.add(motions.row(node, k));
     // Of degrees of freedom that move as one the differences are held; those of other parts hold nothing
     // here.
-    for (const std::vector<Index>& group : ties) {
+    for (const std::vector<Index>& group : constraints) {
       const auto n = static_cast<Index>(components);
       if (part_of[static_cast<std::size_t>(group[0] / n)] != first) continue;
       const Row leader = motions.row(group[0] / n, static_cast<std::size_t>(group[0] % n));

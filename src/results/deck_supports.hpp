@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
@@ -15,9 +15,9 @@ namespace solidus::results {
 /// axis of revolution), far from each other. They are statically determinate: of loads in equilibrium they
 /// take nothing.
 /// @param fixed  [node][component]: held
-/// @param ties   degrees of freedom that move as one
-std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::Presence& presence,
+/// @param constraints   degrees of freedom that move as one
+std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
                                     AnalysisKind kind, std::span<const char> fixed,
-                                    std::span<const std::vector<Index>> ties);
+                                    std::span<const std::vector<Index>> constraints);
 
 }  // namespace solidus::results

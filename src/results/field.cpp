@@ -30,7 +30,7 @@ const Field* FieldSet::find(std::string_view name) const {
 FieldSet FieldSet::select(const std::vector<std::string>& names) const {
   if (names.empty()) {
     FieldSet usual;
-    usual.presence_ = presence_;
+    usual.active_ = active_;
     for (const Field& field : fields_)
       if (!field.on_request) usual.add(field);
     return usual;
@@ -41,7 +41,7 @@ FieldSet FieldSet::select(const std::vector<std::string>& names) const {
     if (find(name) == nullptr)
       throw InputError({}, "this analysis has no field '" + name + "'", "fields: " + known);
   FieldSet chosen;
-  chosen.presence_ = presence_;
+  chosen.active_ = active_;
   for (const Field& field : fields_)
     if (std::find(names.begin(), names.end(), field.name) != names.end()) chosen.add(field);
   return chosen;

@@ -1,5 +1,5 @@
-/// The fields of one moment: what vtu writes and probes read. They are views of data that belongs to somebody
-/// else, or computed whenever somebody reads them, so that nobody has to hold them.
+/// The fields of one moment, which field files and probes read. They are views of data that other objects
+/// own, or are computed whenever they are read, so that they need not be stored.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
@@ -31,7 +31,8 @@ struct Field {
   std::span<const double> covered = {};
   bool on_request = false;  ///< written to files only where it is named
 
-  /// The values, computed ones in `storage`. Who reads several times keeps what it got.
+  /// Returns the values; computed ones are put into `storage`. They are computed at every call, so a caller
+  /// that needs them several times stores them.
   std::span<const double> read(std::vector<double>& storage) const;
 };
 
@@ -46,14 +47,14 @@ class FieldSet {
   /// InputError for a name that is not there.
   FieldSet select(const std::vector<std::string>& names) const;
 
-  /// Bodies have left: their cells are hidden, and they take no part in minima and maxima. Null: nobody has.
-  /// Must outlive the set.
-  void set_presence(const algebra::Presence* presence) { presence_ = presence; }
-  const algebra::Presence* presence() const { return presence_; }
+  /// Sets the active bodies. Cells of other bodies are hidden, and take no part in minima and maxima. Null:
+  /// all bodies are active. Must outlive the set.
+  void set_active(const algebra::ActiveSet* active) { active_ = active; }
+  const algebra::ActiveSet* active() const { return active_; }
 
  private:
   std::vector<Field> fields_;
-  const algebra::Presence* presence_ = nullptr;
+  const algebra::ActiveSet* active_ = nullptr;
 };
 
 /// Number of values a field of this place and number of components has on this process.

@@ -14,7 +14,7 @@ namespace solidus::results {
 
 namespace {
 
-// Group names are free text; file names keep what is safe everywhere.
+// Group names are free text; file names keep the characters that are safe on every system.
 std::string file_name(std::string text) {
   for (char& c : text)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
@@ -48,7 +48,7 @@ std::string FieldOutput::write_one(const std::string& name, const mesh::Surface*
   const auto part = [&](int process) {
     return size == 1 ? name + ".vtu" : fmt::format("{}_p{}.vtu", name, process);
   };
-  together([&] {
+  run_collectively([&] {
     if (surface != nullptr)
       write_surface_vtu(fields_ / part(rank), mesh_, *surface, fields, time);
     else

@@ -1,5 +1,5 @@
-/// Whether a file that HDF5 wrote is still what it was: a checksum over all of it, in the first bytes, which
-/// HDF5 leaves to its user (the user block).
+/// Integrity check of a file that HDF5 wrote: a checksum over all of it, in the first bytes, which HDF5
+/// leaves to its user (the user block).
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace solidus::results {
 
-inline constexpr std::size_t k_user_block = 512;  ///< bytes in front of what HDF5 writes
+inline constexpr std::size_t k_user_block = 512;  ///< bytes in front of the data of HDF5
 
 /// Writes size and checksum of everything behind the user block into it, and brings the file to the disk.
 /// Throws OutputError.
 void write_checksum(const std::filesystem::path& file);
 
-/// Throws OutputError where the file is not, byte for byte, what write_checksum() saw.
+/// Throws OutputError if the file is not, byte for byte, as write_checksum() found it.
 void check_checksum(const std::filesystem::path& file);
 
 }  // namespace solidus::results

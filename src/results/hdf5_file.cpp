@@ -61,8 +61,9 @@ bool holds(hid_t dataset) {
          H5Tget_size(type) == sizeof(T);
 }
 
-/// What HDF5 has not written and never will stays in its caches, and it tries once more when the program
-/// ends, which crashes. Its descriptor leads to memory from now on, where there is room.
+/// Lets HDF5 complete the writing of a file after an error. Data that it could not write stay in its caches,
+/// and it would try once more when the program ends, which crashes. So its descriptor is redirected to
+/// memory, where there is room.
 void let_writing_end(hid_t file) {
   void* handle = nullptr;
   const Hdf5Handle access(H5Fget_access_plist(file), H5Pclose);

@@ -1,5 +1,5 @@
-/// The few things of HDF5 that a checkpoint needs: tables of numbers and texts in one file, read by one
-/// process, written by one or by all together.
+/// The part of HDF5 that a checkpoint needs: tables of numbers and texts in one file, read by one process,
+/// written by one or by all together.
 #pragma once
 
 #include <hdf5.h>
@@ -38,11 +38,10 @@ class Hdf5Handle {
 class Hdf5File {
  public:
   enum class Mode { create, read };
-  /// @param writers  who creates the file together: then all of them call everything but write_rows() alike,
-  /// and
-  ///                 each writes rows of its own
+  /// @param writers  the processes that create the file: all of them call everything but write_rows() alike,
+  ///                 and each writes rows of its own
   Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm writers = MPI_COMM_SELF);
-  /// A file that was not closed is given up: what could not be written to it is forgotten.
+  /// Abandons a file that was not closed: data that could not be written to it are dropped.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;

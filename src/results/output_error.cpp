@@ -19,8 +19,8 @@ void throw_output_error(const std::string& message) {
 
 }  // namespace
 
-void together(const std::function<void()>& work) {
-  solidus::together(work, throw_output_error);
+void run_collectively(const std::function<void()>& work) {
+  solidus::run_collectively(work, throw_output_error);
 }
 
 void on_first_process(const std::function<void()>& work) {

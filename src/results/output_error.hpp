@@ -1,4 +1,4 @@
-/// What can go wrong when results are written, and how every process learns of it.
+/// Errors of writing results, and functions that make every process throw if one fails.
 #pragma once
 
 #include <functional>
@@ -24,9 +24,9 @@ class NotFiniteError : public std::runtime_error {
   NotFiniteError(const std::string& field, const std::string& where);
 };
 
-/// As solidus::together() of common_failure.hpp; the InputError of another process is an OutputError here.
-/// Collective.
-void together(const std::function<void()>& work);
+/// As solidus::run_collectively() of common_failure.hpp; the InputError of another process is an OutputError
+/// here. Collective.
+void run_collectively(const std::function<void()>& work);
 
 /// Runs `work` on process 0; if it throws there, every process throws. Collective.
 void on_first_process(const std::function<void()>& work);

@@ -22,7 +22,7 @@ class OutputFile {
 
   void write(std::string_view bytes);
   void write(std::span<const std::byte> bytes);
-  /// Hands everything to the system: what was flushed survives a kill of the program.
+  /// Hands all data to the system: flushed data survive a kill of the program.
   void flush();
   /// Flushes and closes. Errors that only show here (quota, network disk) would be lost in the destructor.
   void close();
@@ -36,15 +36,15 @@ class OutputFile {
   std::unique_ptr<std::FILE, Closer> file_;
 };
 
-/// Bytes set aside on disk until what stands before them is known. The file has no name, so nothing is left
-/// of it whatever happens. Every member throws OutputError with the path.
+/// Bytes reserved on disk until the data before them are known. The file has no name, so nothing is left of
+/// it whatever happens. Every member throws OutputError with the path.
 class SpoolFile {
  public:
   /// @param path  where it is made; tells the disk
   explicit SpoolFile(std::filesystem::path path);
 
   void write(std::span<const std::byte> bytes);
-  /// Over what was written at `at`.
+  /// Overwrites the data at `at`.
   void overwrite(std::uint64_t at, std::span<const std::byte> bytes);
   std::uint64_t size() const { return size_; }
   /// Everything, from the start.
@@ -61,8 +61,9 @@ class SpoolFile {
   std::uint64_t size_ = 0;
 };
 
-/// Writes to `path`.part and gives it its name when whole: whoever opens `path` sees the old file or the new
-/// one. Without commit() (an exception on the way) the part is removed and an older file stays as it was.
+/// Writes to `path`.part and gives it its name when whole: a program that opens `path` sees the old file or
+/// the new one. Without commit() (an exception on the way) the part is removed and an older file stays as it
+/// was.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

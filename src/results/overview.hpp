@@ -1,5 +1,5 @@
-/// What a case was understood to be, in a foundry engineer's numbers: the table of `solidus check`, also in
-/// summary.json.
+/// Overview of a case as the program has understood it, in a foundry engineer's numbers: the table of
+/// `solidus check`, also in summary.json.
 ///
 /// Volumes, areas and masses are those of the mesh as it is: in plane strain of one metre of thickness, in
 /// axisymmetry of the whole revolution.
@@ -30,17 +30,17 @@ struct BodyOverview {
 
 /// A skin and what it faces.
 struct SkinOverview {
-  std::string name;           ///< of the contact or condition
-  std::string surface, body;  ///< of the skin (of a contact: of the slave)
-  std::string faces;          ///< the surface, tool or surroundings on the other side
-  double area = 0;            ///< of the skin [m²]
-  double paired = 0;          ///< of it what has a partner; without contact all of it [m²]
+  std::string name;                              ///< of the contact or condition
+  std::string surface, body;                     ///< of the skin (of a contact: of the slave)
+  std::string faces;                             ///< the surface, tool or surroundings on the other side
+  double area = 0;                               ///< of the skin [m²]
+  double paired = 0;                             ///< the part with a partner; without contact all of it [m²]
   std::optional<double> least_gap, largest_gap;  ///< of a contact at the start, negative: overlap [m]
   double touching = 0;                           ///< gaps and overlaps up to this size count as none [m]
   std::string law;                               ///< "1000 W/m2/K, in the gap 420 to 600 W/m2/K"
 };
 
-/// What is poured, and how it is expected to freeze (model/freezing_estimate.hpp).
+/// Overview of a poured body, with the estimate of its freezing (model/freezing_estimate.hpp).
 struct PourOverview {
   std::string body;
   double pouring = 0, liquidus = 0, solidus = 0;  ///< temperatures [K]
@@ -71,8 +71,8 @@ struct Overview {
   std::optional<mesh::Point> gravity;  ///< [m/s²]; absent: no weight
   std::vector<PourOverview> pours;
   EffortOverview effort;
-  /// How long displacements and stresses are behind the temperatures of their time, where the scheme does
-  /// that: the step [s]; zero: as long as the step that is chosen.
+  /// Delay of displacements and stresses behind the temperatures of their time, if the scheme has one: the
+  /// step [s]; zero: the step that is chosen.
   std::optional<double> lag;
   double end = 0;  ///< of the run [s]
 };

@@ -282,7 +282,7 @@ Probes::Sample Probes::global_sample(const GlobalProbe& probe, const std::vector
 }
 
 void Probes::take(const Sample& sample, const Field& field, std::span<const double> values,
-                  const algebra::Presence* presence, Totals to) {
+                  const algebra::ActiveSet* active, Totals to) {
   const double sign = sample.reduce == Reduce::minimum ? -1.0 : 1.0;
   for (const auto& [entity, weight] : sample.weights) {
     const double value = component_of(field, values, entity, sample.component);
@@ -294,7 +294,7 @@ void Probes::take(const Sample& sample, const Field& field, std::span<const doub
     const auto raise = [&](double& peak) { peak = sign * value <= peak ? peak : sign * value; };
     raise(to.peak_of_all);
     const bool there =
-        presence == nullptr || field.place == Place::cell || presence->node(static_cast<Index>(entity));
+        active == nullptr || field.place == Place::cell || active->node(static_cast<Index>(entity));
     if (there) raise(to.peak);
   }
 }
@@ -304,7 +304,7 @@ std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Rea
   // half of the peaks counts bodies that have left too: for groups that are theirs alone.
   const std::size_t n_samples = samples_.size();
   std::vector<double> sums(n_samples, 0.0), peaks(2 * n_samples, 0.0);
-  const algebra::Presence* presence = fields.presence();
+  const algebra::ActiveSet* active = fields.active();
   std::map<const Field*, std::vector<std::size_t>> samples_of;  // a field is read once, one at a time
   for (std::size_t s = 0; s < n_samples; ++s) {
     const Sample& sample = samples_[s];
@@ -319,7 +319,7 @@ std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Rea
     std::vector<double> storage;
     const std::span<const double> values = field->read(storage);
     for (const std::size_t s : samples)
-      take(samples_[s], *field, values, presence, {sums[s], peaks[s], peaks[n_samples + s]});
+      take(samples_[s], *field, values, active, {sums[s], peaks[s], peaks[n_samples + s]});
   }
   const int n = static_cast<int>(n_samples);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), n, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);

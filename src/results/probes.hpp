@@ -98,12 +98,12 @@ class Probes {
   Sample group_sample(const mesh::Mesh& mesh, AnalysisKind kind, const GroupProbe& probe,
                       const Field& field) const;
   Sample linear_sample(const LinearProbe& probe) const;
-  /// What a sample adds to or raises, in SI; `peak` without bodies that have left.
+  /// Accumulators of a sample, in SI: sums and maxima. `peak` excludes bodies that have been removed.
   struct Totals {
     double &sum, &peak, &peak_of_all;
   };
   static void take(const Sample& sample, const Field& field, std::span<const double> values,
-                   const algebra::Presence* presence, Totals to);
+                   const algebra::ActiveSet* active, Totals to);
   static Sample global_sample(const GlobalProbe& probe, const std::vector<Reading>& globals);
 
   std::vector<Column> columns_;

@@ -1,4 +1,4 @@
-/// What the user sees of a run: one line a step, and on a terminal a bar below it.
+/// Progress of a run on the terminal: one line a step, and a bar below it.
 #pragma once
 
 #include <functional>

@@ -48,7 +48,7 @@ std::vector<Reading> global_readings(const coupling::Phases& phases, const Recor
   return options.stages ? with_stage(std::move(readings), 0, 0) : readings;
 }
 
-// A probe that samples what a criterion shows.
+// A probe that samples a field of a criterion.
 bool samples_criteria(const Probe& probe, const std::vector<criteria::FieldInfo>& fields) {
   return std::visit(
       [&](const auto& p) {

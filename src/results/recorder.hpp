@@ -33,13 +33,14 @@ struct RecorderOptions {
   bool stages = false;                      ///< the run has stages
   bool steady = false;                      ///< one state without a time: fields of it alone
   bool profile = false;                     ///< print where the wall time went
-  std::vector<CastBody> castings;           ///< what is poured
+  std::vector<CastBody> castings;           ///< the poured bodies
   Fingerprint fingerprint;                  ///< of the case, for checkpoints
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
-  Summary summary;  ///< what is known before the run: names, mesh, seconds of setting up
+  Summary summary;                          ///< known before the run: names, mesh, seconds of setting up
 };
 
-/// Throws what Recorder would: InputError for probes, profiles and fields that do not fit. Collective.
+/// Throws the exceptions that Recorder would throw: InputError for probes, profiles and fields that do not
+/// fit. Collective.
 void check_output(const mesh::Mesh& mesh, const coupling::Phases& phases, const RecorderOptions& options);
 
 class Recorder : public coupling::Observer {
@@ -62,7 +63,7 @@ class Recorder : public coupling::Observer {
   void write_fields(const coupling::State& state);
   void add_pools(const coupling::State& state);
   void note_left_walls(const coupling::StepRecord& record);
-  /// What the end of a run, or its stop, says and writes.
+  /// Prints and writes the conclusion at the end of a run, or at its stop.
   /// @param mechanical  stresses and gaps are those of the state
   void conclude(const std::string& outcome, const coupling::State& state, bool mechanical);
   void write_summary_file(const std::string& outcome, const coupling::State& state);

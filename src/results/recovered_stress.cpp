@@ -22,7 +22,7 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Which cell is which element.
+/// Element that a cell of the file corresponds to.
 struct Cell {
   const mesh::Block* block;
   Index element;

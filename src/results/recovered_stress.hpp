@@ -1,4 +1,5 @@
-/// Stresses at nodes from the means of the elements, so that a value at a surface is one.
+/// Recovers stresses at nodes from the means of the elements, so that values at a surface are those of the
+/// surface.
 ///
 /// Around each node of a body a linear function is fitted to the stresses of the elements that meet there, at
 /// their centroids, by least squares: superconvergent patch recovery (Zienkiewicz and Zhu 1992, Int. J.

@@ -82,7 +82,8 @@ bool strip_number(std::string_view& name, std::size_t least) {
   return true;
 }
 
-/// fields_00012.vtu, surface_NAME_00012_p3.vtu, their .pvtu lists, and what an interrupted run left of them.
+/// fields_00012.vtu, surface_NAME_00012_p3.vtu, their .pvtu lists, and files that an interrupted run left of
+/// them.
 bool is_field_file(std::string_view name) {
   if (!strip(name, ".part")) strip(name, ".spool");
   if (!strip(name, ".pvtu") && !strip(name, ".vtu")) return false;
@@ -141,7 +142,7 @@ bool RunFolder::is_taken(std::string_view file) {
   return std::find(k_files.begin(), k_files.end(), file) != k_files.end();
 }
 
-RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool go_on,
+RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool continued,
                      std::span<const std::string> tables)
     : root_(std::move(root)) {
   on_first_process([&] {
@@ -149,9 +150,9 @@ RunFolder::RunFolder(fs::path root, std::string_view resolved_case, bool go_on,
       const std::vector<std::string> ours = tables_of(root_ / "case.toml");
       check_owner(root_, ours, tables);
       fs::create_directories(fields());
-      if (!go_on) remove_old(root_, ours);
+      if (!continued) remove_old(root_, ours);
       // It is that of a finished run until this one has finished too.
-      if (go_on && !fs::is_symlink(summary())) fs::remove(summary());
+      if (continued && !fs::is_symlink(summary())) fs::remove(summary());
     } catch (const fs::filesystem_error& error) {
       throw OutputError(root_.string(), "cannot make the results folder: " + error.code().message(),
                         "choose another folder with -o");

@@ -30,9 +30,9 @@ class RunFolder {
   /// the folder cannot be made or written, or holds a case.toml, history.csv ... or a table that Solidus did
   /// not write.
   /// @param resolved_case  text of case.toml
-  /// @param go_on  a run goes on: what it left stays
+  /// @param continued a run is continued: its files are kept
   /// @param tables  names of further files that the run writes there
-  RunFolder(std::filesystem::path root, std::string_view resolved_case, bool go_on = false,
+  RunFolder(std::filesystem::path root, std::string_view resolved_case, bool continued = false,
             std::span<const std::string> tables = {});
   /// Whether the run itself writes a file of this name.
   static bool is_taken(std::string_view file);

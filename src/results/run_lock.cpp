@@ -33,7 +33,7 @@ std::string own_mark() {
   return fmt::format("process {} on {}\n", getpid(), host_name());
 }
 
-/// What a lock says of who made it; an empty host where it says nothing.
+/// Process that made a lock, as its file states; the host is empty if the file does not state it.
 struct Owner {
   long process = 0;
   std::string host;
@@ -78,7 +78,8 @@ class RunLock::Held {
     }
   }
   ~Held() {
-    // Removed before it is let go: whoever waits for it finds another file, or none, and tries again.
+    // The file is removed before the lock is released: a process that waits for it finds another file, or
+    // none, and tries again.
     ::unlink(path_.c_str());
     ::close(descriptor_);
   }

@@ -1,4 +1,5 @@
-/// One run a folder: two that write into one would leave the tables of one and the checkpoint of the other.
+/// Lock of a results folder, which allows one run at a time: two runs would leave the tables of one and the
+/// checkpoint of the other.
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,8 @@ namespace {
 struct FieldName {
   const char *name, *unit;
 };
-// Of contact surfaces; and what friction adds up, which a surface keeps when its partner has gone.
+// Fields of contact surfaces, and those that friction accumulates, which a surface keeps when its partner has
+// been removed.
 constexpr FieldName k_contact[] = {{"gap", "m"}, {"contact_pressure", "Pa"}, {"conductance", "W/m2/K"}};
 constexpr const char* k_internal_variable = "internal_variable";
 constexpr FieldName k_remembered[] = {{"slip", "m"},
@@ -26,7 +27,7 @@ constexpr FieldName k_remembered[] = {{"slip", "m"},
                                       {"friction_dissipation", "J/m2"},
                                       {"wear_depth", "m"}};
 
-/// Per area of what touches: a surface that is covered in part carries them there alone.
+/// Fields per area in contact: a surface that is covered in part carries them there alone.
 constexpr std::string_view k_of_area[] = {"contact_pressure", "contact_heat_flux", "frictional_heat_flux",
                                           "friction_traction"};
 
@@ -250,11 +251,11 @@ void StateFields::update_criteria(const coupling::State& state) {
 }
 
 void StateFields::update(const coupling::State& state) {
-  const algebra::Presence& there =
-      phases_.heat != nullptr ? phases_.heat->presence() : phases_.mechanics->presence();
-  const algebra::Presence* presence = there.complete() ? nullptr : &there;
-  bodies_.set_presence(presence);
-  for (auto& [name, fields] : surfaces_) fields.set_presence(presence);
+  const algebra::ActiveSet& there =
+      phases_.heat != nullptr ? phases_.heat->active() : phases_.mechanics->active();
+  const algebra::ActiveSet* active = there.complete() ? nullptr : &there;
+  bodies_.set_active(active);
+  for (auto& [name, fields] : surfaces_) fields.set_active(active);
   if (phases_.heat != nullptr) {
     std::copy(state.heat.temperature.begin(), state.heat.temperature.end(), by_name_["temperature"]->begin());
     const std::vector<double> solid = phases_.heat->solid_fraction(state.heat);
@@ -318,7 +319,8 @@ void StateFields::update_heat(const contact::ContactNodalFields& fields, std::sp
   show("frictional_heat_flux", fields.frictional_heat_flux);
 }
 
-// What surfaces remember of several pairs: the largest. Of the contact that is there: the closest partner's.
+// Updates the fields of friction. The history fields of a surface in several pairs are the largest of all
+// pairs; the fields of the present contact are those of the pair with the closest partner.
 void StateFields::update_friction(const contact::ContactNodalFields& fields, std::span<const char> closest) {
   const std::array<const std::vector<double>*, std::size(k_remembered)> remembered = {
       &fields.slip, &fields.internal_variable, &fields.coefficient, &fields.dissipation, &fields.wear_depth};

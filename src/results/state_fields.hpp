@@ -32,9 +32,9 @@ class StateFields {
   /// of their last solve). Fields of elements are computed when they are read, and stay those of this moment
   /// until the next call. Collective.
   void update(const coupling::State& state);
-  /// The same for what criteria show, which costs more and is asked for less often. Collective.
+  /// The same for the fields of criteria, which cost more and are needed less often. Collective.
   void update_criteria(const coupling::State& state);
-  /// Gives back the memory of what criteria show, up to 90 bytes a node; it reads as zero until the next
+  /// Frees the memory of the fields of criteria, up to 90 bytes a node; it reads as zero until the next
   /// update.
   void release_criteria();
 
@@ -71,7 +71,8 @@ class StateFields {
   algebra::GhostExchange ghosts_;
   std::vector<std::unique_ptr<Values>> values_;  // stable addresses: the sets hold views
   std::map<std::string, std::vector<double>*> by_name_;
-  /// Of the sides of each pair, slave and master: ∫ N_a dA, [local node], owned ones complete [m²].
+  /// Nodal areas of the sides of each pair, slave and master: ∫ N_a dA, [local node], owned ones complete
+  /// [m²].
   std::vector<std::array<std::vector<double>, 2>> side_area_;
   std::vector<double> covered_;  ///< Field::covered of tractions and fluxes of contact
   FieldSet bodies_;

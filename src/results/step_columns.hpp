@@ -1,4 +1,4 @@
-/// What the tables say about steps: the columns of steps.csv and the global columns of history.csv.
+/// Columns of the tables of steps: those of steps.csv and the global columns of history.csv.
 #pragma once
 
 #include <string>
@@ -61,7 +61,7 @@ class GlobalHistory {
   std::vector<Reading> all() const;
   const coupling::EnergyAudit& energy() const { return sum_; }
   const coupling::StabilityAudit& stability() const { return stability_; }
-  /// Of the steps together, as of coupling::relative_defect().
+  /// Relative defect of the first law over all steps, as coupling::relative_defect() defines it.
   double relative_defect() const;
 
  private:

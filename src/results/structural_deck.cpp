@@ -61,7 +61,7 @@ class Writer {
     sets();
     surfaces();
     for (std::size_t b = 0; b < d_.mesh.bodies.size(); ++b)
-      if (d_.presence.body(static_cast<int>(b))) material(b);
+      if (d_.active.body(static_cast<int>(b))) material(b);
     sections();
     equations();
     initial_conditions();
@@ -78,7 +78,7 @@ class Writer {
     out_ += '\n';
   }
   GlobalIndex node(Index local) const { return d_.mesh.input_node[static_cast<std::size_t>(local)]; }
-  bool there(std::size_t block) const { return d_.presence.body(d_.mesh.blocks[block].body); }
+  bool there(std::size_t block) const { return d_.active.body(d_.mesh.blocks[block].body); }
 
   void number_elements() {
     first_.resize(d_.mesh.blocks.size());
@@ -101,7 +101,7 @@ class Writer {
   void nodes() {
     line("*NODE, NSET={}", k_all);
     for (Index i = 0; i < d_.mesh.n_nodes(); ++i) {
-      if (!d_.presence.node(i)) continue;
+      if (!d_.active.node(i)) continue;
       mesh::Point x = d_.mesh.x[static_cast<std::size_t>(i)];
       for (std::size_t k = 0; k < components_ && !d_.displacement.empty(); ++k)
         x[k] += d_.displacement[static_cast<std::size_t>(i) * components_ + k];
@@ -143,7 +143,7 @@ class Writer {
     for (const auto& [name, set] : d_.mesh.node_sets) {
       std::vector<GlobalIndex> numbers;
       for (const Index i : set)
-        if (d_.presence.node(i)) numbers.push_back(node(i));
+        if (d_.active.node(i)) numbers.push_back(node(i));
       if (numbers.empty()) continue;
       line("*NSET, NSET={}", names_("nset", name));
       for (const GlobalIndex number : numbers) line("{},", number);
@@ -232,7 +232,7 @@ class Writer {
 
   void sections() {
     for (std::size_t b = 0; b < d_.mesh.bodies.size(); ++b) {
-      if (!d_.presence.body(static_cast<int>(b))) continue;
+      if (!d_.active.body(static_cast<int>(b))) continue;
       line("*SOLID SECTION, ELSET={}, MATERIAL={}", body_set(static_cast<int>(b)),
            names_("material", name_of(b)));
       if (d_.kind == AnalysisKind::plane_strain) line("1.,");
@@ -240,7 +240,7 @@ class Writer {
   }
 
   void equations() {
-    for (const std::vector<Index>& group : d_.ties)
+    for (const std::vector<Index>& group : d_.constraints)
       for (std::size_t i = 1; i < group.size(); ++i) {
         line("*EQUATION\n2");
         line("{}, {}, 1., {}, {}, -1.", node(node_of(group[i])), component_of(group[i]),
@@ -253,7 +253,7 @@ class Writer {
   void initial_conditions() {
     line("*INITIAL CONDITIONS, TYPE=TEMPERATURE");
     for (Index i = 0; i < d_.mesh.n_nodes(); ++i)
-      if (d_.presence.node(i)) line("{}, {:.10g}", node(i), d_.temperature[static_cast<std::size_t>(i)]);
+      if (d_.active.node(i)) line("{}, {:.10g}", node(i), d_.temperature[static_cast<std::size_t>(i)]);
     line("*INITIAL CONDITIONS, TYPE=STRESS");
     for (std::size_t b = 0; b < d_.mesh.blocks.size(); ++b) {
       if (!there(b)) continue;
@@ -294,7 +294,7 @@ class Writer {
     }
   }
 
-  /// What holds the bodies holds them where they are; what acts on them goes on.
+  /// Writes the step: supports hold the bodies where they are, and loads continue to act.
   void step() {
     line("*STEP");
     line("*STATIC");
@@ -303,7 +303,7 @@ class Writer {
     for (const double f : d_.force) largest = std::max(largest, std::abs(f));
     constexpr double k_rounding = 1e-12;
     for (Index i = 0; i < d_.mesh.n_nodes(); ++i) {
-      if (!d_.presence.node(i)) continue;
+      if (!d_.active.node(i)) continue;
       for (std::size_t k = 0; k < components_; ++k) {
         const std::size_t at = static_cast<std::size_t>(i) * components_ + k;
         if (d_.fixed[at] != 0) boundary += fmt::format("{}, {}, {}\n", node(i), k + 1, k + 1);

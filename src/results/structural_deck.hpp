@@ -1,6 +1,6 @@
 /// The end of a run as the start of a structural analysis: an input file for CalculiX or Abaqus with mesh,
-/// sets, materials, temperatures and residual stress as initial conditions, and one static step that keeps
-/// still.
+/// sets, materials, temperatures and residual stress as initial conditions, and one static step without
+/// further loading.
 ///
 /// The stress given is the one whose nodal forces ∫ Bᵀ σ dV are those of the run, so that it is in
 /// equilibrium there too: where the run has a constant volumetric mode (6.2), the pressure of an element is
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -28,7 +28,7 @@ struct StructuralDeck {
   std::string title;
   AnalysisKind kind = AnalysisKind::solid;
   const mesh::Mesh& mesh;
-  const algebra::Presence& presence;  ///< only bodies that are there are written
+  const algebra::ActiveSet& active;  ///< only active bodies are written
   std::span<const material::Material> materials;
   std::span<const double> displacement;  ///< [node][component] [m], added to the coordinates; empty: not
   std::span<const double> temperature;   ///< [node] [K]
@@ -40,8 +40,8 @@ struct StructuralDeck {
   std::vector<Index> supports =
       {};  ///< held besides, for want of contact (deck_supports.hpp), as [node][component]
   std::vector<std::string> body_names = {};  ///< of the element sets and materials; empty: those of the mesh
-  std::vector<std::vector<Index>> ties;      ///< degrees of freedom that move as one
-  std::vector<double> force;                 ///< of loads and contact, [node][component] [N]
+  std::vector<std::vector<Index>> constraints;  ///< degrees of freedom that move as one
+  std::vector<double> force;                    ///< of loads and contact, [node][component] [N]
 };
 
 /// Throws std::invalid_argument for a shape that neither program has.

@@ -1,4 +1,4 @@
-/// summary.json: how a run went, for people and for tests that watch time and memory.
+/// summary.json: the summary of a run, for people and for tests that check time and memory.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ PeakMemory peak_memory();
 struct ChosenMelt {
   std::string body;
   double modulus = 0;   ///< 2Ĝ of a step [Pa]
-  std::string against;  ///< what it was measured against
+  std::string against;  ///< the quantity it was measured against
 };
 
 /// Liquid metal that left its wall, over the steps since the run began or went on.
@@ -59,7 +59,7 @@ struct Summary {
   int steps = 0, rejected = 0;
   double end_time = 0;                                  ///< time reached [s]
   std::vector<std::pair<std::string, double>> seconds;  ///< by phase; "total" is the wall time
-  /// Where the wall time of process 0 went: parts that add up to `profile_total` (base/profile.hpp) [s].
+  /// Wall time of process 0 by parts of the program, which add up to `profile_total` (base/profile.hpp) [s].
   std::vector<std::pair<std::string, double>> profile;
   double profile_total = 0;
   PeakMemory memory;
@@ -71,7 +71,7 @@ struct Summary {
   std::optional<Answers> answers;  ///< absent in steady runs
   std::vector<ChosenMelt> melt;
   std::vector<LeftWall> left_walls;
-  std::optional<Overview> overview;  ///< what the case was understood to be
+  std::optional<Overview> overview;  ///< the case as it was understood
   std::vector<std::string> warnings;
 };
 

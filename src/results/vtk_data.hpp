@@ -36,7 +36,7 @@ constexpr std::string_view vtk_type<std::uint8_t>() {
 /// Text with the characters that XML reserves replaced.
 std::string xml_text(std::string_view text);
 
-/// What names an array: `name`, `components` per tuple, `unit` (may be empty).
+/// Header of an array: `name`, `components` per tuple, `unit` (may be empty).
 struct ArrayHead {
   std::string name;
   int components = 1;

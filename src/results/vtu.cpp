@@ -60,7 +60,7 @@ std::span<const int> vtk_node_order(Shape shape) {
 
 namespace {
 
-// What one file holds: the counted cells of some blocks and the nodes they touch.
+// Contents of one file: the counted cells of some blocks and the nodes they touch.
 struct Part {
   const Mesh& mesh;
   std::span<const Block> blocks;
@@ -176,7 +176,7 @@ std::string add_cells(AppendedData& data, const Part& part) {
   return connectivity + offsets + types;
 }
 
-// ' Scalars="temperature" Vectors="displacement"': what ParaView shows first.
+// Returns ' Scalars="temperature" Vectors="displacement"', the fields that ParaView shows first.
 std::string active(const FieldSet& fields, Place place) {
   std::string scalars, vectors;
   for (const Field& field : fields.all()) {
@@ -227,9 +227,9 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   });
   xml += add_of_cells<std::int32_t>(data, part, "body", [](const Block& block, Index) { return block.body; });
   xml += add_of_cells<std::int32_t>(data, part, "process", [rank](const Block&, Index) { return rank; });
-  if (const algebra::Presence* presence = fields.presence())
-    xml += add_of_cells<std::uint8_t>(data, part, k_ghost_type, [presence](const Block& block, Index) {
-      return block.body < 0 || presence->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
+  if (const algebra::ActiveSet* active_set = fields.active())
+    xml += add_of_cells<std::uint8_t>(data, part, k_ghost_type, [active_set](const Block& block, Index) {
+      return block.body < 0 || active_set->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
     });
   xml += "      </CellData>\n";
   xml += "      <Points>\n" + add_points(data, part) + "      </Points>\n";
@@ -271,7 +271,7 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::string
       if (field.place == Place::cell) xml += array(head_of(field), vtk_type<double>());
   xml += array({"element"}, vtk_type<std::int64_t>()) + array({"body"}, vtk_type<std::int32_t>()) +
          array({"process"}, vtk_type<std::int32_t>());
-  if (fields.presence() != nullptr) xml += array({k_ghost_type}, vtk_type<std::uint8_t>());
+  if (fields.active() != nullptr) xml += array({k_ghost_type}, vtk_type<std::uint8_t>());
   xml += "    </PCellData>\n    <PPoints>\n" + array({"Points", 3, "m"}, vtk_type<double>()) +
          "    </PPoints>\n";
   for (const std::string& part : parts) xml += fmt::format("    <Piece Source=\"{}\"/>\n", xml_text(part));

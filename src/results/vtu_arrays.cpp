@@ -99,7 +99,7 @@ VtuFile::VtuFile(const std::filesystem::path& file) : file_(file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) fail("the file cannot be read");
   content_.assign(std::istreambuf_iterator<char>(in), {});
-  // What follows the underscore of the appended data need not be text.
+  // The bytes after the underscore of the appended data need not be text.
   std::string xml = content_;
   const std::size_t tag = content_.find("<AppendedData");
   if (tag != std::string::npos) {

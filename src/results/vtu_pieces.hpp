@@ -1,4 +1,4 @@
-/// What stands in a VTK XML file of an unstructured grid: its pieces, their arrays and cells.
+/// Contents of a VTK XML file of an unstructured grid: its pieces, their arrays and cells.
 #pragma once
 
 #include <boost/property_tree/ptree.hpp>

@@ -99,7 +99,7 @@ TEST(AluminiumCylinder, EntropyFormLosesHeatAtFirstOrderInTheStep) {
 TEST(AluminiumCylinder, EnergyFormClosesTheFirstLaw) {
   const CaseRun r = small("energy", {"coupling.structural_heating=\"energy\""});
   ASSERT_TRUE(r.finished) << r.reason;
-  // What Newton's criterion of the thermal phase, 1e-9 of the heat moved, lets through.
+  // Newton's criterion of the thermal phase, 1e-9 of the heat moved, allows this defect.
   EXPECT_LT(relative_defect(r), 1e-8);
 }
 

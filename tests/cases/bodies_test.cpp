@@ -162,7 +162,7 @@ class Bodies : public ::testing::Test {
   }
 };
 
-/// What the energy audit of a finished run says, as a share of the heat moved.
+/// Defect of the energy audit of a finished run, as a share of the heat moved.
 double defect(const std::string& name) {
   return summary(name, "relative_energy_defect");
 }
@@ -212,15 +212,15 @@ TEST_F(Bodies, LeaveWithPressuresOfTheirOwn) {
         ASSERT_TRUE(r.finished) << name << ": " << r.reason;
         EXPECT_LT(at(r.history, "sxx[MPa]", 210), 10) << name;
         EXPECT_LT(std::abs(defect(name)), 1e-6) << name;
-        k_here.expect_to_go_on(name + "_on", k_shake_out, 10, overrides);
+        k_here.expect_exact_restart(name + "_on", k_shake_out, 10, overrides);
       }
 }
 
 TEST_F(Bodies, GoOnWithTheSameBitsBeforeAtAndAfterTheyLeave) {
-  k_here.expect_to_go_on("before", k_shake_out, 6);
-  k_here.expect_to_go_on("at", k_shake_out, 10);
-  k_here.expect_to_go_on("after", k_shake_out, 14);
-  k_here.expect_to_go_on("conducting", k_shake_out, 14, {"body.sand.physics=heat"});
+  k_here.expect_exact_restart("before", k_shake_out, 6);
+  k_here.expect_exact_restart("at", k_shake_out, 10);
+  k_here.expect_exact_restart("after", k_shake_out, 14);
+  k_here.expect_exact_restart("conducting", k_shake_out, 14, {"body.sand.physics=heat"});
 }
 
 TEST_F(Bodies, ARunThatStopsRightAfterItWentOnKeepsWhatItsSummarySaid) {
@@ -474,7 +474,7 @@ coefficient = "200 W/m2/K"
 ambient = "20 degC"
 )";
 
-// What a body that leaves takes away is no change that a step makes.
+// The heat of a body that is removed is no change by a step.
 TEST_F(Bodies, ThatLeaveAsMeltShortenNoStep) {
   const CaseRun r = k_here.run("riser", k_riser);
   ASSERT_TRUE(r.finished) << r.reason;
@@ -484,8 +484,8 @@ TEST_F(Bodies, ThatLeaveAsMeltShortenNoStep) {
   EXPECT_EQ(at(r.history, "solid_fraction[1]", 2.4), 1);
   const std::size_t in_pour = static_cast<std::size_t>(std::count_if(
       r.steps.at("time[s]").begin(), r.steps.at("time[s]").end(), [](double t) { return t <= 0.4; }));
-  k_here.expect_to_go_on("riser_at", k_riser, static_cast<int>(in_pour));
-  k_here.expect_to_go_on("riser_after", k_riser, static_cast<int>(in_pour) + 1);
+  k_here.expect_exact_restart("riser_at", k_riser, static_cast<int>(in_pour));
+  k_here.expect_exact_restart("riser_after", k_riser, static_cast<int>(in_pour) + 1);
 }
 
 TEST_F(Bodies, ThatLeaveAsMeltHaveNotFrozen) {

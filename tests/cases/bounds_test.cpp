@@ -70,7 +70,7 @@ class Sand : public testing::Test {
 };
 
 TEST_F(Sand, IsNotCooledByTheHeatThatComes) {
-  // What nodes on the interface have at the start lies between both bodies'.
+  // Nodes on the interface start between the temperatures of both bodies.
   const auto run = k_here.run("limited", k_case);
   EXPECT_GE(*std::ranges::min_element(run.history.at("coldest[degC]")), 20 - 1e-6);
   EXPECT_LE(*std::ranges::max_element(run.history.at("hottest[degC]")), 1300 + 1e-6);

@@ -41,8 +41,8 @@ class CaseFolder {
   }
   /// Runs until so many steps are taken, then goes on: the history must be, byte for byte, that of a run that
   /// never stopped (in NAME_whole).
-  void expect_to_go_on(const std::string& name, const std::string& text, int stop_after,
-                       const std::vector<std::string>& overrides = {}) const {
+  void expect_exact_restart(const std::string& name, const std::string& text, int stop_after,
+                            const std::vector<std::string>& overrides = {}) const {
     const std::string file = write(name + ".toml", text);
     const auto go = [&](const std::string& folder, bool restart, int steps) {
       model::RunOptions options;

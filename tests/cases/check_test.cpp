@@ -79,7 +79,8 @@ TEST(Check, EstimatesWhenCastingsAreSolid) {
   }
 }
 
-/// What the program prints for a case, without the line of what the run may cost, which goes by processes.
+/// Output of the program for a case, without the line on the effort of the run, which depends on the number
+/// of processes.
 std::string table(int processes) {
   const std::string command =
       "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "

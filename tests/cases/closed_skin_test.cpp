@@ -120,7 +120,7 @@ gas_conductivity = "0.06 W/m/K"
   return text;
 }
 
-/// What a run shows of its skin.
+/// Results of a run for its skin.
 struct Skin {
   double leaving_gap = 0;  ///< 1 % of the free contraction [m]
   double liquid_gap = 0;   ///< the largest where the skin was below coherency [m]
@@ -176,7 +176,7 @@ Skin pour(const std::string& name, bool solid, const std::string& material,
         continue;
       }
       skin.liquid_gap = std::max(skin.liquid_gap, fields.opening[i]);
-      // What a node shows is the mean over its points: of a skin that is liquid all over.
+      // The value of a node is the mean over its points, here of a skin that is liquid all over.
       if (most < 1) skin.heat_lost = std::max(skin.heat_lost, 1 - fields.conductance[i] / 2000);
     }
     if (most < k_thin) {
@@ -280,9 +280,9 @@ TEST(ClosedSkinRun, EverySchemeHasTheMeltThatTheProgramChose) {
 TEST(ClosedSkinRun, GoesOnFromACheckpointWithTheSameBits) {
   k_here.write("plate.geo", k_plate);
   k_here.write("range.toml", k_range);
-  k_here.expect_to_go_on("restart", casting(false, "range.toml"), 4,
-                         {"time.adaptive=true", "time.end=4 s", "contact.wall.normal=augmented_lagrangian",
-                          "output.checkpoint_every=1"});
+  k_here.expect_exact_restart("restart", casting(false, "range.toml"), 4,
+                              {"time.adaptive=true", "time.end=4 s",
+                               "contact.wall.normal=augmented_lagrangian", "output.checkpoint_every=1"});
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// What someone gets who sets no numerics: small problems with a known answer, scheme, order, tolerances and
-/// element as they come.
+/// Results without any numerical settings: small problems with a known answer, with the default scheme,
+/// order, tolerances and elements.
 #include <gtest/gtest.h>
 
 #include <algorithm>

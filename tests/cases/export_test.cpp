@@ -159,7 +159,7 @@ TEST(Export, BalancesMixedTrianglesAroundAnAxis) {
     for (const double value : f) EXPECT_NEAR(value, 0, 1e-6 * scale) << node;
 }
 
-/// What CalculiX makes of an exported file. Where it is not installed these tests say so and are skipped.
+/// Runs CalculiX on an exported file. If it is not installed these tests say so and are skipped.
 class CalculiX : public ::testing::Test {
  protected:
   void SetUp() override {

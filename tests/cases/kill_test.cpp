@@ -78,12 +78,12 @@ class Kill : public ::testing::Test {
   void SetUp() override {
     fs::remove_all(root());
     fs::create_directories(root());
-    // What killed processes leave of MPI's session.
+    // Folder for the files of MPI's session that killed processes leave.
     fs::create_directories(temporary());
     setenv("TMPDIR", temporary().c_str(), 1);
   }
   void TearDown() override {
-    // What a killed run leaves behind, the message layer may be removing at the same moment.
+    // The message layer may be removing the files of a killed run at the same moment.
     for (int i = 0; i < 50 && fs::exists(temporary()); ++i) {
       std::error_code error;
       fs::remove_all(temporary(), error);

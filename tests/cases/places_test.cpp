@@ -77,7 +77,7 @@ class Places : public ::testing::Test {
                   "# a scattered table\nr[mm],z[mm],t[s],q[kW/m2]\n0,100,0,-10\n20,100,0,-50\n"
                   "0,100,10,-30\n20,100,10,-80\n10,100,10,-40\n");
   }
-  /// What the program prints, run from the shell on some processes; its exit code in front.
+  /// Output of the program, run from the shell on some processes, with its exit code in front.
   std::string run(const std::string& name, const std::string& text, int processes = 1,
                   const std::string& more = {}) const {
     const std::string file = folder_.write(name + ".toml", text);
@@ -102,7 +102,7 @@ class Places : public ::testing::Test {
 };
 
 TEST_F(Places, ARestartGivesTheSameBits) {
-  folder_.expect_to_go_on("restart", k_block + k_spray, 5, {"output.checkpoint_every=1"});
+  folder_.expect_exact_restart("restart", k_block + k_spray, 5, {"output.checkpoint_every=1"});
 }
 
 TEST_F(Places, TwoProcessesGiveTheSameTemperatures) {

@@ -1,5 +1,5 @@
-/// What the results of whole runs say: of a steady state, of surfaces that are covered in part, of tables
-/// whose names others have.
+/// Results of whole runs: of a steady state, of surfaces that are covered in part, of tables with names that
+/// are taken.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -86,7 +86,7 @@ TEST(RigidSurface, ItsWorkIsInTheFirstLaw) {
   ASSERT_TRUE(r.finished) << r.reason;
   const double work = r.history.at("work[J]").back();
   EXPECT_GT(work, 10);
-  // What the iterations leave; without the tool's work all of it would be missing.
+  // The defect is the residual of the iterations; without the tool's work all of that work would be missing.
   EXPECT_NEAR(r.history.at("energy_defect[J]").back(), 0, 1e-3 * work);
 }
 
@@ -105,7 +105,7 @@ TEST(RigidSurface, ThatTurnsDragsTheBodyByFriction) {
 }
 
 TEST(RigidSurface, ARunGoesOnWithTheSameBits) {
-  k_here.expect_to_go_on("again", k_friction, 5, k_turn);
+  k_here.expect_exact_restart("again", k_friction, 5, k_turn);
   EXPECT_EQ(solidus::testing::read_csv(k_here.root() / "again_whole/history.csv").at("time[s]").size(), 9u);
 }
 

@@ -165,18 +165,18 @@ TEST(Stages, AToolIsLiftedAndBackInOneStep) {
 }
 
 TEST(Stages, ARunGoesOnInsideAStageWithTheSameBits) {
-  k_here.expect_to_go_on("inside_slide", k_strokes, 18);
-  k_here.expect_to_go_on("inside_return", k_strokes, 23);
+  k_here.expect_exact_restart("inside_slide", k_strokes, 18);
+  k_here.expect_exact_restart("inside_return", k_strokes, 23);
 }
 
 TEST(Stages, ARunGoesOnBetweenStagesWithTheSameBits) {
-  k_here.expect_to_go_on("between", k_strokes, 16);
+  k_here.expect_exact_restart("between", k_strokes, 16);
 }
 
 TEST(Stages, ARunGoesOnInsideAStageWithTheSameBitsOfATwoStepMethodAndAdaptiveSteps) {
-  k_here.expect_to_go_on("two_step", k_strokes, 18,
-                         {"mechanics.integration=bdf2", "body.lower.material=aluminium_99_7"});
-  k_here.expect_to_go_on("adaptive", k_strokes, 20, {"time.adaptive=true"});
+  k_here.expect_exact_restart("two_step", k_strokes, 18,
+                              {"mechanics.integration=bdf2", "body.lower.material=aluminium_99_7"});
+  k_here.expect_exact_restart("adaptive", k_strokes, 20, {"time.adaptive=true"});
 }
 
 TEST(Stages, InertiaGoesOnThroughThem) {
@@ -374,7 +374,7 @@ TEST(Stages, APartIsPouredCooledAndEjected) {
   EXPECT_NEAR(at(r, "T_mould[degC]", 52), at(r, "T_mould[degC]", 22),
               1e-6);  // insulated, of constant capacity: it keeps its mean
   EXPECT_LT(at(r, "heat_in[J]", 52), at(r, "heat_in[J]", 22));
-  // What is stored came in, through all switches.
+  // The stored heat equals the heat that came in, through all changes of stage.
   EXPECT_NEAR(at(r, "stored_heat[J]", 52), at(r, "heat_in[J]", 52), 1e-8 * at(r, "heat_exchanged[J]", 52));
   EXPECT_EQ(r.steps.at("time[s]").size(), 32u);
 }

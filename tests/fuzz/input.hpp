@@ -1,4 +1,4 @@
-/// What the targets have in common: the fuzzer's bytes as a file, and which exceptions are answers.
+/// Common part of the fuzz targets: the fuzzer's bytes as a file, and the exceptions that are valid answers.
 #pragma once
 
 #include <unistd.h>

@@ -143,7 +143,7 @@ TEST_F(ForeignFiles, MemoryAndTimeOfAReaderAreLimited) {
   expect_refused("export SOLIDUS_MESH_MEMORY='400 MB'; solidus check case.toml", {"part.geo"});
   write("part.geo", std::string(k_square) + "For i In {1:1e9}\n  a = i;\nEndFor\n");
   expect_refused("export SOLIDUS_MESH_TIME='2 s'; solidus check case.toml", {"part.geo", "longer than 2 s"});
-  // What takes long says that it goes on, and how long it may.
+  // A reader that takes long reports that it is running, and its limit of time.
   const Outcome slow = shell("export SOLIDUS_MESH_TIME='7 s'; solidus check case.toml");
   EXPECT_EQ(slow.code, 1);
   EXPECT_THAT(slow.said, AllOf(HasSubstr("is being read or meshed for 5 s"), HasSubstr("up to 7 s"),

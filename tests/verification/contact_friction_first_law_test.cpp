@@ -62,7 +62,7 @@ void balance(Shape shape, const contact::FrictionSpec& friction, int steps, cons
     const contact::ContactSums sums = blocks.sums();
     const double now_bodies = blocks.elastic_energy();
     const double now_stored = sums.energy + sums.work - sums.dissipation;
-    // What the supports do is in the bodies and in contact.
+    // The work of the supports is in the bodies and in contact.
     unbalanced = std::max(unbalanced, std::abs(w.support_work - w.internal_work - blocks.contact_work));
     const double lost =
         w.support_work - (now_bodies - bodies) - (now_stored - stored) - (sums.dissipation - dissipated);

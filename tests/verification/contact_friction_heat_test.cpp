@@ -245,7 +245,7 @@ TEST(FrictionHeat, OfTemperatureDependentHardeningKeepsTheEstimateWithIsentropic
     if (a.mechanical > 10 * a.tolerance) ++grows;
     EXPECT_LE(b.mechanical, b.tolerance) << "5.9a, step " << n;
     EXPECT_LE(b.increment(), b.tolerance) << "of both phases, step " << n;
-    // What the thermal phase gives back of the dissipation: 1 − Θ_a/Θ_c of it, not more.
+    // The thermal phase gives back at most the share 1 − Θ_a/Θ_c of the dissipation.
     EXPECT_LE(b.thermal, isentropic.steps[n].interface.dissipated) << "step " << n;
   }
   RecordProperty("steps_that_grow", grows);

@@ -202,8 +202,8 @@ TEST(ContactPatch, PassesOnFacesOfAnyForm) {
 }
 
 TEST(ContactPatch, FailsWithoutSegmentsByTheErrorOfIntegratingAcrossTheMastersEdges) {
-  // What segments are for: with points placed without regard to the master, its forces are not those of a
-  // uniform pressure.
+  // Segments are needed for this: with points placed without regard to the master, its forces are not those
+  // of a uniform pressure.
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   for (auto rule : {IntegrationRule::nodal, IntegrationRule::gauss}) {
     contact::ContactSpec spec = test::interface();

@@ -18,7 +18,7 @@
 
 namespace solidus::verification {
 
-/// What a run is made of. `form` absent: deformation exchanges nothing with heat.
+/// Input of a coupled run. `form` absent: deformation exchanges nothing with heat.
 struct Coupled {
   mesh::Mesh mesh;
   AnalysisKind kind = AnalysisKind::plane_strain;

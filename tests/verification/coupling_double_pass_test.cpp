@@ -104,8 +104,8 @@ TEST(DoublePass, ClosesTheFirstLawInTheEnergyFormForAnyStep) {
         }
 }
 
-// What theory says costs the second order, measured: yielding that begins now here, now there, and metal that
-// changes its phase between 550 and 450 K.
+// Measures the cases in which second order is lost by theory: yielding that begins at different times and
+// places, and metal that changes its phase between 550 and 450 K.
 TEST(DoublePass, LosesOrderWherePointsYieldAndPhasesChangeButStaysFarAheadOfTheSplit) {
   auto out = verification::table("coupling_double_pass_kinks", "case,dt[s],T[K],T_max[K],u[m]");
   const std::vector<int> n_steps{16, 32, 64, 128};

@@ -83,7 +83,7 @@ TEST(EntropyForm, LosesLittleAndMoreInLongSteps) {
   EXPECT_LT(std::abs(sums[2]), std::abs(sums[1]));
 }
 
-// What the criteria of the phases let through: 1e-12 of the heat, 1e-11 of the forces.
+// Bound of the defect for the criteria of the phases: 1e-12 of the heat, 1e-11 of the forces.
 constexpr double k_closed = 1e-8;
 
 TEST(EnergyForm, ClosesTheFirstLawForAnyStepInBothSplits) {

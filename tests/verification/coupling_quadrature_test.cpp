@@ -41,7 +41,7 @@ TEST(MixedQuadrature, LosesNoEnergyBetweenTheRules) {
         c.integration = rule;
         c.mapping = mapping;
         const CoupledRun run = verification::march(c, 8, 4);
-        // What Newton's criteria let through: 1e-12 of the heat, 1e-11 of the forces.
+        // Newton's criteria are 1e-12 of the heat and 1e-11 of the forces.
         EXPECT_LT(run.worst_defect(), 1e-10 * run.exchanged()) << mesh::name(shape);
         EXPECT_LT(std::abs(run.defect()), 1e-10 * run.exchanged()) << mesh::name(shape);
       }

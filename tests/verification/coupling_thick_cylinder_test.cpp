@@ -114,7 +114,7 @@ TEST(IsentropicSplit, EnergyFormClosesTheFirstLawForAnyStepAndCoupling) {
       }
 }
 
-/// What becomes of the isothermal split with six times the expansion, as far as temperatures are positive.
+/// The isothermal split with six times the expansion, as long as temperatures are positive.
 struct BlowUp {
   int steps = 0;                ///< with positive temperatures
   int functional_grows = 0;     ///< the first step that raises 𝓛

@@ -53,7 +53,7 @@ Coupled driven(const Motion& motion, bool plastic) {
   return c;
 }
 
-/// What energies move: heat, and kinetic energy back and forth [J].
+/// Sum of the energies exchanged: heat, and kinetic energy back and forth [J].
 double exchanged(const CoupledRun& run) {
   double kinetic = 0;
   for (const auto& step : run.steps) kinetic += std::abs(step.kinetic);

@@ -11,7 +11,7 @@
 
 namespace solidus::verification {
 
-/// What the criteria say at the end, by field [local node].
+/// Values of the criteria at the end, by field [local node].
 using Fields = std::map<std::string, std::vector<double>>;
 
 /// Runs until `end` in equal steps, or until everything has frozen.

@@ -77,7 +77,7 @@ double difference(const Coupled& c, const coupling::State& state, double volume_
   return algebra::global_max(worst) / std::abs(k_volume_change / 3 * k_size);
 }
 
-/// What the block is off its size, largest over the steps, and the sum of the defects over the heat drawn.
+/// Error of the block's size, largest over the steps, and the sum of the defects over the heat drawn.
 struct Result {
   double size = 0, defect = 0, frozen = 0;
 };

@@ -15,7 +15,7 @@ constexpr double k_tau = k_eta * k_fraction / (2 * k_shear_modulus * k_lambda);
 constexpr double k_stiffness = 1 / (1 / (9 * k_bulk) + k_fraction / (3 * k_shear_modulus));
 constexpr double k_tau_uniaxial = 3 * k_eta / (2 * k_lambda * k_stiffness);
 constexpr double k_at_once = 1e-9;  // of a relaxation time: a jump
-/// What the jump relaxes, and the tolerance of the solution under stress.
+/// Relaxation during the jump, and the tolerance of the solution under stress.
 constexpr double k_accuracy = 4e-9;
 
 material::Material mush() {

@@ -100,7 +100,7 @@ TEST(MeltColumn, OfStabilisedSimplicesCarriesTheHydrostaticPressureAndStaysAtRes
                mapping == mechanics::Mapping::isothermal ? "isothermal" : "isentropic", viscosity,
                c.element.name, c.kind == AnalysisKind::axisymmetric ? "axisymmetric" : "", e.pressure,
                e.displacement, e.iterations);
-        // What Newton's criterion leaves. The nodes of a linear element cannot sink along a parabola.
+        // Bound by Newton's criterion. The nodes of a linear element cannot sink along a parabola.
         EXPECT_LT(e.pressure, 1e-4) << c.element.name;
         EXPECT_LT(e.displacement, 0.05) << c.element.name;
       }

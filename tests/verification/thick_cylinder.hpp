@@ -113,7 +113,7 @@ struct Functional {
   }
 };
 
-/// What the reference's histories say of a time.
+/// Values of the reference's histories at a time.
 struct ReferenceRow {
   Surfaces surfaces;
   Functional functional;

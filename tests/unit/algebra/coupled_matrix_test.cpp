@@ -38,7 +38,7 @@ struct System {
       if (g / 6 == 0) fixed_t[fields * i] = 1;
     }
     u.set_fixed(fixed_u);
-    u.tie({tied});
+    u.constrain({tied});
     t.set_fixed(fixed_t);
     coupled = std::make_unique<CoupledMatrix>(grid.mesh, u, t);
     fill();
@@ -75,12 +75,12 @@ struct System {
                   (row == column && f == g ? 4 : 0);
         }
   }
-  /// What is left of the right-hand side, by the products of the blocks.
+  /// Residual of the right-hand side, by the products of the blocks.
   double defect(const std::vector<double>& force, const std::vector<double>& heat, std::vector<double> du,
                 std::vector<double> dt) {
     const GhostExchange ghosts(grid.mesh);
     const auto n = static_cast<std::size_t>(grid.mesh.n_owned_nodes);
-    u.ties().share(std::span(du).first(2 * n));
+    u.constraints().share(std::span(du).first(2 * n));
     for (std::size_t i = 0; i < 2 * n; ++i)
       if (u.fixed()[i]) du[i] = 0;
     for (std::size_t i = 0; i < fields * n; ++i)
@@ -96,7 +96,7 @@ struct System {
     for (std::size_t i = 0; i < fields * n; ++i) rt[i] += part[i] - heat[i];
     for (std::size_t i = 0; i < 2 * n; ++i)
       if (u.fixed()[i]) ru[i] = 0;
-    u.ties().sum(ru);
+    u.constraints().sum(ru);
     double worst = 0;
     for (std::size_t i = 0; i < 2 * n; ++i)
       if (!u.fixed()[i]) worst = std::max(worst, std::abs(ru[i] - force[i]));
@@ -121,7 +121,7 @@ TEST(CoupledSolver, SolvesBothFieldsWithWhatIsPrescribedAndTied) {
       force[i] = s.u.fixed()[i]
                      ? 0.0
                      : std::sin(static_cast<double>(2 * s.grid.mesh.global_node[i / 2] + (i % 2 ? 1 : 0)));
-    s.u.ties().sum(force);
+    s.u.constraints().sum(force);
     for (std::size_t i = 0; i < heat.size(); ++i)
       heat[i] =
           s.t.fixed()[i]

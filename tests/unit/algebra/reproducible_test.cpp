@@ -32,7 +32,7 @@ TEST(Reproducible, MultigridOfBlocks) {
 
 TEST(Reproducible, MultigridOfTiedUnknowns) {
   Springs springs(40);
-  springs.matrix.tie({springs.side()});
+  springs.matrix.constrain({springs.side()});
   expect_same_bits([&] { return solution(springs, SolverKind::multigrid); });
 }
 
@@ -71,7 +71,7 @@ struct BothFields {
     NodeGraph graph(springs.grid.mesh);
     graph.add_cliques(springs.grid.quads, 4);
     conduction = std::make_unique<BlockMatrix>(springs.grid.mesh, 1, std::move(graph));
-    if (tied) springs.matrix.tie({springs.side()});
+    if (tied) springs.matrix.constrain({springs.side()});
     coupled = std::make_unique<CoupledMatrix>(springs.grid.mesh, springs.matrix, *conduction);
     const std::span<const std::int64_t> start = springs.matrix.row_start();
     for (Index row = 0; row < springs.grid.mesh.n_owned_nodes; ++row)
@@ -94,7 +94,7 @@ TEST(Reproducible, SolversOfBothFields) {
         CoupledSolver solver(both.springs.grid.mesh, 2, kind, 1e-10);
         const std::size_t n = both.springs.n_owned();
         std::vector<double> force = both.springs.pattern(0.7), x(n + n / 2);
-        both.springs.matrix.ties().sum(force);
+        both.springs.matrix.constraints().sum(force);
         const std::vector<double> heat(n / 2, 1.0);
         const LinearReport report = solver.solve(*both.coupled, force, heat, {1.0, 0.5},
                                                  std::span(x).first(n), std::span(x).subspan(n));

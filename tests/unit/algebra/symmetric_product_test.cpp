@@ -39,7 +39,7 @@ struct Halved {
         for (int a = 0; a < size; ++a)
           for (int b = 0; b < size; ++b)
             values.push_back(static_cast<Number>(entry(row, a, column[static_cast<std::size_t>(s)], b)));
-    // What is read beyond the last block must not matter.
+    // Values beyond the last block must not matter.
     values.resize(values.size() + 7, static_cast<Number>(1e3));
     return values;
   }

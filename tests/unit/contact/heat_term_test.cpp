@@ -120,7 +120,7 @@ TEST(FrictionalHeat, ReachesTheBodiesButForWhatTheInterfaceStores) {
           heat -= q * k_dt;
           size += std::abs(q) * k_dt;
         }
-        const InterfaceSums sums = pair.settle(temperature);
+        const InterfaceSums sums = pair.commit_heat(temperature);
         EXPECT_GT(sums.dissipated, 0);
         EXPECT_NE(sums.stored, 0) << "hardening stores entropy";
         EXPECT_NEAR(algebra::global_sum(heat), sums.dissipated - sums.stored,
@@ -135,7 +135,7 @@ TEST(FrictionalHeat, RaisesTheInterfaceAboveBothBodies) {
   ContactPair pair(mesh, AnalysisKind::plane_strain, s);
   const std::vector<double> equal(mesh.x.size(), 400.0);
   slide(mesh, pair, equal);
-  pair.settle(equal);
+  pair.commit_heat(equal);
   for (const PointState& point : pair.state().points) {
     // (h_1 + h_2) (Θ_c − Θ) = D with h_1 = h_2 = 2 h.
     if (point.status == PointStatus::open) continue;

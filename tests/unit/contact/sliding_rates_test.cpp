@@ -9,7 +9,7 @@ namespace {
 using test::Asked;
 using test::Sliding;
 
-// What is differenced: g_N, ΔG, the carried traction and n.
+// Quantities that are differenced: g_N, ΔG, the carried traction and n.
 struct Seen {
   Index face = -1;
   Partner::Region region = Partner::Region::face;

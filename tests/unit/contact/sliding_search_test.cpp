@@ -76,7 +76,7 @@ TEST(SlidingSearch, FindsThePartnersOfBruteForceWhereverTheSurfaceHasMovedAndWha
   }
 }
 
-// What is left out must not matter: the closest face is never one of those that are watched.
+// Points that are left out must not matter: their closest face is never one of those that are watched.
 TEST(SlidingSearch, NeverLeavesOutAPointThatMeetsAWatchedFace) {
   std::vector<Face> faces = landscape(12, 5, 0.4);
   SlidingSearch search(faces, 0.02);

@@ -46,7 +46,7 @@ double solid_fraction_of(const State& state) {
   return 1 - state.heat.temperature.front() / k_start;
 }
 
-/// What the fake schemes saw and shall do.
+/// Calls that the fake schemes have received, and their scripted behaviour.
 struct Script {
   std::set<int> fail_at;             ///< calls of advance() that are rejected, from 1
   double jump_at = 1e300, jump = 0;  ///< a load that all nodes follow at once [s], [K]
@@ -136,7 +136,7 @@ TEST_P(Adaptive, TheEstimateIsTheErrorThatAStepCommits) {
   const double share = GetParam() == ErrorControl::doubling ? 0.5 : 1.0;
   for (std::size_t n = 1; n < diary_.steps.size(); ++n) {
     const double exact = share * committed_by_backward_euler(before(n), diary_.steps[n].dt);
-    // What the estimate leaves out is of third order in the step.
+    // The part that the estimate neglects is of third order in the step.
     EXPECT_NEAR(diary_.steps[n].temperature_error, exact, diary_.steps[n].dt * exact) << "step " << n + 1;
   }
 }
@@ -229,7 +229,7 @@ TEST_P(Adaptive, ARepeatedStepStartsFromTheSameBits) {
                                    [&](const State& s) { return s.time == start.time; });
     EXPECT_TRUE(committed || half) << "t = " << start.time;
   }
-  // What follows from the state was brought back each time.
+  // Quantities that follow from the state were restored each time.
   EXPECT_GE(script_.synchronised, 1 + diary_.rejected());
 }
 
@@ -356,7 +356,7 @@ TEST(BodyNorm, OfADistortionTakesRigidMotionsAway) {
       round(flat, AnalysisKind::axisymmetric);
   EXPECT_LT(in_plane.of_distortion(field(flat, AnalysisKind::plane_strain, flat_rigid), {}), 1e-6);
   EXPECT_LT(in_space.of_distortion(field(block, AnalysisKind::solid, rigid), {}), 1e-6);
-  // What is left does not depend on the rigid motion beside it, and no rigid motion makes it smaller.
+  // The distortion does not depend on the rigid motion beside it, and no rigid motion makes it smaller.
   const auto bent = [&](const mesh::Point& x) -> mesh::Point {
     const mesh::Point a = rigid(x), b = bend(x);
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -384,7 +384,7 @@ TEST(BodyNorm, OfADistortionTakesRigidMotionsAway) {
 struct HalfMolten {
   mesh::Mesh mesh = test::make_mesh({.shape = mesh::Shape::quad4, .cells = {8, 2, 1}, .size = {2, 1, 1}});
   std::vector<material::Material> materials = {freezes()};
-  coupling::Coherency coherency{mesh, materials, algebra::Presence(mesh, {})};
+  coupling::Coherency coherency{mesh, materials, algebra::ActiveSet(mesh, {})};
   coupling::Phases phases;
 
   static material::Material freezes() {
@@ -419,7 +419,7 @@ TEST(DisplacementError, MeltThatFlowsCostsNoStep) {
   coupling::Rates rates = estimate.rates_of(rest, rest, 1);
   EXPECT_EQ(estimate.predictor(rest, body.moved(5, 0), 1, rates).displacement, 0);
   EXPECT_EQ(estimate.doubling(rest, rest, body.moved(5, 0), {}).displacement, 0);
-  // What is coherent counts with its share of the body's volume: nine of seventeen columns of nodes.
+  // Coherent nodes count with their share of the body's volume: nine of seventeen columns of nodes.
   const double half = std::sqrt(0.5 + 1.0 / 16);
   EXPECT_NEAR(estimate.doubling(rest, rest, body.moved(5, 3), {}).displacement, 3 * half, 1e-12);
   EXPECT_NEAR(estimate.predictor(rest, body.moved(5, 3), 1, rates).displacement, 1.5 * half, 1e-12);

@@ -205,7 +205,7 @@ TEST(ContactWork, OfARigidPlaneCountsWhatItMeetsWithinTheStep) {
   }
 }
 
-/// What the balance of forces does on contact in a step with inertia, and what the pair says of it [J].
+/// Work of the balance of forces on contact in a step with inertia, and the work that the pair reports [J].
 struct WorkOnContact {
   double balance = 0, pair = 0;
 };

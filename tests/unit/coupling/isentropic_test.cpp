@@ -1,4 +1,4 @@
-/// What the splits ask of their phases.
+/// Requirements of the splits on their phases.
 #include "coupling/isentropic.hpp"
 
 #include <gtest/gtest.h>

@@ -207,8 +207,8 @@ Model pulled(StructuralForm form, double pull = 1e-4, Shape shape = Shape::quad4
                });
 }
 
-/// What the tests below go through: with a pressure and without, with sub-scales that the factors see and
-/// others that they do not.
+/// Parameters of the tests below: with and without a nodal pressure, with sub-scales that are in the factors
+/// and with others that are not.
 struct Elements {
   Shape shape;
   mechanics::Stabilisation stabilisation = mechanics::Stabilisation::automatic;

@@ -116,7 +116,7 @@ TEST_P(LeavingBodies, CarryTheHeatThatIsMissingAfterwards) {
   heat::Conditions later;
   later.absent_bodies = {"right"};
   EXPECT_NEAR(phase.set_conditions(later, &state), 0.03 * 0.02 * 2.5e6 * 100, 1e-6);
-  // Where a run goes on, they have taken it before.
+  // In a run that is continued, the heat of the bodies was removed before.
   EXPECT_EQ(phase.set_conditions(later), 0);
 }
 

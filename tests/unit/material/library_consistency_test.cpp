@@ -1,4 +1,4 @@
-/// What every card of the library must keep, whatever its source: physics that no handbook contradicts.
+/// Physical laws that every card of the library must obey, whatever its source.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ bool conducts_like_a_metal(const Material& m) {
   return m.conductivity.value(k_room) > 10;
 }
 
-/// Where the solid ends, or the data.
+/// Temperature at which the solid ends, or the data.
 double hottest_solid(const Material& m) {
   if (m.solidification() != nullptr) return m.solidification()->fraction.solidus();
   double hottest = 0;

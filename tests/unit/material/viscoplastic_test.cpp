@@ -1,4 +1,4 @@
-/// What the viscoplastic law promises: its own equations, its limits, its dissipation.
+/// Properties of the viscoplastic law: its equations, its limits, its dissipation.
 #include "material/viscoplastic.hpp"
 
 #include <gtest/gtest.h>

@@ -62,7 +62,7 @@ double frequency(MassKind mass) {
   return std::sqrt((mass == MassKind::lumped ? 2 : 3) * k_young / k_density) / k_length;
 }
 
-/// Where all held nodes are at zero, a negative displacement of the others is the least one.
+/// Displacement of the free nodes with its sign: the one of the largest magnitude. Held nodes are at zero.
 double moving(const std::vector<double>& field) {
   std::vector<double> turned = field;
   for (double& v : turned) v = -v;

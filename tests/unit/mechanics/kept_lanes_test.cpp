@@ -1,4 +1,4 @@
-// What of a point's history is kept: the parts of the law's state that the material can change.
+// Stored part of a point's history: the members of the law's state that the material can change.
 #include <gtest/gtest.h>
 
 #include "mechanics/law_parts.hpp"
@@ -41,7 +41,7 @@ TEST(KeptLanes, ABlockThatTakesPartHasAHistory) {
   EXPECT_EQ(kept_lanes(material::Viscoelastic(elastic_material(2e11, 0.3, 1e-5))).size(), 1U);
 }
 
-// What is not kept starts every step from zero: the law must not miss it.
+// Members that are not stored start every step from zero: the law must not read them.
 TEST(KeptLanes, TheLawDoesNotReadWhatIsNotKept) {
   const Material m = plastic_material(KinematicHardening::none);
   const material::Viscoplastic law(m);

@@ -34,13 +34,13 @@ mesh::RawMesh rod_with_disc(int n_along, double off_axis) {
   return raw;
 }
 
-// What lies on the axis is a share of the largest radius of all: by the rod's alone, 1e-3 m, its nodes at
-// 5e-12 m would be beside the axis for a process that has nothing of the disc.
+// The tolerance of the axis is a share of the largest radius of all processes: by the rod's alone, 1e-3 m,
+// its nodes at 5e-12 m would be beside the axis for a process that has nothing of the disc.
 TEST(Loads, NodesOnTheAxisAreHeldWhateverProcessHasThem) {
   const mesh::Mesh mesh = mesh::distribute(rod_with_disc(40, 5e-12), {"rod"}, {});
-  const algebra::Presence presence(mesh);
+  const algebra::ActiveSet active(mesh);
   const std::vector<double> start(2 * mesh.x.size(), 0.0);
-  const mechanics::Loads loads(mesh, AnalysisKind::axisymmetric, {}, presence, start);
+  const mechanics::Loads loads(mesh, AnalysisKind::axisymmetric, {}, active, start);
   double held = 0;
   for (Index node = 0; node < mesh.n_nodes(); ++node) {
     const auto i = static_cast<std::size_t>(node);

@@ -68,7 +68,7 @@ struct Mixed {
         materials{s.plastic ? mushy() : test::elastic_material(2e11, 0.49, 1e-5)},
         temperature(mesh.x.size(), 350.0),
         ghosts(mesh),
-        balance(mesh, algebra::Presence(mesh), components) {
+        balance(mesh, algebra::ActiveSet(mesh), components) {
     for (Index node = 0; node < mesh.n_nodes(); ++node)
       for (int i = 0; i < components; ++i) x.push_back(1e-3 * std::sin(1.3 * number(node, i)));
     for (const mesh::Block& block : mesh.blocks)

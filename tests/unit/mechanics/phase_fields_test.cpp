@@ -1,4 +1,4 @@
-/// Where mechanics has its phases from.
+/// Phase fractions of the mechanical phase.
 #include "mechanics/phase_fields.hpp"
 
 #include <gmock/gmock.h>

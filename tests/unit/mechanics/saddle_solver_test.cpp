@@ -24,7 +24,7 @@ material::Material alloy(double viscosity) {
   return m;
 }
 
-/// Where the metal has frozen: nowhere, in the outer fifth, or in the elements at the corners alone.
+/// Frozen part of the metal: none, the outer fifth, or the elements at the corners alone.
 enum class Frozen { nowhere, shell, corners };
 
 /// A cube of tetrahedra on its bottom; steps of 1 s.

@@ -14,7 +14,7 @@
 
 namespace {
 
-/// What METIS answers, other than METIS_OK: it was not asked.
+/// Simulated answer of METIS; if it is not METIS_OK, METIS is not called.
 int answer_of_metis = METIS_OK;
 
 }  // namespace
@@ -232,7 +232,7 @@ TEST(CommonFailure, IsOfTheSameKindOnEveryProcess) {
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
   const auto last = [&](auto error) {
-    together([&] {
+    run_collectively([&] {
       if (rank == n_processes - 1) throw error;
     });
   };
@@ -247,7 +247,7 @@ TEST(CommonFailure, IsOfTheSameKindOnEveryProcess) {
     EXPECT_THROW(last(std::string("a library's complaint")), std::string);
   }
   EXPECT_THROW(on_first_process([] { throw std::bad_alloc(); }), std::bad_alloc);
-  EXPECT_NO_THROW(together([] {}));
+  EXPECT_NO_THROW(run_collectively([] {}));
 }
 
 }  // namespace

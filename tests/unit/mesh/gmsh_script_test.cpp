@@ -35,7 +35,7 @@ class Scripts : public ::testing::Test {
     std::ofstream(path, std::ios::binary) << text;
     return path.string();
   }
-  /// What the check says of a script; "nothing" where it is content.
+  /// Message of the check on a script; "nothing" if it has no objection.
   std::string said_of(const std::string& text) const {
     try {
       mesh::check_gmsh_script(write("part.geo", text));

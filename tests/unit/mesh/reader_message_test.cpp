@@ -1,4 +1,4 @@
-// What goes between the program and the reader of meshes, and what the reader may still do.
+// Messages between the program and the reader of meshes, and the restrictions of the reader.
 #include "mesh/reader_message.hpp"
 
 #include <fcntl.h>
@@ -107,7 +107,7 @@ TEST(ReaderMessage, ADamagedByteNeverTakesTheProgramDown) {
   }
 }
 
-/// What a process of its own returns.
+/// Exit code of `work` in a process of its own.
 int in_child(int (*work)()) {
   const pid_t child = fork();
   if (child == 0) _exit(work());

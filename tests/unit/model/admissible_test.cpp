@@ -80,7 +80,7 @@ pressure = "3 MPa"
                   .holds());
 }
 
-/// What is logged while something runs.
+/// Returns the warnings that are logged during `action`.
 std::vector<std::string> warned(const std::function<void()>& action) {
   logging::clear_warnings();
   logging::set_sink([](logging::Level, std::string_view) {});

@@ -93,7 +93,7 @@ class FindingsTest : public ::testing::Test {
     logging::set_level(logging::Level::info);
     std::filesystem::remove_all(folder_);
   }
-  /// What `check` says of a case: its warnings, or the message of its error.
+  /// Result of `check` for a case: its warnings, or the message of its error.
   std::vector<std::string> said_of(const std::string& text) const {
     std::ofstream(folder_ / "case.toml") << text;
     logging::clear_warnings();

@@ -110,7 +110,7 @@ TEST(WearKeys, TheMastersShareIsNoneUnlessGivenAndAtMostAll) {
   EXPECT_THROW(share("master_share = 1.5\n"), InputError);
 }
 
-/// What is said against a contact with these keys.
+/// Error message for a contact with these keys.
 std::string contact_error(const std::string& keys) {
   try {
     return test::refusal(test::bar_case("[[contact]]\nname = \"c\"\nslave = \"a\"\nmaster = \"b\"\n" + keys));

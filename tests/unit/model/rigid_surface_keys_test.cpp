@@ -53,7 +53,7 @@ RigidSurface surface(const std::string& tool, const std::string& kind = "plane_s
   return contact_specs(spec)[0].rigid_master.value();
 }
 
-/// What reading or checking says against a tool.
+/// Error message of reading or checking a tool.
 std::string error(const std::string& tool, const std::string& kind = "plane_strain",
                   const std::string& pair = "", const std::string& physics = "mechanics") {
   try {

@@ -1,4 +1,4 @@
-/// What a case may ask of the simultaneous scheme.
+/// Keys of a case for the simultaneous scheme.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

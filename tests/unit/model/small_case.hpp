@@ -31,7 +31,7 @@ initial_temperature = "600 K"
                                                 "case.toml"));
 }
 
-/// What the check of the whole case has to say against it; empty: nothing.
+/// Returns the error of the check of the whole case; empty: none.
 inline std::string refusal(const model::CaseSpec& spec) {
   try {
     model::check_case(spec);

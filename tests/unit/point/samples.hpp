@@ -24,7 +24,7 @@ inline PointCase read_point(const std::string& text) {
   return make_point_case(parse_document(text, "point.toml"), library);
 }
 
-/// What the error says that a text causes; empty: none.
+/// Returns the message of the error that a text causes; empty: none.
 inline std::string error_of(const std::string& text) {
   try {
     for (const Curve& curve : read_point(text).curves) run(curve.material, curve.program);

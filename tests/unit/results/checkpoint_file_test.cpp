@@ -108,7 +108,7 @@ TEST_F(CheckpointFile, EqualContentsAreEqualFiles) {
   EXPECT_TRUE(text(file_) == text(folder_ / "again.h5"));
 }
 
-// What a crafted file says of itself must not decide how much memory is written.
+// The sizes in a crafted file must not decide how much memory is written.
 TEST_F(CheckpointFile, SizesAndTypesAreCheckedBeforeTheyAreRead) {
   {
     const Hdf5Handle file(H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);

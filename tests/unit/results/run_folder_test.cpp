@@ -81,8 +81,8 @@ TEST(RunFolder, ReplacesOwnTablesOfProfilesAndNoOthers) {
   test::on_first([&] {
     for (const auto& name : both) std::ofstream(root / name) << "old";
   });
-  for (const bool go_on : {true, false}) {
-    EXPECT_THROW(RunFolder(root, "", go_on, both), OutputError);
+  for (const bool continued : {true, false}) {
+    EXPECT_THROW(RunFolder(root, "", continued, both), OutputError);
     EXPECT_EQ(test::read_text(root / "mine.csv"), "old");
     EXPECT_EQ(test::read_text(root / "wear.csv"), "old");
   }
@@ -224,20 +224,20 @@ TEST_F(Distributed, CollectionStaysAsItWasWhenOneProcessCannotWrite) {
   EXPECT_FALSE(fs::exists(run.fields() / file("fields_00001")));
 }
 
-TEST(Together, ThrowsOnEveryProcessWhenOneFails) {
+TEST(RunCollectively, ThrowsOnEveryProcessWhenOneFails) {
   int rank = 0, size = 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   const int failing = size - 1;
   try {
-    together([&] {
+    run_collectively([&] {
       if (rank == failing) throw OutputError("x.vtu", "cannot write: No space left on device");
     });
     FAIL() << "must throw";
   } catch (const OutputError& error) {
     EXPECT_STREQ(error.what(), "x.vtu: cannot write: No space left on device");
   }
-  EXPECT_NO_THROW(together([] {}));
+  EXPECT_NO_THROW(run_collectively([] {}));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct Sample {
   mesh::RawMesh raw;
   mesh::Mesh mesh;
   std::vector<std::string> absent;
-  algebra::Presence presence;
+  algebra::ActiveSet active;
   std::vector<material::Material> materials;
   std::vector<double> displacement, temperature;
   std::vector<char> fixed;
@@ -41,7 +41,7 @@ struct Sample {
                                         : test::split_block(shape, {0.4, 0.2}, {4, 2}, 0.2)),
         mesh(mesh::distribute(raw, {"left", "right"}, {})),
         absent(std::move(gone)),
-        presence(mesh, absent),
+        active(mesh, absent),
         components(static_cast<std::size_t>(displacement_components(kind))) {
     material::Material m;
     m.density = 2700;
@@ -70,14 +70,14 @@ struct Sample {
     StructuralDeck d{.title = "A sample",
                      .kind = kind,
                      .mesh = mesh,
-                     .presence = presence,
+                     .active = active,
                      .materials = materials,
                      .displacement = {},
                      .temperature = temperature,
                      .stress = {},
                      .plastic_strain = {},
                      .fixed = fixed,
-                     .ties = {},
+                     .constraints = {},
                      .force = std::vector<double>(mesh.x.size() * components, 0.0)};
     if (deformed) d.displacement = displacement;
     d.force[held() * components + 1] = 5;
@@ -233,8 +233,8 @@ TEST(MissingSupports, AreThoseOfTheFreeRigidMotions) {
     Sample sample(shape);
     const std::size_t modes = sample.components == 2 ? 3 : 6;
     std::fill(sample.fixed.begin(), sample.fixed.end(), char{0});
-    const auto missing = [&](const std::vector<std::vector<Index>>& ties = {}) {
-      return missing_supports(sample.mesh, sample.presence, sample.kind, sample.fixed, ties);
+    const auto missing = [&](const std::vector<std::vector<Index>>& constraints = {}) {
+      return missing_supports(sample.mesh, sample.active, sample.kind, sample.fixed, constraints);
     };
     const std::vector<Index> all = missing();
     EXPECT_EQ(all.size(), modes);

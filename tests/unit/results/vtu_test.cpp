@@ -118,11 +118,11 @@ TEST_F(Vtu, HidesTheCellsOfBodiesThatHaveLeft) {
   int size = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   if (size > 1) return;  // the sample is the mesh of one process
-  const algebra::Presence presence(mesh, std::vector<std::string>{mesh.bodies[1].name});
+  const algebra::ActiveSet active(mesh, std::vector<std::string>{mesh.bodies[1].name});
   const auto pressure = count_up(3);
   FieldSet fields;
   fields.add({"pressure", "Pa", 1, Place::cell, pressure});
-  fields.set_presence(&presence);
+  fields.set_active(&active);
   write_vtu(folder.path / "a.vtu", mesh, fields.select({"pressure"}), 0);
   const test::VtuFile file(folder.path / "a.vtu");
   EXPECT_EQ(file.array<std::uint8_t>("vtkGhostType"), (std::vector<std::uint8_t>{0, 0, 32}));

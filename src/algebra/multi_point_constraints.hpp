@@ -1,8 +1,9 @@
-/// Degrees of freedom that move together: one unknown for each group, by exact elimination.
+/// Multi-point constraints: groups of degrees of freedom that have one common value, with one unknown for
+/// each group, by exact elimination.
 ///
 /// u = T u', where T gives every member of a group the value of its leader. The system in u' is Tᵀ K T and Tᵀ
-/// r: rows and columns of the members add up in those of the leader, and what holds the members together does
-/// no work and drops out.
+/// r: rows and columns of the members add up in those of the leader, and the constraint forces do no work and
+/// drop out.
 #pragma once
 
 #include <span>
@@ -12,13 +13,13 @@
 
 namespace solidus::algebra {
 
-class Ties {
+class MultiPointConstraints {
  public:
-  Ties() = default;
+  MultiPointConstraints() = default;
   /// @param groups degrees of freedom (local node × block size + component), ghosts included: every process
   ///               gives the same groups in the same order, with those members that it knows. No degree of
   ///               freedom may be in two groups (assert). Collective.
-  Ties(const mesh::Mesh& mesh, int block_size, std::vector<std::vector<Index>> groups);
+  MultiPointConstraints(const mesh::Mesh& mesh, int block_size, std::vector<std::vector<Index>> groups);
 
   bool empty() const { return groups_.empty(); }
   /// The number over all processes of the unknown that gives a local degree of freedom its value.

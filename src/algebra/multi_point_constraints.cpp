@@ -1,4 +1,4 @@
-#include "algebra/ties.hpp"
+#include "algebra/multi_point_constraints.hpp"
 
 #include <petscsys.h>
 
@@ -8,7 +8,8 @@
 
 namespace solidus::algebra {
 
-Ties::Ties(const mesh::Mesh& mesh, int block_size, std::vector<std::vector<Index>> groups) {
+MultiPointConstraints::MultiPointConstraints(const mesh::Mesh& mesh, int block_size,
+                                             std::vector<std::vector<Index>> groups) {
   if (groups.empty()) return;
   const auto global = [&](Index entry) {
     return mesh.global_node[static_cast<std::size_t>(entry / block_size)] * block_size + entry % block_size;
@@ -38,7 +39,7 @@ Ties::Ties(const mesh::Mesh& mesh, int block_size, std::vector<std::vector<Index
     }
 }
 
-void Ties::sum(std::span<double> r) const {
+void MultiPointConstraints::sum(std::span<double> r) const {
   if (empty()) return;
   std::vector<double> sums(groups_.size(), 0.0);
   for (std::size_t g = 0; g < groups_.size(); ++g)
@@ -52,7 +53,7 @@ void Ties::sum(std::span<double> r) const {
     if (groups_[g].leader >= 0) r[static_cast<std::size_t>(groups_[g].leader)] = sums[g];
 }
 
-void Ties::share(std::span<double> x) const {
+void MultiPointConstraints::share(std::span<double> x) const {
   if (empty()) return;
   std::vector<double> values(groups_.size(), 0.0);  // one process owns the leader, the others add zero
   for (std::size_t g = 0; g < groups_.size(); ++g)

@@ -1,5 +1,5 @@
-/// Which nodes and faces are there with the bodies that are.
-#include "algebra/presence.hpp"
+/// The active set: nodes and faces that belong to the active bodies.
+#include "algebra/active_set.hpp"
 
 #include <gtest/gtest.h>
 #include <petscsys.h>
@@ -29,49 +29,49 @@ double counted(const mesh::Surface& surface) {
   return algebra::global_sum(n);
 }
 
-class Presence : public ::testing::TestWithParam<mesh::Shape> {};
+class ActiveSet : public ::testing::TestWithParam<mesh::Shape> {};
 
-TEST_P(Presence, OfEverybodyIsThatOfEveryNodeAndFace) {
+TEST_P(ActiveSet, WithAllBodiesHoldsEveryNodeAndFace) {
   const mesh::Mesh mesh = bodies(GetParam());
-  const algebra::Presence presence(mesh);
-  EXPECT_TRUE(presence.complete());
-  for (Index i = 0; i < mesh.n_nodes(); ++i) EXPECT_TRUE(presence.node(i));
-  EXPECT_EQ(counted(presence.part(mesh, mesh.surfaces.at("x_min"))), counted(mesh.surfaces.at("x_min")));
+  const algebra::ActiveSet active(mesh);
+  EXPECT_TRUE(active.complete());
+  for (Index i = 0; i < mesh.n_nodes(); ++i) EXPECT_TRUE(active.node(i));
+  EXPECT_EQ(counted(active.part(mesh, mesh.surfaces.at("x_min"))), counted(mesh.surfaces.at("x_min")));
 }
 
-TEST_P(Presence, GhostsIncludedNodesAreThereWithABodyThatTouchesThem) {
+TEST_P(ActiveSet, HoldsTheNodesOfActiveBodiesGhostsIncluded) {
   const mesh::Mesh mesh = bodies(GetParam());
-  const algebra::Presence presence(mesh, std::vector<std::string>{"left"});
-  EXPECT_FALSE(presence.complete());
-  EXPECT_FALSE(presence.body(0));
-  EXPECT_TRUE(presence.body(1));
+  const algebra::ActiveSet active(mesh, std::vector<std::string>{"left"});
+  EXPECT_FALSE(active.complete());
+  EXPECT_FALSE(active.body(0));
+  EXPECT_TRUE(active.body(1));
   for (Index i = 0; i < mesh.n_nodes(); ++i)
-    EXPECT_EQ(presence.node(i), mesh.x[static_cast<std::size_t>(i)][0] > k_plane - 1e-9);
+    EXPECT_EQ(active.node(i), mesh.x[static_cast<std::size_t>(i)][0] > k_plane - 1e-9);
 }
 
 // The face between the two belongs to the first of them; it is there with either.
-TEST_P(Presence, AFaceIsThereWithABodyOnEitherSide) {
+TEST_P(ActiveSet, HoldsAFaceWithAnActiveBodyOnEitherSide) {
   const mesh::Mesh mesh = bodies(GetParam());
   const mesh::Surface& between = mesh.surfaces.at("between");
   for (const char* gone : {"left", "right"}) {
-    const algebra::Presence presence(mesh, std::vector<std::string>{gone});
-    EXPECT_EQ(counted(presence.part(mesh, between)), counted(between)) << gone;
+    const algebra::ActiveSet active(mesh, std::vector<std::string>{gone});
+    EXPECT_EQ(counted(active.part(mesh, between)), counted(between)) << gone;
     const bool left = gone == std::string("left");
-    EXPECT_EQ(counted(presence.part(mesh, mesh.surfaces.at("x_min"))),
+    EXPECT_EQ(counted(active.part(mesh, mesh.surfaces.at("x_min"))),
               left ? 0 : counted(mesh.surfaces.at("x_min")));
-    for (const mesh::Block& faces : between.faces) EXPECT_EQ(presence.reversed(faces), left);
+    for (const mesh::Block& faces : between.faces) EXPECT_EQ(active.reversed(faces), left);
     const double both = counted(mesh.surfaces.at("y_min"));
-    EXPECT_EQ(counted(presence.part(mesh, mesh.surfaces.at("y_min"))), both / 2) << gone;
+    EXPECT_EQ(counted(active.part(mesh, mesh.surfaces.at("y_min"))), both / 2) << gone;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Presence,
+INSTANTIATE_TEST_SUITE_P(Shapes, ActiveSet,
                          ::testing::Values(mesh::Shape::quad4, mesh::Shape::tri6, mesh::Shape::tet4,
                                            mesh::Shape::hex20));
 
-TEST(Presences, AnUnknownBodyIsOurMistake) {
+TEST(ActiveSets, AnUnknownBodyIsOurMistake) {
   const mesh::Mesh mesh = bodies(mesh::Shape::quad4);
-  EXPECT_THROW(algebra::Presence(mesh, std::vector<std::string>{"core"}), std::invalid_argument);
+  EXPECT_THROW(algebra::ActiveSet(mesh, std::vector<std::string>{"core"}), std::invalid_argument);
 }
 
 }  // namespace

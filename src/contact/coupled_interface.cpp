@@ -1,8 +1,8 @@
-#include "contact/together.hpp"
+#include "contact/coupled_interface.hpp"
 
 namespace solidus::contact {
 
-std::optional<Surroundings> Together::around(const PointMotion& motion) const {
+std::optional<Surroundings> CoupledInterface::around(const PointMotion& motion) const {
   if (law == nullptr || !motion.partnered) return {};
   Surroundings s{.law = law, .time_step = time_step};
   const auto n_slave = static_cast<std::size_t>(motion.n_slave);

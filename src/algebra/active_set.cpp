@@ -1,4 +1,4 @@
-#include "algebra/presence.hpp"
+#include "algebra/active_set.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ mesh::FaceKey face_of_element(const mesh::Block& block, Index element, int face)
 
 }  // namespace
 
-Presence::Presence(const mesh::Mesh& mesh, std::span<const std::string> absent)
+ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent)
     : complete_(absent.empty()), bodies_(mesh.bodies.size(), 1), nodes_(mesh.x.size(), 1) {
   if (complete_) return;
   for (const std::string& name : absent) {
@@ -42,7 +42,7 @@ Presence::Presence(const mesh::Mesh& mesh, std::span<const std::string> absent)
   for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i] = touched[i] > 0 ? 1 : 0;
 }
 
-mesh::Surface Presence::part(const mesh::Mesh& mesh, const mesh::Surface& surface) const {
+mesh::Surface ActiveSet::part(const mesh::Mesh& mesh, const mesh::Surface& surface) const {
   using Faces = std::unordered_set<mesh::FaceKey, mesh::FaceKeyHash>;
   const auto key = [](const mesh::Block& faces, Index f) {
     return mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape));

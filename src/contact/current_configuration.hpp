@@ -1,4 +1,5 @@
-/// Where a pair's surfaces stand: places its kinematics once for each displacement, whoever asks.
+/// Cache of the configuration of a pair's surfaces: it updates the kinematics once for each displacement,
+/// however many terms ask for it.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +10,10 @@
 
 namespace solidus::contact {
 
-class Placement {
+class CurrentConfiguration {
  public:
   /// Keeps a reference.
-  explicit Placement(ContactKinematics& kinematics) : kinematics_(kinematics) {}
+  explicit CurrentConfiguration(ContactKinematics& kinematics) : kinematics_(kinematics) {}
 
   const ContactKinematics& kinematics() const { return kinematics_; }
   void place(double time, std::span<const double> displacement,
@@ -27,7 +28,7 @@ class Placement {
     displacement_.assign(displacement.begin(), displacement.end());
   }
 
-  /// Somebody else has placed them.
+  /// Discards the cached configuration, because the kinematics have been placed by other means.
   void forget() { placed_ = false; }
 
  private:

@@ -1,7 +1,8 @@
-/// Which bodies of a mesh take part in a phase, and which nodes and faces are there with them.
+/// Active set of a phase: the bodies of a mesh that take part in it, with the nodes and faces that are active
+/// with them.
 ///
-/// A node is there if an element of a body that is there touches it; a face, if such an element stands on one
-/// of its sides.
+/// A node is active if it belongs to an element of an active body; a face is active if it bounds such an
+/// element on either side.
 #pragma once
 
 #include <span>
@@ -12,24 +13,24 @@
 
 namespace solidus::algebra {
 
-class Presence {
+class ActiveSet {
  public:
   /// @param absent  names of bodies of the mesh
   /// Throws std::invalid_argument for a name that is none. Collective.
-  explicit Presence(const mesh::Mesh& mesh, std::span<const std::string> absent = {});
+  explicit ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent = {});
 
-  /// Everybody is there.
+  /// Whether all bodies are active.
   bool complete() const { return complete_; }
   bool body(int body) const { return bodies_[static_cast<std::size_t>(body)] != 0; }
   /// [local node], ghosts included.
   bool node(Index node) const { return nodes_[static_cast<std::size_t>(node)] != 0; }
-  /// The faces of a surface of that mesh that are there, in blocks like its own; without its nodes.
+  /// Returns the active faces of a surface of that mesh, in blocks like its own; without its nodes.
   mesh::Surface part(const mesh::Mesh& mesh, const mesh::Surface& surface) const;
-  /// Faces of a body that is not there (where two bodies share nodes they belong to the first of them,
-  /// mesh/faces.hpp): the other body lies on the side to which their normals point.
+  /// Whether the faces belong to an inactive body (where two bodies share nodes, faces belong to the first of
+  /// them, mesh/faces.hpp): the other body lies on the side to which their normals point.
   bool reversed(const mesh::Block& faces) const { return faces.body >= 0 && !body(faces.body); }
 
-  bool operator==(const Presence&) const = default;
+  bool operator==(const ActiveSet&) const = default;
 
  private:
   bool complete_ = true;
