@@ -84,6 +84,21 @@ std::vector<std::string> cells_of(const std::string& line, char separator) {
   return cells;
 }
 
+/// Names between blanks may hold single blanks: "T (C)   fraction solid (wt%)" are two where the rows have
+/// two cells.
+std::vector<std::string> header_cells(const std::string& line, char separator, std::size_t columns) {
+  std::vector<std::string> cells = cells_of(line, separator);
+  if (separator != ' ' || cells.size() == columns) return cells;
+  cells.clear();
+  for (std::size_t from = 0; from < line.size();) {
+    const std::size_t gap = std::min(line.find("  ", from), line.size());
+    if (std::string cell = trimmed(std::string_view(line).substr(from, gap - from)); !cell.empty())
+      cells.push_back(std::move(cell));
+    from = gap + 2;
+  }
+  return cells;
+}
+
 struct Line {
   int number;
   std::string text;
@@ -119,7 +134,8 @@ struct Layout {
 
 std::optional<Layout> layout(const std::vector<Line>& lines, char separator) {
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    const auto row = cells_of(lines[i].text, separator), before = cells_of(lines[i - 1].text, separator);
+    const auto row = cells_of(lines[i].text, separator);
+    const auto before = header_cells(lines[i - 1].text, separator, row.size());
     if (row.size() > 1 && before.size() == row.size() && all_numbers(row, separator != ',') &&
         !all_numbers(before, separator != ','))
       return Layout{separator, i - 1, row.size()};
@@ -138,7 +154,7 @@ ColumnTable parse_csv(const std::string& text, const std::string& name) {
                      "there is no table: no line of names is followed by as many numbers",
                      "columns with a header, separated by commas, semicolons, tabs or blanks");
   ColumnTable table{name, {}};
-  for (std::string& header : cells_of(lines[found->header].text, found->separator))
+  for (std::string& header : header_cells(lines[found->header].text, found->separator, found->columns))
     table.columns.push_back(column_of(std::move(header)));
   for (std::size_t i = found->header + 1; i < lines.size(); ++i) {
     const auto cells = cells_of(lines[i].text, found->separator);

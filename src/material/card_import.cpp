@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "material/import_columns.hpp"
@@ -252,8 +253,12 @@ class Importer {
 
   ImportedCard card() {
     Value& document = card_.document;
-    document.set("title", Value(options_.title.empty() ? "Imported from " + c_.file : options_.title));
+    document.set("title", Value(options_.title.empty() ? "Imported from " + file_name() : options_.title));
     if (!options_.like.empty()) document.set("like", Value(options_.like));
+    if (base_ != nullptr)
+      for (const PhaseChange& change : base_->phase_changes)
+        if (!change.solidification)
+          card_.remarks.push_back(fmt::format("'{}' of {} is not taken over", change.name, base_->name));
     if (c_.has("density"))
       document.set("density", constant(c_.of("density")[0], "kg/m3",
                                        source("density") + fmt::format(", at {:.6g} K", c_.temperature[0])));
@@ -271,9 +276,11 @@ class Importer {
   }
 
  private:
+  std::string file_name() const { return std::filesystem::path(c_.file).filename().string(); }
+
   std::string source(const std::string& quantity) const {
     const auto header = c_.headers.find(quantity);
-    return (options_.source.empty() ? c_.file : options_.source) +
+    return (options_.source.empty() ? file_name() : options_.source) +
            (header == c_.headers.end() ? "" : ", column '" + header->second + "'");
   }
 

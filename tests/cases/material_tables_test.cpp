@@ -1,5 +1,4 @@
-/// `solidus materials NAME -o FOLDER` and its picture, for every material of the library, by the real
-/// program.
+/// `solidus materials NAME -o FOLDER` and its picture, `import` and `scheil`, by the real program.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,7 +79,12 @@ TEST_P(MaterialTables, HoldThePropertiesOfTheCard) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, MaterialTables, ::testing::ValuesIn(material::material_names(k_library)),
+// One of each kind; what every card must keep is in tests/unit/material/library_consistency_test.cpp.
+INSTANTIATE_TEST_SUITE_P(Library, MaterialTables,
+                         ::testing::Values("aluminium_1070", "aluminium_99_7_plastic", "aluminium_alsi9cu3",
+                                           "cast_iron_die", "compacted_iron", "copper_chill", "green_sand",
+                                           "low_carbon_steel", "magnesium_az91", "pure_iron", "pure_tin",
+                                           "steel_mould"),
                          [](const auto& name) { return name.param; });
 
 using MaterialPicture = MaterialTables;
@@ -94,6 +98,33 @@ TEST_P(MaterialPicture, IsDrawnWithoutAWarning) {
 // One that freezes and creeps, one that stays solid, one that conducts heat only.
 INSTANTIATE_TEST_SUITE_P(Library, MaterialPicture,
                          ::testing::Values("aluminium_alsi7mg", "h13_tool_steel", "green_sand"),
+                         [](const auto& name) { return name.param; });
+
+/// `solidus materials import` and `scheil` by the real program.
+class MaterialImport : public MaterialTables {
+ protected:
+  std::string program(const std::string& arguments) const {
+    return "'" SOLIDUS_BINARY_DIR "/solidus' materials " + arguments;
+  }
+};
+
+TEST_P(MaterialImport, WritesACardThatTheProgramReads) {
+  fs::create_directories(folder_);
+  std::ofstream(folder_ / "table.csv")
+      << "T [C],fs,Enthalpy [J/g]\n650,0,900\n620,0,870\n600,0.4,700\n577,0.6,580\n577,1,400\n560,1,380\n";
+  const std::string table = "'" + (folder_ / "table.csv").string() + "'",
+                    card = "'" + (folder_ / "card.toml").string() + "'";
+  ASSERT_EQ(run(program("import " + table + " -o " + card + " --like " + GetParam() + " --title Test")), 0);
+  EXPECT_EQ(run(program(card)), 0);
+  const material::Material m = material::load_material(folder_ / "card.toml", k_library);
+  EXPECT_NEAR(m.solid_fraction(600 + 273.15), 0.4, 1e-12);
+  EXPECT_EQ(m.title, "Test");
+  EXPECT_EQ(run(program("import " + table + " 2>/dev/null")), 256) << "nothing tells the conductivity";
+  EXPECT_EQ(run(program("scheil Al-7Si-0.3Mg -o " + card)), 0);
+  EXPECT_EQ(run(program("scheil Al-17Si 2>/dev/null")), 256);
+}
+
+INSTANTIATE_TEST_SUITE_P(Program, MaterialImport, ::testing::Values("aluminium_alsi7mg"),
                          [](const auto& name) { return name.param; });
 
 }  // namespace

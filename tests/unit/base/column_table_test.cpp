@@ -37,6 +37,14 @@ TEST(ColumnTable, ReadsWhatProgramsSeparateInTheirWays) {
   }
 }
 
+TEST(ColumnTable, TakesNamesWithBlanksApartByTwoOfThem) {
+  const ColumnTable table = parse_column_table("T (C)   fraction solid (wt%)\n1 0.5\n2   0.25\n", "t");
+  ASSERT_EQ(table.columns.size(), 2u);
+  EXPECT_EQ(table.columns[1].name, "fraction solid");
+  EXPECT_EQ(table.columns[1].unit, "wt%");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(0.5, 0.25));
+}
+
 TEST(ColumnTable, KnowsTheLineOfEveryValue) {
   EXPECT_THAT(parse_column_table("x\n# c\nT,f\n\n1,2\n3,4\n", "t").columns[1].lines, ElementsAre(5, 6));
   EXPECT_THAT(parse_column_table("{\"T\": [1,\n2], \"f\": [3,\n\n4]}", "t").columns[1].lines,

@@ -169,6 +169,16 @@ TEST(CardImport, TakesPycalphadsScheil) {
   EXPECT_THROW(imported(text, alone), InputError);
 }
 
+// Its graphite belongs to a freezing range that the card no longer has.
+TEST(CardImport, NamesThePhaseChangesThatItLeavesBehind) {
+  ImportOptions options;
+  options.like = "grey_iron";
+  const ImportedCard card =
+      imported("T [C],fs,H [J/g]\n1300,0,1300\n1200,0,1200\n1140,1,900\n1000,1,800\n", options);
+  EXPECT_THAT(card.remarks.front(), HasSubstr("'graphite' of grey_iron is not taken over"));
+  EXPECT_EQ(card_of(card).phase_changes.size(), 1u);
+}
+
 struct Nonsense {
   const char *what, *with, *message;
 };
