@@ -157,7 +157,8 @@ class Maker {
       std::string name;
       for (const GeometryGroup& group : source_.geometry.groups)
         if (group.bodies && (std::count(group.numbers.begin(), group.numbers.end(), number) > 0 ||
-                             (!group.label.empty() && group.label == label_of(volume.second))))
+                             (!group.label.empty() && group.label == label_of(volume.second)) ||
+                             (group.box && lies_in(*group.box, volume))))
           name = group.name;
       const std::string label = label_of(volume.second);
       if (name.empty())
@@ -181,6 +182,15 @@ class Maker {
         refuse("no body of the geometry fits the group '" + group.name + "'",
                "numbers 1 to " + std::to_string(number) + ", or a label of the file");
     }
+  }
+
+  bool lies_in(const std::array<Point, 2>& box, const std::pair<int, int>& volume) const {
+    const Extent extent = extent_of({volume});
+    const double slack = 1e-6 * extent.diagonal();
+    for (std::size_t i = 0; i < 3; ++i)
+      if (extent.low[i] < box[0][i] / unit_ - slack || extent.high[i] > box[1][i] / unit_ + slack)
+        return false;
+    return true;
   }
 
   void halve() {

@@ -89,6 +89,7 @@ void check_face_rule(const MeshGroupSpec& g) {
 void check_interfaces(const CaseSpec& spec) {
   const std::vector<std::string> bodies = names_of(spec.bodies);
   std::set<std::string> seen;
+  std::set<std::pair<std::string, std::string>> pairs;
   for (const BodyInterfaceSpec& i : spec.interfaces) {
     if (!i.name.empty() && !seen.insert(i.name).second)
       throw InputError(i.where, fmt::format("the name '{}' is used by two [[interface]] sections", i.name),
@@ -104,6 +105,10 @@ void check_interfaces(const CaseSpec& spec) {
     if (i.bodies[0] == i.bodies[1])
       throw InputError(i.where, fmt::format("an interface of the body '{}' with itself", i.bodies[0]),
                        "two bodies");
+    if (!pairs.insert(std::minmax(i.bodies[0], i.bodies[1])).second)
+      throw InputError(i.where,
+                       fmt::format("two interfaces are between '{}' and '{}'", i.bodies[0], i.bodies[1]),
+                       "one for each pair");
   }
 }
 
@@ -120,6 +125,12 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
   if (m.mould && m.mould->walls.size() != 1 && m.mould->walls.size() != 6)
     throw InputError(m.mould->where, fmt::format("'walls' has {} lengths", m.mould->walls.size()),
                      "one, or six: lowest and highest x, y and z");
+  if ((!m.sizes.empty() || m.mould || m.riser || m.symmetry) && (m.element_size || m.conforming))
+    throw InputError(m.where,
+                     fmt::format("'{}' beside [[mesh.size]], [mesh.mould], [mesh.riser] or [mesh.symmetry], "
+                                 "which make sizes and shared faces themselves",
+                                 m.element_size ? "element_size" : "conforming"),
+                     "[[mesh.size]] for each body");
   if (m.riser && m.riser->foot.size() != 3)
     throw InputError(m.riser->where, fmt::format("'foot' has {} coordinates", m.riser->foot.size()), "three");
   for (const MeshGroupSpec& g : m.groups) {

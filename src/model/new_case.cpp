@@ -258,6 +258,7 @@ class NewCase {
     draft_.unit = options_.unit;
     draft_.process = process_.name;
     draft_.alloy = options_.alloy;
+    draft_.coupled = alloy_.mechanical();
     const auto& curve = alloy_.solidification()->fraction;
     constexpr double k_celsius = 273.15;
     draft_.pouring = rounded_up(curve.liquidus() - k_celsius + process_.superheat, 5);
@@ -375,6 +376,7 @@ class NewCase {
         if (body.heat_only) body.comment = "physics = \"all\" gives its stresses too, at the price of time";
         break;
     }
+    body.heat_only = body.heat_only && draft_.coupled;
   }
 
   void choose_mould() {
@@ -423,9 +425,11 @@ class NewCase {
         write();
         if (good) break;
       }
-      check_run(load_case(draft_.folder / "case.toml", {}, Physics::thermomechanical));
+      if (draft_.coupled) check_run(load_case(draft_.folder / "case.toml", {}, Physics::thermomechanical));
     } catch (...) {
       logging::set_level(level);
+      std::error_code error;  // no case that does not run
+      fs::remove(draft_.folder / "case.toml", error);
       throw;
     }
     logging::set_level(level);

@@ -101,9 +101,10 @@ std::string case_text(const Draft& d) {
       "# Made by `solidus new`. Change what you know better; `solidus check` reads it.\n"
       "title = {}\n\n",
       quoted(d.geometry.stem().string() + " of " + d.alloy + ", " + d.process));
-  t += "[analysis]\nkind = \"solid\"\n"
-       "physics = \"thermomechanical\"   # `solidus run --heat-only` computes heat alone\n"
-       "gravity = \"9.81 m/s2\"            # along -z\n\n";
+  t += "[analysis]\nkind = \"solid\"\n";
+  t += d.coupled ? "physics = \"thermomechanical\"   # `solidus run --heat-only` computes heat alone\n"
+                 : "physics = \"heat\"   # the alloy has no elastic properties\n";
+  t += "gravity = \"9.81 m/s2\"            # along -z\n\n";
   t += mesh_text(d);
   t += fmt::format(
       "[time]\nend = \"{:g} s\"    # 1.8 times an estimate of the time to freeze\nstep = \"{:g} s\"\n"
@@ -116,7 +117,7 @@ std::string case_text(const Draft& d) {
         "[[thermal_condition]]   # {}\nname = \"air_on_{}\"\ngroup = \"{}_free\"\nkind = \"film\"\n"
         "coefficient = \"{:g} W/m2/K\"\nambient = \"20 degC\"\n\n",
         d.film_source, body, body, d.film);
-  for (const std::string& body : d.symmetric)
+  for (const std::string& body : d.coupled ? d.symmetric : std::vector<std::string>{})
     t += fmt::format(
         "[[mechanical_condition]]\nname = \"symmetry_of_{0}\"\ngroup = \"{0}_symmetry\"\n"
         "kind = \"displacement\"\nu{1} = \"0 mm\"\n\n",

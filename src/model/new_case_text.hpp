@@ -39,6 +39,7 @@ struct DraftSymmetry {
 struct Draft {
   std::filesystem::path folder, geometry;
   std::string unit, process, alloy, law;
+  bool coupled = true;  ///< the alloy has elastic properties
   double pouring = 0, liquidus = 0, superheat = 0;
   double size = 0, smallest = 0, mould_size = 0;
   std::vector<DraftBody> bodies;

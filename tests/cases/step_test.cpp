@@ -1,5 +1,5 @@
 /// A case whose mesh is a STEP file: bodies and surfaces by number, by box and by the names that the program
-/// gives.
+/// gives. And cases that `solidus new` makes of STEP files.
 #include <gmock/gmock.h>
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "case_run.hpp"
+#include "model/new_case.hpp"
 
 namespace {
 
@@ -107,6 +108,72 @@ TEST(StepCase, SaysWhichSurfacesThereAre) {
     ADD_FAILURE();
   } catch (const solidus::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("the group 'on the plate': the geometry has no surface 12"));
+  }
+}
+
+/// A box of 60 x 40 x 40 mm with a closed cavity of 20 mm.
+std::filesystem::path hollow_box() {
+  fs::create_directories(root());
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add("hollow box");
+  const int box = gmsh::model::occ::addBox(0, 0, 0, 60, 40, 40);
+  const int cavity = gmsh::model::occ::addBox(10, 10, 10, 20, 20, 20);
+  gmsh::vectorpair all;
+  std::vector<gmsh::vectorpair> map;
+  gmsh::model::occ::cut({{3, box}}, {{3, cavity}}, all, map);
+  gmsh::model::occ::synchronize();
+  gmsh::write((root() / "hollow.step").string());
+  gmsh::finalize();
+  return root() / "hollow.step";
+}
+
+TEST(NewCase, OfAHollowPartHasAMouldACoreARiserAndRunsBothWays) {
+  solidus::model::NewCaseOptions options;
+  options.geometry = hollow_box();
+  options.alloy = "aluminium_alsi7mg";
+  options.riser = true;
+  options.symmetry = "y";
+  options.fineness = 0.5;
+  options.folder = root() / "hollow";
+  fs::remove_all(options.folder);
+  const solidus::model::NewCaseReport report = solidus::model::make_new_case(options);
+  EXPECT_THAT(report.text, HasSubstr("core"));
+  using solidus::model::Physics;
+  for (const Physics physics : {Physics::heat, Physics::thermomechanical}) {
+    const solidus::model::Case c = solidus::model::load_case(report.file, {"time.end=\"2 s\""}, physics);
+    ASSERT_EQ(c.spec.bodies.size(), 4U);
+    EXPECT_EQ(c.spec.mechanical_conditions.size(), physics == Physics::heat ? 0U : 2U);  // symmetry
+    solidus::model::RunOptions run;
+    run.folder = root() / (physics == Physics::heat ? "hollow_heat" : "hollow_coupled");
+    const solidus::model::RunResult result = solidus::model::run_case(c, run);
+    EXPECT_TRUE(result.finished) << result.reason;
+  }
+  const solidus::model::CheckedRun checked =
+      solidus::model::check_run(solidus::model::load_case(report.file, {}, Physics::heat));
+  double metal = 0;
+  for (const auto& body : checked.overview.bodies) {
+    if (body.name == "core") {
+      EXPECT_NEAR(body.volume, 4e-6, 1e-10);  // half of the cavity
+    }
+    if (body.name == "casting") metal = body.volume;
+  }
+  EXPECT_NEAR(metal, (96e-6 - 8e-6) / 2, 1e-10);
+  EXPECT_THROW(solidus::model::make_new_case(options), solidus::InputError);  // there is a case already
+}
+
+TEST(NewCase, SaysThatAPartIsNotSymmetric) {
+  solidus::model::NewCaseOptions options;
+  options.geometry = hollow_box();
+  options.alloy = "aluminium_alsi7mg";
+  options.symmetry = "x";
+  options.folder = root() / "hollow_x";
+  fs::remove_all(options.folder);
+  try {
+    solidus::model::make_new_case(options);
+    ADD_FAILURE();
+  } catch (const solidus::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("not symmetric in x"));
   }
 }
 
