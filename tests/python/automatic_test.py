@@ -22,10 +22,10 @@ def frozen(grid):
     time = np.maximum(100 - 4e3 * distance[0], 80 - 4e3 * distance[1])
     grid.point_data = {"temperature": 500 + time, "solid_fraction": np.ones(len(time)), "solidified_at": time,
                        "niyama": np.where(grid.points[:, 0] > 0.02, 500.0, 2000.0), "gap": 1e-4 * grid.points[:, 0],
-                       "distortion": 0.01 * grid.points}
+                       "distortion": 0.01 * grid.points, "displacement": 0.01 * grid.points}
     grid.cell_data["von_mises"] = 1e6 * np.arange(1.0, 1 + len(grid.cell_types))
     grid.units = {"temperature": "K", "solid_fraction": "1", "solidified_at": "s", "niyama": "1", "gap": "m",
-                  "distortion": "m", "von_mises": "Pa"}
+                  "distortion": "m", "displacement": "m", "von_mises": "Pa"}
     return grid
 
 
