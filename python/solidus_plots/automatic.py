@@ -96,7 +96,7 @@ def plan(run, times, summary, history, results, wishes):
         if "shrinkage_porosity" in written and (grid.point_data["shrinkage_porosity"] > 0).any():
             add("shrinkage_porosity", title="Estimate of shrinkage porosity", unit="%",
                 timeless=True)
-    if case.solid and "gap" in written and (grid.point_data["gap"] > 0).any():
+    if "gap" in written and "displacement" in written and (grid.point_data["gap"] > 0).any():
         add("gap", title="Gap between casting and mould", unit="mm", skin_alone=True, contours=0)
     if "distortion" in written and np.any(grid.point_data["distortion"]):
         add("distortion", title="Distortion", unit="mm")

@@ -252,7 +252,7 @@ def draw_fields(one, other, grid, difference_grid, folder):
             continue
         shown = values[moments.nodes_of(grid, mask)] if name in difference_grid.point_data else values[mask]
         largest = np.abs(shown[np.isfinite(shown)]).max(initial=0.0)
-        if largest == 0.0 or (name == "gap" and not case.solid):
+        if largest == 0.0:
             continue
         signed = shown[np.isfinite(shown)].min() < 0.0
         spec = {"file": f"difference_{name}", "field": name, "times": ["last"], "bodies": cast, "contours": 0,

@@ -3,6 +3,7 @@ section, with the least and largest value, their places, alloy and case."""
 
 from dataclasses import dataclass, field
 
+from matplotlib.collections import LineCollection
 import numpy as np
 
 from solidus_plots import hot_spots, moments, paint, style
@@ -116,6 +117,43 @@ class _Section:
             axes.plot([x], [y], "+", markersize=7, markeredgewidth=1.1, color="black", zorder=9)
 
 
+class _Rim:
+    """The boundary of plane bodies, coloured by what it carries: a gap has no inside."""
+
+    WIDTH = 4.0  # of the line [pt]
+
+    def __init__(self, grids, run, spec, plane):
+        self.name, self.plane, self._lines, self._values = "", plane, [], []
+        for grid in grids:
+            mask = run.body_mask(grid, spec.get("bodies"))
+            kind, found = moments.values(grid, spec, mask)
+            if kind != "point_data":
+                raise ResultError(f"'{spec['field']}' is a field of elements; a rim shows those of nodes")
+            edges, count = grid.edges(mask)
+            pieces = [pair for edge, once in zip(edges, count == 1) if once for pair in zip(edge, edge[1:])]
+            nodes = np.array(pieces).reshape(-1, 2)
+            self._lines.append(MM * plane.place(grid.points[nodes]))
+            self._values.append(found[nodes].mean(axis=1))
+        corners = np.concatenate(self._lines).reshape(-1, 2)
+        margin = 0.04 * np.ptp(corners, axis=0).max()
+        self._frame = corners.min(axis=0) - margin, corners.max(axis=0) + margin
+        self.size = tuple(self._frame[1] - self._frame[0])
+
+    def values(self):
+        return np.concatenate(self._values)
+
+    def draw(self, axes, moment, colours, shape, case):
+        lines = self._lines[moment]
+        axes.add_collection(LineCollection(lines, colors=colours(self._values[moment]), linewidths=self.WIDTH))
+        axes.add_collection(LineCollection(lines, colors="black", linewidths=0.4))
+        low, high = self._frame
+        axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
+        axes.grid(False)
+        axes.tick_params(length=2, labelsize=6.5)
+        axes.set_xlabel(f"{self.plane.names[0]} [mm]", fontsize=7.5, labelpad=1)
+        axes.set_ylabel(f"{self.plane.names[1]} [mm]", fontsize=7.5, labelpad=1)
+
+
 def _whole(grid, mask):
     """All plane cells of a mask as a cut that goes through every node."""
     triangles, cells = grid.triangles()
@@ -129,6 +167,8 @@ def _whole(grid, mask):
 def _views(grids, run, spec, case):
     if not case.solid:
         plane = Plane(np.zeros(3), np.eye(3)[2], np.eye(3)[0], np.eye(3)[1], case.names)
+        if spec.get("skin_alone"):
+            return [_Rim(grids, run, spec, plane)]
         return [_Section("", grids, run, spec, plane, True)]
     around = [_Skin("skin", grids, run, spec, Camera(-60, 25, case.up))]
     if spec.get("skin_alone"):

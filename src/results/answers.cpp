@@ -10,6 +10,7 @@
 #include "base/types.hpp"
 #include "criteria/gather.hpp"
 #include "criteria/pools.hpp"
+#include "heat/nodal_enthalpy.hpp"
 
 namespace solidus::results {
 
@@ -293,6 +294,20 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   }
   add_stress(mesh, fields, stressed, a);
   return a;
+}
+
+double solid_fraction(const coupling::Phases& phases, const coupling::State& state,
+                      const std::vector<CastBody>& castings, const mesh::Mesh& mesh) {
+  double solid = 0, whole = 0;
+  for (const CastBody& cast : castings) {
+    double own = 0;
+    for (Index i = 0; i < mesh.n_owned_nodes; ++i) own += phases.heat->storage().volume(i, cast.body);
+    const double volume = algebra::global_sum(own);
+    if (volume == 0) continue;  // it has left
+    whole += volume;
+    solid += volume * phases.heat->mean_solid_fraction(state.heat, cast.body);
+  }
+  return whole > 0 ? solid / whole : 1.0;
 }
 
 std::string text(const Answers& a, const std::vector<criteria::Finding>& criteria) {

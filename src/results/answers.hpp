@@ -68,6 +68,10 @@ struct Answers {
 Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const coupling::State& state,
                 const std::vector<CastBody>& castings, const FieldSet& fields, bool mechanical);
 
+/// How much of what is cast is solid, by volume; 1 where nothing of it is there. Collective.
+double solid_fraction(const coupling::Phases& phases, const coupling::State& state,
+                      const std::vector<CastBody>& castings, const mesh::Mesh& mesh);
+
 /// Lines for people: temperatures in degC, lengths in mm, stresses in MPa.
 /// @param criteria  what the criteria found, for the lines on solidification times, arm spacing and Niyama
 std::string text(const Answers& answers, const std::vector<criteria::Finding>& criteria);

@@ -137,6 +137,7 @@ void Recorder::begin(const coupling::State& state) {
   const profile::Part part("output");
   coupling::StepEffort initial;
   coupling::summarise(phases_, state, initial);
+  show_castings(initial, state);
   const double heat_content =
       phases_.heat != nullptr ? coupling::heat_content(*phases_.heat, state.heat) : 0.0;
   if (progress_) progress_->begin(heat_content);
@@ -161,9 +162,11 @@ void Recorder::begin(const coupling::State& state) {
   if (!options_.steady) write_fields(state);
 }
 
-void Recorder::step(const coupling::StepRecord& record, const coupling::State& state) {
+void Recorder::step(const coupling::StepRecord& taken, const coupling::State& state) {
   const profile::Part part("output");
   const double start = MPI_Wtime();
+  coupling::StepRecord record = taken;
+  show_castings(record, state);
   globals_.add(record);
   stage_ = record.stage_of_case;
   cycle_ = record.cycle;
@@ -180,6 +183,11 @@ void Recorder::step(const coupling::StepRecord& record, const coupling::State& s
   options_.summary.steps = record.number;
   options_.summary.rejected += record.rejected;
   note_left_walls(record);
+}
+
+void Recorder::show_castings(coupling::StepEffort& effort, const coupling::State& state) const {
+  if (phases_.heat != nullptr && !options_.castings.empty())
+    effort.solid_fraction = solid_fraction(phases_, state, options_.castings, mesh_);
 }
 
 void Recorder::note_left_walls(const coupling::StepRecord& record) {

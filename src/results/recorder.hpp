@@ -29,11 +29,12 @@ struct RecorderOptions {
   std::vector<std::string> fields;   ///< to write; empty: all
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
-  bool melting = true;                      ///< a material can melt
-  bool stages = false;                      ///< the run has stages
-  bool steady = false;                      ///< one state without a time: fields of it alone
-  bool profile = false;                     ///< print where the wall time went
-  std::vector<CastBody> castings;           ///< the poured bodies
+  bool melting = true;   ///< a material can melt
+  bool stages = false;   ///< the run has stages
+  bool steady = false;   ///< one state without a time: fields of it alone
+  bool profile = false;  ///< print where the wall time went
+  /// What is poured: the solid fraction that is shown is of these bodies; empty: of all that can melt.
+  std::vector<CastBody> castings;
   Fingerprint fingerprint;                  ///< of the case, for checkpoints
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
   Summary summary;                          ///< known before the run: names, mesh, seconds of setting up
@@ -61,6 +62,8 @@ class Recorder : public coupling::Observer {
   std::vector<double> history_row(double time);
   void add_history_row(double time);
   void write_fields(const coupling::State& state);
+  /// The solid fraction of what is cast, instead of that of all that can melt.
+  void show_castings(coupling::StepEffort& effort, const coupling::State& state) const;
   void add_pools(const coupling::State& state);
   void note_left_walls(const coupling::StepRecord& record);
   /// Prints and writes the conclusion at the end of a run, or at its stop.

@@ -12,6 +12,7 @@ from solidus_plots.cells import HEX
 from solidus_plots.curves import _panels
 from solidus_plots.history import Table
 from solidus_plots.moments import Moments
+from solidus_plots.vtu import Grid
 
 SIZE = (0.04, 0.02, 0.02)
 
@@ -22,10 +23,10 @@ def frozen(grid):
     time = np.maximum(100 - 4e3 * distance[0], 80 - 4e3 * distance[1])
     grid.point_data = {"temperature": 500 + time, "solid_fraction": np.ones(len(time)), "solidified_at": time,
                        "niyama": np.where(grid.points[:, 0] > 0.02, 500.0, 2000.0), "gap": 1e-4 * grid.points[:, 0],
-                       "distortion": 0.01 * grid.points}
+                       "distortion": 0.01 * grid.points, "displacement": 0.01 * grid.points}
     grid.cell_data["von_mises"] = 1e6 * np.arange(1.0, 1 + len(grid.cell_types))
     grid.units = {"temperature": "K", "solid_fraction": "1", "solidified_at": "s", "niyama": "1", "gap": "m",
-                  "distortion": "m", "von_mises": "Pa"}
+                  "distortion": "m", "displacement": "m", "von_mises": "Pa"}
     return grid
 
 
@@ -73,6 +74,25 @@ class Sheets(unittest.TestCase):
         for sheet in sheets:
             file, = overview.draw(sheet, run, case, self.folder)
             self.assertGreater(file.stat().st_size, 5_000, file)
+
+    def test_plane_bodies_are_shown_whole_and_gaps_along_their_rim(self):
+        x, y = np.meshgrid(np.arange(5), np.arange(4), indexing="ij")
+        points = 0.01 * np.stack([x, y, 0 * x], axis=-1).reshape(-1, 3)
+        corner = np.array([4 * i + j for i in range(4) for j in range(3)])
+        cells = corner[:, None] + [0, 4, 5, 1]
+        grid = frozen(Grid(points, np.full(12, 9), 4 * (1 + np.arange(12)), cells.ravel(), {},
+                           {"body": np.zeros(12, int)}, {}, 0.0))
+        inside = (points[:, :2] > 0.001).all(axis=1) & (points[:, 0] < 0.039) & (points[:, 1] < 0.029)
+        grid.point_data["gap"] = np.where(inside, 1.0, 1e-4)  # an inner node has no gap: its value must not be shown
+        run = Run(grid)
+        history = {"time[s]": np.array([0.0]), "solid_fraction[1]": np.array([1.0])}
+        case, sheets = automatic.plan(run, np.array([0.0]), {}, history, self.folder, {})
+        self.assertFalse(case.solid)
+        gap, = (sheet for sheet in sheets if sheet["field"] == "gap")
+        view, = overview._views([grid], run, gap, case)
+        np.testing.assert_allclose(view.values(), np.full(14, 0.1))  # mm
+        for sheet in sheets:
+            overview.draw(sheet, run, case, self.folder)
 
     def test_least_and_largest_values_are_told_with_their_places(self):
         grid = frozen(box(HEX, SIZE, (8, 4, 4)))
