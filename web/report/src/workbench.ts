@@ -271,9 +271,9 @@ export class Workbench {
     }
     const stage = this.stages[0].root.getBoundingClientRect();
     const aspect = stage.width > 0 ? stage.width / Math.max(1, stage.height) : 1.5;
-    c.half = Math.max(halfHeight * 1.3, (halfWidth / aspect) * 1.1) || 1;
+    c.half = Math.max(halfHeight * 1.36, (halfWidth / aspect) * 1.12) || 1;
     // The legend lies below: what is shown moves up by a little.
-    c.target.add(new Vector3(0, -c.half * 0.12, 0).applyQuaternion(c.turn));
+    c.target.add(new Vector3(0, -c.half * 0.15, 0).applyQuaternion(c.turn));
     this.redraw();
   }
   look(direction: [number, number, number]): void {
