@@ -103,6 +103,8 @@ ExitCode parse_and_run(int argc, char** argv) {
   run_verb->add_flag("!--no-progress", arguments.progress_bar, "Print plain lines, also on a terminal");
   run_verb->add_flag("--restart", arguments.restart,
                      "Continue a run that was stopped, from its checkpoint in the folder of the results");
+  run_verb->add_flag("--watch", arguments.watch,
+                     "Show the report while the run goes on, at an address of this machine alone");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
   add_trust(*run_verb, arguments.trust_script);

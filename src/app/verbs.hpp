@@ -19,6 +19,7 @@ struct CaseArguments {
   bool progress_bar = true;      ///< on a terminal
   bool restart = false;          ///< go on from the checkpoint
   bool trust_script = false;     ///< run a .geo script whatever it says
+  bool watch = false;            ///< serve the report while the run goes on
 };
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).

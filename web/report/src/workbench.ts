@@ -78,7 +78,8 @@ export class Workbench {
       });
     }
     this.times = [...new Set(this.runs.flatMap((r) => r.times))].sort((a, b) => a - b);
-    c.time = this.times[Math.max(0, this.firstTelling())];
+    // A run that goes on is watched at its front.
+    c.time = location.protocol === "http:" ? this.times[this.times.length - 1] : this.times[Math.max(0, this.firstTelling())];
     const field = ["temperature", "von_mises", "displacement"].find((id) => this.run.fields.some((f) => f.id === id)) ?? this.run.fields[0]?.id ?? "";
     c.field = field;
     const high = this.run.displacement.length ? this.displacementRange()[1] : 0;
@@ -204,6 +205,31 @@ export class Workbench {
   }
   private redraw(): void {
     for (const s of this.stages) s.view.request();
+  }
+
+  /** What the reader has chosen, for the next page of a run that goes on. */
+  state(): object {
+    const { target, turn, half } = this.camera, c = this.choice;
+    return {
+      choice: { ...c, shown: [...c.shown] }, last: this.ready && this.timeIndex() === this.times.length - 1, target: target.toArray(), turn: turn.toArray(), half,
+      fixedRange: this.fixedRange, ofMoment: this.ofMoment, scaleChosen: this.scaleChosen, scroll: scrollY,
+    };
+  }
+  restore(kept: ReturnType<Workbench["state"]>): void {
+    if (!this.ready) return;
+    const k = kept as { choice: Choice & { shown: [string, Shown][] }; last: boolean; target: number[]; turn: number[]; half: number; fixedRange: boolean; ofMoment: boolean; scaleChosen: boolean; scroll: number };
+    Object.assign(this.choice, k.choice, { shown: new Map(k.choice.shown) });
+    if (!this.fields().some((f) => f.id === this.choice.field)) this.choice.field = this.fields()[0]?.id ?? "";
+    this.camera.target.fromArray(k.target);
+    this.camera.turn.fromArray(k.turn as [number, number, number, number]);
+    this.camera.half = k.half;
+    this.camera.flat = this.flat;
+    this.fixedRange = k.fixedRange;
+    this.ofMoment = k.ofMoment;
+    this.scaleChosen = k.scaleChosen;
+    // Who looked at the last moment wants the last moment.
+    this.goTo(k.last ? this.times[this.times.length - 1] : this.choice.time);
+    scrollTo({ top: k.scroll, behavior: "instant" });
   }
 
   // Time
