@@ -6,12 +6,14 @@
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "algebra/interruption.hpp"
 #include "app/places.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "base/terminal.hpp"
+#include "app/watch.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
 
@@ -42,7 +44,13 @@ ExitCode run(const CaseArguments& arguments) {
   options.profile = arguments.profile;
   options.stop_asked = stop_asked;
   algebra::interrupt_when(stop_asked);
+  std::optional<Watch> watch;
+  if (arguments.watch && rank == 0) {
+    watch.emplace(options.folder);
+    print("Watch it in a browser on this machine: " + watch->address() + "\n");
+  }
   const model::RunResult result = model::run_case(c, options);
+  if (watch) watch->finish();
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
   if (!result.finished) {
     if (rank == 0)

@@ -1,6 +1,7 @@
 // Reports of small runs in headless Chromium: node report_test.mjs PROGRAM FOLDER.
 // Each check is a sentence; the last line counts them.
-import { spawnSync } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
+import { request } from "node:http";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { inflateSync } from "node:zlib";
@@ -101,6 +102,7 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 writeFileSync(join(folder, "metal.toml"), METAL);
 writeFileSync(join(folder, "block.toml"), block(TITLE));
+writeFileSync(join(folder, "slow.toml"), block("A long run").replace('end = "200 s"', 'end = "20000 s"').replace('step = "5 s"', 'step = "0.05 s"').replace("[8, 6, 5]", "[20, 16, 12]").replace('every = "40 s"', 'every = "1 s"'));
 const axisymmetric = `title = "A ring"
 [analysis]
 kind = "axisymmetric"
@@ -288,6 +290,49 @@ try {
   check("and a table of their differences", (await two.run("document.querySelector('#comparison').textContent")).includes("second − first"));
   check("nothing is wider than the telephone", (await two.run("document.documentElement.scrollWidth")) <= 390, await two.run("document.documentElement.scrollWidth"));
   check("nothing was said there either", two.messages.length === 0, two.messages);
+
+  // A run that goes on.
+  const run = spawn(program, ["run", "slow.toml", "-o", "slow", "--no-progress", "--watch"], { cwd: folder });
+  const ended = new Promise((r) => run.once("exit", r));
+  let said = "";
+  run.stdout.on("data", (d) => (said += d));
+  const until = async (what, seconds = 30) => {
+    for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise((r) => setTimeout(r, 50))) {
+      const got = await what();
+      if (got) return got;
+    }
+    return undefined;
+  };
+  const address = await until(() => /http:\/\/127\.0\.0\.1:\d+\/[0-9a-f]{32}\//.exec(said)?.[0]);
+  check("--watch says where", address !== undefined, said);
+  const ask = (path, options = {}) => new Promise((done) => {
+    const r = request(new URL(path, address), { agent: false, ...options }, (response) => {
+      let body = "";
+      response.on("data", (d) => (body += d));
+      response.on("end", () => done({ status: response.statusCode, body }));
+    });
+    r.on("error", (e) => done({ status: 0, body: String(e) }));
+    r.end();
+  });
+  const port = new URL(address).port;
+  check("nothing is there without the token", (await ask("/")).status === 404 && (await ask(`/${"0".repeat(32)}/`)).status === 404);
+  check("nor under the name of another machine", (await ask(address, { headers: { host: `evil.example:${port}` } })).status === 404);
+  check("nor any other file", (await ask(`${address}case.toml`)).status === 404 && (await ask(`${address}../../etc/passwd`)).status === 404);
+  check("nor for another method", (await ask(address, { method: "POST" })).status === 404);
+  const live = await until(async () => (await ask(address)).body.includes('id="stamp"'));
+  check("the page is there while the run goes on", live && run.exitCode === null, run.exitCode);
+  const watcher = await browser.page(1000, 800);
+  await watcher.send("Network.emulateNetworkConditions", { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput: -1 });
+  await watcher.go(address);
+  const shownRows = () => watcher.run("typeof solidus === 'undefined' ? 0 : solidus.page.runs[0].table('history').rows").catch(() => 0);
+  const rows = await until(shownRows);
+  check("it shows a run that has not ended", (await watcher.run("document.querySelector('#head .badge').textContent")) === "running", rows);
+  check("and follows it", (await until(async () => (await shownRows()) > rows)) === true, rows);
+  check("nothing was said on its console", watcher.messages.length === 0, watcher.messages);
+  run.kill("SIGTERM");
+  await ended;
+  const stopped = solidus("report", "slow");
+  check("a run that was stopped has a report", stopped.code === 0, stopped.text);
 } finally {
   await browser.close();
 }

@@ -23,7 +23,7 @@ const escape = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").repla
 
 // Nothing runs but the script whose fingerprint stands here, and nothing is loaded from anywhere.
 const fingerprint = `sha256-${createHash("sha256").update(script).digest("base64")}`;
-const policy = `default-src 'none'; script-src '${fingerprint}'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'`;
+const policy = `default-src 'none'; script-src '${fingerprint}'; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'`;
 const sources = execFileSync(join(here, "fingerprint.sh"), { encoding: "utf8" }).trim();
 const page = `<!doctype html>
 <!-- Written by Solidus: a report. Open it in a browser; it needs no net. -->

@@ -45,9 +45,8 @@ Frame frame() {
 
 }  // namespace
 
-WrittenReport write_report(const std::vector<ReportedRun>& runs, const std::filesystem::path& page,
-                           const ReportOptions& options) {
-  WrittenReport written;
+ReportText report_text(const std::vector<ReportedRun>& runs, const ReportOptions& options) {
+  ReportText page;
   Blocks blocks;
   Json meta;
   meta.add("format", 1).add("solidus", SOLIDUS_VERSION).add("made", now());
@@ -55,14 +54,9 @@ WrittenReport write_report(const std::vector<ReportedRun>& runs, const std::file
   const auto [head, middle, tail] = frame();
   const std::size_t room = options.most_bytes - std::min(options.most_bytes, viewer().size());
   for (std::size_t i = 0; i < runs.size(); ++i)
-    all.push_back(run_data(runs[i], options, room * (i + 1) / runs.size(), blocks, written.notes));
+    all.push_back(run_data(runs[i], options, room * (i + 1) / runs.size(), blocks, page.notes));
   meta.add("runs", std::move(all));
 
-  results::AtomicFile file(page);
-  const auto write = [&](std::string_view text) {
-    written.bytes += text.size();
-    file.write(text);
-  };
   std::string title;
   for (const ReportedRun& run : runs)
     title += (title.empty() ? "" : ", ") + std::filesystem::absolute(run.folder / "")
@@ -71,19 +65,24 @@ WrittenReport write_report(const std::vector<ReportedRun>& runs, const std::file
                                                .parent_path()
                                                .filename()
                                                .string();
-  write(head);
-  write(fmt::format("<title>{} · Solidus</title>", results::xml_text(title)));
-  write(middle);
+  std::string& text = page.text;
+  text.reserve(viewer().size() + blocks.size() + (std::size_t{1} << 16));
+  text += head;
+  text += fmt::format("<title>{} · Solidus</title>", results::xml_text(title));
+  text += middle;
   // Text of the user is in these blocks alone, and base64 has no character that HTML knows.
-  write(fmt::format("<script type=\"text/plain\" id=\"meta\">{}</script>\n", packed_text(meta.text())));
-  for (std::size_t i = 0; i < blocks.texts().size(); ++i) {
-    write(fmt::format("<script type=\"text/plain\" id=\"b{}\">", i));
-    write(blocks.texts()[i]);
-    write("</script>\n");
-  }
-  write(tail);
-  file.commit();
-  return written;
+  text += fmt::format("<script type=\"text/plain\" id=\"meta\">{}</script>\n", packed_text(meta.text()));
+  for (std::size_t i = 0; i < blocks.texts().size(); ++i)
+    text += fmt::format("<script type=\"text/plain\" id=\"b{}\">{}</script>\n", i, blocks.texts()[i]);
+  text += tail;
+  return page;
+}
+
+WrittenReport write_report(const std::vector<ReportedRun>& runs, const std::filesystem::path& page,
+                           const ReportOptions& options) {
+  ReportText written = report_text(runs, options);
+  results::write_file(page, written.text);
+  return {written.text.size(), std::move(written.notes)};
 }
 
 }  // namespace solidus::report

@@ -31,6 +31,13 @@ struct WrittenReport {
   std::vector<std::string> notes;  ///< what the page lacks and why, full sentences
 };
 
+struct ReportText {
+  std::string text;                ///< of the page
+  std::vector<std::string> notes;  ///< as of WrittenReport
+};
+/// The page itself. Throws InputError as write_report does.
+ReportText report_text(const std::vector<ReportedRun>& runs, const ReportOptions& options = {});
+
 /// Throws InputError for a folder without results, damaged files, and OutputError where the page cannot be
 /// written. A run that goes on or was stopped gives a page of what there is.
 WrittenReport write_report(const std::vector<ReportedRun>& runs, const std::filesystem::path& page,

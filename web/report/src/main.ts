@@ -32,6 +32,44 @@ function keysDialog(): void {
   byId("help").addEventListener("click", () => dialog.showModal());
 }
 
+/** Served by `solidus run --watch`: looks for a newer page and keeps what the reader has chosen. */
+function watch(bench: Workbench): void {
+  const key = "solidus-watch";
+  const kept = sessionStorage.getItem(key);
+  if (kept) bench.restore(JSON.parse(kept));
+  const badge = document.querySelector<HTMLElement>("#head .badge");
+  if (badge && badge.textContent === "not ended") {
+    badge.textContent = "running";
+    document.querySelectorAll("#warnings li").forEach((li) => li.textContent!.startsWith("There is no summary.json") && li.remove());
+    if (!document.querySelector("#warnings li")) document.querySelector("#warnings")?.remove();
+  }
+  let busy = false, failures = 0;
+  addEventListener("pointerdown", () => (busy = true));
+  addEventListener("pointerup", () => (busy = false));
+  const look = async () => {
+    const mine = document.getElementById("stamp")?.textContent;
+    try {
+      const response = await fetch("stamp", { cache: "no-store" });
+      const stamp = response.ok ? await response.text() : undefined;
+      failures = 0;
+      if (stamp && stamp !== mine && !busy) {
+        sessionStorage.setItem(key, JSON.stringify(bench.state()));
+        location.reload();
+        return;
+      }
+    } catch {
+      if (++failures === 2) {
+        const finished = badge?.textContent === "finished";
+        if (badge && !finished) badge.textContent = "no more news";
+        byId("head").append(h("div", { class: "notice" }, "The run has ended: this page stays as it is. `solidus report` writes it as a file."));
+        return;
+      }
+    }
+    setTimeout(look, 1500);
+  };
+  setTimeout(look, 1500);
+}
+
 function start(): void {
   theme();
   keysDialog();
@@ -61,6 +99,7 @@ function start(): void {
     document.querySelectorAll<HTMLDetailsElement>("main details").forEach((d) => (d.open = true));
     drawAllCharts();
   });
+  if (location.protocol === "http:") watch(bench);
   (window as unknown as { solidus: unknown }).solidus = { page, bench };
 }
 

@@ -101,9 +101,13 @@ export function duration(seconds: number): string {
   return `${Math.floor(minutes / 60)} h${minutes % 60 ? ` ${minutes % 60} min` : ""}`;
 }
 
-/** Coordinates in mm. */
+/** Coordinates in mm, to a tenth; small parts to two digits. */
 export function place(x: ArrayLike<number>, dimension = 3): string {
-  return `(${Array.from(x).slice(0, dimension).map((v) => String(+(v * 1e3).toPrecision(3)).replace("-", "−")).join(", ")}) mm`;
+  const one = (metres: number) => {
+    const v = metres * 1e3, text = Math.abs(v) >= 1 ? v.toFixed(1) : v.toPrecision(2);
+    return String(Math.abs(v) < 5e-4 ? 0 : +text).replace("-", "−");
+  };
+  return `(${Array.from(x).slice(0, dimension).map(one).join(", ")}) mm`;
 }
 
 /** "degC" of the tables as "°C". */

@@ -60,10 +60,10 @@ function figures(): Figure[] {
     { label: "Freezes last", ...of("solidified_at", "max", (v) => duration(v)) },
     { label: "Longest local freezing", ...of("local_solidification_time", "max", (v) => duration(v)) },
     { label: "Least Niyama", ...of("niyama", "min", (v, u) => withUnit(v, u)) },
-    { label: "Porosity, largest (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
+    { label: "Porosity (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
     { label: "Pools closed off", text: (r) => (typeof r.summary.criteria?.closed_off_pools === "number" ? String(r.summary.criteria.closed_off_pools) : undefined) },
-    { label: "Von Mises at the end", ...largest("von_mises") },
-    { label: "Plastic strain at the end", ...largest("equivalent_plastic_strain") },
+    { label: "Von Mises, largest at end", ...largest("von_mises") },
+    { label: "Plastic strain, largest", ...largest("equivalent_plastic_strain") },
     { label: "At the end", text: (r) => {
       const low = final(r, "T_min[degC]"), high = final(r, "T_max[degC]");
       return low !== undefined && high !== undefined ? (Math.abs(high - low) < 0.5 ? `${short(Math.round(high))} °C` : `${+low.toFixed(1)} … ${+high.toFixed(1)} °C`.replace(/-/g, "−")) : undefined;
@@ -103,7 +103,7 @@ export function buildHead(page: Page, bench: Workbench): void {
     const at = figure.place?.(page.runs[0]);
     const content: Node_[] = [h("span", {}, figure.label), ...texts.map((t) => bold(t ?? "–"))];
     if (at && bench.ready)
-      box.append(h("button", { class: "figure", title: "Show it in the picture", click: () => bench.fly(at.at, at.label) }, ...content, h("em", {}, `${place(at.at, page.runs[0].dimension)}  ↗`)));
+      box.append(h("button", { class: "figure", title: "Show it in the picture", click: () => bench.fly(at.at, at.label) }, ...content, h("em", {}, `${place(at.at, page.runs[0].dimension)} ↗`)));
     else box.append(h("div", { class: "figure" }, ...content));
   }
   if (box.children.length) head.append(box);

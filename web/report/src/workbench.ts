@@ -78,7 +78,8 @@ export class Workbench {
       });
     }
     this.times = [...new Set(this.runs.flatMap((r) => r.times))].sort((a, b) => a - b);
-    c.time = this.times[Math.max(0, this.firstTelling())];
+    // A run that goes on is watched at its front.
+    c.time = location.protocol === "http:" ? this.times[this.times.length - 1] : this.times[Math.max(0, this.firstTelling())];
     const field = ["temperature", "von_mises", "displacement"].find((id) => this.run.fields.some((f) => f.id === id)) ?? this.run.fields[0]?.id ?? "";
     c.field = field;
     const high = this.run.displacement.length ? this.displacementRange()[1] : 0;
@@ -206,6 +207,31 @@ export class Workbench {
     for (const s of this.stages) s.view.request();
   }
 
+  /** What the reader has chosen, for the next page of a run that goes on. */
+  state(): object {
+    const { target, turn, half } = this.camera, c = this.choice;
+    return {
+      choice: { ...c, shown: [...c.shown] }, last: this.ready && this.timeIndex() === this.times.length - 1, target: target.toArray(), turn: turn.toArray(), half,
+      fixedRange: this.fixedRange, ofMoment: this.ofMoment, scaleChosen: this.scaleChosen, scroll: scrollY,
+    };
+  }
+  restore(kept: ReturnType<Workbench["state"]>): void {
+    if (!this.ready) return;
+    const k = kept as { choice: Choice & { shown: [string, Shown][] }; last: boolean; target: number[]; turn: number[]; half: number; fixedRange: boolean; ofMoment: boolean; scaleChosen: boolean; scroll: number };
+    Object.assign(this.choice, k.choice, { shown: new Map(k.choice.shown) });
+    if (!this.fields().some((f) => f.id === this.choice.field)) this.choice.field = this.fields()[0]?.id ?? "";
+    this.camera.target.fromArray(k.target);
+    this.camera.turn.fromArray(k.turn as [number, number, number, number]);
+    this.camera.half = k.half;
+    this.camera.flat = this.flat;
+    this.fixedRange = k.fixedRange;
+    this.ofMoment = k.ofMoment;
+    this.scaleChosen = k.scaleChosen;
+    // Who looked at the last moment wants the last moment.
+    this.goTo(k.last ? this.times[this.times.length - 1] : this.choice.time);
+    scrollTo({ top: k.scroll, behavior: "instant" });
+  }
+
   // Time
   private timeIndex(): number {
     let best = 0;
@@ -271,9 +297,9 @@ export class Workbench {
     }
     const stage = this.stages[0].root.getBoundingClientRect();
     const aspect = stage.width > 0 ? stage.width / Math.max(1, stage.height) : 1.5;
-    c.half = Math.max(halfHeight * 1.3, (halfWidth / aspect) * 1.1) || 1;
+    c.half = Math.max(halfHeight * 1.36, (halfWidth / aspect) * 1.12) || 1;
     // The legend lies below: what is shown moves up by a little.
-    c.target.add(new Vector3(0, -c.half * 0.12, 0).applyQuaternion(c.turn));
+    c.target.add(new Vector3(0, -c.half * 0.15, 0).applyQuaternion(c.turn));
     this.redraw();
   }
   look(direction: [number, number, number]): void {
