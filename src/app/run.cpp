@@ -12,8 +12,8 @@
 #include "app/places.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
-#include "base/terminal.hpp"
 #include "app/watch.hpp"
+#include "base/terminal.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
 

@@ -122,7 +122,8 @@ void check_liquid_model(const Material& m, const MaterialData& data) {
 /// held in a step.
 void check_heat_of_expansion(const Material& m, const MaterialData& data) {
   if (!m.mechanical() || m.specific_heat_at == SpecificHeatAt::constant_strain) return;
-  std::vector<double> points;
+  const PhaseChange* const freezing = m.solidification();
+  std::vector<double> points{k_zero_celsius + 20, freezing != nullptr ? freezing->fraction.solidus() : 0.0};
   for (const Table* table : {&m.young_modulus, &m.poisson_ratio, &m.expansion, &m.specific_heat})
     points.insert(points.end(), table->x().begin(), table->x().end());
   for (const double at : points) {

@@ -124,6 +124,7 @@ TEST(StructuralHeat, BothFormsDifferAtSecondOrderInTheStep) {
 
 TEST(StructuralHeat, StrainingOfAPhaseChangeIsHeldAndMakesNoSpikeInTheFreezingRange) {
   material::Material m = Stretched::material(true);
+  m.specific_heat_at = material::SpecificHeatAt::constant_strain;
   m.phase_changes.push_back({.name = "freezing",
                              .fraction = material::PhaseFraction::linear(932, 933),
                              .volume_change = -0.06,
