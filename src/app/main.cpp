@@ -201,7 +201,8 @@ ExitCode parse_and_run(int argc, char** argv) {
     return k_done;
   } catch (const CLI::Success& help) {
     print(help.get_name() == "CallForHelp"
-              ? (program.get_subcommands().empty() ? program.help() : program.get_subcommands()[0]->help("solidus"))
+              ? (program.get_subcommands().empty() ? program.help()
+                                                   : program.get_subcommands()[0]->help("solidus"))
               : program.help("", CLI::AppFormatMode::All));
     return k_done;
   } catch (const CLI::ParseError& error) {

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "algebra/interruption.hpp"
+#include "algebra/parallel.hpp"
 #include "app/places.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
@@ -48,7 +49,7 @@ ExitCode run(const CaseArguments& arguments) {
     if (rank == 0)
       std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason
                 << std::endl;
-    return interrupted() ? k_interrupted : k_cannot_go_on;
+    return algebra::any_process(interrupted()) ? k_interrupted : k_cannot_go_on;
   }
   print("Results in " + options.folder.lexically_normal().string() + "\n");
   return k_done;
