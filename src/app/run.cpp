@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "algebra/interruption.hpp"
+#include "algebra/parallel.hpp"
 #include "app/places.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
@@ -56,7 +57,11 @@ ExitCode run(const CaseArguments& arguments) {
     if (rank == 0)
       std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason
                 << std::endl;
+<<<<<<< HEAD
     return interrupted() ? k_interrupted : k_cannot_continue;
+=======
+    return algebra::any_process(interrupted()) ? k_interrupted : k_cannot_go_on;
+>>>>>>> hC
   }
   print("Results in " + options.folder.lexically_normal().string() + "\n");
   return k_done;

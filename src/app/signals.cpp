@@ -7,8 +7,6 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "algebra/parallel.hpp"
-
 namespace solidus::app {
 
 namespace {
@@ -60,7 +58,7 @@ bool stop_asked() {
 }
 
 bool interrupted() {
-  return algebra::any_process(by_keyboard != 0);
+  return by_keyboard != 0;
 }
 
 }  // namespace solidus::app

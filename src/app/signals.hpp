@@ -10,7 +10,7 @@ namespace solidus::app {
 void listen_to_signals();
 /// Whether one has come.
 bool stop_asked();
-/// Whether it was Ctrl-C, on any process. Collective.
+/// Whether it was Ctrl-C, on this process.
 bool interrupted();
 
 }  // namespace solidus::app
