@@ -57,11 +57,7 @@ ExitCode run(const CaseArguments& arguments) {
     if (rank == 0)
       std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason
                 << std::endl;
-<<<<<<< HEAD
-    return interrupted() ? k_interrupted : k_cannot_continue;
-=======
-    return algebra::any_process(interrupted()) ? k_interrupted : k_cannot_go_on;
->>>>>>> hC
+    return algebra::any_process(interrupted()) ? k_interrupted : k_cannot_continue;
   }
   print("Results in " + options.folder.lexically_normal().string() + "\n");
   return k_done;
