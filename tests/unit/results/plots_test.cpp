@@ -200,7 +200,7 @@ lines = [{ column = "force[N]" }]
 TEST_F(Plots, SaysWhichKeyItDoesNotKnow) {
   test::on_first([&] {
     draw("[[maps]]\nfile = \"a\"\nfeld = \"temperature\"\n");
-    EXPECT_EQ(WEXITSTATUS(code), 1);
+    EXPECT_NE(code, 0);
     EXPECT_TRUE(
         fs::exists(folder.path / "plots" / "history_degC.png"));  // what is right is drawn all the same
     EXPECT_NE(said.find("unknown key 'feld' in [[maps]]; there are bodies, component"), std::string::npos)
