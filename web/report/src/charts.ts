@@ -58,7 +58,7 @@ function options(spec: ChartSpec, width: number): uPlot.Options {
   return {
     width, height: spec.height ?? 230,
     cursor: { sync: spec.time ? { key: "time" } : undefined, drag: { x: true, y: false }, points: { size: 6 } },
-    scales: { x: { time: false }, y: { distr: spec.logarithmic ? 3 : 1, range: spec.logarithmic ? undefined : (_u, lo, hi) => padded(lo, hi) } },
+    scales: { x: { time: false, range: (_u, lo, hi) => wide(lo, hi) }, y: { distr: spec.logarithmic ? 3 : 1, range: spec.logarithmic ? undefined : (_u, lo, hi) => padded(lo, hi) } },
     legend: { live: true },
     axes: [
       { ...axis, label: `${spec.xLabel ?? "Time"} [${spec.xUnit ?? "s"}]`, size: 28 },
@@ -98,10 +98,19 @@ function options(spec: ChartSpec, width: number): uPlot.Options {
   };
 }
 
-function padded(low: number, high: number): [number, number] {
+/** Some room above and below; what differs by rounding alone counts as constant, for which there are no ticks. */
+function padded(low: number | null, high: number | null): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
-  const room = high > low ? (high - low) * 0.06 : Math.abs(high) * 0.1 || 1;
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  const room = high - low > 1e-9 * size ? (high - low) * 0.06 : size * 0.1 || 1;
   return [low - room, high + room];
+}
+
+/** As zoomed to, but never so close that numbers cannot tell ticks apart. */
+function wide(low: number | null, high: number | null): [number, number] {
+  if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
+  const least = 1e-8 * Math.max(Math.abs(low), Math.abs(high)) || 1;
+  return high - low > least ? [low, high] : [(low + high - least) / 2, (low + high + least) / 2];
 }
 
 /** A card with a chart; it draws itself when it comes into sight. */
@@ -113,7 +122,7 @@ export function chart(spec: ChartSpec): HTMLElement {
     box);
   let entry: Made | undefined;
   const draw = () => {
-    const width = box.clientWidth;
+    const width = paper ? PAPER_WIDTH : box.clientWidth;
     if (width < 10) return;
     if (entry) {
       made.delete(entry);
@@ -132,7 +141,7 @@ export function chart(spec: ChartSpec): HTMLElement {
   sight.observe(box);
   new ResizeObserver(() => {
     if (near && !entry) draw();
-    else if (entry && box.clientWidth > 10 && Math.abs(entry.plot.width - box.clientWidth) > 1)
+    else if (entry && !paper && box.clientWidth > 10 && Math.abs(entry.plot.width - box.clientWidth) > 1)
       entry.plot.setSize({ width: box.clientWidth, height: spec.height ?? 230 });
   }).observe(box);
   const redraw = () => {
@@ -159,9 +168,15 @@ export function chart(spec: ChartSpec): HTMLElement {
 const redraws = new Set<() => void>(), everything = new Set<() => void>();
 const drop = new WeakMap<HTMLElement, () => void>();
 
-/** Everything, for the printer. */
-export function drawAllCharts(): void {
-  for (const draw of everything) draw();
+/** Two charts stand beside each other on A4. */
+const PAPER_WIDTH = 420;
+let paper = false;
+
+/** Every chart at the width of the paper, or back at that of the window. */
+export function drawForPaper(on: boolean): void {
+  paper = on;
+  if (on) for (const draw of everything) draw();
+  redrawCharts();
 }
 /** Colours follow the theme. */
 export function redrawCharts(): void {

@@ -1,6 +1,6 @@
 /** The page: reads its data, builds the sections, joins picture, curves and keys. */
 import { byId, h } from "./dom";
-import { drawAllCharts, onTimePicked, redrawCharts } from "./charts";
+import { drawForPaper, onTimePicked, redrawCharts } from "./charts";
 import { Page } from "./run";
 import { Workbench } from "./workbench";
 import { buildHead, buildSections } from "./sections";
@@ -95,9 +95,17 @@ function start(): void {
     bench.update();
   });
   byId("print").addEventListener("click", () => window.print());
+  let onScreen = "";
   addEventListener("beforeprint", () => {
+    onScreen = document.documentElement.dataset.theme ?? "light";
+    document.documentElement.dataset.theme = "light";
     document.querySelectorAll<HTMLDetailsElement>("main details").forEach((d) => (d.open = true));
-    drawAllCharts();
+    drawForPaper(true);
+  });
+  addEventListener("afterprint", () => {
+    document.documentElement.dataset.theme = onScreen;
+    drawForPaper(false);
+    bench.update();
   });
   if (location.protocol === "http:") watch(bench);
   (window as unknown as { solidus: unknown }).solidus = { page, bench };
