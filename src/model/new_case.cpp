@@ -277,7 +277,7 @@ class NewCase {
     if (!has_mould_) choose_mould();
     for (const mesh::InscribedSphere& sphere : spheres_) draft_.hot_spots.push_back(sphere);
     for (mesh::InscribedSphere& sphere : draft_.hot_spots) fold(sphere.centre);
-    if (draft_.riser) fold(draft_.riser->foot);
+    if (draft_.riser) fold(draft_.riser->foot, 0);
     draft_.film = process_.film;
     draft_.film_source = process_.film_source;
     draft_.end = 600;
@@ -300,13 +300,14 @@ class NewCase {
     return std::ranges::any_of(bodies_, [](const Found& b) { return b.role == Role::riser; });
   }
 
-  /// Into the half that is kept.
-  void fold(mesh::Point& x) const {
+  /// Into the half that is kept; what is near the plane of symmetry comes as near to it as a share of the
+  /// thickest place.
+  void fold(mesh::Point& x, double inside = 1e-3) const {
     if (!draft_.symmetry) return;
     double& c = x[static_cast<std::size_t>(draft_.symmetry->axis)];
     const double at = draft_.symmetry->at, near = 0.1 * thickest_;
     if (c > at) c = 2 * at - c;
-    if (at - c < near) c = at - 1e-3 * thickest_;
+    if (at - c < near) c = at - inside * thickest_;
   }
 
   void choose_symmetry() {
