@@ -417,14 +417,39 @@ class Maker {
                                                    : largest});
       }
     }
+    sample_narrow_faces(all);
     sample_short_curves(all);
     return all;
+  }
+
+  /// On a face that is narrower than an element, of the width 2 area / boundary, elements are as small.
+  void sample_narrow_faces(std::vector<SizeSample>& all) const {
+    constexpr double k_least = 0.12;  // of the limit
+    for (const auto& [entity, limit] : limit_) {
+      if (entity.first != 2) continue;
+      double area = 0, around = 0;
+      occ::getMass(2, entity.second, area);
+      gmsh::vectorpair curves;
+      gmsh::model::getBoundary({entity}, curves, false, false, false);
+      for (const auto& [dimension, tag] : curves) {
+        double length = 0;
+        occ::getMass(1, std::abs(tag), length);
+        around += length;
+      }
+      const double width = around > 0 ? 2 * area / around : limit;
+      if (!(width > 0) || width > limit) continue;
+      std::vector<std::size_t> elements, nodes;
+      gmsh::model::mesh::getElementsByType(2, elements, nodes, entity.second);
+      for (std::size_t k = 0; k + 2 < nodes.size(); k += 3)
+        all.push_back(
+            {{x_.at(nodes[k]), x_.at(nodes[k + 1]), x_.at(nodes[k + 2])}, std::max(width, k_least * limit)});
+    }
   }
 
   /// Next to a curve that is shorter than an element, elements are as small as the curve: else they are
   /// slivers.
   void sample_short_curves(std::vector<SizeSample>& all) const {
-    constexpr double k_least = 0.05;  // of the limit: what is shorter is not worth its elements
+    constexpr double k_least = 0.12;  // of the limit: what is shorter is not worth its elements
     for (const auto& [entity, limit] : limit_) {
       if (entity.first != 1) continue;
       double length = 0;

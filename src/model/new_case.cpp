@@ -269,7 +269,7 @@ class NewCase {
     if (!options_.symmetry.empty()) choose_symmetry();
     if (options_.riser) {
       if (has_riser()) throw InputError({"--riser"}, "the geometry has a riser already", "no --riser auto");
-      draft_.riser = riser_on(mesh_, metal_, spheres_.front(), volume_ / area_, volume_,
+      draft_.riser = riser_on(mesh_, metal_, place_to_feed(), volume_ / area_, volume_,
                               std::abs(alloy_.solidification()->volume_change));
       thickest_ = std::max(thickest_, draft_.riser->diameter);
     }
@@ -277,24 +277,37 @@ class NewCase {
     if (!has_mould_) choose_mould();
     for (const mesh::InscribedSphere& sphere : spheres_) draft_.hot_spots.push_back(sphere);
     for (mesh::InscribedSphere& sphere : draft_.hot_spots) fold(sphere.centre);
-    if (draft_.riser) fold(draft_.riser->foot);
+    if (draft_.riser) fold(draft_.riser->foot, 0);
     draft_.film = process_.film;
     draft_.film_source = process_.film_source;
     draft_.end = 600;
     draft_.step = 1;
   }
 
+  /// Of the thick places that are nearly the thickest the one with the least metal above its centre.
+  const mesh::InscribedSphere& place_to_feed() const {
+    constexpr double k_nearly = 0.8;
+    const mesh::InscribedSphere* best = &spheres_.front();
+    double least = 1e300;
+    for (const mesh::InscribedSphere& s : spheres_) {
+      const double above = mesh::top_above(mesh_, metal_, s.centre) - s.centre[2];
+      if (s.radius >= k_nearly * spheres_.front().radius && above < least) least = above, best = &s;
+    }
+    return *best;
+  }
+
   bool has_riser() const {
     return std::ranges::any_of(bodies_, [](const Found& b) { return b.role == Role::riser; });
   }
 
-  /// Into the half that is kept.
-  void fold(mesh::Point& x) const {
+  /// Into the half that is kept; what is near the plane of symmetry comes as near to it as a share of the
+  /// thickest place.
+  void fold(mesh::Point& x, double inside = 1e-3) const {
     if (!draft_.symmetry) return;
     double& c = x[static_cast<std::size_t>(draft_.symmetry->axis)];
     const double at = draft_.symmetry->at, near = 0.1 * thickest_;
     if (c > at) c = 2 * at - c;
-    if (at - c < near) c = at - 1e-3 * thickest_;
+    if (at - c < near) c = at - inside * thickest_;
   }
 
   void choose_symmetry() {
@@ -469,12 +482,18 @@ class NewCase {
 
   /// @return whether sizes and walls may stay
   bool adapt(const CheckedRun& checked) {
-    double time = 0, reach = 0;
+    double time = 0, reach = 0, least_constant = 1e300;
     nodes_ = metal_nodes_ = 0;
     for (const results::PourOverview& pour : checked.overview.pours) {
       time = std::max(time, pour.freezing_time.value_or(0));
       reach = std::max(reach, pour.mould_reach);
+      if (pour.freezing_time) least_constant = std::min(least_constant, pour.chvorinov());
     }
+    // Metal drawn as several bodies feeds heat to each other, which the estimate of each takes for its mould:
+    // Chvorinov's constant of the one that it fits best, and the thickest place, are no shorter.
+    const double hot = spheres_.empty() ? 0 : spheres_.front().radius / 2;
+    const double modulus = std::max({volume_ / area_, hot, draft_.riser ? draft_.riser->diameter / 4 : 0.0});
+    if (time > 0) time = std::min(time, least_constant * modulus * modulus);
     for (const results::BodyOverview& body : checked.overview.bodies) {
       nodes_ += static_cast<double>(body.nodes);
       for (const DraftBody& draft : draft_.bodies)

@@ -141,7 +141,8 @@ TEST(NewCase, OfAHollowPartHasAMouldACoreARiserAndRunsBothWays) {
   EXPECT_THAT(report.text, HasSubstr("core"));
   using solidus::model::Physics;
   for (const Physics physics : {Physics::heat, Physics::thermomechanical}) {
-    const solidus::model::Case c = solidus::model::load_case(report.file, {"time.end=\"2 s\""}, physics);
+    const solidus::model::Case c =
+        solidus::model::load_case(report.file, {"time.end=\"3 s\"", "time.step=\"1 s\""}, physics);
     ASSERT_EQ(c.spec.bodies.size(), 4U);
     EXPECT_EQ(c.spec.mechanical_conditions.size(), physics == Physics::heat ? 0U : 2U);  // symmetry
     solidus::model::RunOptions run;
