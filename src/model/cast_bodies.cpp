@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/roles.hpp"
+
 namespace solidus::model {
 
 std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
@@ -11,9 +13,12 @@ std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::PhaseChange* freezing = materials[b].solidification();
     if (freezing == nullptr || start[b].high <= freezing->fraction.solidus()) continue;
+    const BodySpec& body = spec.bodies[b];
+    const Role role = role_of(body, materials[b]);
+    if (role != Role::casting && role != Role::riser) continue;
     const std::vector<std::string>& feeders = spec.criteria.feeders;
-    const bool feeds =
-        std::find(feeders.begin(), feeders.end(), spec.bodies[b].mesh_group()) != feeders.end();
+    const bool feeds = role == Role::riser || role_in_name(body.name) == Role::riser ||
+                       std::find(feeders.begin(), feeders.end(), body.mesh_group()) != feeders.end();
     cast.push_back({static_cast<int>(b), spec.bodies[b].name, feeds});
   }
   return cast;
