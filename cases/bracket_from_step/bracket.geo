@@ -1,5 +1,5 @@
 // An L of two plates of 15 mm with two bores and a rib; lengths in mm. Makes bracket.step:
-//   gmsh -0 bracket.geo
+//   (cat bracket.geo; echo 'Save "bracket.step";') > save.geo && gmsh -0 save.geo
 SetFactory("OpenCASCADE");
 Box(1) = {0,0,0, 100,60,15};
 Box(2) = {0,0,0, 15,60,80};
@@ -13,4 +13,3 @@ Line(201) = {101,102}; Line(202)={102,103}; Line(203)={103,101};
 Curve Loop(301)={201,202,203}; Plane Surface(301)={301};
 e() = Extrude{0,6,0}{Surface{301};};
 BooleanUnion(77) = {Volume{6}; Delete;}{Volume{e(1)}; Delete;};
-Save "bracket.step";
