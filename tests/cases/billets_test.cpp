@@ -100,10 +100,11 @@ TEST(Billets, TheCoupledVariantHasTheSameTemperaturesAndAFreeButt) {
   const testing::CaseRun heat = testing::run("cases/billet_aa6060", "billet_heat", coarse),
                          coupled = testing::run("cases/billet_aa6060/coupled.toml", "billet_coupled", coarse);
   ASSERT_TRUE(coupled.finished) << coupled.reason;
-  // The specific heat is that at constant pressure in both, and hardly anything is held. Read as one at constant
-  // strain the coupled billet is up to 22 K hotter.
+  // The specific heat is that at constant pressure in both, and hardly anything is held. Read as one at
+  // constant strain the coupled billet is up to 22 K hotter.
   EXPECT_NEAR(coupled.history.at("T_min[degC]").back(), heat.history.at("T_min[degC]").back(), 0.3);
-  EXPECT_NEAR(coupled.history.at("solid_fraction[1]").back(), heat.history.at("solid_fraction[1]").back(), 2e-4);
+  EXPECT_NEAR(coupled.history.at("solid_fraction[1]").back(), heat.history.at("solid_fraction[1]").back(),
+              2e-4);
   // The rim has contracted upward, its centre has not yet: the butt curls.
   EXPECT_GT(coupled.history.at("butt_rim[mm]").back(), coupled.history.at("butt_centre[mm]").back() + 0.1);
 }
