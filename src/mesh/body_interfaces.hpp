@@ -49,7 +49,8 @@ struct Facing {
 /// Finds the faces of the pairs that face each other: normals opposed, no farther apart than the distance.
 /// Makes the surface groups A_to_B and B_to_A of each pair that has some, and A_free of what of each body
 /// faces none, where there is some.
-/// @param cut     the plane at which the geometry was cut: what of a skin lies in it is A_symmetry, not A_free
+/// @param cut     the plane at which the geometry was cut: what of a skin lies in it is A_symmetry, not
+/// A_free
 /// @param bodies  groups of full dimension
 /// @param names   of the bodies, for the names of the groups
 /// @param source  for messages: the file or shape of the mesh

@@ -77,9 +77,7 @@ struct MeshGroupSpec {
   std::vector<double> nearest;          ///< a point [m]: the smooth part of the skin that is nearest to it
   SourceLocation where;
   /// Whether faces of the mesh are chosen, in place of surfaces of the geometry.
-  bool by_rule() const {
-    return !owner.empty() || !normal.empty() || !plane.empty() || !nearest.empty();
-  }
+  bool by_rule() const { return !owner.empty() || !normal.empty() || !plane.empty() || !nearest.empty(); }
 };
 
 /// How large the elements of a body are (mesh/casting_geometry.hpp).
@@ -189,7 +187,7 @@ struct BodySpec {
   std::optional<std::string> group;  ///< of the mesh; absent: as `name`
   std::string material;              ///< name in the library, or a file
   Function initial_temperature;      ///< [K], of position
-  std::optional<Role> role;              ///< absent: deduced (model/roles.hpp)
+  std::optional<Role> role;          ///< absent: deduced (model/roles.hpp)
   /// automatic: heat where it is no casting and its material has no elastic properties, else all
   enum class Physics { automatic, all, heat };
   Physics physics = Physics::all;
@@ -261,11 +259,11 @@ struct ContactSpec {
 /// Contacts between bodies whose faces are found by themselves (model/interfaces.hpp).
 struct BodyInterfaceSpec {
   std::string name;
-  std::vector<std::string> bodies;         ///< names of two, or "all"
-  std::optional<double> distance;          ///< up to which faces face each other [m]
-  std::optional<double> touching;          ///< as of a contact [m]
-  std::string law;                         ///< name of a card of the library; empty: by the pair
-  bool wet = true;                         ///< as of a contact
+  std::vector<std::string> bodies;                ///< names of two, or "all"
+  std::optional<double> distance;                 ///< up to which faces face each other [m]
+  std::optional<double> touching;                 ///< as of a contact [m]
+  std::string law;                                ///< name of a card of the library; empty: by the pair
+  bool wet = true;                                ///< as of a contact
   std::optional<contact::HeatTransferSpec> heat;  ///< in place of the library
   std::optional<FrictionSpec> friction;
   std::vector<std::string> stages;  ///< in which it holds; empty: all

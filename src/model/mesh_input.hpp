@@ -11,7 +11,8 @@ namespace solidus::model {
 mesh::RawMesh raw_mesh(CaseSpec spec);
 
 /// The part of the mesh that this process holds; the surfaces in contact are on all of them. Collective: what
-/// goes wrong on process 0 is thrown on all. The contacts that interfaces make are added to those of the case.
+/// goes wrong on process 0 is thrown on all. The contacts that interfaces make are added to those of the
+/// case.
 mesh::Mesh load_mesh(CaseSpec& spec);
 
 }  // namespace solidus::model
