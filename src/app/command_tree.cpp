@@ -27,6 +27,15 @@ std::vector<OptionInfo> options_of(const CLI::App& app) {
   return all;
 }
 
+std::vector<VerbInfo> verbs_of(const CLI::App& app, const std::string& above) {
+  std::vector<VerbInfo> all;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::string name = above + verb->get_name();
+    all.push_back({name, verb->get_description(), options_of(*verb), verbs_of(*verb, name + " ")});
+  }
+  return all;
+}
+
 }  // namespace
 
 CommandTree command_tree(const CLI::App& program) {
@@ -34,8 +43,7 @@ CommandTree command_tree(const CLI::App& program) {
   tree.doc = program.get_description();
   tree.footer = program.get_footer();
   tree.options = options_of(program);
-  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
-    tree.verbs.push_back({verb->get_name(), verb->get_description(), options_of(*verb)});
+  tree.verbs = verbs_of(program, "");
   return tree;
 }
 

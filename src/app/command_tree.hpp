@@ -22,6 +22,7 @@ struct OptionInfo {
 struct VerbInfo {
   std::string name, doc;
   std::vector<OptionInfo> options;  ///< those of the program itself are not repeated
+  std::vector<VerbInfo> verbs;      ///< below it, as `import` of `materials import`, with their whole names
 };
 
 struct CommandTree {

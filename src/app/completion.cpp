@@ -46,9 +46,23 @@ Words option_names(const std::vector<OptionInfo>& options) {
   return names;
 }
 
+/// Options of a verb, and the named ones of those below it that it has not.
+std::vector<OptionInfo> options_of(const VerbInfo& verb) {
+  std::vector<OptionInfo> all = verb.options;
+  for (const VerbInfo& below : verb.verbs)
+    for (const OptionInfo& option : options_of(below)) {
+      const Words taken = option_names(all);
+      const bool there = std::any_of(option.names.begin(), option.names.end(), [&](const std::string& name) {
+        return std::find(taken.begin(), taken.end(), name) != taken.end();
+      });
+      if (!there && !option.positional()) all.push_back(option);
+    }
+  return all;
+}
+
 /// Options of a verb and those of the program.
 std::vector<OptionInfo> options_with(const VerbInfo& verb, const CommandTree& tree) {
-  std::vector<OptionInfo> all = verb.options;
+  std::vector<OptionInfo> all = options_of(verb);
   for (const OptionInfo& option : tree.options) {
     const Words taken = option_names(all);
     const bool there = std::any_of(option.names.begin(), option.names.end(), [&](const std::string& name) {
@@ -245,7 +259,7 @@ std::string fish(const CommandTree& tree, const KnownWords& known) {
                        fish_quoted(verb.doc));
   for (const OptionInfo& option : tree.options) out += fish_option(option, "", tree, known);
   for (const VerbInfo& verb : tree.verbs)
-    for (const OptionInfo& option : verb.options)
+    for (const OptionInfo& option : options_of(verb))
       if (std::find(option.names.begin(), option.names.end(), "--help") == option.names.end())
         out +=
             fish_option(option, fmt::format(" -n '__fish_seen_subcommand_from {}'", verb.name), tree, known);

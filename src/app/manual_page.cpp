@@ -44,18 +44,29 @@ std::string synopsis(const VerbInfo& verb) {
   return text + (options ? " [\\fIoptions\\fR]" : "");
 }
 
+/// Each verb, and behind it those below it.
+std::vector<VerbInfo> with_those_below(const std::vector<VerbInfo>& verbs) {
+  std::vector<VerbInfo> all;
+  for (const VerbInfo& verb : verbs) {
+    all.push_back(verb);
+    for (const VerbInfo& below : with_those_below(verb.verbs)) all.push_back(below);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string manual_page(const CommandTree& tree) {
   std::string out = fmt::format(".TH SOLIDUS 1 \"\" \"Solidus {}\" \"User commands\"\n", SOLIDUS_VERSION);
   out += ".SH NAME\nsolidus \\- how a metal casting solidifies in its mould\n.SH SYNOPSIS\n";
-  for (const VerbInfo& verb : tree.verbs) out += synopsis(verb) + "\n.br\n";
+  const std::vector<VerbInfo> verbs = with_those_below(tree.verbs);
+  for (const VerbInfo& verb : verbs) out += synopsis(verb) + "\n.br\n";
   out +=
       ".SH DESCRIPTION\nA case is a text file (TOML) that names a mesh, bodies with their materials, what "
       "cools them, and the time.\n\\fBsolidus run\\fR computes temperatures, latent heat, stresses and the "
       "air gap between casting and mould, and leaves a folder of results.\n\\fBsolidus explain\\fR tells "
       "what every key of a case means.\n.SH VERBS\n";
-  for (const VerbInfo& verb : tree.verbs) {
+  for (const VerbInfo& verb : verbs) {
     out += ".SS " + synopsis(verb) + "\n" + escaped(verb.doc) + ".\n";
     for (const OptionInfo& option : verb.options) out += option_entry(option);
   }

@@ -9,6 +9,8 @@ namespace solidus {
 bool has_colours(int descriptor) {
   const char *none = std::getenv("NO_COLOR"), *kind = std::getenv("TERM");
   if (none != nullptr && *none != '\0') return false;
+  // mpirun gives its processes a terminal of their own, wherever their output goes.
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr) return false;
   return isatty(descriptor) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
 }
 

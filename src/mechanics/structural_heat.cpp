@@ -9,7 +9,7 @@
 namespace solidus::mechanics {
 
 StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed)
-    : phase_(phase), form_(form) {
+    : phase_(phase), form_(form), closed_(closed) {
   const std::vector<mesh::Block>& blocks = phase.mesh().blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     phase.blocks()[b]->spread_heat_as_stored(
@@ -28,8 +28,10 @@ void StructuralHeat::add_tangent(std::span<const double> temperature, algebra::B
   if (!has_tangent_) return;
   work_.assign(temperature.size(), 0.0);
   for (const auto& block : phase_.blocks()) block->add_structural_heat(form_, temperature, true, work_);
-  for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node)
-    *matrix.diagonal_block(node) += work_[static_cast<std::size_t>(node)];
+  for (Index node = 0; node < phase_.mesh().n_owned_nodes; ++node) {
+    const double entry = work_[static_cast<std::size_t>(node)];
+    *matrix.diagonal_block(node) += closed_ ? entry : std::max(entry, 0.0);
+  }
 }
 
 void StructuralHeat::begin_stage(const algebra::Stage& stage, std::span<const double> temperature) {

@@ -41,7 +41,9 @@ struct StructuralChange {
 };
 
 /// Adds to the thermal residual in watts (heat stored is positive). The tangent is lumped to the diagonal, so
-/// that the thermal matrix stays symmetric and of non-negative type.
+/// that the thermal matrix stays symmetric and of non-negative type. With the open rule, whose capacity is not
+/// lumped, negative entries are left out: C_v is less than C_p, and beside the small eigenvalues of a consistent
+/// capacity a lumped difference of the two would make the matrix indefinite.
 class StructuralHeat : public algebra::Contribution {
  public:
   /// @param phase   must outlive this object; its last
@@ -69,6 +71,7 @@ class StructuralHeat : public algebra::Contribution {
  private:
   const MechanicalPhase& phase_;
   StructuralForm form_;
+  bool closed_;  ///< heat is stored by the closed rule
   bool has_tangent_ = true;
   std::vector<double> work_;  ///< [local node]; ghost rows are scrap
 };

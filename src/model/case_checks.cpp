@@ -145,6 +145,10 @@ void check_mesh(const MeshSpec& m, const AnalysisSpec& analysis) {
                        "lowest and highest of three coordinates each");
   }
   if (!m.shape) return;
+  if (m.order != 1)
+    throw InputError(
+        m.where, "'order' is that of files that hold a geometry; a built-in shape takes it from 'element'",
+        "element = \"tri6\", \"quad8\", \"tet10\" or \"hex20\" for the second order");
   const bool rules_alone =
       std::all_of(m.groups.begin(), m.groups.end(), [](const MeshGroupSpec& g) { return g.by_rule(); });
   if (!rules_alone || m.conforming)

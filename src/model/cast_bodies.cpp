@@ -17,7 +17,9 @@ std::vector<results::CastBody> cast_bodies(const CaseSpec& spec,
     const Role role = role_of(body, materials[b]);
     if (role != Role::casting && role != Role::riser) continue;
     const std::vector<std::string>& feeders = spec.criteria.feeders;
-    const bool feeds = role == Role::riser || role_in_name(body.name) == Role::riser ||
+    // Names tell only where the case does not.
+    const bool named = feeders.empty() && role_in_name(body.name) == Role::riser;
+    const bool feeds = role == Role::riser || named ||
                        std::find(feeders.begin(), feeders.end(), body.mesh_group()) != feeders.end();
     cast.push_back({static_cast<int>(b), spec.bodies[b].name, feeds});
   }

@@ -38,7 +38,10 @@ def options():
     """Verb -> the options that it has, by the manual page."""
     page = solidus("man").stdout.replace("\\-", "-")
     verbs = re.split(r"^\.SS \\fBsolidus ", page, flags=re.M)[1:]
-    return {re.match(r"[a-z-]+", verb)[0]: set(re.findall(r"\\fB(--?[a-z][a-z-]*)", verb)) for verb in verbs}
+    found = {}
+    for verb in verbs:  # `materials import` has what stands under it and under `materials`
+        found.setdefault(re.match(r"[a-z-]+", verb)[0], set()).update(re.findall(r"\\fB(--?[a-z][a-z-]*)", verb))
+    return found
 
 
 class Guide(ProgramTest):
@@ -80,7 +83,7 @@ class Guide(ProgramTest):
                 skip = False
             elif word in ("-o", "--output"):
                 skip = True
-            elif word not in ("--restart", "--no-progress", "--profile"):
+            elif word not in ("--restart", "--no-progress", "--profile", "--watch"):
                 kept.append(word)
         return kept
 
@@ -142,7 +145,7 @@ class Guide(ProgramTest):
 
     def provide(self, folder, text):
         for name in re.findall(r'^file = "([\w.]+)"', text, re.M):
-            source, = SOURCES.glob(f"cases/*/{name}")
+            source = sorted(SOURCES.glob(f"cases/*/{name}"))[0]
             shutil.copy(source, folder)
 
     def test_a_newcomer_gets_from_the_first_page_to_results(self):

@@ -30,6 +30,7 @@ inline material::Material point_material() {
   m.density = 2700;
   m.conductivity = 200;
   m.specific_heat = 1000;
+  m.specific_heat_at = material::SpecificHeatAt::constant_strain;
   m.young_modulus = k_young;
   m.poisson_ratio = k_poisson;
   m.expansion = k_expansion;
