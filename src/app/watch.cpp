@@ -131,7 +131,7 @@ void Watch::serve() {
     try {
       answer(connection);
     } catch (const std::exception&) {
-      // Whoever asked gets nothing; the run goes on.
+      // The request is left without an answer; the run continues.
     }
     ::close(connection);
   }

@@ -117,8 +117,8 @@ class Freezing {
     return rule_ == SolidificationRule::scheil ? part.percent * std::pow(f, k - 1)
                                                : part.percent / (f + k * (1 - f));
   }
-  /// Of the metal that freezes in the valley the share w is the primary solid; the second phase takes up no
-  /// solute.
+  /// Returns the concentration of a solute in the melt along the valley, where the share w of the metal that
+  /// freezes is the primary solid and the second phase takes up no solute.
   double concentration_in_valley(const Part& part, double f) const {
     const double k = part.solute->partition, w = valley_->solvent_share;
     if (rule_ == SolidificationRule::scheil)

@@ -398,7 +398,7 @@ class Maker {
     for (std::size_t i = 0; i < tags.size(); ++i) x_[tags[i]] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
   }
 
-  /// Of the walls' thickness, from a first mesh of the surfaces.
+  /// Measures the thickness of the walls on a first mesh of the surfaces.
   std::vector<SizeSample> samples() {
     std::vector<SizeSample> all;
     read_nodes();

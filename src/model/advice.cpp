@@ -65,7 +65,7 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
   return advice;
 }
 
-/// Of coupling::GuardedScheme.
+/// Advice for steps that coupling::GuardedScheme refuses.
 std::vector<std::string> guard_advice(const CaseSpec& spec) {
   std::vector<std::string> advice;
   if (spec.heat.integration == heat::Integration::open)
@@ -82,7 +82,7 @@ std::vector<std::string> guard_advice(const CaseSpec& spec) {
   return advice;
 }
 
-/// Of the augmented Lagrangian (coupling/contact_states.hpp).
+/// Advice where the turns of the augmented Lagrangian do not end (coupling/contact_states.hpp).
 std::vector<std::string> contact_advice() {
   return {"normal = \"penalty\" in that [[contact]], which needs no turns",
           "a larger penetration_tolerance, or a larger penalty_factor, of that contact",

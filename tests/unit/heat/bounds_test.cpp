@@ -193,8 +193,10 @@ struct Excursion {
   int rejected = 0;    ///< steps that did not converge; a shorter one follows
 };
 
-Excursion run(const Problem& p, bool bounds, int steps) {
+/// @param tolerance  0: the default
+Excursion run(const Problem& p, bool bounds, int steps, double tolerance = 0) {
   heat::HeatOptions options;
+  options.tolerance = tolerance;
   options.bounds = bounds;
   options.alone = true;
   heat::ThermalPhase phase(p.mesh, p.kind, p.materials, p.conditions, options);
@@ -221,7 +223,7 @@ Excursion run(const Problem& p, bool bounds, int steps) {
 
 TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
   double worst_without = 0;
-  int sum = 0, hard = 0;
+  int sum = 0, hard = 0, sum_coarse = 0, hard_coarse = 0;
   for (unsigned number = 0; number < 300; ++number) {
     const Problem p = draw_problem(number);
     const Excursion kept = run(p, true, 5), free = run(p, false, 5);
@@ -230,12 +232,17 @@ TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
     EXPECT_LE(kept.defect, 1e-10) << "problem " << number << ", " << mesh::name(p.shape);
     worst_without = std::max(worst_without, free.kelvins);
     sum += kept.iterations;
+    const int coarse = run(p, true, 5, 1e-5).iterations;
+    sum_coarse += coarse;
+    if (coarse > 12) ++hard_coarse;
     if (kept.iterations > 12) ++hard;
     if (std::getenv("SOLIDUS_BOUNDS_VERBOSE") != nullptr && test::rank() == 0)
       std::printf("%3u %-5s %d nodes, dt %.3g: %.2e K in %d iterations, %d rejected, without %.2e K in %d\n",
                   number, std::string(mesh::name(p.shape)).c_str(), p.mesh.n_owned_nodes, p.dt, kept.kelvins,
                   kept.iterations, kept.rejected, free.kelvins, free.iterations);
   }
+  EXPECT_LE(sum_coarse, 300 * 4);  // as deep as before the default was 1e-6
+  EXPECT_LE(hard_coarse, 16);
   EXPECT_LE(sum, 300 * 4.3);
   EXPECT_LE(hard, 20);
   EXPECT_GT(worst_without, 10.0);  // kelvins: the problems are hard enough
