@@ -41,6 +41,18 @@ def _moments(times, history):
     return [float(times[index]) for index in sorted(chosen)], last
 
 
+def _while_there(run, times, history, cast):
+    """The written moments up to the last one in which castings are there, with shots those of the last of these."""
+    last = next((i for i in reversed(range(len(times))) if run.body_mask(run.at(times[i]), cast).any()), None)
+    if last is None:
+        return []
+    times = np.asarray(times)[:last + 1]
+    if "time_since_pouring[s]" not in history:
+        return times
+    poured = times[-1] - np.interp(times[-1], history["time[s]"], history["time_since_pouring[s]"])
+    return times[(times > poured) | (times == times[-1])]
+
+
 def _levels(summary):
     """Liquidus and solidus of what is poured [degC], those of one alloy alone; lines stand a little beyond, because on
     the plateau of an eutectic all temperatures are the solidus but for rounding."""
@@ -57,11 +69,13 @@ def _levels(summary):
 
 def plan(run, times, summary, history, results, wishes):
     """The case and the list of sheets. `wishes`: [automatic] of plots.toml."""
-    toml, grid = read_case(results), run.at("last")
-    cast = castings(run, summary, grid)
-    mask = run.body_mask(grid, cast)
-    if not mask.any():  # it has left
+    toml, whole = read_case(results), times
+    cast = castings(run, summary, run.at("last"))
+    times = _while_there(run, times, history, cast)
+    if not len(times):  # it was never there when fields were written
         return None, []
+    grid = run.at(times[-1])
+    mask = run.body_mask(grid, cast)
     kind = toml.get("analysis", {}).get("kind", "solid")
     materials = {body["name"]: Path(body["material"]).stem for body in toml.get("body", [])}
     alloy = ", ".join(dict.fromkeys(materials[name] for name in cast if name in materials))
@@ -82,8 +96,8 @@ def plan(run, times, summary, history, results, wishes):
     add("temperature", title="Temperature of the casting" if others else "Temperature", unit="degC", times=during,
         levels=_levels(summary))
     if during != [last] or others:
-        add("temperature", "overview_temperature_end", title="Temperature at the end", unit="degC",
-            bodies=list(run.bodies))
+        add("temperature", "overview_temperature_end", unit="degC", bodies=list(run.bodies),
+            title="Temperature at the end" if times[-1] == whole[-1] else "Temperature before the casting leaves")
     if during != [last] or _melt(grid, mask):
         add("solid_fraction", title="Solid fraction", unit="%", times=during, range=[0, 100], levels=[])
     if "solidified_at" in written and (grid.point_data["solidified_at"] >= 0).any():

@@ -42,8 +42,12 @@ std::string stage_lines(const model::CaseSpec& spec) {
       out += fmt::format("\n  stage       {}: {:.6g} s to {:.6g} s in steps of {:.6g} s", run.stage->name,
                          run.start, run.end, model::first_step(*run.stage, spec.time));
   for (const model::CycleSpec& cycle : spec.cycles)
-    out += fmt::format("\n  cycle       {}: {} times {}", cycle.name, cycle.repeat,
-                       fmt::join(cycle.stages, ", "));
+    out += fmt::format(
+        "\n  cycle       {}: {}{} times {}{}", cycle.name, cycle.periodic ? "at most " : "", cycle.repeat,
+        fmt::join(cycle.stages, ", "),
+        cycle.periodic
+            ? fmt::format("; until the temperature of what stays is periodic to {:g} K", *cycle.periodic)
+            : "");
   return out;
 }
 

@@ -221,6 +221,11 @@ ExitCode parse_and_run(int argc, char** argv) {
   new_verb->add_option("--alloy", fresh.alloy, "What is cast: a material of the library, or a file")
       ->required();
   new_verb->add_option("--process", fresh.process, "sand, shell, gravity_die or high_pressure; default sand");
+  new_verb
+      ->add_option("--shots", fresh.shots,
+                   "Castings in a row into one die, which stays warm; for gravity_die and high_pressure")
+      ->check(CLI::Range(1, 10000))
+      ->type_name("N");
   new_verb->add_option("--riser", fresh.riser, "auto: put a riser on the thickest place");
   new_verb->add_option("--symmetry", fresh.symmetry, "x, y or z: keep half of the part, below its middle");
   new_verb

@@ -16,6 +16,7 @@ ExitCode new_case(const NewArguments& arguments) {
   options.as = arguments.as;
   options.folder = arguments.folder;
   options.fineness = arguments.fineness;
+  options.shots = arguments.shots;
   if (!arguments.riser.empty() && arguments.riser != "auto")
     throw InputError({"--riser"}, fmt::format("'{}' is no riser", arguments.riser), "--riser auto");
   options.riser = arguments.riser == "auto";

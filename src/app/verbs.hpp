@@ -75,6 +75,7 @@ struct NewArguments {
   std::string process = "sand", unit = "mm";
   std::vector<std::string> as;  ///< "NAME=role"
   double fineness = 1;
+  int shots = 0;  ///< zero: not given
 };
 /// From the geometry of a casting to a case that runs.
 ExitCode new_case(const NewArguments& arguments);

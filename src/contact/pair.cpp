@@ -259,6 +259,32 @@ ContactState ContactPair::initial_state() const {
   return state;
 }
 
+ContactState ContactPair::renewed_state(const ContactState& old, bool new_slave, bool new_master,
+                                        std::span<const double> displacement, double time) const {
+  ContactState state = initial_state();
+  if (!spec_.rigid_master) {
+    configuration_->place(time, displacement);
+    for (Index p = 0; p < kinematics_->n_points(); ++p) {
+      PointState& point = state.points[at(p)];
+      if (!point.anchored) continue;  // without a partner in the drawing
+      const PointMotion motion = kinematics_->motion(p, point, ContactKinematics::Asked::motion);
+      if (!motion.partnered) continue;
+      point.offset = point.penetration - motion.penetration;
+      point.anchor = motion.anchor;
+      point.master_normal = motion.master_normal;
+    }
+    configuration_->forget();
+  }
+  if (old.points.empty()) return state;
+  if (!new_slave)
+    for (std::size_t p = 0; p < state.points.size(); ++p)
+      for (auto field : {&PointState::internal_variable, &PointState::slip, &PointState::work,
+                         &PointState::dissipation, &PointState::wear_depth, &PointState::plastic_entropy})
+        state.points[p].*field = old.points[p].*field;
+  if (!new_master) state.master = old.master;
+  return state;
+}
+
 void ContactPair::set_out_from(const ContactState& state) {
   start_traction_.clear();
   if (!state.points.empty()) {

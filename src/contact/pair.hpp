@@ -121,6 +121,13 @@ class ContactPair {
 
   /// The history of bodies that have not moved.
   ContactState initial_state() const;
+  /// The history where bodies of a side are new (a casting of the next shot) and without displacement: points
+  /// of a new slave and nodes of a new master have none; a slave that stays keeps what wears it. Melt fills
+  /// the space between deformed walls: gaps are those of the drawing, whatever the displacement of a meshed
+  /// master or of a slave that stays. Local.
+  /// @param displacement  [local node][component] [m]
+  ContactState renewed_state(const ContactState& old, bool new_slave, bool new_master,
+                             std::span<const double> displacement, double time) const;
   /// Begins a step from the state `old`; empty: initial_state(). Local, no communication.
   void begin(const ContactState& old, const ContactPass& pass);
   /// Sets the present temperatures of the bodies within a simultaneous pass, [local node], for mechanics()

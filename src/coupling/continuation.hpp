@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling/rates.hpp"
+#include "coupling/shot.hpp"
 #include "coupling/step_control.hpp"
 
 namespace solidus::coupling {
@@ -23,7 +24,9 @@ struct Continuation {
   StepOptions options;  ///< that the step control worked with
   ControlState control;
   StageStart stage;
-  Rates rates;  ///< of the last step, where adaptive steps predict from them
+  Rates rates;        ///< of the last step, where adaptive steps predict from them
+  ShotHistory shots;  ///< where the run follows shots
+  BodyHeat pending;   ///< of bodies that came and left since the last step
 };
 
 /// Why a run ended before its end time.

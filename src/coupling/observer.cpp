@@ -21,6 +21,7 @@ EnergyAudit& EnergyAudit::operator+=(const EnergyAudit& next) {
   viscous_dissipation += next.viscous_dissipation;
   plastic_dissipation += next.plastic_dissipation;
   plastic_work += next.plastic_work;
+  bodies += next.bodies;
   return *this;
 }
 

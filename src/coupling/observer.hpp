@@ -41,6 +41,7 @@ struct EnergyAudit {
   double viscous_dissipation = 0;  ///< heat of the flowing melt (2.114)
   double plastic_dissipation = 0;  ///< heat of plastic flow (2.117)
   double plastic_work = 0;         ///< work of the deviator on plastic flow
+  BodyHeat bodies;                 ///< of bodies that came and left before the step, no part of the defect
   double hardening() const { return plastic_work - plastic_dissipation; }  ///< stored by hardening
   double frictional_heat = 0;        ///< heat of friction that the thermal phase took up
   contact::InterfaceSums interface;  ///< of the last thermal pass; sums of a step, not of a run
@@ -116,6 +117,8 @@ class Observer {
   virtual void begin(const State& state) = 0;
   /// A step was committed. Called on every process.
   virtual void step(const StepRecord& record, const State& state) = 0;
+  /// A shot is over; the last step told to step() was its last.
+  virtual void shot(const ShotRecord& /*record*/, const State& /*state*/) {}
   /// A checkpoint is due at the committed state; with `continuation` the run can go on from it.
   virtual void checkpoint(const Continuation& /*continuation*/, const State& /*state*/) {}
   /// The run cannot or shall not go on; `state` is the last committed one, its checkpoint is written.

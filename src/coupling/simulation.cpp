@@ -35,8 +35,10 @@ struct Simulation::Progress {
   std::vector<double> outputs;  ///< times at which fields are written, rising
   StepRecord record;            ///< of the step last committed; its rejections are those since
   double solid_fraction = 1;    ///< of the committed state
-  int saved = -1;               ///< the step whose checkpoint is written
-  bool warned = false;          ///< of a limit that the smallest step exceeds
+  ShotHistory shots;
+  BodyHeat pending;     ///< of bodies that came and left since the last step
+  int saved = -1;       ///< the step whose checkpoint is written
+  bool warned = false;  ///< of a limit that the smallest step exceeds
   Stop stop;
 };
 
@@ -63,8 +65,9 @@ bool Simulation::stop_asked() const {
 
 void Simulation::save(Progress& p, const ControlState& control) {
   scheme_->forget();
-  const Continuation continuation{p.record.number, options_.stages[p.stage].step, control, p.stage_start,
-                                  p.step->rates()};
+  const Continuation continuation{
+      p.record.number, options_.stages[p.stage].step, control, p.stage_start, p.step->rates(), p.shots,
+      p.pending};
   for (Observer* o : observers_) o->checkpoint(continuation, p.committed);
   p.saved = p.record.number;
 }
@@ -107,15 +110,47 @@ void Simulation::enter_stage(Progress& p, const SolidFraction& solid_fraction,
   p.record.stage = stage.name;
   p.record.stage_of_case = stage.of_case;
   p.record.cycle = stage.cycle;
-  if (staged) {
-    const bool begun = from && from->stage.number == p.stage_start.number;
-    stage_begins_(p.stage, p.stage_start, anew && !begun ? &p.committed : nullptr);
-    scheme_->conditions_changed();
-  }
+  if (staged) begin_bodies(p, anew, from && from->stage.number == p.stage_start.number);
   p.solid_fraction = solid_fraction(p.committed);
   if (criteria_ != nullptr) criteria_->forget();
   scheme_->synchronise(p.committed);
   scheme_->forget();  // as after a checkpoint of this state
+}
+
+/// Gives the phases the conditions of the stage.
+/// @param anew            the stage begins at the committed time
+/// @param changed_before  the state has been changed for it: a run that was stopped before the first step
+/// goes on
+void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
+  const Stage& stage = options_.stages[p.stage];
+  const bool changes = anew && !changed_before;
+  if (changes && stage.shot > 0) p.committed.shot = stage.shot;
+  if (changes && stage.begins_shot && shot_map_ != nullptr)
+    p.pending.corrected += shot_map_->begin(p.committed, p.shots);
+  const BodyHeat heat = stage_begins_(p.stage, p.stage_start, changes ? &p.committed : nullptr);
+  scheme_->conditions_changed();
+  if (!changes) return;
+  p.stage_start.displacement = p.committed.mechanics.displacement;
+  if (p.stage > 0) {
+    p.pending += heat;
+    p.shots.heat += heat;
+  }
+  if (!stage.pours) return;
+  p.committed.poured = p.committed.time;
+  if (criteria_ == nullptr) return;
+  p.committed.criteria = criteria_->initial({0, p.committed.heat, p.committed.mechanics});
+}
+
+bool Simulation::periodic(const Progress& p) const {
+  const Stage& stage = options_.stages[p.stage];
+  return shot_map_ != nullptr && stage.ends_shot && p.committed.time == stage.end &&
+         shot_map_->periodic(p.shots);
+}
+
+void Simulation::end_shot(Progress& p) {
+  if (shot_map_ == nullptr) return;
+  const ShotRecord record = shot_map_->end(p.committed, p.shots);
+  for (Observer* o : observers_) o->shot(record, p.committed);
 }
 
 Outcome Simulation::stopped(const Stop& why, Progress& p, Outcome outcome) {
@@ -133,16 +168,26 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
   p.committed.criteria = std::move(records);
   p.saved = from ? from->steps : -1;
   p.record.number = from ? from->steps : 0;
+  if (from) {
+    p.shots = from->shots;
+    p.pending = from->pending;
+    p.stage = from->stage.number > 0 ? static_cast<std::size_t>(from->stage.number) - 1 : 0;
+    if (periodic(p)) return end_at_once(p, from->stage);
+  }
   const auto ahead = std::find_if(options_.stages.begin(), options_.stages.end(),
                                   [&](const Stage& s) { return s.end > p.committed.time; });
   if (ahead == options_.stages.end() && from) return end_at_once(p, from->stage);
   if (ahead == options_.stages.end()) throw std::invalid_argument("the end time must lie after the start");
-  p.stage = static_cast<std::size_t>(ahead - options_.stages.begin());
+  // A run that goes on from the end of a shot changes bodies as one that has not stopped.
+  const auto next = static_cast<std::size_t>(ahead - options_.stages.begin());
+  if (from && options_.stages[next].begins_shot && next == p.stage + 1)
+    stage_begins_(p.stage, from->stage, nullptr);
+  p.stage = next;
   enter_stage(p, solid_fraction, from);
   for (Observer* o : observers_) o->begin(p.committed);
   while (true) {
     if (const std::optional<Outcome> outcome = run_stage(p)) return *outcome;
-    if (p.stage + 1 == options_.stages.size()) break;
+    if (p.stage + 1 == options_.stages.size() || periodic(p)) break;
     ++p.stage;
     enter_stage(p, solid_fraction, {});
   }
@@ -152,7 +197,7 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
 
 // A run that goes on from its end has nothing left but to end.
 Outcome Simulation::end_at_once(Progress& p, const StageStart& stage_start) {
-  p.stage = options_.stages.size() - 1;
+  if (!periodic(p)) p.stage = options_.stages.size() - 1;
   if (options_.stages[p.stage].of_case > 0) stage_begins_(p.stage, stage_start, nullptr);
   scheme_->synchronise(p.committed);
   for (Observer* o : observers_) o->begin(p.committed);
@@ -230,10 +275,12 @@ void Simulation::check_limits(Progress& p, const PlannedStep& step, const StepMe
 
 void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
   p.trial.time = step.time;
+  p.trial.shot = p.committed.shot;
+  p.trial.poured = p.committed.poured;
   p.trial.criteria = std::move(p.committed.criteria);
   if (criteria_ != nullptr)
-    criteria_->step({p.committed.time, p.committed.heat, p.committed.mechanics},
-                    {p.trial.time, p.trial.heat, p.trial.mechanics}, p.trial.criteria);
+    criteria_->step({p.committed.time - p.committed.poured, p.committed.heat, p.committed.mechanics},
+                    {p.trial.time - p.committed.poured, p.trial.heat, p.trial.mechanics}, p.trial.criteria);
   std::swap(p.committed, p.trial);
   p.step->commit();
   check_limits(p, step, measure);
@@ -247,7 +294,14 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
   p.record.temperature_error = measure.temperature_error;
   p.record.displacement_error = measure.displacement_error;
   p.record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time);
+  p.record.energy.bodies = p.pending;
+  p.pending = {};
+  if (shot_map_ != nullptr) {
+    p.shots.lowest = std::min(p.shots.lowest, p.record.min_temperature);
+    p.shots.highest = std::max(p.shots.highest, p.record.max_temperature);
+  }
   for (Observer* o : observers_) o->step(p.record, p.committed);
+  if (const Stage& stage = options_.stages[p.stage]; stage.ends_shot && step.time == stage.end) end_shot(p);
   p.record.rejected = 0;
   p.record.rejection.clear();
 }

@@ -12,6 +12,7 @@
 #include "coupling/measured_step.hpp"
 #include "coupling/observer.hpp"
 #include "coupling/scheme.hpp"
+#include "coupling/shot_map.hpp"
 #include "coupling/state.hpp"
 #include "coupling/step_control.hpp"
 #include "criteria/criteria.hpp"
@@ -25,6 +26,9 @@ struct Stage {
   int of_case = 0, cycle = 0;  ///< as in StepRecord
   double end = 0;              ///< [s]
   StepOptions step;
+  int shot = 0;                                 ///< that it belongs to, from one; zero: to none
+  bool begins_shot = false, ends_shot = false;  ///< it is the first, the last stage of its shot
+  bool pours = false;                           ///< bodies come when it begins
 };
 
 struct TimeOptions {
@@ -57,11 +61,14 @@ class Simulation {
   /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
   /// conditions. Collective.
   /// @param stage   number in TimeOptions::stages
-  /// @param begins  the committed state, from which bodies that leave take what is theirs; null where the
-  ///                run goes on with a state that the stage has begun with
-  void at_stage(std::function<void(std::size_t stage, const StageStart&, State* begins)> begins) {
-    stage_begins_ = std::move(begins);
-  }
+  /// @param begins  the committed state, from which bodies that leave take what is theirs and to which others
+  ///                come; null where the run goes on with a state that the stage has begun with
+  /// It returns the heat of these bodies, which is that of the run's start where the first stage begins.
+  using StageBegins = std::function<BodyHeat(std::size_t stage, const StageStart&, State* begins)>;
+  void at_stage(StageBegins begins) { stage_begins_ = std::move(begins); }
+  /// Reports shots, and ends the run after one that leaves the die as it found it; must outlive the
+  /// simulation.
+  void follow_shots(const ShotMap& map) { shot_map_ = &map; }
   /// Gives the solid fraction of a committed state, of the bodies that are active in the present stage, as
   /// StepEffort gives it of the states that follow. Collective.
   using SolidFraction = std::function<double(const State&)>;
@@ -82,6 +89,10 @@ class Simulation {
   /// Runs within the stage as run() does; returns nothing if the end of the stage is reached.
   std::optional<Outcome> run_stage(Progress& p);
   Outcome end_at_once(Progress& p, const StageStart& stage_start);
+  void begin_bodies(Progress& p, bool anew, bool changed_before);
+  void end_shot(Progress& p);
+  /// Whether a run stands at the end of a shot that left the die as it found it.
+  bool periodic(const Progress& p) const;
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);
   Try try_step(Progress& p);
   void commit(Progress& p, const PlannedStep& step, const StepMeasure& measure);
@@ -99,7 +110,8 @@ class Simulation {
   std::vector<Observer*> observers_;
   criteria::Criteria* criteria_ = nullptr;
   std::function<bool()> stop_asked_;
-  std::function<void(std::size_t, const StageStart&, State*)> stage_begins_;
+  StageBegins stage_begins_;
+  const ShotMap* shot_map_ = nullptr;
 };
 
 }  // namespace solidus::coupling

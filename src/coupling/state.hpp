@@ -11,8 +11,10 @@
 namespace solidus::coupling {
 
 struct State {
-  double time = 0;                       ///< [s]
-  heat::ThermalState heat;               ///< empty without a thermal phase
+  double time = 0;          ///< [s]
+  int shot = 0;             ///< number of the present shot, from one; zero: a run without shots
+  double poured = 0;        ///< when the present castings were poured [s]: times of criteria count from it
+  heat::ThermalState heat;  ///< empty without a thermal phase
   mechanics::MechanicalState mechanics;  ///< empty without a mechanical phase
   /// One per pair; empty, or one that is empty: bodies that have not moved yet.
   std::vector<contact::ContactState> contacts;

@@ -27,8 +27,8 @@ class ConsistentHeat final : public algebra::Contribution {
   ConsistentHeat(const mesh::Mesh& mesh, const std::vector<std::unique_ptr<PointStorage>>& points,
                  NodalEnthalpy nodes);
 
-  /// Bodies have left.
-  void remove_bodies(const algebra::ActiveSet& active) { nodes_.remove_bodies(active); }
+  /// Bodies have left or come back.
+  void set_active(const algebra::ActiveSet& active) { nodes_.set_active(active); }
   /// Off: a steady state stores nothing.
   void use(bool on) { on_ = on; }
 

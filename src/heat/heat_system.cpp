@@ -96,32 +96,31 @@ void HeatSystem::add_conditions(const Conditions& conditions) {
                   [](const Prescribed& p) { return !p.value.uniform(); });
 }
 
-// Without a body that leaves the graph need not change: the nodes of a face are nodes of one element.
+// While the bodies are the same the graph need not change: the nodes of a face are nodes of one element.
 bool HeatSystem::set_conditions(const Conditions& conditions) {
   const algebra::ActiveSet active(mesh_, conditions.absent_bodies);
-  const bool leaves = active != active_;
-  if (leaves) remove_bodies(active);
+  const bool others = active != active_;
+  if (others) change_bodies(active);
   surfaces_.clear();
   sources_.clear();
   prescribed_.clear();
   add_conditions(conditions);
-  if (leaves) matrix_->set_graph(graph());
+  if (others) matrix_->set_graph(graph());
   matrix_->set_fixed(fixed_);
-  if (leaves)
+  if (others)
     bind();
   else
     for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
-  return leaves;
+  return others;
 }
 
-void HeatSystem::remove_bodies(const algebra::ActiveSet& active) {
-  for (std::size_t b = 0; b < conduction_.size(); ++b) {
-    const int body = mesh_.blocks[b].body;
-    if (active.body(body) && !active_.body(body))
-      throw std::invalid_argument("a body that has gone cannot come back");
-    if (active.body(body)) continue;
-    conduction_[b].reset();
-    fields_[static_cast<std::size_t>(body)].nodes.clear();
+/// Conduction of a body that comes back is computed anew when it is asked for.
+void HeatSystem::change_bodies(const algebra::ActiveSet& active) {
+  for (std::size_t b = 0; b < conduction_.size(); ++b)
+    if (!active.body(mesh_.blocks[b].body)) conduction_[b].reset();
+  for (std::size_t body = 0; body < fields_.size(); ++body) {
+    fields_[body].nodes.clear();
+    if (active.body(static_cast<int>(body))) find_field_nodes(body);
   }
   active_ = active;
   nodal_ = std::make_unique<NodalPotential>(mesh_, potentials_, active_);
@@ -131,19 +130,20 @@ void HeatSystem::add_conduction(const std::vector<material::Material>& materials
   for (const material::Material& m : materials) potentials_.emplace_back(m.conductivity);
   fields_.resize(materials.size());
   conduction_.resize(mesh_.blocks.size());
-  std::vector<char> of_body;
-  for (std::size_t body = 0; body < fields_.size(); ++body) {
-    if (potentials_[body].constant()) continue;
-    of_body.assign(mesh_.x.size(), 0);
-    for (const mesh::Block& block : mesh_.blocks)
-      if (static_cast<std::size_t>(block.body) == body)
-        for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
-    Field& u = fields_[body];
-    u.nodes.reserve(static_cast<std::size_t>(std::count(of_body.begin(), of_body.end(), 1)));
-    for (std::size_t i = 0; i < of_body.size(); ++i)
-      if (of_body[i] != 0) u.nodes.push_back(static_cast<Index>(i));
-    if (!u.nodes.empty()) u.value.resize(mesh_.x.size());
-  }
+  for (std::size_t body = 0; body < fields_.size(); ++body) find_field_nodes(body);
+}
+
+void HeatSystem::find_field_nodes(std::size_t body) {
+  if (potentials_[body].constant()) return;
+  std::vector<char> of_body(mesh_.x.size(), 0);
+  for (const mesh::Block& block : mesh_.blocks)
+    if (static_cast<std::size_t>(block.body) == body)
+      for (const Index node : block.nodes) of_body[static_cast<std::size_t>(node)] = 1;
+  Field& u = fields_[body];
+  u.nodes.reserve(static_cast<std::size_t>(std::count(of_body.begin(), of_body.end(), 1)));
+  for (std::size_t i = 0; i < of_body.size(); ++i)
+    if (of_body[i] != 0) u.nodes.push_back(static_cast<Index>(i));
+  if (!u.nodes.empty()) u.value.resize(mesh_.x.size());
 }
 
 // Spread over the nodes as their heat is stored, so that a uniform source warms them alike.

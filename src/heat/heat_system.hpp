@@ -36,9 +36,8 @@ class HeatSystem {
              algebra::BlockMatrix::Storage storage = algebra::BlockMatrix::Storage::whole);
   ~HeatSystem();
 
-  /// Replaces the conditions from here on. If bodies leave, the matrix gets another pattern; returns whether
-  /// it did. Throws InputError as the constructor does, std::invalid_argument for a body that comes back.
-  /// Collective.
+  /// Replaces the conditions from here on. If bodies leave or come back, the matrix gets another pattern;
+  /// returns whether it did. Throws InputError as the constructor does. Collective.
   bool set_conditions(const Conditions& conditions);
   const algebra::ActiveSet& active() const { return active_; }
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
@@ -150,7 +149,8 @@ class HeatSystem {
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);
   void add_conditions(const Conditions& conditions);
-  void remove_bodies(const algebra::ActiveSet& active);
+  void change_bodies(const algebra::ActiveSet& active);
+  void find_field_nodes(std::size_t body);
   void conduct(std::span<const double> temperature);
   double add_flows(std::span<const double> temperature);
   void keep_conduction();

@@ -63,18 +63,24 @@ double NodalEnthalpy::held_by(const algebra::ActiveSet& active, Index node, doub
   return held;
 }
 
-void NodalEnthalpy::remove_bodies(const algebra::ActiveSet& active) {
+void NodalEnthalpy::set_active(const algebra::ActiveSet& active) {
+  if (all_.start.empty()) all_ = {start_, shares_};
   std::vector<char> kept;
   for (std::size_t b = 0; b < materials_.size(); ++b) kept.push_back(active.body(static_cast<int>(b)));
-  keep_bodies(kept);
+  filter(all_, kept);
 }
 
 void NodalEnthalpy::keep_bodies(std::span<const char> kept) {
+  filter({start_, shares_}, kept);
+  all_ = {};
+}
+
+void NodalEnthalpy::filter(const Shares& from, std::span<const char> kept) {
   std::vector<std::size_t> start = {0};
   std::vector<Share> left;
-  for (Index node = 0; node < n_nodes(); ++node) {
-    for (const Share& s : shares(node))
-      if (kept[static_cast<std::size_t>(s.body)] != 0) left.push_back(s);
+  for (std::size_t node = 0; node + 1 < from.start.size(); ++node) {
+    for (std::size_t s = from.start[node]; s < from.start[node + 1]; ++s)
+      if (kept[static_cast<std::size_t>(from.shares[s].body)] != 0) left.push_back(from.shares[s]);
     start.push_back(left.size());
   }
   start_ = std::move(start);
@@ -253,7 +259,8 @@ double NodalEnthalpy::latent_capacity(Index node) const {
 }
 
 std::size_t NodalEnthalpy::bytes() const {
-  return start_.capacity() * sizeof start_[0] + shares_.capacity() * sizeof shares_[0];
+  return (start_.capacity() + all_.start.capacity()) * sizeof start_[0] +
+         (shares_.capacity() + all_.shares.capacity()) * sizeof shares_[0];
 }
 
 }  // namespace solidus::heat

@@ -22,9 +22,10 @@ class NodalEnthalpy {
 
   /// The part of a node's heat that bodies which are there hold [J].
   double held_by(const algebra::ActiveSet& active, Index node, double heat, double temperature) const;
-  /// Removes the heat of inactive bodies from the nodes; nodes that belong to them alone store nothing.
-  void remove_bodies(const algebra::ActiveSet& active);
-  /// The same for bodies of which kept[body] is zero.
+  /// From here on nodes hold the heat of active bodies alone, those that come back included; nodes that
+  /// belong to other bodies alone store nothing.
+  void set_active(const algebra::ActiveSet& active);
+  /// Removes the bodies of which kept[body] is zero for good.
   void keep_bodies(std::span<const char> kept);
 
   Index n_nodes() const { return static_cast<Index>(start_.size()) - 1; }  ///< owned ones
@@ -101,6 +102,12 @@ class NodalEnthalpy {
     return curves_[static_cast<std::size_t>(share.body)];
   }
   double mixed_temperature(std::span<const Share> shares, double heat, bool& plateau) const;
+  /// The shares of every owned node, [start[node], start[node + 1]).
+  struct Shares {
+    std::vector<std::size_t> start;
+    std::vector<Share> shares;
+  };
+  void filter(const Shares& from, std::span<const char> kept);
 
   std::vector<material::Material> materials_;
   std::vector<material::EnthalpyCurve> curves_;  ///< per body
@@ -108,6 +115,7 @@ class NodalEnthalpy {
   std::vector<double> breaks_;                   ///< temperatures where any curve bends or jumps, rising [K]
   std::vector<std::size_t> start_;               ///< first share of each owned node
   std::vector<Share> shares_;
+  Shares all_;  ///< with those of inactive bodies; empty as long as none has been inactive
 };
 
 }  // namespace solidus::heat

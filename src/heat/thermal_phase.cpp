@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/errors.hpp"
 #include "base/log.hpp"
@@ -30,6 +31,7 @@ using material::k_sdirk_carried;
 using material::k_sdirk_share;
 
 constexpr int k_one_component[] = {1};
+constexpr double k_counted_from = 293.15;  ///< heat contents [K]
 
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
@@ -74,6 +76,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                            const std::vector<material::Material>& materials, const Conditions& conditions,
                            HeatOptions options, std::vector<algebra::Contribution*> contributions)
     : mesh_(mesh),
+      kind_(kind),
       options_(options),
       materials_(materials),
       contributions_(std::move(contributions)),
@@ -119,8 +122,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   }
   for (const mesh::Block& block : mesh.blocks) {
     if (at_nodes(block.body)) continue;
-    points_.push_back(make_point_storage(mesh, block, kind, materials_[at(block.body)], options_.sensible,
-                                         options_.open_degree));
+    points_.push_back(store_at_points(block));
     points_.back()->bind(system_->matrix());
   }
   temperature_system_ = std::make_unique<TemperatureSystem>(mesh, *system_, ghosts_, points_);
@@ -130,6 +132,11 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
 
 ThermalPhase::~ThermalPhase() = default;
 
+std::unique_ptr<PointStorage> ThermalPhase::store_at_points(const mesh::Block& block) const {
+  return make_point_storage(mesh_, block, kind_, materials_[at(block.body)], options_.sensible,
+                            options_.open_degree);
+}
+
 bool ThermalPhase::at_nodes(int body) const {
   return options_.integration == Integration::closed || materials_[at(body)].changes_isothermally();
 }
@@ -138,14 +145,20 @@ std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
   return std::make_unique<ThermalIteration>(*this);
 }
 
-double ThermalPhase::set_conditions(const Conditions& conditions, ThermalState* state) {
-  const algebra::ActiveSet before = system_->active();
+CarriedHeat ThermalPhase::set_conditions(const Conditions& conditions, ThermalState* state,
+                                         const std::function<double(Index, int)>& fresh) {
+  const algebra::ActiveSet before = system_->active(), now(mesh_, conditions.absent_bodies);
+  for (int body = 0; body < static_cast<int>(materials_.size()); ++body)
+    if (now.body(body) && !before.body(body) && !fresh)
+      throw std::invalid_argument("a body that comes back needs its heat");
   if (!system_->set_conditions(conditions)) {
     solver_->forget();
-    return 0;
+    return {};
   }
-  const double carried = state != nullptr ? take_out(system_->active(), *state) : 0.0;
-  remove_bodies(before);
+  CarriedHeat carried;
+  if (state != nullptr) carried.away = take_out(now, *state);
+  change_bodies(before);
+  if (state != nullptr && fresh) carried.along = put_in(before, fresh, *state);
   solver_->reset();
   return carried;
 }
@@ -154,9 +167,8 @@ const algebra::ActiveSet& ThermalPhase::active() const {
   return system_->active();
 }
 
-/// The heat of the bodies that are not there, out of the nodes that hold it.
+/// Takes the heat of the bodies that are not there out of the nodes that hold it.
 double ThermalPhase::take_out(const algebra::ActiveSet& active, ThermalState& state) const {
-  constexpr double k_counted_from = 293.15;
   double carried = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
     const double heat = heat_at(state, i), cold = storage_->upper(i, k_counted_from);
@@ -168,18 +180,54 @@ double ThermalPhase::take_out(const algebra::ActiveSet& active, ThermalState& st
   return algebra::global_sum(carried);
 }
 
-void ThermalPhase::remove_bodies(const algebra::ActiveSet& before) {
+/// Adds the heat of bodies that have come back to their nodes, whose temperatures follow; other nodes keep
+/// theirs to the last bit.
+double ThermalPhase::put_in(const algebra::ActiveSet& before, const std::function<double(Index, int)>& fresh,
+                            ThermalState& state) const {
+  double carried = 0;
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+    bool any = false;
+    double kept = 0;  // with the open rule the heat of bodies that were there follows from the temperature
+    const double heat = storage_->sum_of_bodies(i, [&](int body) {
+      if (before.body(body)) {
+        kept += storage_->volume(i, body) * storage_->body_enthalpy(body, state.temperature[at(i)]);
+        return 0.0;
+      }
+      any = true;
+      return fresh(i, body);
+    });
+    if (!any) continue;
+    carried += heat - storage_->sum_of_bodies(i, [&](int body) {
+      return before.body(body) ? 0.0 : storage_->body_enthalpy(body, k_counted_from);
+    });
+    const double all = heat + (state.enthalpy.empty() ? kept : state.enthalpy[at(i)]);
+    if (!state.enthalpy.empty()) state.enthalpy[at(i)] = all;
+    state.temperature[at(i)] = storage_->temperature(i, all);
+  }
+  ghosts_.update(state.temperature, 1);
+  if (nodal()) ghosts_.update(state.enthalpy, 1);
+  return algebra::global_sum(carried);
+}
+
+double ThermalPhase::heat_content(const ThermalState& state) const {
+  double content = 0;
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+    content += heat_at(state, i) - storage_->upper(i, k_counted_from);
+  return algebra::global_sum(content);
+}
+
+void ThermalPhase::change_bodies(const algebra::ActiveSet& before) {
   const algebra::ActiveSet& now = system_->active();
-  storage_->remove_bodies(now);
-  if (at_nodes_) at_nodes_->remove_bodies(now);
-  if (consistent_) consistent_->remove_bodies(now);
+  storage_->set_active(now);
+  if (at_nodes_) at_nodes_->set_active(now);
+  if (consistent_) consistent_->set_active(now);
   if (options_.integration == Integration::closed) return;
   std::vector<std::unique_ptr<PointStorage>> left;
   auto points = points_.begin();
   for (const mesh::Block& block : mesh_.blocks) {
-    if (!before.body(block.body) || at_nodes(block.body)) continue;
-    if (now.body(block.body)) left.push_back(std::move(*points));
-    ++points;
+    if (at_nodes(block.body)) continue;
+    std::unique_ptr<PointStorage> had = before.body(block.body) ? std::move(*points++) : nullptr;
+    if (now.body(block.body)) left.push_back(had ? std::move(had) : store_at_points(block));
   }
   points_ = std::move(left);
   for (const auto& block : points_) block->bind(system_->matrix());

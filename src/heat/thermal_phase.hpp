@@ -85,6 +85,11 @@ struct HeatOptions {
   SensibleForm sensible = SensibleForm::enthalpy;
 };
 
+/// Heat of bodies that leave and of bodies that come at a change of conditions, counted from 20 °C [J].
+struct CarriedHeat {
+  double away = 0, along = 0;
+};
+
 /// Input of one pass of the thermal phase. The further fields belong to schemes that solve the phase several
 /// times a step; empty, the pass is the first one.
 struct ThermalPass {
@@ -110,11 +115,17 @@ class ThermalPhase {
                std::vector<algebra::Contribution*> contributions = {});
   ~ThermalPhase();
 
-  /// From here on other conditions hold; the state goes on as it is, but for the heat of bodies that leave.
-  /// Not between the passes of a step. Throws InputError as the constructor does. Collective.
-  /// @param state  loses what bodies that leave carry away; null where it has lost it before
-  /// Returns that heat, counted from 20 °C [J].
-  double set_conditions(const Conditions& conditions, ThermalState* state = nullptr);
+  /// From here on other conditions hold; the state goes on as it is, but for the heat of bodies that leave or
+  /// come back. Not between the passes of a step. Throws InputError as the constructor does,
+  /// std::invalid_argument for a body that comes back where its heat is not given. Collective.
+  /// @param state  loses what bodies that leave carry away, and gets what bodies that come bring along; null
+  ///               where it has been changed before
+  /// @param fresh  h(node, body) [J/m³] of bodies that come back, as of initial_state_of()
+  CarriedHeat set_conditions(const Conditions& conditions, ThermalState* state = nullptr,
+                             const std::function<double(Index node, int body)>& fresh = {});
+  /// Heat of the active bodies, counted from 20 °C [J]. With the open rule by the weights of the nodes.
+  /// Collective.
+  double heat_content(const ThermalState& state) const;
   /// Bodies and nodes that are active in the present stage.
   const algebra::ActiveSet& active() const;
 
@@ -229,9 +240,12 @@ class ThermalPhase {
   bool nodal() const { return truncated_newton_ != nullptr; }
   /// Whether a body stores its heat at the nodes.
   bool at_nodes(int body) const;
+  std::unique_ptr<PointStorage> store_at_points(const mesh::Block& block) const;
   double heat_at(const ThermalState& state, Index node) const;
   double take_out(const algebra::ActiveSet& active, ThermalState& state) const;
-  void remove_bodies(const algebra::ActiveSet& before);
+  double put_in(const algebra::ActiveSet& before, const std::function<double(Index, int)>& fresh,
+                ThermalState& state) const;
+  void change_bodies(const algebra::ActiveSet& before);
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
   void require(const algebra::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;
@@ -239,6 +253,7 @@ class ThermalPhase {
   void require_positive(std::span<const double> temperature) const;
 
   const mesh::Mesh& mesh_;
+  AnalysisKind kind_;
   HeatOptions options_;
   std::vector<material::Material> materials_;
   std::vector<algebra::Contribution*> contributions_;

@@ -28,6 +28,14 @@ algebra::LinearSolverOptions linear_options(const MechanicsOptions& options) {
           .relative_tolerance = options.linear_tolerance};
 }
 
+std::unique_ptr<BlockKernel> make_kernel(const mesh::Mesh& mesh, const mesh::Block& block, AnalysisKind kind,
+                                         const material::Material& material,
+                                         const MechanicsOptions& options) {
+  return is_mixed(block, material, options.simplices)
+             ? make_mixed_kernel(mesh, block, kind, material, options.mapping, options.stabilisation)
+             : make_block_kernel(mesh, block, kind, material, options.mapping, options.b_bar);
+}
+
 }  // namespace
 
 MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
@@ -80,10 +88,7 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
       continue;
     }
     plastic_ = plastic_ || material.flow.has_value();
-    blocks_.push_back(
-        is_mixed(block, material, options_.simplices)
-            ? make_mixed_kernel(mesh_, block, kind_, material, options_.mapping, options_.stabilisation)
-            : make_block_kernel(mesh_, block, kind_, material, options_.mapping, options_.b_bar));
+    blocks_.push_back(make_kernel(mesh_, block, kind_, material, options_));
   }
 }
 
@@ -109,14 +114,17 @@ void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
 }
 
 /// Frees the memory of the elements of removed bodies: at once, or, if results show fields of the last step,
-/// once a step without them is committed.
+/// once a step without them is committed. Bodies that come back get new kernels.
 void MechanicalPhase::remove_bodies(const algebra::ActiveSet& active) {
   if (inertia_) throw std::invalid_argument("bodies can leave in quasi-statics only");
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const mesh::Block& block = mesh_.blocks[b];
-    if (active.body(block.body) && !active_.body(block.body))
-      throw std::invalid_argument("a body that has gone cannot come back");
-    if (active.body(block.body) || !active_.body(block.body)) continue;
+    if (active.body(block.body) == active_.body(block.body)) continue;
+    if (active.body(block.body)) {
+      blocks_[b] =
+          make_kernel(mesh_, block, kind_, materials_[static_cast<std::size_t>(block.body)], options_);
+      continue;
+    }
     // Fields that are kept for results are shown until the next step is committed.
     std::unique_ptr<BlockKernel> kept = keeps_fields_ ? std::move(blocks_[b]) : nullptr;
     blocks_[b] = std::make_unique<AbsentBlock>(

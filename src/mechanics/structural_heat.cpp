@@ -3,19 +3,14 @@
 #include <algorithm>
 
 #include "mechanics/block_kernel.hpp"
+#include "mechanics/new_bodies.hpp"
 #include "mechanics/structural_points.hpp"
-#include "mesh/block_geometry.hpp"
 
 namespace solidus::mechanics {
 
 StructuralHeat::StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed)
     : phase_(phase), form_(form), closed_(closed) {
-  const std::vector<mesh::Block>& blocks = phase.mesh().blocks;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    phase.blocks()[b]->spread_heat_as_stored(
-        closed || phase.material(blocks[b].body).changes_isothermally()
-            ? mesh::nodal_weights(phase.mesh(), blocks[b], phase.kind())
-            : mesh::basis_integrals(phase.mesh(), blocks[b], phase.kind()));
+  spread_heat_as_stored(phase, closed);
 }
 
 void StructuralHeat::add_residual(std::span<const double> temperature, std::span<double> r) {

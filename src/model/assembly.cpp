@@ -8,6 +8,7 @@
 
 #include "algebra/parallel.hpp"
 #include "base/log.hpp"
+#include "mechanics/new_bodies.hpp"
 #include "model/admissible.hpp"
 #include "model/body_input.hpp"
 #include "model/case_materials.hpp"
@@ -92,9 +93,12 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
     options.symmetric = options.symmetric && pair->symmetric();
     a.initial.contacts.push_back(pair->initial_state());
   }
-  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(
-      a.mesh, spec.analysis.kind, a.materials, initial_temperature,
-      mechanical_conditions(spec, a.first_stage()), std::move(options), contributions);
+  mechanics::Conditions conditions = mechanical_conditions(spec, a.first_stage());
+  conditions.absent_bodies =
+      absent_from_mechanics(spec, nullptr);  // others leave when the first stage begins
+  a.mechanics = std::make_unique<mechanics::MechanicalPhase>(a.mesh, spec.analysis.kind, a.materials,
+                                                             initial_temperature, std::move(conditions),
+                                                             std::move(options), contributions);
   a.phases.mechanics = a.mechanics.get();
   a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->active());
   if (a.coherency->melts()) a.phases.coherency = a.coherency.get();
@@ -108,9 +112,10 @@ void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly
   if (a.structural) contributions.push_back(a.structural.get());
   heat::HeatOptions options = heat_options(spec);
   for (const auto& pair : a.contacts) options.symmetric = options.symmetric && pair->symmetric_heat();
-  a.heat =
-      std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials,
-                                           thermal_conditions(spec, a.first_stage()), options, contributions);
+  heat::Conditions conditions = thermal_conditions(spec, a.first_stage());
+  conditions.absent_bodies.clear();  // they leave when the first stage begins
+  a.heat = std::make_unique<heat::ThermalPhase>(a.mesh, spec.analysis.kind, a.materials, conditions, options,
+                                                contributions);
   a.phases.heat = a.heat.get();
   a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
 }
@@ -121,18 +126,54 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Reports which bodies are removed when a stage begins, with how much heat, and the conditions that end with
-/// them.
-void announce_departure(const CaseSpec& spec, const StageRun& stage, const StageRun* before, double carried,
-                        const std::vector<std::string>& idle) {
-  std::vector<std::string> leaving;
-  for (const BodySpec& body : spec.bodies)
-    if (!holds(body.stages, &stage) && holds(body.stages, before)) leaving.push_back(body.name);
-  if (leaving.empty()) return;
-  logging::info("stage '{}' at t = {:g} s: {} {}{}{}", stage.stage->name, stage.start, listed(leaving),
-                leaving.size() == 1 ? "leaves" : "leave",
-                spec.has_heat() ? fmt::format(" with {:.6g} J, counted from 20 degC", carried) : "",
-                idle.empty() ? "" : "; without a body: " + listed(idle));
+/// Reports which bodies leave and come when a stage begins, with how much heat, and the conditions that end
+/// with them.
+void announce_bodies(const CaseSpec& spec, const StageRun& stage, const StageRun* before,
+                     const coupling::BodyHeat& heat, const std::vector<std::string>& idle) {
+  std::vector<std::string> leaving, coming;
+  for (const BodySpec& body : spec.bodies) {
+    const bool there = holds(body.stages, &stage), was = holds(body.stages, before);
+    if (was && !there) leaving.push_back(body.name);
+    if (there && !was) coming.push_back(body.name);
+  }
+  const auto sentence = [&](const std::vector<std::string>& bodies, const char* one, const char* several,
+                            double joule) {
+    return fmt::format("{} {}{}", listed(bodies), bodies.size() == 1 ? one : several,
+                       spec.has_heat() ? fmt::format(" with {:.6g} J, counted from 20 degC", joule) : "");
+  };
+  std::string text;
+  if (!leaving.empty()) text = sentence(leaving, "leaves", "leave", heat.ejected);
+  if (!coming.empty())
+    text += (text.empty() ? "" : "; ") + sentence(coming, "comes new", "come new", heat.poured);
+  if (text.empty()) return;
+  logging::info("stage '{}' at t = {:g} s: {}{}", stage.stage->name, stage.start, text,
+                idle.empty() || leaving.empty() ? "" : "; without a body: " + listed(idle));
+}
+
+/// Bodies that come are as drawn: without displacement, stress and history, in contact as at the start of a
+/// run.
+void renew_contacts(const CaseSpec& spec, const std::vector<char>& fresh, coupling::State& state,
+                    Assembly& a) {
+  if (state.contacts.empty()) return;
+  std::vector<std::string> groups;  // absent in the sense of an active set: their faces are reversed
+  for (std::size_t b = 0; b < fresh.size(); ++b)
+    if (fresh[b] != 0) groups.push_back(spec.bodies[b].mesh_group());
+  const algebra::ActiveSet others(a.mesh, groups);
+  const auto is_new = [&](const std::string& surface) {
+    const auto group = a.mesh.surfaces.find(surface);
+    bool any = false;
+    if (group != a.mesh.surfaces.end())
+      for (const mesh::Block& faces : group->second.faces)
+        any = any || (faces.size() > 0 && others.reversed(faces));
+    return algebra::any_process(any);
+  };
+  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    const contact::ContactSpec& pair = a.contacts[i]->spec();
+    const bool slave = is_new(pair.slave), master = is_new(pair.master);
+    if (slave || master)
+      state.contacts[i] = a.contacts[i]->renewed_state(state.contacts[i], slave, master,
+                                                       state.mechanics.displacement, state.time);
+  }
 }
 
 }  // namespace
@@ -143,22 +184,39 @@ double Assembly::coldest_start() const {
   return low;
 }
 
-void apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
-           coupling::State* begins, Assembly& a) {
+coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
+                         coupling::State* begins, Assembly& a) {
   const StageRun& stage = a.stages[number];
   const std::vector<std::string> idle = without_body(spec, a.mesh, &stage);
+  const std::vector<char> fresh = new_bodies(spec, a.stages, number);
+  const bool comes =
+      begins != nullptr && std::any_of(fresh.begin(), fresh.end(), [](char f) { return f != 0; });
   for (std::size_t i = 0; i < a.contacts.size(); ++i)
     a.contacts[i]->activate(holds(spec, spec.contacts[i], a.mesh, &stage));
-  if (a.mechanics) a.mechanics->set_conditions(mechanical_conditions(spec, &stage), displacement);
-  double carried = 0;
+  if (a.mechanics) {
+    if (comes) mechanics::renew_nodes(a.mesh, fresh, begins->mechanics);
+    a.mechanics->set_conditions(mechanical_conditions(spec, &stage),
+                                begins != nullptr ? begins->mechanics.displacement : displacement);
+    if (a.structural)
+      mechanics::spread_heat_as_stored(*a.mechanics, spec.heat.integration == heat::Integration::closed);
+    if (comes) {
+      mechanics::renew_history(*a.mechanics, fresh, begins->mechanics);
+      renew_contacts(spec, fresh, *begins, a);
+    }
+  }
+  heat::CarriedHeat carried;
   if (a.heat) {
     // If a run continues at the end of a stage, the heat of the bodies that left before it has been removed
     // already.
     if (begins != nullptr && number > 0) a.heat->set_conditions(thermal_conditions(spec, &stage - 1));
+    const InitialTemperatures& initial = *a.initial_temperatures;
     carried =
-        a.heat->set_conditions(thermal_conditions(spec, &stage), begins != nullptr ? &begins->heat : nullptr);
+        a.heat->set_conditions(thermal_conditions(spec, &stage), begins != nullptr ? &begins->heat : nullptr,
+                               [&](Index node, int body) { return initial.enthalpy(node, body); });
   }
-  if (begins != nullptr) announce_departure(spec, stage, number > 0 ? &stage - 1 : nullptr, carried, idle);
+  const coupling::BodyHeat heat{.poured = carried.along, .ejected = carried.away};
+  if (begins != nullptr) announce_bodies(spec, stage, number > 0 ? &stage - 1 : nullptr, heat, idle);
+  return heat;
 }
 
 void build(const CaseSpec& spec, Assembly& a) {
@@ -167,7 +225,9 @@ void build(const CaseSpec& spec, Assembly& a) {
     logging::warn("these act on bodies that only conduct heat, and do nothing: {}", listed(idle));
   for (const StageRun& stage : a.stages)
     if (stage.cycle <= 1) without_body(spec, a.mesh, &stage);  // complains early
-  const InitialTemperatures start(spec, a.materials, a.mesh);
+  check_new_bodies(spec, a.stages, a.mesh);
+  a.initial_temperatures = std::make_unique<InitialTemperatures>(spec, a.materials, a.mesh);
+  const InitialTemperatures& start = *a.initial_temperatures;
   a.start = start.ranges();
   std::vector<double> highest;
   for (const TemperatureRange& range : a.start) highest.push_back(range.high);

@@ -25,6 +25,7 @@ struct Assembly {
   std::unique_ptr<criteria::Criteria> criteria;    ///< null: nothing is followed
   coupling::Phases phases;
   coupling::State initial;
+  std::unique_ptr<InitialTemperatures> initial_temperatures;
   std::vector<TemperatureRange> start;  ///< initial temperatures, [body]
   std::vector<StageRun> stages;         ///< empty: the case has none
   Assembly() = default;
@@ -40,8 +41,10 @@ void build(const CaseSpec& spec, Assembly& a);
 
 /// Gives the phases the conditions of a stage that begins at this displacement. Collective.
 /// @param number  in Assembly::stages
-/// @param begins  its state, which loses the heat of bodies that leave; null where a run goes on inside it
-void apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
-           coupling::State* begins, Assembly& a);
+/// @param begins  its state, which loses the heat of bodies that leave, and gets bodies that come as they are
+///                drawn and poured; null where a run goes on inside it
+/// Returns the heat of these bodies.
+coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::vector<double>& displacement,
+                         coupling::State* begins, Assembly& a);
 
 }  // namespace solidus::model

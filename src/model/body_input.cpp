@@ -55,21 +55,6 @@ void check_stages_of(const CaseSpec& spec, const BodySpec& body) {
   if (spec.dynamics)
     throw InputError(body.where, fmt::format("the body '{}' leaves, but the analysis has inertia", body.name),
                      "no [dynamics], or no 'stages' of bodies");
-  bool before = true;
-  for (const StageRun& run : stage_runs(spec)) {
-    const bool now = holds(body.stages, &run);
-    if (run.start == 0 && !now)
-      throw InputError(
-          body.where,
-          fmt::format("the body '{}' is not there in the first stage, '{}'", body.name, run.stage->name),
-          "stages from the first one on");
-    if (now && !before)
-      throw InputError(body.where,
-                       fmt::format("the body '{}' has gone before the stage '{}' and cannot come back",
-                                   body.name, run.stage->name),
-                       "stages from the first one to the last in which the body is there, none left out");
-    before = now;
-  }
 }
 
 }  // namespace
@@ -112,15 +97,53 @@ void check_bodies(const CaseSpec& spec) {
   if (all(only_conducts))
     throw InputError(spec.bodies.front().where, "no body deforms: all have physics = \"heat\"",
                      "physics = \"heat\" in [analysis]");
-  for (const StageRun& run : stage_runs(spec)) {
-    const auto takes_no_part = [&](const BodySpec& body) {
-      return !holds(body.stages, &run) || (spec.coupled() && only_conducts(body));
-    };
-    if (all(takes_no_part))
+  // In heat and mechanics together nothing need deform: a die that only conducts waits for its next casting.
+  for (const StageRun& run : stage_runs(spec))
+    if (all([&](const BodySpec& body) { return !holds(body.stages, &run); }))
       throw InputError(spec.bodies.front().where,
-                       fmt::format("nothing is left in the stage '{}'{}", run.stage->name,
-                                   spec.has_mechanics() ? " that deforms" : ""),
+                       fmt::format("nothing is left in the stage '{}'", run.stage->name),
                        "a body that stays");
+}
+
+std::vector<char> new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, std::size_t number) {
+  std::vector<char> fresh(spec.bodies.size(), 0);
+  if (number == 0) return fresh;
+  for (std::size_t b = 0; b < fresh.size(); ++b)
+    fresh[b] =
+        holds(spec.bodies[b].stages, &runs[number]) && !holds(spec.bodies[b].stages, &runs[number - 1]);
+  return fresh;
+}
+
+void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, const mesh::Mesh& mesh) {
+  if (!spec.has_mechanics()) return;
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    if (!runs[i].pours || runs[i].cycle > 2) continue;  // all further rounds are like the second one
+    const std::vector<char> fresh = new_bodies(spec, runs, i);
+    std::vector<char> stays(mesh.x.size(), 0);  // [node] of a body that deforms and was there before
+    std::string shares;
+    SourceLocation where;
+    for (const bool is_new : {false, true})
+      for (const mesh::Block& block : mesh.blocks) {
+        const auto b = static_cast<std::size_t>(block.body);
+        const BodySpec& body = spec.bodies[b];
+        if (only_conducts(body) || !holds(body.stages, &runs[i]) || (fresh[b] != 0) != is_new) continue;
+        bool shared = false;
+        for (const Index node : block.nodes) {
+          char& there = stays[static_cast<std::size_t>(node)];
+          if (is_new)
+            shared = shared || there != 0;
+          else
+            there = 1;
+        }
+        if (algebra::any_process(shared)) shares = body.name, where = body.where;
+      }
+    if (!shares.empty())
+      throw InputError(
+          where,
+          fmt::format(
+              "the body '{}' comes new into the stage '{}', but shares nodes with one that deforms and stays",
+              shares, runs[i].stage->name),
+          "nodes of its own and a contact, which [[interface]] makes");
   }
 }
 

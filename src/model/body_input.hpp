@@ -1,4 +1,5 @@
-/// Bodies that only conduct heat, and bodies that leave in the course of the stages (shake-out, ejection).
+/// Bodies that only conduct heat, and bodies that leave and come in the course of the stages (shake-out,
+/// ejection, the casting of the next shot).
 #pragma once
 
 #include <string>
@@ -20,9 +21,16 @@ std::vector<std::string> gone_bodies(const CaseSpec& spec, const StageRun* stage
 /// The groups of the bodies that take no part in mechanics: those that only conduct heat, and those gone.
 std::vector<std::string> absent_from_mechanics(const CaseSpec& spec, const StageRun* stage);
 
-/// That bodies are there from the first stage on, do not come back, and that something is left. Throws
-/// InputError.
+/// That something is there in every stage. Throws InputError.
 void check_bodies(const CaseSpec& spec);
+
+/// Bodies that are there in a stage and were not in the one before it in the run, [body]: they are new.
+/// @param number  of the stage in the run, from zero
+std::vector<char> new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, std::size_t number);
+
+/// Checks that bodies which come into a run where others deform have nodes of their own. Collective. Throws
+/// InputError.
+void check_new_bodies(const CaseSpec& spec, const std::vector<StageRun>& runs, const mesh::Mesh& mesh);
 
 /// A body that only conducts heat is a rigid wall in contact: the master where the program chooses the roles.
 /// Between two such walls no force acts, and the penalty is any. Collective.

@@ -174,6 +174,10 @@ struct CycleSpec {
   std::string name;
   std::vector<std::string> stages;
   int repeat = 1;
+  /// Change of the temperature from the start to the end of a round, of bodies that stay, that ends them [K].
+  std::optional<double> periodic;
+  enum class Search { anderson, repetition };
+  Search search = Search::anderson;  ///< of the periodic state
   SourceLocation where;
 };
 

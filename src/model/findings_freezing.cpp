@@ -37,6 +37,19 @@ double fixed_step(const CaseSpec& spec, const Assembly& a) {
   return first_step(*a.stages.front().stage, spec.time);
 }
 
+/// When a body that is poured leaves for the first time, or the run ends [s].
+double time_there(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+  double pour = 0;
+  bool there = false;
+  for (const StageRun& stage : a.stages) {
+    const bool now = holds(spec.bodies[body].stages, &stage);
+    if (now && !there) pour = stage.start;
+    if (there && !now) return stage.start - pour;
+    there = now;
+  }
+  return *spec.time.end - pour;
+}
+
 void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
   const std::string& name = spec.bodies[pour.body].name;
   if (pour.no_estimate == "nothing cools it") {
@@ -63,6 +76,11 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                         fmt::format("the run ends after {}, but '{}' takes some {} to freeze",
                                     duration(*spec.time.end), name, duration(time)),
                         "a later time.end; is its unit right?"});
+  else if (const double there = time_there(spec, a, pour.body); there < k_early * time)
+    findings.push_back({false, spec.bodies[pour.body].where,
+                        fmt::format("'{}' leaves {} after its pour, but takes some {} to freeze", name,
+                                    duration(there), duration(time)),
+                        "longer stages before it leaves"});
   if (const double step = fixed_step(spec, a); k_fine * step > time && step < 0.99 * *spec.time.end)
     findings.push_back(
         {false, spec.time.where,

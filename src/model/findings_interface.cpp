@@ -7,6 +7,7 @@
 #include <set>
 
 #include "algebra/parallel.hpp"
+#include "model/body_input.hpp"
 #include "model/findings.hpp"
 
 namespace solidus::model {
@@ -19,6 +20,14 @@ constexpr double k_same_temperature = 50;
 bool at_the_same_time(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   return a.empty() || b.empty() || std::any_of(a.begin(), a.end(), [&](const std::string& stage) {
            return std::find(b.begin(), b.end(), stage) != b.end();
+         });
+}
+
+/// Whether a condition holds while a contact is on: bodies come and leave. Collective.
+bool beside(const CaseSpec& spec, const Assembly& a, const std::vector<std::string>& stages,
+            const ContactSpec& contact) {
+  return a.stages.empty() || std::any_of(a.stages.begin(), a.stages.end(), [&](const StageRun& stage) {
+           return stage.cycle <= 1 && holds(stages, &stage) && holds(spec, contact, a.mesh, &stage);
          });
 }
 
@@ -112,14 +121,14 @@ bool always_the_same(const ThermalConditionSpec& film) {
   return is_number(film.coefficient) && is_number(film.factor);
 }
 
-void films_beside_contacts(const CaseSpec& spec, Findings& findings) {
+void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   using Kind = ThermalConditionSpec::Kind;
   for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
     const ThermalConditionSpec& film = spec.thermal_conditions[i];
     if (film.kind != Kind::film) continue;
     for (const ContactSpec& contact : spec.contacts)
       if (contact.heat && always_the_same(film) && sides(contact).contains(film.group) &&
-          at_the_same_time(film.stages, contact.stages))
+          beside(spec, a, film.stages, contact))
         findings.push_back(
             {false, film.where,
              fmt::format("the film '{}' lies on the surface '{}', which the contact '{}' cools too",
@@ -160,7 +169,7 @@ void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findi
   contacts_given_twice(spec, findings);
   if (!spec.has_heat()) return;
   bodies_without_a_way_for_heat(spec, a, findings);
-  films_beside_contacts(spec, findings);
+  films_beside_contacts(spec, a, findings);
   conductances(spec, findings);
 }
 

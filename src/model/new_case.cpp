@@ -41,6 +41,9 @@ struct Process {
   double film;                    ///< outside [W/(m² K)]
   const char* film_source;
   bool layers;  ///< of thin elements of the mould on the casting
+  /// Of shots: stages besides solidify [s], the film of the spray [W/(m² K)] and where that comes from.
+  double pour = 0, open = 0, eject = 0, spray = 0, close = 0, spray_film = 0;
+  const char* spray_source = "";
 };
 
 const std::vector<Process>& all_processes() {
@@ -76,7 +79,14 @@ const std::vector<Process>& all_processes() {
                                              "die_insulating_coating",
                                              20,
                                              "air and radiation of a die at 250 degC",
-                                             false},
+                                             false,
+                                             5,
+                                             5,
+                                             15,
+                                             5,
+                                             15,
+                                             300,
+                                             "compressed air and a little water on the coating: an estimate"},
                                             {"high_pressure",
                                              {"h13_tool_steel", "steel_mould"},
                                              Role::die,
@@ -87,7 +97,14 @@ const std::vector<Process>& all_processes() {
                                              "high_pressure_die_spray",
                                              200,
                                              "air and cooling channels, spread over the outside: an estimate",
-                                             false}};
+                                             false,
+                                             0.5,
+                                             3,
+                                             3,
+                                             3,
+                                             5,
+                                             2000,
+                                             "water and lubricant, 500 to 10000 W/(m2 K): an estimate"}};
   return list;
 }
 
@@ -218,6 +235,10 @@ class NewCase {
     if (!options_.symmetry.empty() && options_.symmetry != "x" && options_.symmetry != "y" &&
         options_.symmetry != "z")
       throw InputError({"--symmetry"}, fmt::format("'{}' is no axis", options_.symmetry), "x, y or z");
+    if (options_.shots > 0 && process_.mould != Role::die)
+      throw InputError({"--shots"},
+                       fmt::format("the mould of the process '{}' is lost with its casting", process_.name),
+                       "--process gravity_die or high_pressure, or no --shots");
     draft_.folder = options_.folder.empty() ? fs::path(options_.geometry.stem().string()) : options_.folder;
     if (fs::exists(draft_.folder / "case.toml"))
       throw InputError({(draft_.folder / "case.toml").string()}, "there is a case already",
@@ -282,6 +303,10 @@ class NewCase {
     draft_.film_source = process_.film_source;
     draft_.end = 600;
     draft_.step = 1;
+    if (options_.shots > 0)
+      draft_.shots = {options_.shots, process_.pour,       600,
+                      process_.open,  process_.eject,      process_.spray,
+                      process_.close, process_.spray_film, process_.spray_source};
   }
 
   /// Of the thick places that are nearly the thickest the one with the least metal above its centre.
@@ -453,6 +478,7 @@ class NewCase {
     bare.films.clear();
     bare.symmetric.clear();
     bare.layers = false;
+    bare.cavity.clear();
     write(bare);
     return raw_mesh(load_case(draft_.folder / "case.toml", {}, Physics::heat).spec);
   }
@@ -473,6 +499,12 @@ class NewCase {
     if (more) mesh = drafted_mesh();
     draft_.films.clear();
     draft_.symmetric.clear();
+    draft_.cavity.clear();
+    for (const DraftBody& die : draft_.bodies)
+      for (const DraftBody& body : draft_.bodies)
+        if (die.role == Role::die && body.role != Role::die && body.role != Role::chill &&
+            mesh.groups.contains(die.name + "_to_" + body.name))
+          draft_.cavity.push_back(die.name + "_to_" + body.name);
     for (const DraftBody& body : draft_.bodies) {
       if (mesh.groups.contains(body.name + "_free")) draft_.films.push_back(body.name);
       if (is_metal(body.role) && mesh.groups.contains(body.name + "_symmetry"))
@@ -500,10 +532,12 @@ class NewCase {
         if (draft.name == body.name && is_metal(draft.role)) metal_nodes_ += static_cast<double>(body.nodes);
     }
     constexpr double k_margin = 1.8;  // the estimate is of one dimension
+    constexpr double k_margin_of_shots = 1.3;
     freezing_ = time;
     if (time > 0) {
       draft_.end = two_digits(std::max(k_margin * time, 1.0));
       draft_.step = two_digits(draft_.end / 600);
+      if (draft_.shots) draft_.shots->solidify = two_digits(std::max(k_margin_of_shots * time, 1.0));
     }
     bool good = true;
     constexpr double k_most = 6000, k_wanted = 3500, k_reaches = 2;
@@ -543,9 +577,12 @@ class NewCase {
         "\n  mesh        {:.0f} nodes, {:.0f} of them in metal; elements of {:.3g} to {:.3g} mm there",
         nodes_, metal_nodes_, 1e3 * draft_.smallest, 1e3 * draft_.size);
     if (freezing_ > 0)
-      out += fmt::format(
-          "\n  freezes     in about {:.2g} s by an estimate of one dimension; the run ends at {:.3g} s",
-          freezing_, draft_.end);
+      out += fmt::format("\n  freezes     in about {:.2g} s by an estimate of one dimension; {}", freezing_,
+                         draft_.shots
+                             ? fmt::format("it leaves the die after {:.3g} s, {} times",
+                                           draft_.shots->pour + draft_.shots->solidify + draft_.shots->open,
+                                           draft_.shots->number)
+                             : fmt::format("the run ends at {:.3g} s", draft_.end));
     if (draft_.process == "shell" && draft_.mould)
       out +=
           "\n  note        the shell is a block around the part with thin walls, not an offset of its skin";

@@ -20,6 +20,7 @@ struct NewCaseOptions {
   std::vector<std::string> as;     ///< "NAME=role" of bodies of the file
   std::filesystem::path folder;    ///< for the case; empty: the file's name, here
   double fineness = 1;             ///< so many times as many elements along each edge
+  int shots = 0;                   ///< castings in a row, in a die; zero: one casting, without stages
 };
 
 /// The names of the processes.

@@ -71,12 +71,61 @@ std::string mesh_text(const Draft& d) {
   return t;
 }
 
-std::string body_text(const DraftBody& b) {
+/// Whether a body leaves with the casting, and is new in the next shot.
+bool leaves(const DraftBody& b) {
+  return is_metal(b) || b.role == Role::core || b.role == Role::sleeve || b.role == Role::insulation;
+}
+
+std::string time_text(const Draft& d) {
+  if (!d.shots)
+    return fmt::format(
+        "[time]\nend = \"{:g} s\"    # 1.8 times an estimate of the time to freeze\nstep = \"{:g} s\"\n"
+        "adaptive = true\n\n",
+        d.end, d.step);
+  const DraftShots& s = *d.shots;
+  std::string t =
+      fmt::format("[time]\nstep = \"{:g} s\"    # the first of every stage\nadaptive = true\n\n", d.step);
+  const auto stage = [&](const char* name, double duration, const char* comment) {
+    t += fmt::format("[[stage]]\nname = \"{}\"\nduration = \"{:g} s\"{}{}\n", name, duration,
+                     *comment != 0 ? "   # " : "", comment);
+    if (duration < d.step) t += fmt::format("step = \"{:g} s\"\n", duration);
+    t += "\n";
+  };
+  stage("pour", s.pour, "the die is full at once: the flow of the metal is not computed");
+  stage("solidify", s.solidify, "1.3 times an estimate of the time to freeze");
+  stage("open", s.open, "");
+  stage("eject", s.eject, "the casting has gone; an estimate, like all that follow");
+  stage("spray", s.spray, "");
+  stage("close", s.close, "");
+  return t + fmt::format(
+                 "[[cycle]]   # the casting of every shot is new, the die keeps its heat\nname = \"shots\"\n"
+                 "stages = [\"pour\", \"solidify\", \"open\", \"eject\", \"spray\", \"close\"]\nrepeat = {}\n"
+                 "# periodic = \"1 K\"   # ends the run when the die is as warm as a shot ago, and finds "
+                 "that in a "
+                 "few shots\n\n",
+                 s.number);
+}
+
+std::string spray_text(const Draft& d) {
+  std::string t;
+  for (const std::string& surface : d.cavity)
+    t += fmt::format(
+        "[[thermal_condition]]\nname = \"air_in_{0}\"\ngroup = \"{0}\"\nkind = \"film\"\n"
+        "coefficient = \"{1:g} W/m2/K\"\nambient = \"20 degC\"\nstages = [\"eject\", \"close\"]\n\n"
+        "[[thermal_condition]]   # {3}\nname = \"spray_on_{0}\"\ngroup = \"{0}\"\nkind = \"film\"\n"
+        "coefficient = \"{2:g} W/m2/K\"\nambient = \"25 degC\"\nstages = \"spray\"\n\n",
+        surface, 20.0, d.shots->spray_film, d.shots->spray_source);
+  return t;
+}
+
+std::string body_text(const DraftBody& b, bool shots) {
   std::string t = fmt::format("[[body]]\nname = {}\n", quoted(b.name));
   if (b.group != b.name) t += fmt::format("group = {}\n", quoted(b.group));
   t += fmt::format("role = \"{}\"\nmaterial = {}\ninitial_temperature = \"{:g} degC\"{}\n", name(b.role),
                    quoted(b.material), b.start, b.comment.empty() || b.heat_only ? "" : "   # " + b.comment);
   if (b.heat_only) t += fmt::format("physics = \"heat\"{}\n", b.comment.empty() ? "" : "   # " + b.comment);
+  if (shots && leaves(b))
+    t += "stages = [\"pour\", \"solidify\", \"open\"]   # then it leaves; the next one is new\n";
   return t + "\n";
 }
 
@@ -106,17 +155,15 @@ std::string case_text(const Draft& d) {
                  : "physics = \"heat\"   # the alloy has no elastic properties\n";
   t += "gravity = \"9.81 m/s2\"            # along -z\n\n";
   t += mesh_text(d);
-  t += fmt::format(
-      "[time]\nend = \"{:g} s\"    # 1.8 times an estimate of the time to freeze\nstep = \"{:g} s\"\n"
-      "adaptive = true\n\n",
-      d.end, d.step);
-  for (const DraftBody& b : d.bodies) t += body_text(b);
+  t += time_text(d);
+  for (const DraftBody& b : d.bodies) t += body_text(b, d.shots.has_value());
   t += interface_text(d);
   for (const std::string& body : d.films)
     t += fmt::format(
         "[[thermal_condition]]   # {}\nname = \"air_on_{}\"\ngroup = \"{}_free\"\nkind = \"film\"\n"
         "coefficient = \"{:g} W/m2/K\"\nambient = \"20 degC\"\n\n",
         d.film_source, body, body, d.film);
+  if (d.shots) t += spray_text(d);
   for (const std::string& body : d.coupled ? d.symmetric : std::vector<std::string>{})
     t += fmt::format(
         "[[mechanical_condition]]\nname = \"symmetry_of_{0}\"\ngroup = \"{0}_symmetry\"\n"

@@ -24,6 +24,14 @@ struct DraftMould {
   std::array<double, 6> walls{};  ///< [m]
 };
 
+/// Shots in a die: the casting freezes, leaves, and the next one comes.
+struct DraftShots {
+  int number = 0;
+  double pour = 0, solidify = 0, open = 0, eject = 0, spray = 0, close = 0;  ///< durations [s]
+  double spray_film = 0;                                                     ///< [W/(m² K)]
+  std::string spray_source;
+};
+
 struct DraftRiser {
   std::string name = "riser";
   mesh::Point foot{};
@@ -52,6 +60,8 @@ struct Draft {
   std::string film_source;
   std::vector<mesh::InscribedSphere> hot_spots;
   double end = 0, step = 0;
+  std::optional<DraftShots> shots;
+  std::vector<std::string> cavity;  ///< surfaces of the die that are free when the casting has left
 };
 
 std::string case_text(const Draft& draft);

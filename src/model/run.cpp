@@ -15,6 +15,7 @@
 #include "base/profile.hpp"
 #include "base/units.hpp"
 #include "coupling/contact_work.hpp"
+#include "coupling/shot_map.hpp"
 #include "coupling/simulation.hpp"
 #include "model/advice.hpp"
 #include "model/assembly.hpp"
@@ -83,6 +84,10 @@ bool melts(const std::vector<material::Material>& materials) {
                      [](const material::Material& m) { return m.solidification() != nullptr; });
 }
 
+bool has_shots(const Assembly& a) {
+  return std::any_of(a.stages.begin(), a.stages.end(), [](const StageRun& s) { return s.shot > 0; });
+}
+
 results::RecorderOptions recorder_options(const Case& c, const RunOptions& options, const Assembly& a) {
   const CaseSpec& spec = c.spec;
   results::RecorderOptions r;
@@ -91,6 +96,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.profiles = profiles(spec);
   r.fields = spec.output.fields;
   r.stages = !spec.stages.empty();
+  r.shots = has_shots(a);
   r.steady = spec.time.steady;
   r.progress = options.progress;
   r.profile = options.profile;
@@ -144,6 +150,17 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
   return {};
 }
 
+/// Null in a case without shots, or without heat. Before bodies leave.
+std::unique_ptr<coupling::ShotMap> shot_map(const CaseSpec& spec, const Assembly& a) {
+  if (!a.heat || !has_shots(a)) return nullptr;
+  coupling::PeriodicOptions options;
+  if (const CycleSpec* cycle = periodic_cycle(spec)) {
+    options.tolerance = *cycle->periodic;
+    options.accelerate = cycle->search == CycleSpec::Search::anderson;
+  }
+  return std::make_unique<coupling::ShotMap>(*a.heat, staying_bodies(spec), options);
+}
+
 RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
                         std::optional<results::Checkpoint> from, results::Recorder& recorder) {
   coupling::TimeOptions times = time_options(spec);
@@ -182,8 +199,10 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
   if (a.criteria) simulation.follow(*a.criteria);
   simulation.stop_when(options.stop_asked);
   simulation.at_stage([&](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
-    apply(spec, stage, start.displacement, begins, a);
+    return apply(spec, stage, start.displacement, begins, a);
   });
+  const std::unique_ptr<coupling::ShotMap> shots = shot_map(spec, a);
+  if (shots) simulation.follow_shots(*shots);
   // A state is large: the one at the start is not needed beside those of the run.
   coupling::State start = std::move(from ? from->state : a.initial);
   a.initial = {};
@@ -207,8 +226,20 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
   const results::CheckpointFolder folder(options.folder);
   results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
   check_stage_of_checkpoint(spec, found.continuation.stage, found.state.time);
+  const CycleSpec* cycle = periodic_cycle(spec);
+  const StageRun* stage = found.continuation.stage.number > 0
+                              ? &a.stages[static_cast<std::size_t>(found.continuation.stage.number) - 1]
+                              : nullptr;
+  const bool periodic = cycle != nullptr && stage != nullptr && stage->ends_shot &&
+                        found.state.time == stage->end && found.continuation.shots.shots > 0 &&
+                        found.continuation.shots.change <= *cycle->periodic;
+  if (periodic && results::is_finished(options.folder))
+    throw InputError(cycle->where,
+                     fmt::format("the run has found its periodic state already, to {:.3g} K in shot {}",
+                                 found.continuation.shots.change, found.state.shot),
+                     "a smaller 'periodic' in the cycle");
   // A run that was killed behind its last checkpoint has but its summary to write.
-  const bool reached = found.state.time == *spec.time.end;
+  const bool reached = found.state.time == *spec.time.end || periodic;
   if (reached && !results::is_finished(options.folder)) {
     logging::info("the run has reached t = {:g} s already; its results are completed", found.state.time);
     return found;

@@ -59,6 +59,40 @@ void check_stage(const CaseSpec& spec, const StageSpec& s) {
                      "adaptive = true, or no max_step");
 }
 
+/// Of the search for the periodic state.
+void check_periodic(const CaseSpec& spec, const CycleSpec& cycle) {
+  if (!cycle.periodic) {
+    if (cycle.search != CycleSpec::Search::anderson)
+      throw InputError(cycle.where,
+                       fmt::format("'search' means nothing without 'periodic' in the cycle '{}'", cycle.name),
+                       "periodic = \"1 K\", say, or no search");
+    return;
+  }
+  if (!spec.has_heat())
+    throw InputError(
+        cycle.where,
+        fmt::format("the cycle '{}' asks for periodic temperatures in an analysis without heat", cycle.name),
+        "physics = \"heat\" or \"thermomechanical\", or no 'periodic'");
+  if (spec.dynamics)
+    throw InputError(
+        cycle.where,
+        fmt::format("the cycle '{}' asks for its periodic state, but the analysis has inertia", cycle.name),
+        "no [dynamics], or no 'periodic'");
+  if (cycle.stages.empty() || cycle.stages.back() != spec.stages.back().name)
+    throw InputError(cycle.where,
+                     fmt::format("the run ends when the cycle '{}' is periodic, but '{}' comes after it",
+                                 cycle.name, spec.stages.back().name),
+                     "a cycle with the last stages of the case, or no 'periodic'");
+  if (std::none_of(spec.bodies.begin(), spec.bodies.end(), [&](const BodySpec& body) {
+        return std::all_of(cycle.stages.begin(), cycle.stages.end(), [&](const std::string& stage) {
+          return body.stages.empty() ||
+                 std::find(body.stages.begin(), body.stages.end(), stage) != body.stages.end();
+        });
+      }))
+    throw InputError(cycle.where, fmt::format("no body is there in all stages of the cycle '{}'", cycle.name),
+                     "a die that stays, or no 'periodic'");
+}
+
 /// The cycle of each stage of the case, with those that a cycle has standing in a row.
 std::vector<const CycleSpec*> cycles_of_stages(const CaseSpec& spec) {
   std::vector<const CycleSpec*> cycle_of(spec.stages.size(), nullptr);
@@ -89,10 +123,21 @@ std::vector<StageRun> stage_runs(const CaseSpec& spec) {
   const std::vector<const CycleSpec*> cycle_of = cycles_of_stages(spec);
   std::vector<StageRun> runs;
   double time = 0;
+  int shot = 0;
   const auto add = [&](std::size_t i, int cycle) {
     const double end = time + spec.stages[i].duration;
-    runs.push_back({&spec.stages[i], static_cast<int>(i) + 1, cycle, time, end});
+    StageRun& run = runs.emplace_back();
+    run = {.stage = &spec.stages[i],
+           .number = static_cast<int>(i) + 1,
+           .cycle = cycle,
+           .start = time,
+           .end = end};
     time = end;
+    if (runs.size() < 2) return;
+    const StageRun& before = runs[runs.size() - 2];
+    run.pours = std::any_of(spec.bodies.begin(), spec.bodies.end(), [&](const BodySpec& body) {
+      return holds(body.stages, &run) && !holds(body.stages, &before);
+    });
   };
   for (std::size_t i = 0; i < spec.stages.size();) {
     if (cycle_of[i] == nullptr) {
@@ -100,11 +145,45 @@ std::vector<StageRun> stage_runs(const CaseSpec& spec) {
       continue;
     }
     const std::size_t n = cycle_of[i]->stages.size();
-    for (int cycle = 1; cycle <= cycle_of[i]->repeat; ++cycle)
-      for (std::size_t k = 0; k < n; ++k) add(i + k, cycle);
+    const bool shots = is_of_shots(spec, *cycle_of[i]);
+    for (int cycle = 1; cycle <= cycle_of[i]->repeat; ++cycle) {
+      shot += shots ? 1 : 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        add(i + k, cycle);
+        if (!shots) continue;
+        runs.back().shot = shot;
+        runs.back().begins_shot = k == 0;
+        runs.back().ends_shot = k + 1 == n;
+      }
+    }
     i += n;
   }
   return runs;
+}
+
+bool is_of_shots(const CaseSpec& spec, const CycleSpec& cycle) {
+  if (cycle.periodic) return true;
+  return std::any_of(spec.bodies.begin(), spec.bodies.end(), [&](const BodySpec& body) {
+    const auto there = std::count_if(cycle.stages.begin(), cycle.stages.end(), [&](const std::string& stage) {
+      return body.stages.empty() ||
+             std::find(body.stages.begin(), body.stages.end(), stage) != body.stages.end();
+    });
+    return there > 0 && there < static_cast<std::ptrdiff_t>(cycle.stages.size());
+  });
+}
+
+std::vector<char> staying_bodies(const CaseSpec& spec) {
+  std::vector<char> stays(spec.bodies.size(), 1);
+  for (const StageRun& run : stage_runs(spec))
+    for (std::size_t b = 0; b < stays.size(); ++b)
+      if (run.shot > 0 && !holds(spec.bodies[b].stages, &run)) stays[b] = 0;
+  return stays;
+}
+
+const CycleSpec* periodic_cycle(const CaseSpec& spec) {
+  for (const CycleSpec& cycle : spec.cycles)
+    if (cycle.periodic) return &cycle;
+  return nullptr;
 }
 
 bool holds(const std::vector<std::string>& stages, const StageRun* run) {
@@ -135,6 +214,7 @@ void resolve_stages(CaseSpec& spec) {
     throw InputError(spec.time.where, "'end' is given, but the case has stages: their durations make the end",
                      "no end in [time]");
   for (const StageSpec& stage : spec.stages) check_stage(spec, stage);
+  for (const CycleSpec& cycle : spec.cycles) check_periodic(spec, cycle);
   spec.time.end = stage_runs(spec).back().end;
 }
 

@@ -15,7 +15,19 @@ struct StageRun {
   int number = 0;             ///< of the stage in the case, from one
   int cycle = 0;              ///< how often its cycle has come round, from one; zero outside of cycles
   double start = 0, end = 0;  ///< [s]
+  int shot = 0;               ///< the shot that it belongs to, from one; zero: to none
+  bool begins_shot = false, ends_shot = false;
+  bool pours = false;  ///< a body is there that was not in the stage before
 };
+
+/// Whether the rounds of a cycle are shots: bodies come and leave in it, or its periodic state is wanted.
+bool is_of_shots(const CaseSpec& spec, const CycleSpec& cycle);
+
+/// Bodies that are there in all stages of the shots, [body].
+std::vector<char> staying_bodies(const CaseSpec& spec);
+
+/// The cycle whose periodic state ends the run; null where none does.
+const CycleSpec* periodic_cycle(const CaseSpec& spec);
 
 /// All stages in the order of the run; empty in a case without stages. The case must outlive them.
 std::vector<StageRun> stage_runs(const CaseSpec& spec);

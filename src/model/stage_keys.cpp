@@ -30,7 +30,25 @@ Section<CycleSpec> cycle_keys() {
   s.key("stages", &C::stages)
       .or_one()
       .doc("Its stages, which stand one behind the other in the file, in their order.");
-  s.key("repeat", &C::repeat).range(1, 1e6).doc("How often they are run through, all times together.");
+  s.key("repeat", &C::repeat)
+      .range(1, 1e6)
+      .doc("How often they are run through, all times together; with `periodic` at most.");
+  s.quantity("periodic", &C::periodic, "K")
+      .positive()
+      .difference()
+      .doc(
+          "End the run after a round in which no place of the bodies that stay changed its temperature by "
+          "more "
+          "than this, from the start of the round to its end; the cycle is the last one of the case.");
+  s.choice(
+       "search", &C::search,
+       {{"anderson", C::Search::anderson,
+         "by Anderson's method: before a round the temperatures of the bodies that stay are moved to where "
+         "the last rounds say that they will end, so that rounds are no history of a die that warms up"},
+        {"repetition", C::Search::repetition,
+         "round after round, as in the foundry; takes three times as many and more"}})
+      .initially("anderson")
+      .doc("How the periodic state is found; needs `periodic`.");
   s.place(&C::where);
   return s;
 }

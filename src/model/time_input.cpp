@@ -61,7 +61,15 @@ coupling::Stage stage(const TimeSpec& t, const StageRun& run) {
   coupling::StepOptions step = step_options(t, first_step(*run.stage, t));
   if (run.stage->min_step) step.min_step = *run.stage->min_step;
   if (run.stage->max_step) step.max_step = *run.stage->max_step;
-  return {run.stage->name, run.number, run.cycle, run.end, step};
+  return {.name = run.stage->name,
+          .of_case = run.number,
+          .cycle = run.cycle,
+          .end = run.end,
+          .step = step,
+          .shot = run.shot,
+          .begins_shot = run.begins_shot,
+          .ends_shot = run.ends_shot,
+          .pours = run.pours};
 }
 
 }  // namespace

@@ -75,19 +75,23 @@ CastAnswer cast_answer(const mesh::Mesh& mesh, const coupling::Phases& phases, c
   CastAnswer answer;
   answer.cast = cast;
   answer.solid_fraction = phases.heat->mean_solid_fraction(state.heat, cast.body);
+  const std::vector<char> nodes = nodes_of(mesh, cast.body);
+  const auto last_melt = [&] {
+    const Values frozen(fields, "solidified_at");
+    return largest_at(mesh, nodes, [&](std::size_t i) {
+      return frozen.empty() || frozen[i] < 0 ? std::nullopt : std::optional(frozen[i]);
+    });
+  };
   if (!std::isfinite(answer.solid_fraction)) {  // without volume: the body has left
     answer.there = false;
     answer.solid_fraction = 0;
+    if (time_to_solidify(mesh, fields, {cast})) answer.froze = last_melt();
     return answer;
   }
   constexpr double k_rounding = 1e-12;
-  const std::vector<char> nodes = nodes_of(mesh, cast.body);
   if (answer.solid_fraction >= 1 - k_rounding) {
     answer.solid_fraction = 1;
-    const Values frozen(fields, "solidified_at");
-    answer.froze = largest_at(mesh, nodes, [&](std::size_t i) {
-      return frozen.empty() || frozen[i] < 0 ? std::nullopt : std::optional(frozen[i]);
-    });
+    answer.froze = last_melt();
     return answer;
   }
   const Values solid(fields, "solid_fraction"), temperature(fields, "temperature");
@@ -181,7 +185,10 @@ std::string line(std::string_view what, const std::string& answer) {
 }
 
 std::string cast_text(const CastAnswer& answer, double time) {
-  if (!answer.there) return "has left";
+  if (!answer.there)
+    return answer.froze ? fmt::format("has left; its last melt froze {:.4g} s after pouring {}",
+                                      answer.froze->value, place(answer.froze->where))
+                        : "has left";
   if (answer.solid_fraction == 1)
     return answer.froze ? fmt::format("solid; its last melt froze {:.4g} s after pouring {}",
                                       answer.froze->value, place(answer.froze->where))
@@ -195,19 +202,46 @@ std::string cast_text(const CastAnswer& answer, double time) {
   return text;
 }
 
+/// What the shots did to casting and die.
+std::string shot_lines(const std::vector<ShotRow>& shots) {
+  if (shots.empty()) return "";
+  const coupling::ShotRecord &first = shots.front().shot, &last = shots.back().shot;
+  const auto both = [&](const std::string& of_first, const std::string& of_last) {
+    return shots.size() == 1
+               ? of_last
+               : fmt::format("{} in shot {}, {} in shot {}", of_first, first.number, of_last, last.number);
+  };
+  const auto solid = [](const ShotRow& row) {
+    return row.time_to_solidify ? fmt::format("{:.4g} s", *row.time_to_solidify)
+                                : std::string("(not seen solid)");
+  };
+  const auto celsius = [](double kelvin) { return fmt::format("{:.4g} degC", kelvin - k_zero_celsius); };
+  const std::string n = shots.size() == 1 ? "1 shot" : fmt::format("{} shots", shots.size());
+  std::string text = line(
+      "the die is periodic",
+      last.periodic
+          ? fmt::format("after {}: within {:.2g} K from shot to shot", n, last.change)
+          : fmt::format("not to see after {}: it changed by up to {:.3g} K in the last", n, last.change));
+  text += line("time to solidify", both(solid(shots.front()), solid(shots.back())));
+  text += line("die when a shot begins, mean", both(celsius(first.at_pour.mean), celsius(last.at_pour.mean)));
+  text += line("die when a shot begins, hottest",
+               both(celsius(first.at_pour.highest), celsius(last.at_pour.highest)));
+  return text;
+}
+
 /// Of each riser: whether it fed the castings to the end.
 std::string riser_lines(const Answers& answers) {
   bool part_solid = true, any_part = false;
   double part = 0;
   for (const CastAnswer& a : answers.castings) {
-    if (a.cast.feeds || !a.there) continue;
+    if (a.cast.feeds || (!a.there && !a.froze)) continue;
     any_part = true;
     part_solid = part_solid && a.froze;
     if (a.froze) part = std::max(part, a.froze->value);
   }
   std::string text;
   for (const CastAnswer& riser : answers.castings) {
-    if (!riser.cast.feeds || !riser.there || !any_part) continue;
+    if (!riser.cast.feeds || (!riser.there && !riser.froze) || !any_part) continue;
     std::string verdict;
     if (riser.froze && part_solid)
       verdict = riser.froze->value > part
@@ -272,6 +306,7 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
                 const std::vector<CastBody>& castings, const FieldSet& fields, bool mechanical) {
   Answers a;
   a.time = state.time;
+  a.poured = state.poured;
   std::vector<char> stressed(mesh.bodies.size(), castings.empty() ? 1 : 0);
   std::vector<char> cast_nodes(static_cast<std::size_t>(mesh.n_owned_nodes), 0);
   for (const CastBody& cast : castings) {
@@ -311,10 +346,10 @@ double solid_fraction(const coupling::Phases& phases, const coupling::State& sta
 }
 
 std::string text(const Answers& a, const std::vector<criteria::Finding>& criteria) {
-  std::string text;
+  std::string text = shot_lines(a.shots);
   for (const CastAnswer& cast : a.castings)
     text += line(fmt::format("{} '{}'", cast.cast.feeds ? "riser" : "casting", cast.cast.name),
-                 cast_text(cast, a.time));
+                 cast_text(cast, a.time - a.poured));
   text += riser_lines(a);
   if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools));
   if (!a.castings.empty()) text += criteria_lines(criteria);
@@ -361,6 +396,7 @@ Json json(const Answers& a) {
   json.add("largest_gaps", std::move(gaps));
   if (a.distortion) json.add("largest_distortion", value_json(*a.distortion, "m"));
   if (a.stress) json.add("largest_von_mises", value_json(*a.stress, "Pa").add("body", a.stressed_body));
+  if (!a.shots.empty()) json.add("shots", results::json(a.shots));
   if (a.energy_defect) json.add("relative_energy_defect", *a.energy_defect);
   return json;
 }

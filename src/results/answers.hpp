@@ -2,7 +2,7 @@
 /// outlive the part, which pools were cut off, gaps, distortion, stress, and whether the energy balance is
 /// closed. Printed at the end of a run, also of one that stops, and "answers" of summary.json.
 ///
-/// Every body exists from the start of a run, so times count from pouring.
+/// Times count from pouring, in a run with shots from that of the last shot.
 #pragma once
 
 #include <optional>
@@ -14,6 +14,7 @@
 #include "criteria/criterion.hpp"
 #include "results/field.hpp"
 #include "results/json.hpp"
+#include "results/shot_table.hpp"
 
 namespace solidus::results {
 
@@ -33,9 +34,10 @@ struct ValueAt {
 /// Progress of the freezing of a cast body.
 struct CastAnswer {
   CastBody cast;
-  bool there = true;               ///< false: it has left by now
-  double solid_fraction = 0;       ///< by volume
-  std::optional<ValueAt> froze;    ///< when and where its last melt froze [s since pouring]
+  bool there = true;          ///< false: it has left by now
+  double solid_fraction = 0;  ///< by volume
+  /// When and where its last melt froze [s since pouring]; also of one that left as a solid.
+  std::optional<ValueAt> froze;
   std::optional<ValueAt> hottest;  ///< where it is not solid: temperature of the least solid node [K]
 };
 
@@ -45,7 +47,8 @@ struct GapAnswer {
 };
 
 struct Answers {
-  double time = 0;  ///< of the state [s]
+  double time = 0;    ///< of the state [s]
+  double poured = 0;  ///< when the castings were poured [s]
   std::vector<CastAnswer> castings;
   /// Pools that were closed off from what feeds them; absent where no pools are followed.
   struct CutOffPools {
@@ -59,6 +62,7 @@ struct Answers {
   std::optional<ValueAt> distortion;  ///< of cast bodies, the largest [m]
   std::optional<ValueAt> stress;      ///< von Mises, the largest: of cast bodies, else of all [Pa]
   std::string stressed_body;
+  std::vector<ShotRow> shots;           ///< those that are over; known to the process that writes
   std::optional<double> energy_defect;  ///< relative, as relative_energy_defect of the summary
 };
 

@@ -4,6 +4,7 @@
 #include <petscsys.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <system_error>
 #include <type_traits>
 #include <unordered_map>
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 10";
+constexpr const char* k_format = "Solidus checkpoint 11";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -46,6 +47,10 @@ void each_number(C& c, const Visit& visit) {
       e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation,
       e.plastic_work);
   all(l.mechanical, l.thermal, l.entropy, l.frictional_entropy);
+  auto& s = k.shots;
+  all(c.state.shot, c.state.poured, s.shots, s.change, s.lowest, s.highest);
+  all(s.at_pour.mean, s.at_pour.lowest, s.at_pour.highest);
+  for (auto* heat : {&s.heat, &k.pending, &e.bodies}) all(heat->poured, heat->ejected, heat->corrected);
 }
 
 std::vector<double> numbers_of(const auto& c) {
@@ -117,6 +122,28 @@ void take_history(TableReader& in, const std::string& name, const std::string& v
                                    static_cast<Index>(taken));
 }
 
+std::string shot_table(std::size_t iterate, const char* field) {
+  return fmt::format("shot_{}_{}", iterate, field);
+}
+
+/// Start of the present shot and the ends of the last ones.
+void take_shots(TableReader& in, const Places& nodes, const coupling::State& state,
+                coupling::ShotHistory& shots) {
+  if (in.text("shots") != k_known) return;
+  shots.start.resize(state.heat.temperature.size());
+  take_nodes(in, "shot_start", nodes, shots.start);
+  shots.iterates.resize(std::strtoul(in.text("shot_iterates").c_str(), nullptr, 10));
+  for (std::size_t j = 0; j < shots.iterates.size(); ++j) {
+    coupling::ShotIterate& iterate = shots.iterates[j];
+    iterate.change.resize(state.heat.temperature.size());
+    iterate.heat.resize(state.heat.temperature.size());
+    iterate.displacement.resize(state.mechanics.displacement.size());
+    take_nodes(in, shot_table(j, "change"), nodes, iterate.change);
+    take_nodes(in, shot_table(j, "heat"), nodes, iterate.heat);
+    take_nodes(in, shot_table(j, "displacement"), nodes, iterate.displacement);
+  }
+}
+
 void compare(const fs::path& path, TableReader& in, const Fingerprint& fingerprint) {
   for (const auto& [name, here] : fingerprint) {
     const std::string there = in.text("case/" + name);
@@ -171,6 +198,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
     c.state.pressure_rate.resize(c.state.mechanics.pressure.size());
     take_nodes(in, "pressure_rate_of_last_step", nodes, c.state.pressure_rate);
   }
+  take_shots(in, nodes, c.state, c.continuation.shots);
   mechanics::MechanicalState& mechanics = c.state.mechanics;
   // A run that went on with backward Euler left no history before the last: the next step is one too.
   if (mechanics.before.empty()) mechanics.dt_before = 0;
@@ -246,6 +274,15 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
     const bool melts = algebra::any_process(!rates.coherency.empty());
     out.text("rates_of_melt", melts ? k_known : "unknown");
     if (melts) nodal("coherency", rates.coherency);
+  }
+  const coupling::ShotHistory& shots = c.continuation.shots;
+  out.text("shots", algebra::any_process(!shots.start.empty()) ? k_known : "unknown");
+  out.text("shot_iterates", std::to_string(shots.iterates.size()));
+  nodal("shot_start", shots.start);
+  for (std::size_t j = 0; j < shots.iterates.size(); ++j) {
+    nodal(shot_table(j, "change").c_str(), shots.iterates[j].change);
+    nodal(shot_table(j, "heat").c_str(), shots.iterates[j].heat);
+    nodal(shot_table(j, "displacement").c_str(), shots.iterates[j].displacement);
   }
   for (std::size_t b = 0; b < c.state.mechanics.history.size(); ++b) {
     const mesh::Block& block = mesh.blocks[b];

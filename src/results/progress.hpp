@@ -34,6 +34,8 @@ class Progress {
   /// @param heat_content  as of coupling::heat_content() [J]
   void begin(double heat_content = 0);
   void step(const coupling::StepRecord& record);
+  /// A line on a shot that is over.
+  void shot(const std::string& text) { line(text); }
   /// Removes the bar and says how it ended: "finished", "stopped: …", with the time it took.
   /// @param profile  lines that say where the time went (base/profile.hpp)
   void end(const std::string& outcome, const std::string& profile = {});

@@ -28,7 +28,8 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
                                  .plastic = phases.mechanics != nullptr && phases.mechanics->plastic(),
                                  .dynamics = dynamic(phases),
                                  .stability = phases.audits_stability(),
-                                 .heat = phases.heat != nullptr};
+                                 .heat = phases.heat != nullptr,
+                                 .bodies = options.shots};
   if (phases.mechanics != nullptr)
     for (const contact::ContactPair* pair : phases.contacts)
       columns.pairs.push_back({pair->spec().name, pair->spec().friction.has_value(),
@@ -42,9 +43,16 @@ std::vector<Reading> with_stage(std::vector<Reading> readings, int stage, int cy
   return readings;
 }
 
+std::vector<Reading> with_shot(std::vector<Reading> readings, int shot, double since_pouring) {
+  readings.insert(readings.begin(),
+                  {{{"shot", "1"}, static_cast<double>(shot)}, {{"time_since_pouring", "s"}, since_pouring}});
+  return readings;
+}
+
 // The columns of history.csv beside time and probes, all with the value zero: what probes may repeat.
 std::vector<Reading> global_readings(const coupling::Phases& phases, const RecorderOptions& options) {
   std::vector<Reading> readings = GlobalHistory(global_columns(phases, options, {})).all();
+  if (options.shots) readings = with_shot(std::move(readings), 0, 0);
   return options.stages ? with_stage(std::move(readings), 0, 0) : readings;
 }
 
@@ -104,6 +112,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
   on_first_process([&] {
     std::vector<Column> columns{{"time", "s"}};
     if (options_.stages) columns.insert(columns.end(), {{"stage", "1"}, {"cycle", "1"}});
+    if (options_.shots) columns.insert(columns.end(), {{"shot", "1"}, {"time_since_pouring", "s"}});
     columns.insert(columns.end(), probes_.columns().begin(), probes_.columns().end());
     for (const Column& c : globals_.columns()) columns.push_back(c);
     if (options_.continue_from) {
@@ -118,12 +127,22 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       pools_.emplace(folder.pools(), options_.continue_from
                                          ? std::optional(options_.continue_from->state.time)
                                          : std::nullopt);
+    if (options_.shots && phases.heat != nullptr)
+      shots_.emplace(folder.shots(), options_.continue_from
+                                         ? std::optional(options_.continue_from->state.time)
+                                         : std::nullopt);
     if (options_.progress != nullptr) progress_.emplace(*options_.progress, options_.progress_options);
   });
 }
 
 std::vector<Reading> Recorder::readings() const {
-  return options_.stages ? with_stage(globals_.all(), stage_, cycle_) : globals_.all();
+  std::vector<Reading> readings = globals_.all();
+  if (options_.shots) readings = with_shot(std::move(readings), shot_, since_pouring_);
+  return options_.stages ? with_stage(std::move(readings), stage_, cycle_) : readings;
+}
+
+double Recorder::heat_of_bodies(const coupling::State& state) const {
+  return options_.shots && phases_.heat != nullptr ? phases_.heat->heat_content(state.heat) : 0.0;
 }
 
 StepTable Recorder::step_table() const {
@@ -144,10 +163,11 @@ void Recorder::begin(const coupling::State& state) {
   fields_.update(state);
   if (options_.continue_from) {
     // Rows and fields of this state were written before; stresses follow with the first step.
-    globals_.start(initial, options_.continue_from->energy, options_.continue_from->stability, heat_content);
+    globals_.start(initial, options_.continue_from->energy, options_.continue_from->stability, heat_content,
+                   heat_of_bodies(state));
     options_.summary.steps = options_.continue_from->continuation.steps;
     options_.summary.rejected = options_.continue_from->rejected;
-    last_row_ = history_row(state.time);
+    last_row_ = history_row(state);
     // Stresses follow with the first step: a run that stops before it ends with the row that it has.
     on_first_process([&] {
       const std::vector<double> row = last_row(folder_.history());
@@ -155,9 +175,9 @@ void Recorder::begin(const coupling::State& state) {
     });
     return;
   }
-  globals_.start(initial, {}, {}, heat_content);
+  globals_.start(initial, {}, {}, heat_content, heat_of_bodies(state));
   if (criteria_probed_) fields_.update_criteria(state);
-  add_history_row(state.time);
+  add_history_row(state);
   add_pools(state);
   if (!options_.steady) write_fields(state);
 }
@@ -167,13 +187,13 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   const double start = MPI_Wtime();
   coupling::StepRecord record = taken;
   show_castings(record, state);
-  globals_.add(record);
+  globals_.add(record, heat_of_bodies(state));
   stage_ = record.stage_of_case;
   cycle_ = record.cycle;
   fields_.update(state);
   if (criteria_probed_) fields_.update_criteria(state);
   on_first_process([&] { steps_->add(step_row(record, step_table())); });
-  add_history_row(state.time);
+  add_history_row(state);
   add_pools(state);
   if (record.output) write_fields(state);
   if (progress_) progress_->step(record);
@@ -183,6 +203,17 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   options_.summary.steps = record.number;
   options_.summary.rejected += record.rejected;
   note_left_walls(record);
+}
+
+void Recorder::shot(const coupling::ShotRecord& record, const coupling::State& state) {
+  fields_.update_criteria(state);
+  const std::optional<double> solid = time_to_solidify(mesh_, fields_.bodies(), options_.castings);
+  if (!criteria_probed_) fields_.release_criteria();
+  on_first_process([&] {
+    if (!shots_) return;
+    shots_->add(record, solid);
+    if (progress_) progress_->shot(shot_text(shots_->rows().back()));
+  });
 }
 
 void Recorder::show_castings(coupling::StepEffort& effort, const coupling::State& state) const {
@@ -232,6 +263,7 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
   if (!options_.steady) {
     fields_.update_criteria(state);
     s.answers = answers(mesh_, phases_, state, options_.castings, fields_.bodies(), mechanical);
+    if (shots_) s.answers->shots = shots_->rows();
     if (!criteria_probed_) fields_.release_criteria();
     if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();
   }
@@ -239,16 +271,19 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
   if (progress_ && s.answers) *options_.progress << text(*s.answers, s.criteria) << std::flush;
 }
 
-std::vector<double> Recorder::history_row(double time) {
-  std::vector<double> row = {time};
+std::vector<double> Recorder::history_row(const coupling::State& state) {
+  shot_ = state.shot;
+  since_pouring_ = state.time - state.poured;
+  std::vector<double> row = {state.time};
   if (options_.stages) row.insert(row.end(), {static_cast<double>(stage_), static_cast<double>(cycle_)});
+  if (options_.shots) row.insert(row.end(), {static_cast<double>(shot_), since_pouring_});
   for (const double v : probes_.values(fields_.bodies(), readings())) row.push_back(v);
   for (const double v : globals_.values()) row.push_back(v);
   return row;
 }
 
-void Recorder::add_history_row(double time) {
-  last_row_ = history_row(time);
+void Recorder::add_history_row(const coupling::State& state) {
+  last_row_ = history_row(state);
   on_first_process([&] { history_->add(last_row_); });
 }
 

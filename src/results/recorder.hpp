@@ -16,6 +16,7 @@
 #include "results/profile.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
+#include "results/shot_table.hpp"
 #include "results/state_fields.hpp"
 #include "results/step_columns.hpp"
 #include "results/summary.hpp"
@@ -31,6 +32,7 @@ struct RecorderOptions {
   ProgressOptions progress_options;
   bool melting = true;   ///< a material can melt
   bool stages = false;   ///< the run has stages
+  bool shots = false;    ///< some of them are shots
   bool steady = false;   ///< one state without a time: fields of it alone
   bool profile = false;  ///< print where the wall time went
   /// What is poured: the solid fraction that is shown is of these bodies; empty: of all that can melt.
@@ -52,6 +54,7 @@ class Recorder : public coupling::Observer {
 
   void begin(const coupling::State& state) override;
   void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void shot(const coupling::ShotRecord& record, const coupling::State& state) override;
   void checkpoint(const coupling::Continuation& continuation, const coupling::State& state) override;
   void stopped(const coupling::Stop& stop, const coupling::State& state) override;
   void end(const coupling::State& state) override;
@@ -59,8 +62,9 @@ class Recorder : public coupling::Observer {
  private:
   StepTable step_table() const;
   std::vector<Reading> readings() const;
-  std::vector<double> history_row(double time);
-  void add_history_row(double time);
+  std::vector<double> history_row(const coupling::State& state);
+  void add_history_row(const coupling::State& state);
+  double heat_of_bodies(const coupling::State& state) const;
   void write_fields(const coupling::State& state);
   /// The solid fraction of what is cast, instead of that of all that can melt.
   void show_castings(coupling::StepEffort& effort, const coupling::State& state) const;
@@ -85,9 +89,12 @@ class Recorder : public coupling::Observer {
   bool criteria_probed_ = false;             ///< a probe samples a field of a criterion
   std::optional<CsvTable> history_, steps_;  // on process 0
   std::optional<PoolTable> pools_;           // on process 0, where pools are followed
+  std::optional<ShotTable> shots_;           // on process 0, in a run with shots
   std::optional<Progress> progress_;         // on process 0
   std::vector<double> last_row_;
   int stage_ = 0, cycle_ = 0;  ///< of the last row, as in StepRecord
+  int shot_ = 0;               ///< as in State
+  double since_pouring_ = 0;   ///< [s]
   double seconds_heat_ = 0, seconds_mechanics_ = 0, seconds_output_ = 0, began_ = 0;
 };
 

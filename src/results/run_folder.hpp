@@ -41,6 +41,7 @@ class RunFolder {
   std::filesystem::path history() const { return root_ / "history.csv"; }
   std::filesystem::path steps() const { return root_ / "steps.csv"; }
   std::filesystem::path pools() const { return root_ / "pools.csv"; }
+  std::filesystem::path shots() const { return root_ / "shots.csv"; }
   std::filesystem::path summary() const { return root_ / "summary.json"; }
   std::filesystem::path collection() const { return root_ / "fields.pvd"; }
   std::filesystem::path fields() const { return root_ / "fields"; }

@@ -247,7 +247,7 @@ void StateFields::update_criteria(const coupling::State& state) {
                                 field.components));
     values.emplace_back(of_field);
   }
-  phases_.criteria->fill({state.time, state.heat, state.mechanics}, state.criteria, values);
+  phases_.criteria->fill({state.time - state.poured, state.heat, state.mechanics}, state.criteria, values);
 }
 
 void StateFields::update(const coupling::State& state) {

@@ -172,6 +172,12 @@ std::vector<Reading> GlobalHistory::all() const {
     add("stored_heat", "J", sum_.stored_heat);
     add("heat_in", "J", sum_.heat_in);
   }
+  if (options_.heat && options_.bodies) {
+    add("heat_poured", "J", sum_.bodies.poured);
+    add("heat_ejected", "J", sum_.bodies.ejected);
+    add("heat_corrected", "J", sum_.bodies.corrected);
+    add("heat_of_bodies", "J", heat_of_bodies_);
+  }
   if (options_.mechanics && options_.heat) add("structural_energy", "J", sum_.structural);
   if (options_.mechanics) add("work", "J", sum_.work);
   if (options_.mechanics && options_.contact) add("contact_energy", "J", sum_.contact);
@@ -214,15 +220,18 @@ std::vector<Column> GlobalHistory::columns() const {
 }
 
 void GlobalHistory::start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy,
-                          const coupling::StabilityAudit& stability, double heat_content) {
+                          const coupling::StabilityAudit& stability, double heat_content,
+                          double heat_of_bodies) {
   last_ = initial;
+  heat_of_bodies_ = heat_of_bodies;
   heat_content_ = heat_content;
   sum_ = energy;
   stability_ = stability;
 }
 
-void GlobalHistory::add(const coupling::StepEffort& step) {
+void GlobalHistory::add(const coupling::StepEffort& step, double heat_of_bodies) {
   last_ = step;
+  heat_of_bodies_ = heat_of_bodies;
   sum_ += step.energy;
   stability_ += step.stability;
 }

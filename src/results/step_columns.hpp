@@ -44,7 +44,8 @@ class GlobalHistory {
     bool dynamics = false;   ///< bodies have inertia
     bool stability = false;  ///< 𝓛 is followed
     std::vector<PairColumns> pairs = {};
-    bool heat = true;  ///< is followed: the first law is audited
+    bool heat = true;     ///< is followed: the first law is audited
+    bool bodies = false;  ///< bodies leave and come: their heat is part of the balance
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 
@@ -53,8 +54,10 @@ class GlobalHistory {
   /// @param energy, stability  sums of the steps before, where a run goes on
   /// @param heat_content       of that state, as of coupling::heat_content() [J]
   void start(const coupling::StepEffort& initial, const coupling::EnergyAudit& energy = {},
-             const coupling::StabilityAudit& stability = {}, double heat_content = 0);
-  void add(const coupling::StepEffort& step);
+             const coupling::StabilityAudit& stability = {}, double heat_content = 0,
+             double heat_of_bodies = 0);
+  /// @param heat_of_bodies  heat of the active bodies [J] (ThermalPhase::heat_content), where they change
+  void add(const coupling::StepEffort& step, double heat_of_bodies = 0);
   /// In the order of columns().
   std::vector<double> values() const;
   /// All there are, those that probes of the same header give included.
@@ -71,6 +74,7 @@ class GlobalHistory {
   coupling::StepEffort last_;
   coupling::EnergyAudit sum_;
   double heat_content_ = 0;             ///< at the start [J]
+  double heat_of_bodies_ = 0;           ///< of the active ones, counted from 20 °C [J]
   coupling::StabilityAudit stability_;  ///< summed
 };
 

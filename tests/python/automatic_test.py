@@ -75,6 +75,23 @@ class Sheets(unittest.TestCase):
             file, = overview.draw(sheet, run, case, self.folder)
             self.assertGreater(file.stat().st_size, 5_000, file)
 
+    def test_castings_that_have_left_are_shown_as_they_were_before(self):
+        names, times = ["part", "die"], np.arange(6.0)  # poured at 0 and 3; away at 2 and 5
+        grids = [frozen(box(HEX, SIZE, (8, 4, 4))) for _ in times]
+        for time, grid in zip(times, grids):
+            grid.time, cells = time, len(grid.cell_types)
+            grid.cell_data["body"] = np.full(cells, 1) if time in (2, 5) else np.arange(cells) // (cells // 2)
+        run = Moments(times, [None] * 6, names)
+        run._grids.update(enumerate(grids))
+        summary = {"answers": {"castings": {"part": {}}}}
+        history = {"time[s]": times, "solid_fraction[1]": np.array([0, 0.5, 1, 0, 0.5, 1]),
+                   "time_since_pouring[s]": np.array([0.0, 1, 2, 3, 1, 2])}
+        _, sheets = automatic.plan(run, times, summary, history, self.folder, {})
+        by_file = {sheet["file"]: sheet for sheet in sheets}
+        self.assertEqual(by_file["overview_solidified_at"]["times"], [4.0])
+        self.assertEqual(by_file["overview_temperature"]["times"], [4.0])  # of the second shot alone
+        self.assertIn("before the casting leaves", by_file["overview_temperature_end"]["title"])
+
     def test_plane_bodies_are_shown_whole_and_gaps_along_their_rim(self):
         x, y = np.meshgrid(np.arange(5), np.arange(4), indexing="ij")
         points = 0.01 * np.stack([x, y, 0 * x], axis=-1).reshape(-1, 3)

@@ -65,7 +65,7 @@ TEST_P(Leaving, ThePartGoesOnAsIfTheMouldHadNeverBeen) {
   heat::Conditions air = in_air();
   air.absent_bodies = {"right"};
   const heat::ThermalState before = state;
-  const double carried = phase.set_conditions(air, &state);
+  const double carried = phase.set_conditions(air, &state).away;
   EXPECT_GT(carried, 0);
   EXPECT_EQ(state.temperature, before.temperature);
 
@@ -115,18 +115,64 @@ TEST_P(LeavingBodies, CarryTheHeatThatIsMissingAfterwards) {
   heat::ThermalState state = start;  // a copy: with the open rule there is no storage for heat contents
   heat::Conditions later;
   later.absent_bodies = {"right"};
-  EXPECT_NEAR(phase.set_conditions(later, &state), 0.03 * 0.02 * 2.5e6 * 100, 1e-6);
+  const double content = phase.heat_content(state);
+  EXPECT_NEAR(phase.set_conditions(later, &state).away, 0.03 * 0.02 * 2.5e6 * 100, 1e-6);
+  EXPECT_NEAR(phase.heat_content(state), content - 0.03 * 0.02 * 2.5e6 * 100, 1e-9 * content);
   // In a run that is continued, the heat of the bodies was removed before.
-  EXPECT_EQ(phase.set_conditions(later), 0);
+  EXPECT_EQ(phase.set_conditions(later).away, 0);
 }
 
-TEST_P(LeavingBodies, DoNotComeBack) {
+TEST_P(LeavingBodies, DoNotComeBackWithoutTheirHeat) {
   const mesh::Mesh mesh = part_and_mould(Shape::quad4, {"left", "right"});
   heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, {test::metal(40), mould()}, {});
   heat::Conditions later;
   later.absent_bodies = {"right"};
   phase.set_conditions(later);
   EXPECT_THROW(phase.set_conditions({}), std::invalid_argument);
+}
+
+// A part that comes back is the next one: the phase goes on as one that has never lost a body would from that
+// state.
+TEST_P(LeavingBodies, ComeBackNew) {
+  const mesh::Mesh mesh = part_and_mould(Shape::quad4, {"left", "right"});
+  heat::HeatOptions options;
+  options.integration = GetParam();
+  const std::vector<material::Material> materials{test::metal(40), mould()};
+  heat::ThermalPhase phase(mesh, AnalysisKind::plane_strain, materials, {}, options);
+  heat::ThermalPhase reference(mesh, AnalysisKind::plane_strain, materials, {}, options);
+  heat::ThermalState state = phase.initial_state(std::vector<double>{920.0, 300.0});
+  for (int i = 1; i <= 5; ++i) phase.solve(state, state, i, 1.0);
+  heat::Conditions alone;
+  alone.absent_bodies = {"left"};
+  phase.set_conditions(alone, &state);
+  for (int i = 6; i <= 8; ++i) phase.solve(state, state, i, 1.0);
+
+  const double content = phase.heat_content(state);
+  const heat::ThermalState before = state;
+  const heat::CarriedHeat carried = phase.set_conditions({}, &state, [&](Index, int body) {
+    EXPECT_EQ(body, 0);
+    return phase.storage().body_enthalpy(body, 920.0);
+  });
+  EXPECT_EQ(carried.away, 0);
+  EXPECT_GT(carried.along, 0);
+  EXPECT_NEAR(phase.heat_content(state), content + carried.along, 1e-9 * (content + carried.along));
+  for (std::size_t i = 0; i < mesh.x.size(); ++i) {
+    if (mesh.x[i][0] < k_plane - 1e-9)
+      EXPECT_NEAR(state.temperature[i], 920.0, 1e-9);
+    else if (mesh.x[i][0] > k_plane + 1e-9)
+      EXPECT_EQ(state.temperature[i], before.temperature[i]);
+    else  // mixed by their heats
+      EXPECT_GT(state.temperature[i], before.temperature[i]);
+  }
+
+  heat::ThermalState other = state;
+  for (int i = 9; i <= 14; ++i) {
+    const heat::PhaseReport here = phase.solve(state, state, i, 1.0);
+    reference.solve(other, other, i, 1.0);
+    EXPECT_NEAR(here.balance.defect(), 0, 1e-8 * here.balance.exchanged);
+  }
+  for (std::size_t i = 0; i < mesh.x.size(); ++i)
+    EXPECT_NEAR(state.temperature[i], other.temperature[i], 1e-5) << i;
 }
 
 }  // namespace

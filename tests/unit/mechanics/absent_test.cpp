@@ -5,6 +5,7 @@
 
 #include "../mesh/split_block.hpp"
 #include "body.hpp"
+#include "mechanics/new_bodies.hpp"
 
 namespace solidus {
 namespace {
@@ -150,11 +151,31 @@ TEST(AbsentBodies, APressureActsOnTheBodyThatIsLeft) {
   EXPECT_NEAR(at_plane(body, solved), 1e6 / k_soft * (k_length - k_plane), 1e-14);
 }
 
-TEST(AbsentBodies, DoNotComeBack) {
+// A mould that has left comes back new: without displacement and stress, and with its stiffness.
+TEST(AbsentBodies, ComeBackNew) {
+  const double part = k_plane / k_young, mould = (k_length - k_plane) / k_soft;
+  constexpr double push = 1e-5;
   test::Body body = bars(mesh::Shape::quad4);
-  body.conditions.absent_bodies = {"right"};
-  const auto phase = body.phase();
-  EXPECT_THROW(phase->set_conditions({}, {}), std::invalid_argument);
+  body.hold("x_min", 0, push);
+  body.hold("x_max", 0);
+  test::Solved solved(body);
+  mechanics::Conditions later = body.conditions;
+  later.absent_bodies = {"right"};
+  solved.phase->set_conditions(later, solved.state.displacement);
+  solved.step(body, 2.0, 1.0);
+  EXPECT_LT(largest_stress(solved), 1e-9 * push / (part + mould));
+
+  mechanics::renew_nodes(body.mesh, {0, 1}, solved.state);
+  for (std::size_t i = 0; i < body.mesh.x.size(); ++i) {
+    const double u = solved.state.displacement[i * static_cast<std::size_t>(solved.phase->components())];
+    if (body.mesh.x[i][0] >= k_plane - 1e-9) EXPECT_EQ(u, 0);
+    if (body.mesh.x[i][0] < 1e-9) EXPECT_NEAR(u, push, 1e-12 * push);
+  }
+  solved.phase->set_conditions(body.conditions, solved.state.displacement);
+  mechanics::renew_history(*solved.phase, {0, 1}, solved.state);
+  solved.step(body, 3.0, 1.0);
+  EXPECT_NEAR(at_plane(body, solved), push * mould / (part + mould), 1e-9 * push);
+  EXPECT_NEAR(largest_stress(solved), push / (part + mould), 1e-9 * push / (part + mould));
 }
 
 }  // namespace

@@ -87,16 +87,55 @@ TEST(Bodies, ThatLeaveAreAbsentFromTheStageOnInWhichTheyAreNot) {
   EXPECT_THAT(mechanical_conditions(s, &runs[2]).absent_bodies, ElementsAre("lower"));
 }
 
-TEST(Bodies, DoNotComeBackAndDoNotComeLater) {
-  EXPECT_THAT(error("stages = [\"pour\", \"air\"]"),
-              HasSubstr("the body 'sand' has gone before the stage 'air' and cannot come back"));
-  EXPECT_THAT(error("stages = [\"cool\", \"air\"]"),
-              HasSubstr("the body 'sand' is not there in the first stage, 'pour'"));
-  EXPECT_THAT(
-      error("stages = \"pour\"", k_stages + "[[cycle]]\nname = \"all\"\nstages = [\"pour\", \"cool\"]\n"
-                                            "repeat = 2\n"),
-      HasSubstr("cannot come back"));
+TEST(Bodies, ThatComeBackAreNew) {
+  const CaseSpec s = spec("stages = [\"pour\", \"air\"]");
+  EXPECT_THAT(refusal(s), IsEmpty());
+  const std::vector<StageRun> runs = stage_runs(s);
+  EXPECT_THAT(new_bodies(s, runs, 0), ElementsAre(0, 0));
+  EXPECT_THAT(new_bodies(s, runs, 1), ElementsAre(0, 0));
+  EXPECT_THAT(new_bodies(s, runs, 2), ElementsAre(0, 1));
+  EXPECT_TRUE(runs[2].pours);
+  EXPECT_EQ(runs[2].shot, 0);
+  EXPECT_THAT(error("stages = [\"cool\", \"air\"]"), IsEmpty());
   EXPECT_THAT(error("stages = \"shake-out\""), HasSubstr("unknown stage 'shake-out'"));
+}
+
+TEST(Bodies, ThatLeaveInACycleMakeItsRoundsShots) {
+  const std::string cycle =
+      k_stages + "[[cycle]]\nname = \"all\"\nstages = [\"pour\", \"cool\"]\nrepeat = 2\n";
+  const CaseSpec s = spec("stages = \"pour\"", cycle);
+  EXPECT_THAT(refusal(s), IsEmpty());
+  std::vector<int> shots;
+  std::vector<bool> pours, begins, ends;
+  for (const StageRun& run : stage_runs(s)) {
+    shots.push_back(run.shot);
+    pours.push_back(run.pours);
+    begins.push_back(run.begins_shot);
+    ends.push_back(run.ends_shot);
+  }
+  EXPECT_THAT(shots, ElementsAre(1, 1, 2, 2, 0));
+  EXPECT_THAT(pours, ElementsAre(false, false, true, false, false));
+  EXPECT_THAT(begins, ElementsAre(true, false, true, false, false));
+  EXPECT_THAT(ends, ElementsAre(false, true, false, true, false));
+  EXPECT_THAT(staying_bodies(s), ElementsAre(1, 0));
+  EXPECT_EQ(stage_runs(spec("", cycle)).front().shot, 0);
+}
+
+TEST(Bodies, ThePeriodicStateOfACycleIsItsOwnEnd) {
+  const auto refused = [](const std::string& keys,
+                          const std::string& stages = "[\"pour\", \"cool\", \"air\"]",
+                          const std::string& sand = "", const std::string& physics = "heat") {
+    return error(sand, k_stages + "[[cycle]]\nname = \"all\"\nrepeat = 9\nstages = " + stages + "\n" + keys,
+                 physics);
+  };
+  EXPECT_THAT(refused("periodic = \"1 K\"\n"), IsEmpty());
+  EXPECT_THAT(refused("periodic = \"1 K\"\nsearch = \"repetition\"\n"), IsEmpty());
+  EXPECT_THAT(refused("search = \"repetition\"\n"), HasSubstr("'search' means nothing without 'periodic'"));
+  EXPECT_THAT(refused("periodic = \"0 K\"\n"), HasSubstr("periodic"));
+  EXPECT_THAT(refused("periodic = \"1 K\"\nsearch = \"newton\"\n"), HasSubstr("anderson, repetition"));
+  EXPECT_THAT(refused("periodic = \"1 K\"\n", "[\"pour\", \"cool\"]"), HasSubstr("but 'air' comes after it"));
+  EXPECT_THAT(refused("periodic = \"1 K\"\n", "[\"pour\", \"cool\", \"air\"]", "", "mechanics"),
+              HasSubstr("in an analysis without heat"));
 }
 
 TEST(Bodies, ThatOnlyConductNeedAnAnalysisThatCouples) {

@@ -1,0 +1,44 @@
+#include "mechanics/new_bodies.hpp"
+
+#include "mechanics/block_kernel.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::mechanics {
+
+std::vector<char> nodes_of_bodies(const mesh::Mesh& mesh, const std::vector<char>& bodies) {
+  std::vector<char> marked(mesh.x.size(), 0);
+  for (const mesh::Block& block : mesh.blocks)
+    if (bodies[static_cast<std::size_t>(block.body)] != 0)
+      for (const Index node : block.nodes) marked[static_cast<std::size_t>(node)] = 1;
+  return marked;
+}
+
+void renew_nodes(const mesh::Mesh& mesh, const std::vector<char>& bodies, MechanicalState& state) {
+  const std::vector<char> marked = nodes_of_bodies(mesh, bodies);
+  for (std::vector<double>* field : {&state.displacement, &state.pressure}) {
+    const std::size_t width = marked.empty() ? 0 : field->size() / marked.size();
+    for (std::size_t i = 0; i < marked.size(); ++i)
+      if (marked[i] != 0)
+        for (std::size_t k = 0; k < width; ++k) (*field)[i * width + k] = 0;
+  }
+}
+
+void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies, MechanicalState& state) {
+  for (std::size_t b = 0; b < phase.mesh().blocks.size(); ++b) {
+    if (bodies[static_cast<std::size_t>(phase.mesh().blocks[b].body)] == 0) continue;
+    if (!phase.active().body(phase.mesh().blocks[b].body)) continue;  // it only conducts heat
+    state.history[b] = phase.blocks()[b]->initial_history();
+    if (!state.before.empty()) state.before[b] = state.history[b];
+  }
+}
+
+void spread_heat_as_stored(const MechanicalPhase& phase, bool closed) {
+  const std::vector<mesh::Block>& blocks = phase.mesh().blocks;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    phase.blocks()[b]->spread_heat_as_stored(
+        closed || phase.material(blocks[b].body).changes_isothermally()
+            ? mesh::nodal_weights(phase.mesh(), blocks[b], phase.kind())
+            : mesh::basis_integrals(phase.mesh(), blocks[b], phase.kind()));
+}
+
+}  // namespace solidus::mechanics
