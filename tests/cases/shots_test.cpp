@@ -43,7 +43,7 @@ shape = "two_blocks"
 element = "quad4"
 [mesh.two_blocks]
 lower = ["20 mm", "50 mm"]
-upper = ["20 mm", "8 mm"]
+upper = ["20 mm", "5 mm"]
 lower_divisions = [2, 12]
 upper_divisions = [2, 4]
 [time]
@@ -85,13 +85,13 @@ gap_law = "constant"
 name = "solid_at"
 kind = "maximum"
 field = "solidified_at"
-group = "casting"
+group = "upper"
 unit = "s"
 [[probe]]
 name = "T_die"
 kind = "mean"
 field = "temperature"
-group = "die"
+group = "lower"
 unit = "degC"
 )";
 
@@ -179,7 +179,7 @@ TEST(Shots, AreAllAlikeInADieThatIsHeldAtItsTemperature) {
   const std::string held = k_shots + R"(
 [[thermal_condition]]
 name = "held"
-group = "die"
+group = "lower"
 kind = "temperature"
 temperature = "150 degC"
 )";
@@ -233,7 +233,8 @@ TEST(Shots, AndersonFindsThePeriodicStateInAThirdOfTheShots) {
   EXPECT_LE(found.at("largest_change[K]").back(), 0.1);
   for (const char* column : {"die_at_end_mean[degC]", "die_at_end_min[degC]", "die_at_end_max[degC]"})
     EXPECT_NEAR(found.at(column).back(), exact.at(column).back(), 0.5) << column;
-  EXPECT_NEAR(found.at("time_to_solidify[s]").back(), exact.at("time_to_solidify[s]").back(), 0.01);
+  EXPECT_NEAR(found.at("heat_ejected[J]").back(), exact.at("heat_ejected[J]").back(),
+              1e-3 * exact.at("heat_ejected[J]").back());
   // In the periodic state what comes with castings leaves with them and through the boundaries.
   const Columns& h = r.history;
   const std::size_t last = h.at("time[s]").size() - 1, before = last - 18;
@@ -273,14 +274,14 @@ value = "500 J/kg/K"
            {"step = \"1 s\"", "step = \"0.2 s\""},
            {"name = \"solid_at\"", "name = \"T_casting\""},
            {"\"solidified_at\"", "\"temperature\""},
-           {"group = \"casting\"\nunit = \"s\"", "group = \"casting\"\nunit = \"degC\""}})
+           {"group = \"upper\"\nunit = \"s\"", "group = \"upper\"\nunit = \"degC\""}})
     for (std::size_t at = lumps.find(from); at != std::string::npos; at = lumps.find(from, at + to.size()))
       lumps.replace(at, from.size(), to);
   const CaseRun r =
       k_here.run("lumps", lumps, periodic("1e-5 K", "anderson", {"thermal_condition.channels.stages=spray"}));
   ASSERT_TRUE(r.finished) << r.reason;
   // Per metre of thickness and of width: C in J/K, h in W/K.
-  const double c_casting = 2500 * 1000 * 0.008, c_die = 8000 * 500 * 0.05, h = 4000, pouring = 680;
+  const double c_casting = 2500 * 1000 * 0.005, c_die = 8000 * 500 * 0.05, h = 4000, pouring = 680;
   const double share = c_casting / (c_casting + c_die);  // of the casting in the mean
   const double touch = std::exp(-h * (1 / c_casting + 1 / c_die) * 18);
   // T_d after touching: the mean less the casting's share of the difference that is left.
@@ -329,9 +330,9 @@ TEST(Shots, DeformingCastingsAreNewInADeformingDie) {
   const Columns& h = r.history;
   const std::size_t n = 18;
   for (std::size_t s = 1; s < 5; ++s) {
-    // A casting that has shrunk has left; the next one begins where it is drawn, on the wall of a die that
-    // has grown by 0.1 mm.
-    EXPECT_LT(h.at("u_casting[mm]")[(s - 1) * n + 12], -0.02);
+    // What moved with the die and shrank has left; the next casting begins where it is drawn, on the wall of
+    // a die that has grown.
+    EXPECT_GT(std::abs(h.at("u_casting[mm]")[(s - 1) * n + 12] - h.at("u_casting[mm]")[1]), 0.02) << s;
     EXPECT_NEAR(h.at("u_casting[mm]")[s * n + 1], h.at("u_casting[mm]")[1], 0.01) << s;
     EXPECT_EQ(h.at("closed_fraction[1]")[s * n + 1], 1) << s;
     EXPECT_EQ(h.at("closed_fraction[1]")[s * n + 14], 0) << s;
@@ -353,16 +354,17 @@ TEST(Shots, ThePeriodicStateIsFoundWithADeformingDie) {
 }
 
 TEST(Shots, TwoProcessesAgree) {
-  const CaseRun one = k_here.run("serial", k_shots, periodic("1 K", "anderson"));
+  // Four shots, of which the search moves the third and the fourth.
+  const std::string four = "cycle.shots.repeat=4", search = "cycle.shots.periodic=1 K";
+  const CaseRun one = k_here.run("serial", k_shots, {four, search});
   const fs::path folder = k_here.root() / "parallel";
   const std::string command =
       "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "
       "OMPI_ALLOW_RUN_AS_ROOT=1 "
-      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun -n 2 --bind-to none --oversubscribe '" SOLIDUS_BINARY_DIR
-      "/solidus' run '" +
-      k_here.write("parallel.toml", k_shots) +
-      "' --set cycle.shots.repeat=400 --set 'cycle.shots.periodic=\"1 K\"' -o '" + folder.string() + "' > '" +
-      folder.string() + ".log' 2>&1";
+      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 mpirun -n 2 --bind-to none "
+      "--oversubscribe '" SOLIDUS_BINARY_DIR "/solidus' run '" +
+      k_here.write("parallel.toml", k_shots) + "' --set '" + four + "' --set '" + search + "' -o '" +
+      folder.string() + "' > '" + folder.string() + ".log' 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << read_text(folder.string() + ".log");
   const Columns two = read_csv(folder / "history.csv");
   ASSERT_EQ(two.at("time[s]").size(), one.history.at("time[s]").size());
