@@ -5,6 +5,7 @@
 
 #include "../mesh/split_block.hpp"
 #include "block.hpp"
+#include "heat/nodal_enthalpy.hpp"
 
 namespace solidus {
 namespace {
@@ -157,12 +158,13 @@ TEST_P(LeavingBodies, ComeBackNew) {
   EXPECT_GT(carried.along, 0);
   EXPECT_NEAR(phase.heat_content(state), content + carried.along, 1e-9 * (content + carried.along));
   for (std::size_t i = 0; i < mesh.x.size(); ++i) {
-    if (mesh.x[i][0] < k_plane - 1e-9)
+    if (mesh.x[i][0] < k_plane - 1e-9) {
       EXPECT_NEAR(state.temperature[i], 920.0, 1e-9);
-    else if (mesh.x[i][0] > k_plane + 1e-9)
+    } else if (mesh.x[i][0] > k_plane + 1e-9) {
       EXPECT_EQ(state.temperature[i], before.temperature[i]);
-    else  // mixed by their heats
+    } else {  // mixed by their heats
       EXPECT_GT(state.temperature[i], before.temperature[i]);
+    }
   }
 
   heat::ThermalState other = state;
