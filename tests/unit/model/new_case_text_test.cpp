@@ -19,10 +19,24 @@ Draft draft() {
   d.unit = "mm";
   d.process = "gravity_die";
   d.alloy = "aluminium_alsi7mg";
-  d.bodies = {
-      {.name = "casting", .group = "casting", .material = d.alloy, .role = Role::casting, .start = 690},
-      {.name = "core", .group = "core", .material = "furan_sand", .role = Role::core, .start = 80},
-      {.name = "die", .group = "die", .material = "h13_tool_steel", .role = Role::die, .start = 250}};
+  d.bodies = {{.name = "casting",
+               .group = "casting",
+               .material = d.alloy,
+               .comment = "",
+               .role = Role::casting,
+               .start = 690},
+              {.name = "core",
+               .group = "core",
+               .material = "furan_sand",
+               .comment = "",
+               .role = Role::core,
+               .start = 80},
+              {.name = "die",
+               .group = "die",
+               .material = "h13_tool_steel",
+               .comment = "",
+               .role = Role::die,
+               .start = 250}};
   d.end = 200;
   d.step = 0.5;
   d.films = {"die"};
