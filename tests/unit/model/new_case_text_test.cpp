@@ -37,6 +37,9 @@ Draft draft() {
                .comment = "",
                .role = Role::die,
                .start = 250}};
+  d.size = 0.005;
+  d.smallest = 0.003;
+  d.mould_size = 0.015;
   d.end = 200;
   d.step = 0.5;
   d.films = {"die"};
