@@ -70,6 +70,15 @@ Section<Casting> casting_keys() {
           "Solid fraction from which the solid is a coherent network: strain before it is strain of the "
           "melt, "
           "strain after it is strain of the casting.");
+  s.quantity("pore_tension", &Casting::pore_tension, "Pa")
+      .initially("100 Pa")
+      .positive()
+      .doc(
+          "Tension, counted from the pressure of the atmosphere, at which pores open in metal below the "
+          "coherency_fraction: a pool that nothing feeds shrinks into pores from then on (field "
+          "pore_fraction) and stays on its walls. Next to none by default, for films of oxide and gas open "
+          "at "
+          "once.");
   s.key("brittle_range", &Casting::brittle_range)
       .initially(Value::list({0.90, 0.99}))
       .range(0, 1)

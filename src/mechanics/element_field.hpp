@@ -16,7 +16,8 @@ enum class ElementField {
   dissipation,                ///< D_mech [W/m³]
   von_mises,                  ///< of the average stress [Pa]
   pressure,                   ///< −tr σ/3 [Pa], positive in compression
-  intermediate_temperature    ///< Θ̄ of the isentropic mapping [K]
+  intermediate_temperature,   ///< Θ̄ of the isentropic mapping [K]
+  pore_fraction               ///< θ, the volume of pores per volume of the casting (pores.hpp)
 };
 
 /// 6 or 1.

@@ -75,7 +75,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .work = pass.work,
          .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share),
-         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
   if (pressure_) pressure_->begin();
   stress_at_work_ = pass.work;
   residual_is_known_ = false;
@@ -248,7 +248,7 @@ void MechanicalPhase::hold_deformation(const MechanicalState& state, std::span<c
          .dt = 1,
          .effective_dt = 1,
          .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
-         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,

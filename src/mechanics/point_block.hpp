@@ -203,9 +203,10 @@ class PointBlock : public BlockKernel {
     const bool iterates = start.pass_temperature.data() != start.temperature.data();
     const Lane old_theta = temperature_at(geometry_, batch, q, start.temperature);
     const Lane theta = iterates ? temperature_at(geometry_, batch, q, start.pass_temperature) : old_theta;
-    Properties properties = law_.properties_at(
-        theta, temperature_at(geometry_, batch, q, start.initial_temperature), phase_at(start, batch, q));
-    if (start.melt_modulus > 0) set_melt_viscosity(Lane(start.melt_modulus * start.effective_dt), properties);
+    const material::PhaseState<Lane> phase = phase_at(start, batch, q);
+    Properties properties =
+        law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature), phase);
+    if (start.melt_modulus() > 0) set_melt_viscosity(start.melt_viscosity(phase.solid_fraction), properties);
     if constexpr (HoldsEntropy<Properties>)
       properties.entropy = law_.entropy(properties, held_strain, state_of(*start.held_history, batch, q));
     properties_.set(index(batch, q), properties);

@@ -48,6 +48,7 @@ constexpr ElementFieldName k_elements[] = {
     {"equivalent_plastic_strain", "1", ElementField::equivalent_plastic_strain, true},
     {"back_stress", "Pa", ElementField::back_stress, true},
     {"flow_stress", "Pa", ElementField::flow_stress, true},
+    {"pore_fraction", "1", ElementField::pore_fraction, false},
     {"strain", "1", ElementField::strain, false, true},
     {"intermediate_temperature", "K", ElementField::intermediate_temperature, false, true}};
 
