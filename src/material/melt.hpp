@@ -52,7 +52,7 @@ inline constexpr double k_least_melt_share = 1e-7;
 /// [1/s].
 inline constexpr double k_mush_strength = 1e-2, k_mush_rate = 1e-3;
 /// Fall of the viscosity of the network below coherency, and the solid fraction over which it falls so far.
-inline constexpr double k_mush_onset = 1e-3, k_mush_onset_width = 0.1;
+inline constexpr double k_mush_onset = 1e-3, k_mush_onset_width = 0.05;
 /// The pressure of the atmosphere at sea level [Pa].
 inline constexpr double k_atmosphere = 101325;
 

@@ -1,9 +1,9 @@
 /// Shrinkage pores of the metal in mixed elements: volume that the casting has and its metal has not.
 ///
 /// Metal that freezes where nothing feeds it is drawn into tension. Liquid metal carries none to speak of: at
-/// a tension p_c a pore opens. In mush the network of dendrites has to give way as well, with its strength
-/// σ(f_S) (material/melt.hpp). In mixed elements, where p is the mean stress (positive in tension) and
-/// div u − e_v the volume that the metal does not fill, the pore fraction is
+/// a tension p_c a pore opens. In mush the network of dendrites has to give way as well, with k_pore_strength
+/// times its strength, σ(f_S) (material/melt.hpp). In mixed elements, where p is the mean stress (positive in
+/// tension) and div u − e_v the volume that the metal does not fill, the pore fraction is
 ///
 ///   θ(p) = ⟨p − p_c⟩/M                      below coherency,
 ///   θ(p) = θ_n + ⟨p − p_c − σ(f_S)⟩/M_σ      in mush,  M_σ = k_pore_strengths σ(f_S),
@@ -31,7 +31,10 @@
 
 namespace solidus::mechanics {
 
-/// M_σ in strengths of the mush: pores of 1e-2 in a step cost a tenth of it.
+/// Strengths of the mush at k_mush_rate that a pore in it has to overcome: walls that hold a mush strain it
+/// by some 1e-3/s, which is no reason for a pore.
+inline constexpr double k_pore_strength = 5;
+/// M_σ in such strengths: pores of 1e-2 in a step cost a tenth of them.
 inline constexpr double k_pore_strengths = 10;
 /// p_c is at least this share of M, which a strain increment of as much costs in a melt: without it the
 /// viscosity of the numerical melt alone would open pores.
@@ -50,7 +53,7 @@ class Pores {
     if (held_.empty()) return;
     const LaneMask melt = solid_fraction < Lane(mush_.coherency);
     const LaneMask solid = solid_fraction >= Lane(1.0);
-    const Lane strength = mush_.strength(select(solid, Lane(0.0), solid_fraction));
+    const Lane strength = Lane(k_pore_strength) * mush_.strength(select(solid, Lane(0.0), solid_fraction));
     const Lane modulus(melt_modulus);
     const Lane softness = Lane(1.0) / select(melt, modulus, max(modulus, Lane(k_pore_strengths) * strength));
     softness_[at(batch)] = select(solid, Lane(0.0), softness);

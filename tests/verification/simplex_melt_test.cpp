@@ -220,7 +220,7 @@ TEST(ClosedMelt, ShrinksIntoPoresThatTakeUpWhatNothingFeeds) {
 // 0.75, that of coherency, at 825 K.
 TEST(ClosedMush, OpensPoresBeyondItsStrengthAndKeepsThem) {
   const auto strength = [](double solid_fraction) {
-    return material::mush_viscosity(ClosedBox::metal()).strength(solid_fraction);
+    return mechanics::k_pore_strength * material::mush_viscosity(ClosedBox::metal()).strength(solid_fraction);
   };
   for (const Choice& c : k_boxes) {
     ClosedBox box(c.element, c.kind, 0, ClosedBox::k_poured);
