@@ -127,14 +127,15 @@ class _Child:
             reader.start()
 
     def _read(self, stream: IO[str], messages: bool) -> None:
-        for line in stream:
-            line = line.rstrip("\n")
-            if messages:
-                self._messages.append(line)
-            if line.startswith("warning:"):
-                logger.warning(line.removeprefix("warning:").strip())
-            elif line.strip() and not line.startswith("solidus:"):
-                logger.info(line)
+        with stream:
+            for line in stream:
+                line = line.rstrip("\n")
+                if messages:
+                    self._messages.append(line)
+                if line.startswith("warning:"):
+                    logger.warning(line.removeprefix("warning:").strip())
+                elif line.strip() and not line.startswith("solidus:"):
+                    logger.info(line)
 
     def wait(self) -> Any:
         from .results import Results

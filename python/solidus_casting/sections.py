@@ -163,7 +163,7 @@ class Sections(list):
 
     def _laid_over(self, name: str) -> Callable[[bool], Document | None]:
         def give(create: bool) -> Document | None:
-            entries = self._given(create) or []
+            entries = self._given(True) if create else self._given(False) or []
             for entry in entries:
                 if entry.get("name") == name:
                     return entry
