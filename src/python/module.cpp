@@ -138,7 +138,7 @@ void raise_if_interrupted(const std::string& reason) {
 py::array_t<double> array_of(std::vector<double> values, std::vector<py::ssize_t> shape) {
   auto* const owned = new std::vector<double>(std::move(values));
   const py::capsule owner(owned, [](void* data) { delete static_cast<std::vector<double>*>(data); });
-  return {std::move(shape), owned->data(), owner};
+  return py::array_t<double>(std::move(shape), owned->data(), owner);
 }
 
 }  // namespace solidus::python
