@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import copy
 import itertools
+import re
 import tempfile
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -112,6 +113,7 @@ class Case(Section):
             file = file / "case.toml"
         moved = file.parent.resolve() != self._folder.resolve()
         document = _with_absolute_paths(self.to_dict(), self._folder) if moved else self.to_dict()
+        file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(document_text(document), encoding="utf-8")
         self.given().clear()
         self.given().update(document)
@@ -164,6 +166,9 @@ class Case(Section):
             file = Path(folder) / "case.toml"
             text = document_text(_with_absolute_paths(self.to_dict(), self._folder))
             file.write_text(text, encoding="utf-8")
+            _written[str(file)] = text
+            while len(_written) > _MOST_WRITTEN:
+                _written.pop(next(iter(_written)))
             try:
                 yield [str(file)]
             except InputError as error:
@@ -204,6 +209,21 @@ class Case(Section):
             else:
                 raise KeyError(f"'{path}' is not given and has no default")
         return place
+
+
+# Cases that were handed to the program in a file of their own, for messages that name its lines: a simulation gives them when
+# the file has gone.
+_written: dict[str, str] = {}
+_MOST_WRITTEN = 16
+
+
+def with_keys(message: str) -> str:
+    """A message that names keys of the case, where the program named lines of a file that the user never saw."""
+    def key(match: re.Match[str]) -> str:
+        text = _written.get(match[1])
+        return (_key_at(text, int(match[2])) or "the case") if text else match[0]
+
+    return re.sub(r"(/\S*?/solidus_case_\w+/case\.toml):(\d+)(?::\d+)?", key, message)
 
 
 def physics_option(physics: str | None) -> list[str]:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from . import verbs
-from .case import Case, physics_option
+from .case import Case, physics_option, with_keys
 from .errors import RunInterrupted
 
 logger = logging.getLogger("solidus_casting")
@@ -133,9 +133,9 @@ class _Child:
                 if messages:
                     self._messages.append(line)
                 if line.startswith("warning:"):
-                    logger.warning(line.removeprefix("warning:").strip())
+                    logger.warning(with_keys(line.removeprefix("warning:").strip()))
                 elif line.strip() and not line.startswith("solidus:"):
-                    logger.info(line)
+                    logger.info(with_keys(line))
 
     def wait(self) -> Any:
         from .results import Results

@@ -102,7 +102,9 @@ def closed_at_exit(simulation: Any) -> None:
 
 
 def _message(level: str, text: str) -> None:
-    _logger.log({"warning": logging.WARNING, "info": logging.INFO}.get(level, logging.DEBUG), text)
+    from .case import with_keys
+
+    _logger.log({"warning": logging.WARNING, "info": logging.INFO}.get(level, logging.DEBUG), with_keys(text))
 
 
 def core() -> Any:

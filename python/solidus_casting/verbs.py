@@ -44,9 +44,10 @@ def program() -> Path:
 def environment(extra: Mapping[str, str] | None = None) -> dict[str, str]:
     """The environment of a child: one thread a process unless the caller says otherwise."""
     settings = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "NO_COLOR": "1"}
-    # A child of a process that has started MPI must not take itself for a part of it.
-    inherited = {name: value for name, value in os.environ.items()
-                 if not name.startswith(("OMPI_COMM_", "OMPI_UNIVERSE", "OMPI_APP", "PMIX_", "PMI_"))}
+    inherited = dict(os.environ)
+    if "OMPI_COMM_WORLD_SIZE" in inherited:  # under mpirun: a child of one of its processes is no part of the job
+        inherited = {name: value for name, value in inherited.items()
+                     if not name.startswith(("OMPI_", "PMIX_", "PMI_", "PRTE_"))}
     if os.geteuid() == 0:
         settings |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     return {**settings, **inherited, "NO_COLOR": "1", **(extra or {})}
