@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import math
+import os
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -35,7 +36,7 @@ class Results(Sequence[Moment]):
 
     def __init__(self, folder: str | Path) -> None:
         #: where they lie
-        self.folder = Path(folder).absolute()
+        self.folder = Path(os.path.abspath(folder))
         if not self.folder.is_dir():
             raise SolidusError(f"{self.folder}: there is no such folder")
         if not any((self.folder / name).exists() for name in ("steps.csv", "history.csv", "fields.pvd", "summary.json")):
