@@ -454,6 +454,18 @@ class Simulations(ProgramTest):
             self.assertEqual(again.time, step.time)
             self.assertEqual(simulation["displacement"].shape, (len(simulation.moment.points), 3))
 
+    def test_a_steady_case_is_solved_at_once(self):
+        case = block(time={"steady": True}, body__block__initial_temperature="100 degC")
+        case.thermal_condition.add(name="hot", group="x_min", kind="temperature", temperature="200 degC")
+        del case["output"]
+        with sc.Simulation(case) as simulation:
+            with self.assertRaisesRegex(sc.InputError, "no steps"):
+                simulation.advance()
+            simulation.run()
+            self.assertTrue(simulation.finished)
+            self.assertAlmostEqual(simulation["temperature"].max(), sc.celsius(200), places=6)
+            self.assertGreater(sc.celsius(199), simulation.probe("temperature", INSIDE))
+
     def test_failures_become_exceptions(self):
         with self.assertRaises(sc.InputError) as caught:
             sc.Simulation(block(body__block__material="nothing"))
