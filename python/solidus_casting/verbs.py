@@ -21,13 +21,16 @@ def _candidates() -> Iterator[Path]:
         return
     root = _HERE.parents[2]  # the repository, or share/solidus of an installed prefix
     yield _HERE.parent / "installed" / "bin" / "solidus"
-    yield root.parents[1] / "bin" / "solidus"
+    if root.parts[-2:] == ("share", "solidus"):
+        yield root.parents[1] / "bin" / "solidus"
     for preset in ("release", "portable"):
         yield root / "build" / preset / "solidus"
     found = shutil.which("solidus")
     # A script of this package called so would start itself.
-    if found and Path(found).read_bytes()[:4] == b"\x7fELF":
-        yield Path(found)
+    if found:
+        with open(found, "rb") as file:
+            if file.read(4) == b"\x7fELF":
+                yield Path(found)
 
 
 def program() -> Path:
