@@ -161,8 +161,8 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Show the report while the run goes on, at an address of this machine alone");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
-  CLI::App* resolve_verb = program.add_subcommand(
-      "resolve", "Print a case as one file: includes, --set and defaults in place");
+  CLI::App* resolve_verb =
+      program.add_subcommand("resolve", "Print a case as one file: includes, --set and defaults in place");
   add_case_arguments(*resolve_verb, arguments);
   for (CLI::App* verb : {run_verb, check_verb, resolve_verb}) {
     CLI::Option* heat_only = verb->add_flag("--heat-only", arguments.heat_only,
