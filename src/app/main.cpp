@@ -161,7 +161,10 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Show the report while the run goes on, at an address of this machine alone");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
-  for (CLI::App* verb : {run_verb, check_verb}) {
+  CLI::App* resolve_verb =
+      program.add_subcommand("resolve", "Print a case as one file: includes, --set and defaults in place");
+  add_case_arguments(*resolve_verb, arguments);
+  for (CLI::App* verb : {run_verb, check_verb, resolve_verb}) {
     CLI::Option* heat_only = verb->add_flag("--heat-only", arguments.heat_only,
                                             "Compute heat alone; what does not apply is left out and named");
     verb->add_flag("--coupled", arguments.coupled, "Compute heat and mechanics")->excludes(heat_only);
@@ -280,6 +283,7 @@ ExitCode parse_and_run(int argc, char** argv) {
                                     : FileKind::case_file;
   if (*run_verb) return run(arguments);
   if (*check_verb) return check(arguments);
+  if (*resolve_verb) return resolve(arguments);
   if (*point_verb) return run_point(arguments);
   if (*explain_verb) return explain(file, key, manual);
   if (*schema_verb) return schema(file);

@@ -30,6 +30,8 @@ void print(const std::string& text);
 
 ExitCode run(const CaseArguments& arguments);
 ExitCode check(const CaseArguments& arguments);
+/// Prints a case as one file: includes, overrides and defaults in place, paths absolute. Reads no mesh.
+ExitCode resolve(const CaseArguments& arguments);
 /// A material point through a history of strain, stress and temperature.
 /// @param arguments path: a point file, or a folder with a point.toml
 ExitCode run_point(const CaseArguments& arguments);

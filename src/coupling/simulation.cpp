@@ -28,15 +28,23 @@ void require_numbers(const StepMeasure& measure) {
 
 struct Simulation::Progress {
   State committed, trial;
-  std::size_t stage = 0;  ///< in TimeOptions::stages
+  SolidFraction solid_fraction_of;  ///< of a committed state
+  std::size_t stage = 0;            ///< in TimeOptions::stages
   StageStart stage_start;
   std::optional<StepControl> control;  ///< of the stage
   std::optional<MeasuredStep> step;
   std::vector<double> outputs;  ///< times at which fields are written, rising
   StepRecord record;            ///< of the step last committed; its rejections are those since
-  double solid_fraction = 1;    ///< of the committed state
-  int saved = -1;               ///< the step whose checkpoint is written
-  bool warned = false;          ///< of a limit that the smallest step exceeds
+  struct Pending {
+    PlannedStep step;
+    StepMeasure measure;
+    StepRecord record;
+  };
+  std::optional<Pending> pending;  ///< the step that `trial` is the end of
+  bool ended = false;              ///< observers were told of the end
+  double solid_fraction = 1;       ///< of the committed state
+  int saved = -1;                  ///< the step whose checkpoint is written
+  bool warned = false;             ///< of a limit that the smallest step exceeds
   Stop stop;
 };
 
@@ -48,6 +56,8 @@ Simulation::Simulation(std::unique_ptr<CouplingScheme> scheme, TimeOptions optio
     if (measures_error(stage.step) && !estimate_)
       throw std::invalid_argument("adaptive steps need an estimate of their error");
 }
+
+Simulation::~Simulation() = default;
 
 bool Simulation::measures_error(const StepOptions& step) {
   return step.adaptive && step.limits.control != ErrorControl::none;
@@ -76,8 +86,7 @@ void Simulation::measure_steps(Progress& p, const StepOptions& step, Rates rates
     p.step.emplace(*scheme_);
 }
 
-void Simulation::enter_stage(Progress& p, const SolidFraction& solid_fraction,
-                             const std::optional<Continuation>& from) {
+void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& from) {
   const Stage& stage = options_.stages[p.stage];
   const bool first = p.stage == 0, staged = stage.of_case > 0;
   const double start = first ? p.committed.time : options_.stages[p.stage - 1].end;
@@ -112,7 +121,7 @@ void Simulation::enter_stage(Progress& p, const SolidFraction& solid_fraction,
     stage_begins_(p.stage, p.stage_start, anew && !begun ? &p.committed : nullptr);
     scheme_->conditions_changed();
   }
-  p.solid_fraction = solid_fraction(p.committed);
+  p.solid_fraction = p.solid_fraction_of(p.committed);
   if (criteria_ != nullptr) criteria_->forget();
   scheme_->synchronise(p.committed);
   scheme_->forget();  // as after a checkpoint of this state
@@ -125,7 +134,17 @@ Outcome Simulation::stopped(const Stop& why, Progress& p, Outcome outcome) {
 
 Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
                         const std::optional<Continuation>& from) {
-  Progress p;
+  begin(std::move(initial), solid_fraction, from);
+  std::optional<Outcome> outcome;
+  while (!(outcome = take_step())) commit_step();
+  progress_.reset();  // states are large
+  return *outcome;
+}
+
+void Simulation::begin(State initial, SolidFraction solid_fraction, const std::optional<Continuation>& from) {
+  progress_ = std::make_unique<Progress>();
+  Progress& p = *progress_;
+  p.solid_fraction_of = std::move(solid_fraction);
   if (criteria_ != nullptr) criteria_->forget();
   criteria::State records = std::move(initial.criteria);  // there is one of them, which commit() hands on
   p.trial = initial;
@@ -133,35 +152,38 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
   p.committed.criteria = std::move(records);
   p.saved = from ? from->steps : -1;
   p.record.number = from ? from->steps : 0;
+  p.record.time = p.committed.time;
   const auto ahead = std::find_if(options_.stages.begin(), options_.stages.end(),
                                   [&](const Stage& s) { return s.end > p.committed.time; });
   if (ahead == options_.stages.end() && from) return end_at_once(p, from->stage);
   if (ahead == options_.stages.end()) throw std::invalid_argument("the end time must lie after the start");
   p.stage = static_cast<std::size_t>(ahead - options_.stages.begin());
-  enter_stage(p, solid_fraction, from);
+  enter_stage(p, from);
   for (Observer* o : observers_) o->begin(p.committed);
-  while (true) {
-    if (const std::optional<Outcome> outcome = run_stage(p)) return *outcome;
-    if (p.stage + 1 == options_.stages.size()) break;
-    ++p.stage;
-    enter_stage(p, solid_fraction, {});
-  }
-  for (Observer* o : observers_) o->end(p.committed);
-  return Outcome::finished;
 }
 
-// A run that goes on from its end has nothing left but to end.
-Outcome Simulation::end_at_once(Progress& p, const StageStart& stage_start) {
+void Simulation::end_at_once(Progress& p, const StageStart& stage_start) {
   p.stage = options_.stages.size() - 1;
   if (options_.stages[p.stage].of_case > 0) stage_begins_(p.stage, stage_start, nullptr);
   scheme_->synchronise(p.committed);
   for (Observer* o : observers_) o->begin(p.committed);
   for (Observer* o : observers_) o->end(p.committed);
-  return Outcome::finished;
+  p.ended = true;
 }
 
-std::optional<Outcome> Simulation::run_stage(Progress& p) {
-  while (!p.control->finished(p.committed.time)) {
+std::optional<Outcome> Simulation::take_step() {
+  Progress& p = *progress_;
+  while (!p.ended) {
+    if (p.control->finished(p.committed.time)) {
+      if (p.stage + 1 < options_.stages.size()) {
+        ++p.stage;
+        enter_stage(p, {});
+        continue;
+      }
+      for (Observer* o : observers_) o->end(p.committed);
+      p.ended = true;
+      break;
+    }
     if (stop_asked()) {
       if (p.saved != p.record.number || p.record.rejected > 0) save(p, p.control->state());
       Stop asked;
@@ -169,9 +191,8 @@ std::optional<Outcome> Simulation::run_stage(Progress& p) {
       return stopped(asked, p, Outcome::interrupted);
     }
     switch (try_step(p)) {
-      case Try::committed:
-        if (checkpoint_due(p.record)) save(p, p.control->state());
-        break;
+      case Try::taken:
+        return {};
       case Try::repeat:
         scheme_->synchronise(p.committed);
         break;
@@ -182,7 +203,60 @@ std::optional<Outcome> Simulation::run_stage(Progress& p) {
         return stopped(p.stop, p, Outcome::stuck);
     }
   }
-  return {};
+  return Outcome::finished;
+}
+
+void Simulation::commit_step() {
+  Progress& p = *progress_;
+  const Progress::Pending pending = std::move(*p.pending);
+  p.pending.reset();
+  p.record = pending.record;
+  commit(p, pending.step, pending.measure);
+  if (checkpoint_due(p.record)) save(p, p.control->state());
+}
+
+void Simulation::discard_step(std::optional<double> step) {
+  Progress& p = *progress_;
+  p.pending.reset();
+  ++p.record.rejected;
+  p.record.rejection = "repeated as asked";
+  scheme_->synchronise(p.committed);
+  if (step) ask_step(*step);
+}
+
+void Simulation::ask_step(double step) {
+  Progress& p = *progress_;
+  ControlState control = p.control->state();
+  control.size = step;
+  control.reason = "as asked";
+  p.control->resume(std::move(control));
+}
+
+void Simulation::conditions_changed() {
+  Progress& p = *progress_;
+  scheme_->conditions_changed();
+  scheme_->synchronise(p.committed);
+  scheme_->forget();
+}
+
+bool Simulation::pending() const {
+  return progress_->pending.has_value();
+}
+
+const State& Simulation::state() const {
+  return progress_->pending ? progress_->trial : progress_->committed;
+}
+
+const StepRecord& Simulation::record() const {
+  return progress_->pending ? progress_->pending->record : progress_->record;
+}
+
+const StageStart& Simulation::stage_start() const {
+  return progress_->stage_start;
+}
+
+std::size_t Simulation::stage() const {
+  return progress_->stage;
 }
 
 // The committed state is not touched before the step is known to be good: a step that is repeated starts from
@@ -190,6 +264,7 @@ std::optional<Outcome> Simulation::run_stage(Progress& p) {
 Simulation::Try Simulation::try_step(Progress& p) {
   const PlannedStep step = p.control->plan(p.committed.time);
   StepMeasure measure;
+  StepRecord record;
   try {
     const MeasuredStep::Taken taken = p.step->take(p.committed, p.trial, step.time, step.dt);
     measure = {std::max(taken.effort.heat.hard(), taken.effort.mechanics.hard()), taken.error.temperature,
@@ -201,7 +276,8 @@ Simulation::Try Simulation::try_step(Progress& p) {
       p.control->shortened(step, measure);
       return Try::repeat;
     }
-    static_cast<StepEffort&>(p.record) = taken.effort;
+    record = p.record;
+    static_cast<StepEffort&>(record) = taken.effort;
   } catch (const algebra::Interrupted&) {
     return Try::repeat;  // before which stop_asked() ends the run
   } catch (const StepRejected& rejection) {
@@ -211,8 +287,16 @@ Simulation::Try Simulation::try_step(Progress& p) {
     p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt};
     return Try::stuck;
   }
-  commit(p, step, measure);
-  return Try::committed;
+  p.trial.time = step.time;
+  record.number = p.record.number + 1;
+  record.time = step.time;
+  record.dt = step.dt;
+  record.reason = step.reason;
+  record.temperature_error = measure.temperature_error;
+  record.displacement_error = measure.displacement_error;
+  record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time);
+  p.pending = {step, measure, std::move(record)};
+  return Try::taken;
 }
 
 // A step that is committed although it exceeds a limit contains a jump, or is the smallest one: its rates are
@@ -229,7 +313,6 @@ void Simulation::check_limits(Progress& p, const PlannedStep& step, const StepMe
 }
 
 void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
-  p.trial.time = step.time;
   p.trial.criteria = std::move(p.committed.criteria);
   if (criteria_ != nullptr)
     criteria_->step({p.committed.time, p.committed.heat, p.committed.mechanics},
@@ -239,14 +322,6 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
   check_limits(p, step, measure);
   p.control->accepted(step, measure);
   p.solid_fraction = p.record.solid_fraction;
-
-  ++p.record.number;
-  p.record.time = step.time;
-  p.record.dt = step.dt;
-  p.record.reason = step.reason;
-  p.record.temperature_error = measure.temperature_error;
-  p.record.displacement_error = measure.displacement_error;
-  p.record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time);
   for (Observer* o : observers_) o->step(p.record, p.committed);
   p.record.rejected = 0;
   p.record.rejection.clear();

@@ -144,10 +144,12 @@ const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) 
 
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
                       const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
-  const std::string checkpoint_line = fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
+  const std::string checkpoint_line =
+      checkpoint.empty() ? "" : fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
   if (stop.asked)
-    return fmt::format("stopped as asked at t = {:.6g} s\n", time) + checkpoint_line +
-           "  to continue: the same command with --restart";
+    return fmt::format("stopped as asked at t = {:.6g} s", time) +
+           (checkpoint.empty() ? ""
+                               : "\n" + checkpoint_line + "  to continue: the same command with --restart");
   std::string text =
       fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time, stop.reason);
   if (!stop.where.empty()) text += fmt::format("  where: {}\n", stop.where);
@@ -175,6 +177,7 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
   if (unstable == nullptr)
     text += fmt::format("\n    - smaller steps: time.step (now {:g} s), time.min_step",
                         spec.time.step.value_or(0));
+  if (checkpoint.empty()) return text;
   return text +
          "\n  The results so far are whole; after a change that leaves mesh and materials alone, the same "
          "command with --restart\n  continues from there.";

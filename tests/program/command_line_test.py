@@ -13,7 +13,7 @@ import unittest
 
 from program import PROGRAM, ProgramTest, solidus
 
-VERBS = {"run", "check", "explain", "schema", "point", "mesh-info", "materials", "export", "version", "plot", "compare",
+VERBS = {"run", "check", "resolve", "explain", "schema", "point", "mesh-info", "materials", "export", "version", "plot", "compare",
          "study", "init-editor", "completion", "man", "help"}
 LONG_CASE = """
 title = "A block that cools for ever"

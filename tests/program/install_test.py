@@ -1,7 +1,9 @@
 """An installed program, moved to another folder, finds what it brought; ./dev works from any folder."""
 
+import os
 from pathlib import Path
 import subprocess
+import sys
 import unittest
 
 from program import PROGRAM, SOURCES, ProgramTest
@@ -16,6 +18,7 @@ class Installed(ProgramTest):
         for file in ("bin/solidus", "share/bash-completion/completions/solidus", "share/zsh/site-functions/_solidus",
                      "share/fish/vendor_completions.d/solidus.fish", "share/man/man1/solidus.1",
                      "share/solidus/schema/case.schema.json", "share/solidus/python/solidus_plots/plot_case.py",
+                     "share/solidus/python/solidus_casting/case.py",
                      "share/doc/solidus/README.md", "share/doc/solidus/docs/guide/getting_started.md",
                      "share/solidus/cases/hot_spots/case.toml"):
             self.assertGreater((moved / file).stat().st_size, 0, file)
@@ -36,6 +39,11 @@ class Installed(ProgramTest):
         drawn = said("plot", "results")
         self.assertIn("the installed one", drawn)
         self.assertTrue((self.folder / "results/plots/history_degC.png").exists())
+        # So does the Python package, without a word about where the program is.
+        environment = {name: value for name, value in os.environ.items() if name != "SOLIDUS_PROGRAM"}
+        found = subprocess.run([sys.executable, "-c", "import solidus_casting as sc; print(sc.program(), sc.version())"],
+                               env={**environment, "PYTHONPATH": str(shared / "python")}, capture_output=True, text=True, check=True)
+        self.assertEqual(Path(found.stdout.split()[-2]), (moved / "bin/solidus").resolve())
         (moved / "bin/solidus").unlink()  # it is large
 
     def test_dev_sees_files_from_the_folder_of_the_call(self):
