@@ -180,7 +180,11 @@ bool BlockIterative::agrees(const State& old, const Iterate& it) const {
     return change <= options_.tolerance * largest_difference(now, before) ||
            change <= k_rounding * largest(now);
   };
-  return it.solved && small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature) &&
+  const double of_fractions =
+      it.phases.any() ? it.phases.difference(it.now.heat.temperature, plateau_share(phases_, it.now.heat))
+                      : 0.0;
+  return it.solved && of_fractions <= options_.tolerance &&
+         small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature) &&
          small(changes_.back().displacement, it.now.mechanics.displacement, old.mechanics.displacement);
 }
 

@@ -42,8 +42,10 @@ void PhaseIterate::advance(std::span<const double> temperature, std::vector<doub
 double PhaseIterate::difference(std::span<const double> temperature,
                                 std::span<const double> plateau_share) const {
   if (!any_) return 0;
-  const double change = largest_difference(temperature, old_);
-  const double of_temperature = change > 0 ? largest_difference(temperature, temperature_) / change : 0.0;
+  constexpr double k_rounding = 1e-9;  // [K]
+  const double change = largest_difference(temperature, old_),
+               left = largest_difference(temperature, temperature_);
+  const double of_temperature = left > k_rounding ? left / change : 0.0;
   const double of_share = plateau_share_.empty() ? 0.0 : largest_difference(plateau_share, plateau_share_);
   return std::max(of_temperature, of_share);
 }

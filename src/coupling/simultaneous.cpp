@@ -21,7 +21,7 @@ constexpr int k_revisions = 5;  ///< of the limits of conduction, each with a fu
 /// Solutions with fractions of phase changes that follow the temperatures: at most, and the difference
 /// between two at which they have settled, as a part of what the step changes.
 constexpr int k_fraction_turns = 30;
-constexpr double k_settled = 1e-6;
+constexpr double k_settled = 1e-9;
 /// The difference that may be left where the residuals with the new fractions are within the tolerances.
 constexpr double k_balanced = 1e-3;
 
