@@ -26,8 +26,9 @@
 /// its value at contact, with slope zero, to value and slope at p_t or g_t. So the slope in the gap is
 /// continuous whatever the penalty is, and that of spots has a bound. Bends inside of tables stay.
 ///
-/// One coefficient from body to body. 3.45 is one-sided, from each body to an interface temperature Θ_c: two
-/// equal sides of 2h each, in general 1/h = 1/h_1 + 1/h_2 (OneSided).
+/// One coefficient from body to body. 3.45 is one-sided, from each body to an interface temperature Θ_c, with
+/// 1/h = 1/h_1 + 1/h_2 (OneSided): h_1 = h/s and h_2 = h/(1 − s), s the share of the resistance that lies on
+/// the slave's side, a half unless the data say otherwise.
 ///
 /// Source: monograph 3.45–3.50, table 7.9.
 #pragma once
@@ -67,6 +68,8 @@ struct HeatTransferSpec {
   };
   std::vector<AtTemperature> families;
 
+  /// s, the share of the resistance 1/h that lies between the slave and Θ_c (3.45), between 0 and 1.
+  double slave_resistance = 0.5;
   /// Emissivities of the slave's and the master's surface; absent or zero: no radiation.
   double slave_emissivity = 0, master_emissivity = 0;
 
@@ -99,8 +102,14 @@ class HeatTransferLaw {
   Conductance at(double opening, double pressure, double temperature) const;
   /// Whether h changes with Θ_g.
   bool of_temperature() const { return of_temperature_; }
-  /// h_1 and h_2 of a conductance: equal halves of the resistance.
-  static OneSided one_sided(double conductance) { return {2 * conductance, 2 * conductance}; }
+  /// h_1 and h_2 of a conductance (3.45).
+  OneSided one_sided(double conductance) const {
+    return {conductance / spec_.slave_resistance, conductance / (1 - spec_.slave_resistance)};
+  }
+  /// h_1/(h_1 + h_2), the part of the interface's heat that the slave takes where neither side conducts.
+  double slave_share(bool master_takes_heat = true) const {
+    return master_takes_heat ? 1 - spec_.slave_resistance : 1.0;
+  }
   /// σ_r F [W/(m² K⁴)], zero without radiation.
   double radiation_factor() const { return radiation_factor_; }
 

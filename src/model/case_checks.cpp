@@ -437,6 +437,14 @@ void check_coupling(const CaseSpec& spec) {
   if (c.scheme == Scheme::double_pass && spec.dynamics)
     throw InputError(c.where, "the double pass is for quasi-statics",
                      "scheme = \"isentropic\", \"simultaneous\" or \"isothermal\"");
+  if (c.scheme == Scheme::double_pass)
+    for (const ContactSpec& contact : spec.contacts)
+      if (contact.friction && contact.friction->thermal_return_mapping)
+        throw InputError(
+            contact.friction->where,
+            "thermal_return_mapping: the double pass counts the heat of friction of its first half "
+            "twice and knows no slip that its thermal phase finds",
+            "scheme = \"isentropic\", \"isothermal\" or \"simultaneous\", or no such key");
   if (c.scheme == Scheme::double_pass && form != Heating::energy)
     throw InputError(c.where,
                      "temperature x difference of entropy is of first order, the double pass of second",

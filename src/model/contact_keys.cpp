@@ -114,6 +114,14 @@ Section<contact::HeatTransferSpec> contact_heat_keys() {
   s.quantity("transition_pressure", &H::transition_pressure, "Pa")
       .positive()
       .doc("Pressures up to which a smooth law is replaced; without it 0.1 MPa.");
+  s.key("slave_resistance", &H::slave_resistance)
+      .initially(0.5)
+      .range(0.001, 0.999)
+      .doc(
+          "Share of the interface's resistance that lies between the slave (of `surfaces`: the first) and "
+          "the "
+          "temperature of the interface: h1 = h / share, h2 = h / (1 - share) (3.45). It divides the heat of "
+          "friction and places a coating on one side.");
   s.key("slave_emissivity", &H::slave_emissivity)
       .initially(0.0)
       .range(0, 1)
@@ -218,7 +226,8 @@ Section<ContactSpec> contact_keys() {
       .positive()
       .doc(
           "Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces. "
-          "Without it and `penalty` the factor is 10; next to a melt the penalty is then at most that with "
+          "Without it and `penalty` the factor is 100, with multipliers or inertia 10; next to a melt the "
+          "penalty is then at most that with "
           "which the `atmosphere` moves a liquid skin by 0.1 % of the body's free contraction.");
   s.key("stabilisation", &C::stabilisation)
       .initially(1e-10)

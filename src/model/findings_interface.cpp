@@ -8,6 +8,7 @@
 
 #include "algebra/parallel.hpp"
 #include "model/findings.hpp"
+#include "model/friction_input.hpp"
 
 namespace solidus::model {
 
@@ -154,6 +155,32 @@ void conductances(const CaseSpec& spec, Findings& findings) {
   }
 }
 
+/// 5.24 without a heat capacity would forbid every slip that changes the entropy: the interface keeps its
+/// temperature instead, and the estimate of the isentropic split with it (5.13a).
+void isentropic_friction(const CaseSpec& spec, Findings& findings) {
+  using Scheme = CouplingSpec::Scheme;
+  if (!spec.coupled() ||
+      (spec.coupling.scheme != Scheme::isentropic && spec.coupling.scheme != Scheme::double_pass))
+    return;
+  for (const ContactSpec& contact : spec.contacts) {
+    if (!contact.friction || contact.interface.heat_capacity > 0 ||
+        contact.friction->internal_variable != contact::InternalVariable::normal_work)
+      continue;
+    const contact::FrictionCoefficient mu(friction_spec(*contact.friction).coefficient);
+    if (mu.hardening_depends_on_temperature())
+      findings.push_back(
+          {false, contact.friction->where,
+           fmt::format(
+               "the hardening of friction in '{}' depends on temperature, but its interface stores no "
+               "heat: the isentropic split holds its temperature instead of its entropy there, and is "
+               "stable only as the isothermal one is",
+               contact.name),
+           "[contact.interface] heat_capacity above zero (1000 J/m2/K is a skin of 0.3 mm of steel), or "
+           "scheme "
+           "= \"simultaneous\" or \"block_iterative\""});
+  }
+}
+
 }  // namespace
 
 void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings) {
@@ -162,6 +189,7 @@ void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findi
   bodies_without_a_way_for_heat(spec, a, findings);
   films_beside_contacts(spec, findings);
   conductances(spec, findings);
+  isentropic_friction(spec, findings);
 }
 
 }  // namespace solidus::model

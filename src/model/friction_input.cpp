@@ -52,6 +52,7 @@ contact::FrictionSpec friction_spec(const FrictionSpec& spec) {
   r.tangential_penalty = spec.tangential_penalty;
   r.tangential_penalty_factor = spec.tangential_penalty_factor;
   r.symmetric = spec.symmetric;
+  r.thermal_return_mapping = spec.thermal_return_mapping;
   contact::FrictionCoefficient checked(r.coefficient);
   return r;
 }

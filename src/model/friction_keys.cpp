@@ -56,6 +56,14 @@ Section<FrictionSpec> friction_keys() {
       .doc(
           "Leaves out of the matrix, not out of the forces, how the limit of friction follows the pressure: "
           "for symmetric solvers, at the price of iterations.");
+  s.key("thermal_return_mapping", &F::thermal_return_mapping)
+      .initially(false)
+      .doc(
+          "The thermal phase of a split finds slip and temperature of the interface anew, with the "
+          "coefficient "
+          "at its own temperature (5.40-5.51), in place of keeping the slip of the mechanical phase, with "
+          "which the first law closes. Schemes simultaneous and block_iterative solve these equations in any "
+          "case; not with double_pass.");
   s.place(&F::where);
   return s;
 }

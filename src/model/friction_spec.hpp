@@ -25,6 +25,7 @@ struct FrictionSpec {
   std::optional<double> tangential_penalty;  ///< ε_T [N/m³]; absent: from the factor
   double tangential_penalty_factor = 0;      ///< of ε_N
   bool symmetric = false;
+  bool thermal_return_mapping = false;
   SourceLocation where;
 };
 

@@ -214,8 +214,17 @@ TEST(HeatTransfer, ThatIsSmoothHasASlopeThatDoesNotJumpFromContactToGap) {
 }
 
 TEST(HeatTransfer, ThroughBothSidesAddsTheirResistances) {
-  const OneSided sides = HeatTransferLaw::one_sided(2300);
-  EXPECT_DOUBLE_EQ(1 / sides.slave + 1 / sides.master, 1 / 2300.0);
+  HeatTransferSpec spec;
+  spec.conductance = 2300;
+  for (const double share : {0.5, 0.2}) {
+    spec.slave_resistance = share;
+    const HeatTransferLaw law(spec);
+    const OneSided sides = law.one_sided(2300);
+    EXPECT_DOUBLE_EQ(1 / sides.slave + 1 / sides.master, 1 / 2300.0);
+    EXPECT_DOUBLE_EQ(1 / sides.slave, share / 2300);
+    EXPECT_DOUBLE_EQ(law.slave_share(), sides.slave / (sides.slave + sides.master));
+    EXPECT_EQ(law.slave_share(false), 1) << "a master that takes no heat";
+  }
 }
 
 std::string refusal(const HeatTransferSpec& spec) {

@@ -500,5 +500,28 @@ TEST(ContactPair, TakesSmallInitialGapsAsTouchingWhenToldTo) {
   EXPECT_EQ(sums.closed_points, sums.points);
 }
 
+TEST(ContactPair, RefusesASurfaceInContactWithItself) {
+  const mesh::Mesh mesh =
+      mesh::distribute(test::raw_blocks(test::standard_blocks(Shape::quad4), Shape::quad4),
+                       {"lower", "upper"}, {"lower_top", "lower_x_min", "upper_bottom"});
+  const auto refusal = [&](const std::string& master) -> std::string {
+    ContactSpec s = spec();
+    s.master = master;
+    try {
+      const ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(refusal("lower_top").find("slave and master are the same surface 'lower_top'"),
+            std::string::npos);
+  const std::string corner = refusal("lower_x_min");
+  EXPECT_NE(corner.find("the surfaces 'lower_top' and 'lower_x_min' share 1 node"), std::string::npos)
+      << corner;
+  EXPECT_NE(corner.find("contact of a surface with itself is not computed"), std::string::npos);
+  EXPECT_EQ(refusal("upper_bottom"), "");
+}
+
 }  // namespace
 }  // namespace solidus::contact
