@@ -435,7 +435,9 @@ void LinearSolver::Implementation::judge_hierarchy(Vec rhs, int n, bool failed) 
 }
 
 /// Checks a direct solution against its residual, improves it once if needed, refuses it if that does not
-/// help.
+/// help. Where a right-hand side is small against the products that cancel in A x, rounding leaves a residual
+/// in the best of solutions; the correction is then small, while that of a singular matrix is as large as its
+/// solution.
 bool LinearSolver::Implementation::refine(LinearReport& report) {
   if (!residual) {
     check(VecDuplicate(b, residual.out()), "VecDuplicate");
@@ -450,7 +452,11 @@ bool LinearSolver::Implementation::refine(LinearReport& report) {
     if (defect <= (pass == 0 ? k_refine_above : k_refuse_above) * size) return true;
     if (pass == 1 || !std::isfinite(defect)) break;
     if (run(residual, correction, report.iterations) < 0) break;
+    double length = 0, change = 0;
+    check(VecNorm(x, NORM_2, &length), "VecNorm");
+    check(VecNorm(correction, NORM_2, &change), "VecNorm");
     check(VecAXPY(x, 1.0, correction), "VecAXPY");
+    if (change <= k_refuse_above * length) return true;
   }
   report.reason = "the factorisation left a residual of " + std::to_string(defect / size) +
                   " of the right-hand side (singular matrix? is every body held?)";

@@ -352,6 +352,21 @@ TemperatureRange HeatSystem::ambient_range(bool with_contributions) const {
   return range;
 }
 
+TemperatureRange HeatSystem::range_of_contributions(std::span<const double> temperature) {
+  TemperatureRange range;
+  for (algebra::Contribution* contribution : contributions_) {
+    if (contribution->stores()) continue;
+    std::fill(contributed_.begin(), contributed_.end(), 0.0);
+    contribution->add_residual(temperature, contributed_);
+    for (std::size_t i = 0; i < contributed_.size(); ++i) {
+      if (contributed_[i] == 0) continue;
+      range.lowest = std::min(range.lowest, temperature[i]);
+      range.highest = std::max(range.highest, temperature[i]);
+    }
+  }
+  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+}
+
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
   double moved = 0;
   for (auto* heat : {&local_, &supplied_}) std::fill(heat->begin(), heat->end(), 0.0);

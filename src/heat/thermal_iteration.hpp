@@ -70,6 +70,7 @@ class ThermalIteration {
 
  private:
   bool nodal() const { return phase_.nodal(); }
+  TemperatureRange range_of_now() const;
 
   ThermalPhase& phase_;
   std::unique_ptr<EnthalpyNewton> newton_;  ///< where the enthalpy of the nodes is the unknown
@@ -78,7 +79,8 @@ class ThermalIteration {
   std::vector<double> stored_from_;  ///< H*, [local node]; where the enthalpy of the nodes is the unknown
   std::vector<double> residual_, rhs_, step_;
   double dt_ = 0, unbalanced_ = 0;
-  TemperatureRange range_;  ///< within which conduction is to stay
+  TemperatureRange range_;     ///< within which conduction is to stay; open where something heats or cools
+  TemperatureRange at_start_;  ///< of the temperatures at t_n and of the first stage
 };
 
 }  // namespace solidus::heat
