@@ -74,15 +74,10 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .new_stress = remembers || keeps ? &stress_[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .work = pass.work,
-<<<<<<< HEAD
-         .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share),
-         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
-=======
          .phases = nodal_phases_.evaluate(
              b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
              pass.plateau_share),
-         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
->>>>>>> 1ff63ed7feee34eac69e18e8cea8053dd7dea4a2
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
   if (pressure_) pressure_->begin();
   stress_at_work_ = pass.work;
   residual_is_known_ = false;
