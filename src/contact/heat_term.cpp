@@ -56,7 +56,17 @@ void HeatTerm::place(std::vector<HeatPoint> points) {
   points_ = std::move(points);
   fixed_.resize(law_.of_temperature() ? 0 : points_.size());
   for (std::size_t p = 0; p < fixed_.size(); ++p)
-    fixed_[p] = law_.at(-points_[p].penetration, points_[p].pressure, k_room_temperature).value;
+    fixed_[p] = conductance(static_cast<Index>(p), k_room_temperature).value;
+}
+
+Conductance HeatTerm::conductance(Index point, double temperature) const {
+  const HeatPoint& p = points_[at(point)];
+  const double opening = -p.penetration;
+  if (curvature_.empty() || !(opening > 0)) return law_.at(opening, p.pressure, temperature);
+  const SurfaceCurvature& curvature = curvature_[at(point)];
+  Conductance h = law_.at(curvature.plane_gap(opening), p.pressure, temperature);
+  h.by_opening *= curvature.plane_gap_slope(opening);
+  return h;
 }
 
 void HeatTerm::begin_phase(const HeatSpan& span) {
@@ -139,7 +149,7 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   if (!flows)
     s.h = {};
   else if (fixed_.empty())
-    s.h = law_.at(-p.penetration, p.pressure, 0.5 * (s.slave + s.master));
+    s.h = conductance(point, 0.5 * (s.slave + s.master));
   else
     s.h.value = fixed_[at(point)];
   s.has_temperature = p.has_temperature;
@@ -292,7 +302,7 @@ void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperatu
                              std::span<double> heat) const {
   const HeatPoint& point = points_[at(s.point)];
   const double w = partners_.weight[at(s.point)];
-  const Conductance h = law_.at(-point.penetration, point.pressure, 0.5 * (s.slave + s.master));
+  const Conductance h = conductance(s.point, 0.5 * (s.slave + s.master));
   const double slope = w * (h.by_pressure * point.pressure_slope - h.by_opening);
   if (slope != 0) {
     add_exchange(s, temperature, slope, 0, heat);

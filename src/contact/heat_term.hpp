@@ -15,6 +15,7 @@
 #include "contact/partners.hpp"
 #include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
+#include "contact/surface_curvature.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::contact {
@@ -95,6 +96,8 @@ class HeatTerm : public algebra::Contribution {
   /// @param nodal  the nodal form; for linear faces only
   HeatTerm(const mesh::Mesh& mesh, const PartnerList& partners, ContactGraph& graph,
            const HeatTransferLaw& law, bool nodal);
+  /// The slave's curvature at every point, [point]; empty: faces are plane. Before place().
+  void set_curvature(std::vector<SurfaceCurvature> curvature) { curvature_ = std::move(curvature); }
   /// Freezes the configuration, [point]; the partners are those of the list now.
   void place(std::vector<HeatPoint> points);
   const std::vector<HeatPoint>& points() const { return points_; }
@@ -185,6 +188,8 @@ class HeatTerm : public algebra::Contribution {
   void add_share_slope(const AtPoint& at, std::span<const double> temperature, std::size_t b,
                        std::span<double> heat) const;
   InterfaceStep balance_step(Index point) const;
+  /// h at the plane gap that resists as that of the point does, and its slope in the gap itself.
+  Conductance conductance(Index point, double temperature) const;
 
   Index n_owned_;
   const PartnerList& partners_;
@@ -194,6 +199,7 @@ class HeatTerm : public algebra::Contribution {
   bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
   std::vector<HeatPoint> points_;
+  std::vector<SurfaceCurvature> curvature_;  ///< of the slave, [point]; empty: none
   std::optional<double> tool_temperature_;
   struct Phase {
     HeatSpan span;

@@ -15,6 +15,7 @@
 #include "contact/master_mesh.hpp"
 #include "contact/penalty.hpp"
 #include "contact/sliding_kinematics.hpp"
+#include "contact/surface_curvature.hpp"
 
 namespace solidus::contact {
 
@@ -90,6 +91,18 @@ double find_penalty(const mesh::Mesh& mesh, const ContactSpec& spec, const Conta
   return std::min(spec.penalty * stiffness, spec.largest_penalty);
 }
 
+/// The curvature of the slave's face at every point; empty where the surface is plane.
+std::vector<SurfaceCurvature> curvature_of_points(const ContactSurface& slave, AnalysisKind kind,
+                                                  const ContactKinematics& kinematics) {
+  const std::vector<SurfaceCurvature> of_face =
+      surface_curvatures(slave, kind, MeshMasterOptions{}.feature_angle);
+  if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
+  std::vector<SurfaceCurvature> of_point(at(kinematics.n_points()));
+  for (Index p = 0; p < kinematics.n_points(); ++p)
+    of_point[at(p)] = of_face[static_cast<std::size_t>(kinematics.particle(p).number / k_points_of_a_face)];
+  return of_point;
+}
+
 void choose_roles(const mesh::Mesh& mesh, std::span<const double> modulus, ContactSpec& spec) {
   constexpr double k_alike = 0.05;  // sizes of faces
   const ContactSurface first(mesh, spec.slave), second(mesh, spec.master);
@@ -137,6 +150,7 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
     // The nodal form needs shape functions that are nowhere below zero.
     const bool nodal = spec_.nodal_heat && has_linear_faces(slave) && (!master || has_linear_faces(*master));
     heat_ = std::make_unique<HeatTerm>(mesh, partners_, *graph_, *heat_law_, nodal);
+    heat_->set_curvature(curvature_of_points(slave, kind, *kinematics_));
   }
   restore({}, std::vector<double>(mesh.x.size() * static_cast<std::size_t>(components_), 0.0), 0);
 }

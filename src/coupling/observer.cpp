@@ -21,6 +21,7 @@ EnergyAudit& EnergyAudit::operator+=(const EnergyAudit& next) {
   viscous_dissipation += next.viscous_dissipation;
   plastic_dissipation += next.plastic_dissipation;
   plastic_work += next.plastic_work;
+  inelastic_entropy += next.inelastic_entropy;
   return *this;
 }
 

@@ -63,6 +63,7 @@ bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& tr
   effort.energy.viscous_dissipation = report.work.dissipation - report.work.plastic_dissipation;
   effort.energy.plastic_dissipation = report.work.plastic_dissipation;
   effort.energy.plastic_work = report.work.plastic_work;
+  effort.energy.inelastic_entropy = report.work.inelastic_entropy;
   effort.least_dissipation = report.work.least_dissipation;
   effort.largest_dissipation = report.work.largest_dissipation;
   effort.mechanics.seconds += MPI_Wtime() - start;

@@ -59,7 +59,8 @@ void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried)
   for (double EnergyAudit::*part :
        {&EnergyAudit::stored_heat, &EnergyAudit::work, &EnergyAudit::unbalanced, &EnergyAudit::numerical,
         &EnergyAudit::heat_in, &EnergyAudit::entropy_in, &EnergyAudit::heat_exchanged,
-        &EnergyAudit::viscous_dissipation, &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work})
+        &EnergyAudit::viscous_dissipation, &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work,
+        &EnergyAudit::inelastic_entropy})
     sum.*part += carried * first.*part;
   add(first.interface, sum.interface, carried);
 }
@@ -197,6 +198,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   energy.viscous_dissipation = work.dissipation - work.plastic_dissipation;
   energy.plastic_dissipation = work.plastic_dissipation;
   energy.plastic_work = work.plastic_work;
+  energy.inelastic_entropy = work.inelastic_entropy;
   energy.stored_heat = balance.stored;
   for (const heat::ConditionHeat& condition : balance.conditions) energy.heat_in += condition.heat;
   energy.entropy_in = balance.entropy_in;

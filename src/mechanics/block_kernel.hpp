@@ -53,6 +53,7 @@ struct BlockWork {
   /// Work of the pressure on the volume that mixed elements leave to their sub-scales [J].
   double stabilisation_work = 0;
   double least_dissipation = 0, largest_dissipation = 0;  ///< [W/m³]
+  double inelastic_entropy = 0;                           ///< change of S^I [J/K]
 };
 
 /// [m³], in two dimensions per depth or radian.

@@ -80,6 +80,7 @@ struct MechanicalWork {
   double dissipation = 0;          ///< Δt ∫ D_mech dV, viscous and plastic (2.113)
   double plastic_dissipation = 0;  ///< the plastic part of it (2.117)
   double plastic_work = 0;  ///< Δt ∫ s : ε̇^vp dV: plastic dissipation and energy stored by hardening
+  double inelastic_entropy = 0;  ///< change of ∫ S^I dV (4.43b) [J/K]
   /// The least and the largest D_mech at any point and zero [W/m³]; the least is negative by rounding at
   /// most.
   double least_dissipation = 0, largest_dissipation = 0;

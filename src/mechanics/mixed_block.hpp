@@ -172,9 +172,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     prepare(start);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Sym<Lane> gradient = at_point(batch).strain(gather(start.held_displacement, batch));
-      this->points_.hold_deformation(batch, 0,
-                                     this->deformation(strain(gradient, volume_[at(batch)]),
-                                                       this->old_state(batch, 0), this->is_solid(batch, 0)));
+      this->hold_point(batch, 0, strain(gradient, volume_[at(batch)]));
     }
   }
 

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 10";
+constexpr const char* k_format = "Solidus checkpoint 11";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -43,8 +43,8 @@ void each_number(C& c, const Visit& visit) {
   all(o.limits.control, o.limits.temperature, o.limits.displacement, o.limits.solid_fraction,
       o.limits.inertia);
   all(e.stored_heat, e.structural, e.contact, e.kinetic, e.friction, e.frictional_heat, e.numerical, e.work,
-      e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation,
-      e.plastic_work);
+      e.heat_in, e.entropy_in, e.heat_exchanged, e.viscous_dissipation, e.plastic_dissipation, e.plastic_work,
+      e.inelastic_entropy, e.internal_at_start);
   all(l.mechanical, l.thermal, l.entropy, l.frictional_entropy);
 }
 

@@ -49,6 +49,8 @@ constexpr ElementFieldName k_elements[] = {
     {"back_stress", "Pa", ElementField::back_stress, true},
     {"flow_stress", "Pa", ElementField::flow_stress, true},
     {"pore_fraction", "1", ElementField::pore_fraction, false},
+    {"thermal_dissipation", "W/m3", ElementField::thermal_dissipation, true, true},
+    {"inelastic_entropy", "J/m3/K", ElementField::inelastic_entropy, true, true},
     {"strain", "1", ElementField::strain, false, true},
     {"intermediate_temperature", "K", ElementField::intermediate_temperature, false, true}};
 
@@ -200,14 +202,18 @@ void StateFields::add_elements() {
 }
 
 void StateFields::add_heat_flux() {
-  const auto compute = [this] {
-    return element_heat_flux(
-        mesh_, kind_,
-        [this](int body) -> const material::Material& { return phases_.heat->storage().material(body); },
-        *by_name_.at("temperature"));
+  const auto add = [this](const char* name, const char* unit, int components, auto element_values) {
+    const auto compute = [this, element_values] {
+      return element_values(
+          mesh_, kind_,
+          [this](int body) -> const material::Material& { return phases_.heat->storage().material(body); },
+          *by_name_.at("temperature"));
+    };
+    values_.push_back(
+        std::make_unique<Values>(Values{name, unit, components, Place::cell, {}, false, compute, true}));
   };
-  values_.push_back(std::make_unique<Values>(
-      Values{"heat_flux", "W/m2", mesh_.dimension, Place::cell, {}, false, compute, true}));
+  add("heat_flux", "W/m2", mesh_.dimension, element_heat_flux);
+  add("conduction_dissipation", "W/m3", 1, element_conduction_dissipation);
 }
 
 void StateFields::add_nodal_stress() {

@@ -44,7 +44,8 @@ class GlobalHistory {
     bool dynamics = false;   ///< bodies have inertia
     bool stability = false;  ///< 𝓛 is followed
     std::vector<PairColumns> pairs = {};
-    bool heat = true;  ///< is followed: the first law is audited
+    bool heat = true;              ///< is followed: the first law is audited
+    bool internal_energy = false;  ///< states have one (coupling/internal_energy.hpp)
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 
