@@ -15,6 +15,7 @@
 #include "app/command_tree.hpp"
 #include "app/completion.hpp"
 #include "app/manual_page.hpp"
+#include "app/program_version.hpp"
 #include "app/python_tools.hpp"
 #include "app/python_verbs.hpp"
 #include "app/signals.hpp"
@@ -27,6 +28,7 @@
 #include "base/log.hpp"
 #include "base/profile.hpp"
 #include "base/terminal.hpp"
+#include "base/version.hpp"
 #include "material/library.hpp"
 #include "mesh/reader_process.hpp"
 #include "model/case_keys.hpp"
@@ -135,13 +137,13 @@ KnownWords known_words() {
 }
 
 ExitCode parse_and_run(int argc, char** argv) {
-  CLI::App program("Solidus " SOLIDUS_VERSION ": how a metal casting solidifies in its mould.");
+  CLI::App program("Solidus " + program_version() + ": how a metal casting solidifies in its mould.");
   program.require_subcommand(1);
   program.footer(
       "Options of PETSc follow behind --, for example: solidus run CASE -- -heat_ksp_monitor\n"
       "Exit codes: 0 done, 1 your input, 2 the simulation could not go on, 3 our bug, 130 stopped by "
       "Ctrl-C.");
-  program.set_version_flag("--version", "Solidus " SOLIDUS_VERSION, "Print the version");
+  program.set_version_flag("--version", "Solidus " + program_version(), "Print the version");
   std::string level = "info";
   program.add_option("--log", level, "debug, info, warn or silent")->type_name("LEVEL");
 
@@ -315,6 +317,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (const std::optional<int> code = mesh::serve_as_reader(argc, argv)) return *code;
+  set_program_version(SOLIDUS_PROGRAM_VERSION);
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
   // A downstream reader that has ended is no failure: output to it is lost.
