@@ -16,9 +16,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE zstd)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME solidus)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "simulates how a metal casting solidifies in its mould
- Heat with phase change, elasto-viscoplastic deformation and thermomechanical contact of a casting, its mould, cores and
- chills, coupled. Cases are text files; results are tables, fields for ParaView and a page for the browser.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Heat with phase change, elasto-viscoplastic deformation and thermomechanical contact of a casting, its mould, cores and
+chills, coupled. Cases are text files; results are tables, fields for ParaView and a page for the browser.")
 # Libraries: by what the program is linked with. The pictures need Python; ranks need mpirun; OpenBLAS is several times as fast as the
 # reference BLAS that PETSc would be content with.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
@@ -28,8 +27,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "paraview, libsolidus-dev")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsolidus-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "libraries of Solidus, for other programs
- Static libraries with headers and what CMake's find_package(solidus) needs.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Libraries of Solidus for other programs: static libraries with headers and what CMake's find_package(solidus) needs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "petsc-dev, libopenmpi-dev, libmetis-dev, libeigen3-dev, libudunits2-dev, libcli11-dev, libfmt-dev, libspdlog-dev, libboost-dev, libtomlplusplus-dev, libmuparser-dev, zlib1g-dev, libhdf5-openmpi-dev, pkg-config")
 if(SOLIDUS_GMSH)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libgmsh-dev")
