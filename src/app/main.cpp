@@ -208,12 +208,17 @@ ExitCode parse_and_run(int argc, char** argv) {
   CLI::App* import_verb = add_material_import(*materials_verb, imported);
   CLI::App* scheil_verb = add_solidification(*materials_verb, freezing);
   ExportArguments exported;
-  CLI::App* export_verb = program.add_subcommand(
-      "export", "Write the end of a run as the start of a structural analysis in another program");
+  CLI::App* export_verb = program.add_subcommand("export",
+                                                 "Write what a run left for another program: its end as the "
+                                                 "start of a structural analysis, or its fields");
   export_verb->add_option("FOLDER", exported.folder, "Folder of the run's results")->required();
   export_verb->add_option("--calculix", exported.calculix, "File for CalculiX: stress at every point")
       ->type_name("FILE");
   export_verb->add_option("--abaqus", exported.abaqus, "File for Abaqus: stress of the elements")
+      ->type_name("FILE");
+  export_verb
+      ->add_option("--vtkhdf", exported.vtkhdf,
+                   "One file with the fields of all times, for ParaView 5.12 or newer")
       ->type_name("FILE");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
   add_trust(*export_verb, exported.trust_script);
