@@ -164,9 +164,9 @@ class Writer {
 std::vector<Column> columns_of(const Moment::Piece& piece) {
   std::vector<Column> columns;
   for (const char* section : {"PointData", "CellData"})
-    for (const std::string& name : array_names(*piece.tree, section)) {
+    for (const std::string& name : mesh::array_names(*piece.tree, section)) {
       if (name == k_hidden) continue;
-      const ptree& array = *find_array(*piece.tree, section, name);
+      const ptree& array = *mesh::find_array(*piece.tree, section, name);
       columns.push_back({section, name, mesh::array_unit(array),
                          array.get<std::size_t>("<xmlattr>.NumberOfComponents", 1)});
     }
@@ -180,7 +180,7 @@ std::size_t entities(const Moment::Piece& piece, const Column& column) {
 std::vector<double> values_of(const Moment& moment, const Column& column) {
   std::vector<double> all;
   for (const Moment::Piece& piece : moment.pieces()) {
-    const ptree* array = find_array(*piece.tree, column.section, column.name);
+    const ptree* array = mesh::find_array(*piece.tree, column.section, column.name);
     if (array == nullptr || array->get<std::size_t>("<xmlattr>.NumberOfComponents", 1) != column.components)
       piece.file->fail(fmt::format("the file has no array '{}' as the first of the run has", column.name));
     const std::vector<double> values =
@@ -193,7 +193,7 @@ std::vector<double> values_of(const Moment& moment, const Column& column) {
 std::vector<std::uint8_t> hidden_cells(const Moment& moment) {
   std::vector<std::uint8_t> all;
   for (const Moment::Piece& piece : moment.pieces()) {
-    const ptree* array = find_array(*piece.tree, "CellData", k_hidden);
+    const ptree* array = mesh::find_array(*piece.tree, "CellData", k_hidden);
     const std::vector<double> values = array == nullptr ? std::vector<double>(piece.n_cells, 0.0)
                                                         : piece.file->numbers(*array, piece.n_cells);
     for (const double value : values) all.push_back(static_cast<std::uint8_t>(value));
