@@ -16,8 +16,8 @@ namespace solidus::app {
 namespace {
 
 ExitCode export_fields(const ExportArguments& arguments) {
-  if (arguments.deformed)
-    throw InputError({}, "--deformed is for --calculix and --abaqus",
+  if (arguments.deformed || arguments.temperature_history)
+    throw InputError({}, "--deformed and --temperature-history are for --calculix and --abaqus",
                      "displacements are among the fields: Warp By Vector in ParaView");
   int size = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
@@ -45,9 +45,15 @@ ExitCode export_state(const ExportArguments& arguments) {
   options.file = abaqus ? arguments.abaqus : arguments.calculix;
   options.dialect = abaqus ? results::Dialect::abaqus : results::Dialect::calculix;
   options.deformed = arguments.deformed;
+  options.temperature_history = arguments.temperature_history;
   model::Case c = model::load_case(arguments.folder);
   c.spec.mesh.trust_script = arguments.trust_script;
   const model::ExportReport report = model::export_state(c, options);
+  if (options.temperature_history) {
+    print(fmt::format("{}: {} elements, temperatures at {} times to t = {:g} s\n", options.file.string(),
+                      report.elements, report.times, report.time));
+    return k_done;
+  }
   print(fmt::format(
       "{}: {} elements at t = {:g} s; equilibrium at the final temperature moved nodes by up to {:.3g} m\n",
       options.file.string(), report.elements, report.time, report.adjusted));

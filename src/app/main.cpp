@@ -221,6 +221,8 @@ ExitCode parse_and_run(int argc, char** argv) {
                    "One file with the fields of all times, for ParaView 5.12 or newer")
       ->type_name("FILE");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
+  export_verb->add_flag("--temperature-history", exported.temperature_history,
+                        "With --calculix or --abaqus: the temperatures of all times as the load, no stress");
   add_trust(*export_verb, exported.trust_script);
   NewArguments fresh;
   CLI::App* new_verb = program.add_subcommand("new", "Make a case that runs from the geometry of a casting");

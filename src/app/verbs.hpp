@@ -67,6 +67,7 @@ struct ExportArguments {
   std::string folder;                    ///< of a run
   std::string calculix, abaqus, vtkhdf;  ///< file to write, exactly one of them
   bool deformed = false;                 ///< coordinates with the displacement
+  bool temperature_history = false;      ///< the temperatures of all times as a load
   bool trust_script = false;             ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);

@@ -1,6 +1,7 @@
 /// The temperatures of one mesh on another one: the enthalpy is kept.
 #include "model/field_mapping.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -222,9 +223,8 @@ class FoamBox {
     for (int k = 0; k <= n_[2]; ++k)
       for (int j = 0; j <= n_[1]; ++j)
         for (int i = 0; i <= n_[0]; ++i)
-          points.push_back("(" + std::to_string(size_[0] * i / n_[0]) + " " +
-                           std::to_string(size_[1] * j / n_[1]) + " " + std::to_string(size_[2] * k / n_[2]) +
-                           ")");
+          points.push_back(
+              fmt::format("({} {} {})", size_[0] * i / n_[0], size_[1] * j / n_[1], size_[2] * k / n_[2]));
     within.insert(within.end(), outside.begin(), outside.end());
     owners.insert(owners.end(), outer_owners.begin(), outer_owners.end());
     list(folder / "points", "vectorField", points);
@@ -304,11 +304,12 @@ TEST_F(FieldMapping, FoldersThatCannotBeReadAreNamed) {
   EXPECT_THAT(complaint("T"), HasSubstr("foamFormatConvert"));
   FoamBox::write_field(folder_ / "filling/1/T", {900, 800, 700});
   EXPECT_THAT(complaint("T"), HasSubstr("3 values, the mesh 2 cells"));
-  EXPECT_THAT(complaint("U"), HasSubstr("one of: T"));
+  EXPECT_THAT(complaint("U"), HasSubstr("allowed: T"));
   FoamBox::write_field(folder_ / "filling/1/T", {900, 800});
   std::ofstream(folder_ / "filling/constant/polyMesh/owner")
       << "FoamFile\n{ format ascii; class labelList; }\n11\n(0 0";
-  EXPECT_THAT(complaint("T"), testing::AllOf(HasSubstr("owner"), HasSubstr("ends too early")));
+  EXPECT_THAT(complaint("T"),
+              testing::AllOf(HasSubstr("owner:3"), HasSubstr("more than the file has room for")));
   fs::remove(folder_ / "filling/constant/polyMesh/owner");
   EXPECT_THAT(complaint("T"), HasSubstr("no file 'owner'"));
   fs::remove_all(folder_ / "filling/constant");

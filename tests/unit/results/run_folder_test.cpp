@@ -14,6 +14,7 @@
 #include "results/field_output.hpp"
 #include "results/hdf5_file.hpp"
 #include "results/output_error.hpp"
+#include "results/temperature_history.hpp"
 #include "results/vtkhdf.hpp"
 #include "sample.hpp"
 #include "vtu_reader.hpp"
@@ -253,6 +254,14 @@ TEST_F(Distributed, OneFileOfVtkHdfHoldsAllMoments) {
     std::sort(elements.begin(), elements.end());
     EXPECT_EQ(std::adjacent_find(elements.begin(), elements.end()), elements.end());
     EXPECT_EQ(table(file, "VTKHDF/CellData/vtkGhostType").size(), 48U);
+
+    if (size == 1) {
+      const algebra::ActiveSet active(mesh, {});
+      const std::vector<TemperatureMoment> history = read_temperature_history(run.collection(), mesh, active);
+      ASSERT_EQ(history.size(), 2U);
+      EXPECT_EQ(history[1].time, 2.5);
+      EXPECT_EQ(history[1].temperature, temperature);
+    }
 
     fs::remove(run.fields() / (size == 1 ? "fields_00001.vtu" : "fields_00001_p0.vtu"));
     EXPECT_THROW(write_vtkhdf(run.collection(), folder.path / "none.vtkhdf"), InputError);

@@ -196,6 +196,22 @@ TEST(StructuralDeck, GivesAbaqusMeansAndTheStateOfHardening) {
   EXPECT_EQ(lines_of(deck, "*INITIAL CONDITIONS, TYPE=HARDENING").size(), 4u);
 }
 
+TEST(StructuralDeck, ATemperatureHistoryIsAStepForEachMoment) {
+  const Sample sample(Shape::hex8);
+  StructuralDeck deck = sample.deck(false);
+  for (const double t : {0.0, 10.0, 25.0})
+    deck.history.push_back({t, std::vector<double>(sample.mesh.x.size(), 900 - 10 * t)});
+  for (const Dialect dialect : {Dialect::calculix, Dialect::abaqus}) {
+    const std::string text = structural_deck(deck, dialect);
+    EXPECT_THAT(text,
+                AllOf(HasSubstr("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 900\n"), HasSubstr("*PLASTIC")));
+    EXPECT_THAT(text, AllOf(HasSubstr("*STATIC\n10, 10\n*BOUNDARY\n"), HasSubstr("*TEMPERATURE\n1, 800\n")));
+    EXPECT_THAT(text,
+                AllOf(HasSubstr("** t = 25 s\n*STEP, INC=1000\n*STATIC\n15, 15\n*TEMPERATURE\n1, 650\n"),
+                      Not(HasSubstr("TYPE=STRESS")), Not(HasSubstr("*CLOAD"))));
+  }
+}
+
 TEST(StructuralDeck, HasDeformedCoordinatesWhereAsked) {
   if (!serial()) return;
   const Sample sample(Shape::quad4);
