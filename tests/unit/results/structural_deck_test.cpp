@@ -203,12 +203,12 @@ TEST(StructuralDeck, ATemperatureHistoryIsAStepForEachMoment) {
     deck.history.push_back({t, std::vector<double>(sample.mesh.x.size(), 900 - 10 * t)});
   for (const Dialect dialect : {Dialect::calculix, Dialect::abaqus}) {
     const std::string text = structural_deck(deck, dialect);
-    EXPECT_THAT(text,
-                AllOf(HasSubstr("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 900\n"), HasSubstr("*PLASTIC")));
-    EXPECT_THAT(text, AllOf(HasSubstr("*STATIC\n10, 10\n*BOUNDARY\n"), HasSubstr("*TEMPERATURE\n1, 800\n")));
-    EXPECT_THAT(text,
-                AllOf(HasSubstr("** t = 25 s\n*STEP, INC=1000\n*STATIC\n15, 15\n*TEMPERATURE\n1, 650\n"),
-                      Not(HasSubstr("TYPE=STRESS")), Not(HasSubstr("*CLOAD"))));
+    for (const char* part :
+         {"*PLASTIC", "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n", "\n1, 900\n",
+          "*STEP, INC=1000\n*STATIC\n10, 10\n*BOUNDARY\n1, 1, 1\n*TEMPERATURE\n", "\n1, 800\n",
+          "** t = 25 s\n*STEP, INC=1000\n*STATIC\n15, 15\n*TEMPERATURE\n", "\n1, 650\n"})
+      EXPECT_NE(text.find(part), std::string::npos) << part;
+    for (const char* part : {"TYPE=STRESS", "*CLOAD"}) EXPECT_EQ(text.find(part), std::string::npos) << part;
   }
 }
 
