@@ -193,7 +193,7 @@ RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembl
       from ? std::optional(from->continuation) : std::nullopt);
   if (outcome == coupling::Outcome::finished) return {};
   std::vector<CouplingEstimate> couplings;
-  if (spec.coupled() && spec.coupling.scheme == CouplingSpec::Scheme::isothermal)
+  if (spec.coupled() && spec.coupling.scheme->traits().needs_weak_coupling)
     couplings = coupling_estimates(spec, a.materials, a.mesh, a.start);
   return {false, stop_text(why.stop, spec, why.time,
                            results::CheckpointFolder(options.folder).latest().lexically_normal().string(),
