@@ -7,6 +7,8 @@
 #include <set>
 
 #include "algebra/parallel.hpp"
+#include "contact/laws/contact_law.hpp"
+#include "contact/laws/gap_law.hpp"
 #include "model/findings.hpp"
 #include "model/friction_input.hpp"
 
@@ -140,28 +142,19 @@ void films_beside_contacts(const CaseSpec& spec, Findings& findings) {
 void conductances(const CaseSpec& spec, Findings& findings) {
   for (const ContactSpec& contact : spec.contacts) {
     if (!contact.heat) continue;
-    using Law = contact::HeatTransferSpec::ContactLaw;
-    const double h = contact.heat->conductance;
-    if (contact.heat->contact_law == Law::power && (h < 20 || h > 1e6))
-      findings.push_back(
-          {h > 1e8, contact.where,
-           fmt::format("the contact '{}' conducts {:g} W/m2/K where it is closed", contact.name, h),
-           "usual are 100 to 50000 W/m2/K between casting and mould"});
-    const bool through_gas = contact.heat->gap_law == contact::HeatTransferSpec::GapLaw::gas;
-    if (const double gas = contact.heat->gas_conductivity; gas > 0.6 || (through_gas && gas < 0.005))
-      findings.push_back({false, contact.where,
-                          fmt::format("the gas in the gap of '{}' conducts {:g} W/m/K", contact.name, gas),
-                          "air conducts 0.03 to 0.1 W/m/K, hydrogen 0.2 to 0.6"});
+    for (const contact::ConductanceLaw* law : std::initializer_list<const contact::ConductanceLaw*>{
+             contact.heat->contact_law.get(), contact.heat->gap_law.get()})
+      for (const contact::Remark& remark : law->remarks(contact.name))
+        findings.push_back({remark.error, contact.where, remark.found, remark.usual});
   }
 }
 
 /// 5.24 without a heat capacity would forbid every slip that changes the entropy: the interface keeps its
 /// temperature instead, and the estimate of the isentropic split with it (5.13a).
 void isentropic_friction(const CaseSpec& spec, Findings& findings) {
-  using Scheme = CouplingSpec::Scheme;
-  if (!spec.coupled() ||
-      (spec.coupling.scheme != Scheme::isentropic && spec.coupling.scheme != Scheme::double_pass))
-    return;
+  if (!spec.coupled()) return;
+  const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
+  if (traits.mapping != mechanics::Mapping::isentropic || traits.iterates) return;
   for (const ContactSpec& contact : spec.contacts) {
     if (!contact.friction || contact.interface.heat_capacity > 0 ||
         contact.friction->internal_variable != contact::InternalVariable::normal_work)

@@ -201,7 +201,7 @@ class Transient {
     if (!outcome) return {};
     if (*outcome == coupling::Outcome::finished) return RunResult{};
     std::vector<CouplingEstimate> couplings;
-    if (spec_.coupled() && spec_.coupling.scheme == CouplingSpec::Scheme::isothermal)
+    if (spec_.coupled() && spec_.coupling.scheme->traits().needs_weak_coupling)
       couplings = coupling_estimates(spec_, a_.materials, a_.mesh, a_.start);
     const std::string checkpoint =
         options_.folder.empty()

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/laws/power_contact.hpp"
 #include "contact_bodies.hpp"
 #include "coupling_bodies.hpp"
 #include "csv.hpp"
@@ -34,7 +35,7 @@ constexpr double k_capacity = 7800.0 * 500.0;      // of test::elastic [J/(m³ K
 contact::ContactSpec rubbing(double conductance) {
   contact::ContactSpec s = test::interface();
   s.heat = contact::HeatTransferSpec{};
-  s.heat->conductance = conductance;
+  s.heat->contact_law = contact::contact_law(contact::PowerContact{conductance});
   s.friction = contact::FrictionSpec{};
   s.friction->coefficient.terms = {Table(0.3)};
   return s;

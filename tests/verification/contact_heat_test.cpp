@@ -9,6 +9,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/laws/gas_gap.hpp"
+#include "contact/laws/power_contact.hpp"
+#include "contact/laws/tabulated.hpp"
 #include "contact_bodies.hpp"
 
 namespace solidus {
@@ -66,7 +69,7 @@ double deviation(const mesh::Mesh& mesh, const heat::ThermalState& state, double
 contact::ContactSpec conducting(double h) {
   contact::ContactSpec s = test::interface();
   s.heat = HeatLaw{};
-  s.heat->conductance = h;
+  s.heat->contact_law = contact::contact_law(contact::PowerContact{h});
   return s;
 }
 
@@ -181,8 +184,8 @@ TEST(TwoBars, WithTablesOfTheTemperatureConductAtItsMeanAcrossTheInterface) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   contact::ContactSpec spec = test::interface();
   spec.heat = HeatLaw{};
-  spec.heat->contact_law = HeatLaw::ContactLaw::table;
-  spec.heat->gap_law = HeatLaw::GapLaw::table;
+  spec.heat->contact_law = contact::contact_law(contact::TableContact{});
+  spec.heat->gap_law = contact::gap_law(contact::TableGap{});
   spec.heat->families = {{300, Table(500.0), Table({0, 1e-4}, {500, 100})},
                          {900, Table(4000.0), Table({0, 1e-4}, {4000, 200})}};
   for (const bool nodal : {true, false}) {
@@ -245,11 +248,8 @@ struct ClosedForm {
 void expand(double gap0, double alpha, bool closes) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4, gap0);
   contact::ContactSpec spec = conducting(3000);
-  spec.heat->exponent = 0.95;
-  spec.heat->hardness = 5e8;
-  spec.heat->gap_law = HeatLaw::GapLaw::gas;
-  spec.heat->open_conductance = 1500;
-  spec.heat->gas_conductivity = 0.05;
+  spec.heat->contact_law = contact::contact_law(contact::PowerContact{3000, 0.95, 5e8});
+  spec.heat->gap_law = contact::gap_law(contact::GasGap{.conductivity = 0.05, .open_conductance = 1500});
   contact::ContactPair pair(mesh, AnalysisKind::plane_strain, spec, std::vector<double>{70e9, 210e9});
 
   mechanics::Conditions supports = test::symmetric_supports(2);
