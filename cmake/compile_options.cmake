@@ -1,9 +1,16 @@
 add_library(solidus_options INTERFACE)
 target_compile_features(solidus_options INTERFACE cxx_std_20)
-target_include_directories(solidus_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
-target_compile_options(solidus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -Wno-psabi
-                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # false positives of g++ 12 on std::string (GCC bug 105651)
-                       -fno-math-errno -fno-trapping-math)
+# Whoever links the installed libraries gets their headers and what they must share with them, and keeps warnings of his own.
+target_include_directories(solidus_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                           $<INSTALL_INTERFACE:include/solidus>)
+target_compile_options(solidus_options INTERFACE
+                       $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Werror>
+                       -Wno-psabi
+                       $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>> # false positives of g++ 12 on std::string (GCC bug 105651)
+                       $<BUILD_INTERFACE:-fno-math-errno;-fno-trapping-math>)
+# The same objects serve the program and the Python module, which is a shared library. Calls within a file are inlined as without it;
+# in the program the linker turns the detours over tables of addresses back into direct ones.
+target_compile_options(solidus_options INTERFACE $<BUILD_INTERFACE:-fPIC;-fno-semantic-interposition>)
 target_compile_definitions(solidus_options INTERFACE SOLIDUS_VERSION="${PROJECT_VERSION}" OMPI_SKIP_MPICXX)
 if(SOLIDUS_MARCH)
   target_compile_options(solidus_options INTERFACE -march=${SOLIDUS_MARCH})

@@ -1,4 +1,5 @@
 # Everything comes from Debian 12 packages; PETSc, Gmsh, METIS and UDUNITS-2 have no CMake configs there.
+# An installed Solidus brings this file: whoever links its libraries finds theirs by it.
 find_package(PkgConfig REQUIRED)
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(fmt REQUIRED)
@@ -14,12 +15,17 @@ pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi) # the flavour that
 
 # An imported target for a library that is only a header and a shared object.
 function(solidus_plain_library name header)
+  if(TARGET ${name})
+    return()
+  endif()
   find_path(${name}_INCLUDE_DIR ${header} REQUIRED)
   find_library(${name}_LIBRARY ${name} REQUIRED)
   add_library(${name} UNKNOWN IMPORTED GLOBAL)
   set_target_properties(${name} PROPERTIES IMPORTED_LOCATION ${${name}_LIBRARY}
                         INTERFACE_INCLUDE_DIRECTORIES ${${name}_INCLUDE_DIR})
 endfunction()
-solidus_plain_library(gmsh gmsh.h)
+if(SOLIDUS_GMSH)
+  solidus_plain_library(gmsh gmsh.h)
+endif()
 solidus_plain_library(metis metis.h)
 solidus_plain_library(udunits2 udunits2.h)

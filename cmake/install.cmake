@@ -1,12 +1,19 @@
-# What `cmake --install` brings beside the program: materials, the Python modules that draw, schemas, completion for shells,
-# the manual page and the documents. The program finds them relative to itself, so that the prefix may be moved.
+# What `cmake --install` brings. The component `program`: the program, materials, interfaces, the Python modules that draw, cases as
+# examples, schemas, completion for shells, the manual page and the documents; the program finds them relative to itself, so that the
+# prefix may be moved. The component `development`: the libraries with their headers and what find_package(solidus) needs.
 include(GNUInstallDirs)
-install(TARGETS solidus)
-install(DIRECTORY materials interfaces DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus)
-install(DIRECTORY python DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus PATTERN __pycache__ EXCLUDE)
-install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/solidus)
-install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
-install(FILES README.md CHANGELOG.md LICENSE SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+include(CMakePackageConfigHelpers)
+set(shared ${CMAKE_INSTALL_DATADIR}/solidus)
+
+install(TARGETS solidus COMPONENT program)
+install(DIRECTORY materials interfaces DESTINATION ${shared} COMPONENT program)
+install(DIRECTORY python DESTINATION ${shared} COMPONENT program PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY cases DESTINATION ${shared} COMPONENT program PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
+install(FILES README.md CHANGELOG.md LICENSE SECURITY.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+if(TARGET solidus_python)
+  install(TARGETS solidus_python LIBRARY DESTINATION ${shared}/python/solidus_casting COMPONENT program)
+endif()
 
 # The program that was just installed writes them, from its own declarations.
 install(CODE "
@@ -25,7 +32,26 @@ install(CODE "
   solidus_writes(${CMAKE_INSTALL_DATADIR}/zsh/site-functions/_solidus completion zsh)
   solidus_writes(${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d/solidus.fish completion fish)
   solidus_writes(${CMAKE_INSTALL_MANDIR}/man1/solidus.1 man)
-  solidus_writes(${CMAKE_INSTALL_DATADIR}/solidus/schema/case.schema.json schema)
-  solidus_writes(${CMAKE_INSTALL_DATADIR}/solidus/schema/material.schema.json schema --material)
-  solidus_writes(${CMAKE_INSTALL_DATADIR}/solidus/schema/point.schema.json schema --point)
-")
+  solidus_writes(${shared}/schema/case.schema.json schema)
+  solidus_writes(${shared}/schema/material.schema.json schema --material)
+  solidus_writes(${shared}/schema/point.schema.json schema --point)
+" COMPONENT program)
+
+# The libraries: solidus::model for whole cases, solidus::material for laws and cards, and so on, one a folder of src.
+get_property(rooms GLOBAL PROPERTY SOLIDUS_ROOMS)
+foreach(room ${rooms} solidus_options)
+  string(REPLACE solidus_ "" name ${room})
+  set_target_properties(${room} PROPERTIES EXPORT_NAME ${name})
+endforeach()
+install(TARGETS ${rooms} solidus_options EXPORT solidus_targets COMPONENT development
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/solidus)
+install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/solidus COMPONENT development
+        FILES_MATCHING PATTERN *.hpp PATTERN app EXCLUDE)
+set(config ${CMAKE_INSTALL_LIBDIR}/cmake/solidus)
+install(EXPORT solidus_targets NAMESPACE solidus:: DESTINATION ${config} COMPONENT development)
+configure_package_config_file(cmake/solidus-config.cmake.in made/solidus-config.cmake INSTALL_DESTINATION ${config})
+write_basic_package_version_file(made/solidus-config-version.cmake COMPATIBILITY ExactVersion)
+install(FILES ${PROJECT_BINARY_DIR}/made/solidus-config.cmake ${PROJECT_BINARY_DIR}/made/solidus-config-version.cmake
+        cmake/dependencies.cmake DESTINATION ${config} COMPONENT development)
+install(DIRECTORY examples/embed DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libsolidus-dev/examples COMPONENT development)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libsolidus-dev COMPONENT development)

@@ -10,8 +10,8 @@ if(SOLIDUS_PCH)
   # g++ 12 forgets that a precompiled header is the system's, and its false alarms in std::string (PR 105651, see -Wno-restrict)
   # come back under other names. Builds without precompiled headers keep these warnings.
   target_compile_options(solidus_options INTERFACE
-    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>
-    $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>)
+    $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>>
+    $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>>)
 endif()
 
 # Headers compiled once for all the targets that use them: the standard library's, fmt's and those named after `libraries`, whose

@@ -1,6 +1,5 @@
 /// The verbs that need no case: explain, schema, version.
 #include <fmt/format.h>
-#include <gmsh.h>
 #include <petscsys.h>
 
 #include <cerrno>
@@ -11,7 +10,9 @@
 #include "base/errors.hpp"
 #include "base/input_file.hpp"
 #include "base/key_docs.hpp"
+#include "base/version.hpp"
 #include "material/library.hpp"
+#include "mesh/gmsh_reader.hpp"
 #include "model/case_keys.hpp"
 #include "point/spec.hpp"
 
@@ -65,7 +66,7 @@ ExitCode schema(FileKind file) {
 ExitCode version() {
   char petsc[128] = "";
   PetscGetVersion(petsc, sizeof petsc);
-  print(fmt::format("Solidus {}\n{}\nGmsh {}\n", SOLIDUS_VERSION, petsc, GMSH_API_VERSION));
+  print(fmt::format("Solidus {}\n{}\nGmsh {}\n", program_version(), petsc, mesh::gmsh_version()));
   return k_done;
 }
 

@@ -1,24 +1,59 @@
-/// The verb `export`: the end of a run as the start of a structural analysis.
+/// The verb `export`: the end of a run as the start of a structural analysis, or its fields in one file.
 #include "model/export.hpp"
 
 #include <fmt/format.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <filesystem>
 
 #include "app/verbs.hpp"
+#include "base/errors.hpp"
+#include "results/vtkhdf.hpp"
 
 namespace solidus::app {
 
+namespace {
+
+ExitCode export_fields(const ExportArguments& arguments) {
+  if (arguments.deformed || arguments.temperature_history)
+    throw InputError({}, "--deformed and --temperature-history are for --calculix and --abaqus",
+                     "displacements are among the fields: Warp By Vector in ParaView");
+  int size = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  if (size > 1) throw InputError({}, "the export works on one process", "without mpirun");
+  const std::filesystem::path folder = arguments.folder;
+  if (!std::filesystem::exists(folder / "fields.pvd"))
+    throw InputError({arguments.folder}, "the folder has no fields.pvd", "the folder of a run's results");
+  const results::VtkHdfReport report = results::write_vtkhdf(folder / "fields.pvd", arguments.vtkhdf);
+  print(fmt::format("{}: {} fields at {} times, {} points and {} cells\n", arguments.vtkhdf, report.fields,
+                    report.times, report.points, report.cells));
+  return k_done;
+}
+
+}  // namespace
+
 ExitCode export_state(const ExportArguments& arguments) {
-  if (arguments.abaqus.empty() == arguments.calculix.empty())
-    throw InputError({}, "export needs the format and the file to write", "--calculix FILE or --abaqus FILE");
+  const auto formats = {&arguments.abaqus, &arguments.calculix, &arguments.vtkhdf};
+  if (std::count_if(formats.begin(), formats.end(), [](const auto* file) { return !file->empty(); }) != 1)
+    throw InputError({}, "export needs one format and the file to write",
+                     "--calculix FILE, --abaqus FILE or --vtkhdf FILE");
+  if (!arguments.vtkhdf.empty()) return export_fields(arguments);
   const bool abaqus = !arguments.abaqus.empty();
   model::ExportOptions options;
   options.folder = arguments.folder;
   options.file = abaqus ? arguments.abaqus : arguments.calculix;
   options.dialect = abaqus ? results::Dialect::abaqus : results::Dialect::calculix;
   options.deformed = arguments.deformed;
+  options.temperature_history = arguments.temperature_history;
   model::Case c = model::load_case(arguments.folder);
   c.spec.mesh.trust_script = arguments.trust_script;
   const model::ExportReport report = model::export_state(c, options);
+  if (options.temperature_history) {
+    print(fmt::format("{}: {} elements, temperatures at {} times to t = {:g} s\n", options.file.string(),
+                      report.elements, report.times, report.time));
+    return k_done;
+  }
   print(fmt::format(
       "{}: {} elements at t = {:g} s; equilibrium at the final temperature moved nodes by up to {:.3g} m\n",
       options.file.string(), report.elements, report.time, report.adjusted));

@@ -1,4 +1,4 @@
-/// Loads a case with the options of the command line.
+/// Loads a case with the options of the command line; the verb `resolve`, which prints it.
 #include "app/verbs.hpp"
 
 namespace solidus::app {
@@ -10,6 +10,11 @@ model::Case load_case(const CaseArguments& arguments) {
   model::Case c = model::load_case(arguments.path, arguments.set, physics);
   c.spec.mesh.trust_script = arguments.trust_script;
   return c;
+}
+
+ExitCode resolve(const CaseArguments& arguments) {
+  print(load_case(arguments).toml());
+  return k_done;
 }
 
 }  // namespace solidus::app

@@ -15,6 +15,7 @@
 #include "app/command_tree.hpp"
 #include "app/completion.hpp"
 #include "app/manual_page.hpp"
+#include "app/program_version.hpp"
 #include "app/python_tools.hpp"
 #include "app/python_verbs.hpp"
 #include "app/signals.hpp"
@@ -27,6 +28,7 @@
 #include "base/log.hpp"
 #include "base/profile.hpp"
 #include "base/terminal.hpp"
+#include "base/version.hpp"
 #include "material/library.hpp"
 #include "mesh/reader_process.hpp"
 #include "model/case_keys.hpp"
@@ -135,13 +137,13 @@ KnownWords known_words() {
 }
 
 ExitCode parse_and_run(int argc, char** argv) {
-  CLI::App program("Solidus " SOLIDUS_VERSION ": how a metal casting solidifies in its mould.");
+  CLI::App program("Solidus " + program_version() + ": how a metal casting solidifies in its mould.");
   program.require_subcommand(1);
   program.footer(
       "Options of PETSc follow behind --, for example: solidus run CASE -- -heat_ksp_monitor\n"
       "Exit codes: 0 done, 1 your input, 2 the simulation could not go on, 3 our bug, 130 stopped by "
       "Ctrl-C.");
-  program.set_version_flag("--version", "Solidus " SOLIDUS_VERSION, "Print the version");
+  program.set_version_flag("--version", "Solidus " + program_version(), "Print the version");
   std::string level = "info";
   program.add_option("--log", level, "debug, info, warn or silent")->type_name("LEVEL");
 
@@ -161,7 +163,10 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Show the report while the run goes on, at an address of this machine alone");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");
   add_case_arguments(*check_verb, arguments);
-  for (CLI::App* verb : {run_verb, check_verb}) {
+  CLI::App* resolve_verb =
+      program.add_subcommand("resolve", "Print a case as one file: includes, --set and defaults in place");
+  add_case_arguments(*resolve_verb, arguments);
+  for (CLI::App* verb : {run_verb, check_verb, resolve_verb}) {
     CLI::Option* heat_only = verb->add_flag("--heat-only", arguments.heat_only,
                                             "Compute heat alone; what does not apply is left out and named");
     verb->add_flag("--coupled", arguments.coupled, "Compute heat and mechanics")->excludes(heat_only);
@@ -206,14 +211,21 @@ ExitCode parse_and_run(int argc, char** argv) {
   CLI::App* import_verb = add_material_import(*materials_verb, imported);
   CLI::App* scheil_verb = add_solidification(*materials_verb, freezing);
   ExportArguments exported;
-  CLI::App* export_verb = program.add_subcommand(
-      "export", "Write the end of a run as the start of a structural analysis in another program");
+  CLI::App* export_verb = program.add_subcommand("export",
+                                                 "Write what a run left for another program: its end as the "
+                                                 "start of a structural analysis, or its fields");
   export_verb->add_option("FOLDER", exported.folder, "Folder of the run's results")->required();
   export_verb->add_option("--calculix", exported.calculix, "File for CalculiX: stress at every point")
       ->type_name("FILE");
   export_verb->add_option("--abaqus", exported.abaqus, "File for Abaqus: stress of the elements")
       ->type_name("FILE");
+  export_verb
+      ->add_option("--vtkhdf", exported.vtkhdf,
+                   "One file with the fields of all times, for ParaView 5.12 or newer")
+      ->type_name("FILE");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
+  export_verb->add_flag("--temperature-history", exported.temperature_history,
+                        "With --calculix or --abaqus: the temperatures of all times as the load, no stress");
   add_trust(*export_verb, exported.trust_script);
   NewArguments fresh;
   CLI::App* new_verb = program.add_subcommand("new", "Make a case that runs from the geometry of a casting");
@@ -285,6 +297,7 @@ ExitCode parse_and_run(int argc, char** argv) {
                                     : FileKind::case_file;
   if (*run_verb) return run(arguments);
   if (*check_verb) return check(arguments);
+  if (*resolve_verb) return resolve(arguments);
   if (*point_verb) return run_point(arguments);
   if (*explain_verb) return explain(file, key, manual);
   if (*schema_verb) return schema(file);
@@ -320,6 +333,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (const std::optional<int> code = mesh::serve_as_reader(argc, argv)) return *code;
+  set_program_version(SOLIDUS_PROGRAM_VERSION);
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
   // A downstream reader that has ended is no failure: output to it is lost.

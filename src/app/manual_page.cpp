@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/version.hpp"
+
 namespace solidus::app {
 
 namespace {
@@ -57,7 +59,7 @@ std::vector<VerbInfo> with_those_below(const std::vector<VerbInfo>& verbs) {
 }  // namespace
 
 std::string manual_page(const CommandTree& tree) {
-  std::string out = fmt::format(".TH SOLIDUS 1 \"\" \"Solidus {}\" \"User commands\"\n", SOLIDUS_VERSION);
+  std::string out = fmt::format(".TH SOLIDUS 1 \"\" \"Solidus {}\" \"User commands\"\n", program_version());
   out += ".SH NAME\nsolidus \\- how a metal casting solidifies in its mould\n.SH SYNOPSIS\n";
   const std::vector<VerbInfo> verbs = with_those_below(tree.verbs);
   for (const VerbInfo& verb : verbs) out += synopsis(verb) + "\n.br\n";

@@ -11,6 +11,7 @@
 #include "app/places.hpp"
 #include "app/verbs.hpp"
 #include "base/types.hpp"
+#include "base/version.hpp"
 #include "material/library.hpp"
 #include "model/case_materials.hpp"
 #include "model/overrides.hpp"
@@ -196,7 +197,7 @@ ExitCode run_point(const CaseArguments& arguments) {
     write_curve(point_case.curves[i], histories[i], folder, summary);
 
   Json json;
-  json.add("kind", "point").add("program", "Solidus " SOLIDUS_VERSION).add("title", point_case.title);
+  json.add("kind", "point").add("program", "Solidus " + program_version()).add("title", point_case.title);
   json.add("curves", std::move(summary.curves));
   Json::Array pictures;
   for (const auto& picture : point_case.pictures) pictures.push_back(picture_entry(picture));

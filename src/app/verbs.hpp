@@ -30,6 +30,8 @@ void print(const std::string& text);
 
 ExitCode run(const CaseArguments& arguments);
 ExitCode check(const CaseArguments& arguments);
+/// Prints a case as one file: includes, overrides and defaults in place, paths absolute. Reads no mesh.
+ExitCode resolve(const CaseArguments& arguments);
 /// A material point through a history of strain, stress and temperature.
 /// @param arguments path: a point file, or a folder with a point.toml
 ExitCode run_point(const CaseArguments& arguments);
@@ -64,10 +66,11 @@ ExitCode solidification_path(const SolidificationArguments& arguments);
 /// A case as the command line changes it. Throws InputError.
 model::Case load_case(const CaseArguments& arguments);
 struct ExportArguments {
-  std::string folder;            ///< of a run
-  std::string calculix, abaqus;  ///< file to write, exactly one of them
-  bool deformed = false;         ///< coordinates with the displacement
-  bool trust_script = false;     ///< as of CaseArguments
+  std::string folder;                    ///< of a run
+  std::string calculix, abaqus, vtkhdf;  ///< file to write, exactly one of them
+  bool deformed = false;                 ///< coordinates with the displacement
+  bool temperature_history = false;      ///< the temperatures of all times as a load
+  bool trust_script = false;             ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);
 struct NewArguments {

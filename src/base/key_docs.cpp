@@ -348,6 +348,9 @@ std::string json_schema(const SectionInfo& root, const std::string& title) {
 std::string reference_manual(const SectionInfo& root, const std::string& title) {
   std::string out = fmt::format("# {}\n\n", title);
   manual_of_section(root, "Top of the file", "", out);
+  out +=
+      "Next: [the case file, explained](../guide/case_file.md) · [material cards](../guide/materials.md) · "
+      "[a material point](../guide/point.md) · [what a message means](../guide/troubleshooting.md)\n";
   return out;
 }
 

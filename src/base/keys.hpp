@@ -39,6 +39,8 @@ std::string_view name(Argument argument);     ///< "time"
 std::string_view si_unit(Argument argument);  ///< "s"
 
 struct PlaceSpec;  // base/place_spec.hpp
+template <class Interface>
+class Kinds;  // base/kinds.hpp
 
 /// A table-valued quantity as the user gave it, in SI: a constant ("2.3 N/mm/s/K"), or a table
 /// { of = "time", argument_unit = "s", unit = "degC", points = [[0, 20], [10, 30]], extrapolation =
@@ -122,6 +124,9 @@ struct SectionInfo {
   /// Throws InputError for unknown, missing and misplaced keys.
   /// @param path the section as a user names it, "[mesh.parameters]"; for messages
   Value completed(const Value& table, const std::string& path) const;
+  /// Adds the keys of a kind (base/kinds.hpp), which belong to the section where the key `chosen_by` has its
+  /// name; several kinds may share a key. Throws std::logic_error where the section has such a key itself.
+  void add_kind(const std::string& chosen_by, const std::string& kind, const SectionInfo& of_kind);
 };
 
 /// The one of `names` that the user may have meant; empty when none is near.
@@ -254,6 +259,26 @@ class Section {
     });
     return key;
   }
+  /// One of several kinds of object (base/kinds.hpp), whose keys stand in this section too.
+  template <class Interface>
+  Key& kinds(const std::string& name, std::shared_ptr<const Interface> T::*member,
+             const Kinds<Interface>& family) {
+    Key& key = add(name, Key::Kind::choice);
+    for (const auto& kind : family.all()) {
+      key.allowed.push_back(kind.name);
+      key.allowed_docs.push_back(kind.doc);
+      info_->add_kind(name, kind.name, *kind.keys);
+    }
+    assign_.resize(info_->keys.size(), [](T&, const Value&) {});  // the kind reads its keys itself
+    assign_whole_.push_back([&key, member, &family](T& out, const Value& section) {
+      const Value* const chosen = section.find(key.name);
+      if (chosen == nullptr) return;
+      const std::string& text = keys::choice_text(*chosen, key);
+      for (const auto& kind : family.all())
+        if (kind.name == text) out.*member = kind.read(section);
+    });
+    return key;
+  }
   /// A sub-section [name]; absent means its defaults, or nothing when the member is a std::optional.
   template <class M>
   Key& section(std::string name, M T::*member, const Section<typename keys::Plain<M>::type>& inner) {
@@ -308,6 +333,7 @@ class Section {
     if (place_) out.*place_ = complete.where;
     for (std::size_t i = 0; i < assign_.size(); ++i)
       if (const Value* value = complete.find(info_->keys[i].name)) assign_[i](out, *value);
+    for (const auto& assign_kind : assign_whole_) assign_kind(out, complete);
   }
   const SectionInfo& info() const { return *info_; }
   std::shared_ptr<const SectionInfo> shared_info() const { return info_; }
@@ -330,7 +356,8 @@ class Section {
   }
 
   std::shared_ptr<SectionInfo> info_ = std::make_shared<SectionInfo>();
-  std::vector<std::function<void(T&, const Value&)>> assign_;  ///< one per key of info_, in its order
+  std::vector<std::function<void(T&, const Value&)>> assign_;        ///< one per key of info_, in its order
+  std::vector<std::function<void(T&, const Value&)>> assign_whole_;  ///< from the whole section
   SourceLocation T::*place_ = nullptr;
 };
 

@@ -126,10 +126,11 @@ void read_file(const Value& table, const Key& key, PlaceSpec& place) {
     place.column = text_of(table, "column", key);
     return;
   }
-  if (ending != ".vtu" && ending != ".pvtu")
+  std::error_code none;
+  if (ending != ".vtu" && ending != ".pvtu" && !std::filesystem::is_directory(place.file, none))
     throw InputError(table.find("file")->where,
                      fmt::format("'{}' of '{}' is no file of points or of a field", place.file, key.name),
-                     "a .csv, .vtu or .pvtu file");
+                     "a .csv, .vtu or .pvtu file, or the folder of a time of OpenFOAM");
   place.kind = PlaceSpec::Kind::field;
   allow(table, key, k_field_keys);
   place.column = text_of(table, "field", key);

@@ -94,7 +94,7 @@ FrictionResponse FrictionLaw::solve(const FrictionInput& in, Radius radius) cons
   FrictionResponse r;
   r.traction = in.trial;
   r.internal_variable = in.internal_variable;
-  r.temperature = in.temperature;
+  r.temperature = in.held().temperature;
   r.coefficient = radius(in.internal_variable).value;
   if (!(r.coefficient > 0)) {
     r.status = FrictionStatus::coefficient_vanishes;
@@ -127,8 +127,9 @@ bool FrictionLaw::unique(const FrictionInput& in, const FrictionResponse& r) con
 
 bool FrictionLaw::unique_between(const FrictionInput& in, const FrictionResponse& r, double from, double to,
                                  int halvings) const {
-  auto slope = coefficient_.slopes(from, to, in.temperature);
-  if (r.temperature != in.temperature) {
+  const double held = in.held().temperature;
+  auto slope = coefficient_.slopes(from, to, held);
+  if (r.temperature != held) {
     const auto other = coefficient_.slopes(from, to, r.temperature);
     slope = {std::min(slope.low, other.low), std::max(slope.high, other.high)};
   }
@@ -136,7 +137,7 @@ bool FrictionLaw::unique_between(const FrictionInput& in, const FrictionResponse
   double growth = 1;  // the largest dζ/dγ
   if (kind_ == InternalVariable::normal_work) growth = p;
   if (kind_ == InternalVariable::frictional_work)
-    growth = p * (coefficient_.value(from, in.temperature).value + std::max(0.0, slope.high) * (to - from));
+    growth = p * (coefficient_.value(from, held).value + std::max(0.0, slope.high) * (to - from));
   const bool follows = kind_ != InternalVariable::frictional_work || r.slip * p * slope.high < 1;
   if (follows && penalty_ + std::min(0.0, slope.low) * p * growth > 0) return true;
   if (halvings == 0) return false;
@@ -148,7 +149,7 @@ bool FrictionLaw::unique_between(const FrictionInput& in, const FrictionResponse
 FrictionResponse FrictionLaw::with_heat(const FrictionInput& in, FrictionResponse r) const {
   if (r.sticks) return r;
   if (r.status == FrictionStatus::converged && !unique(in, r)) r.status = FrictionStatus::not_unique;
-  const double mu = stores() ? coefficient_.value(0, in.temperature).value : r.coefficient;
+  const double mu = stores() ? coefficient_.value(0, in.held().temperature).value : r.coefficient;
   r.dissipation = r.slip * mu * in.pressure;
   if (entropy_changes_)
     r.structural_entropy = coefficient_.point(in.internal_variable, in.temperature).stored_theta -
@@ -157,26 +158,28 @@ FrictionResponse FrictionLaw::with_heat(const FrictionInput& in, FrictionRespons
 }
 
 FrictionResponse FrictionLaw::update(const FrictionInput& in) const {
-  return with_heat(in, solve(in, [&](double zeta) { return coefficient_.value(zeta, in.temperature); }));
+  const double held = in.held().temperature;
+  return with_heat(in, solve(in, [&](double zeta) { return coefficient_.value(zeta, held); }));
 }
 
 FrictionResponse FrictionLaw::isentropic(const FrictionInput& in) const {
   if (!entropy_changes_ || heat_capacity_ == 0) return update(in);
-  const double start = coefficient_.point(in.internal_variable, in.temperature).stored_theta;
-  // C_co ln(Θ/Θ_n) = K_Θ(ζ) − K_Θ(ζ_n): 5.24, second row, with 3.42c.
+  const FrictionInput::Iterate held = in.held();
+  const double start = coefficient_.point(held.internal_variable, held.temperature).stored_theta;
+  // C_co ln(Θ/Θ_n) = K_Θ(ζ) − K_Θ(ζ_n): 5.24, second row, with 3.42c; with an iterate from that one.
   const auto temperature = [&](double stored_theta) {
-    return in.temperature * std::exp((stored_theta - start) / heat_capacity_);
+    return held.temperature * std::exp((stored_theta - start) / heat_capacity_);
   };
   auto r = solve(in, [&](double zeta) {
-    const auto at = coefficient_.point(zeta, in.temperature);
-    const double theta = temperature(at.stored_theta), change = theta - in.temperature;
+    const auto at = coefficient_.point(zeta, held.temperature);
+    const double theta = temperature(at.stored_theta), change = theta - held.temperature;
     // dΘ/dζ = Θ K_Θζ/C_co and K_Θζ = ∂(μ − μ_0)/∂Θ: at fixed entropy slip always hardens more.
     return FrictionCoefficient::Value{
         at.value + at.theta * change,
         at.zeta + at.zeta_theta * change + at.theta * at.theta * theta / heat_capacity_};
   });
-  r.temperature = temperature(coefficient_.point(r.internal_variable, in.temperature).stored_theta);
-  const double ratio = r.temperature / in.temperature;
+  r.temperature = temperature(coefficient_.point(r.internal_variable, held.temperature).stored_theta);
+  const double ratio = r.temperature / held.temperature;
   if (r.status == FrictionStatus::converged && !(ratio < k_largest_ratio && ratio * k_largest_ratio > 1))
     r.status = FrictionStatus::temperature_runs_off;
   return with_heat(in, r);

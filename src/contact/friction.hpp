@@ -33,6 +33,9 @@ struct FrictionSpec {
   double tangential_penalty_factor = 1;
   /// Drops the unsymmetric part of the tangent: ∂‖T‖/∂t_N in it, not in the forces.
   bool symmetric = false;
+  /// The thermal phase of a split finds slip and Θ_c anew (5.40–5.51) instead of keeping the slip of the
+  /// mechanical phase.
+  bool thermal_return_mapping = false;
   SourceLocation where;
 };
 
@@ -42,6 +45,16 @@ struct FrictionInput {
   double pressure = 0;           ///< t_N [Pa], >= 0
   double internal_variable = 0;  ///< ζ_c at t_n, >= 0
   double temperature = 0;        ///< Θ_c at t_n [K]
+  /// Result of the pass before in a scheme that iterates within the step; absent: t_n. update() holds its
+  /// Θ_c, isentropic() its entropy; slip and ζ_c set out from t_n in any case. The lines of the tables along
+  /// which the entropy follows are those at Θ_c of t_n.
+  struct Iterate {
+    double temperature = 0;        ///< Θ_c [K]
+    double internal_variable = 0;  ///< ζ_c
+  };
+  std::optional<Iterate> iterate{};
+  /// Θ_c and ζ_c whose temperature or entropy the mechanical phase holds.
+  Iterate held() const { return iterate.value_or(Iterate{temperature, internal_variable}); }
 };
 
 enum class FrictionStatus {
@@ -78,7 +91,8 @@ class FrictionLaw {
   /// Throws InputError as FrictionCoefficient does.
   FrictionLaw(const FrictionSpec& spec, double tangential_penalty, double heat_capacity = 0);
 
-  /// The mechanical phase at fixed temperature (5.59–5.63), and friction where temperature plays no part.
+  /// The mechanical phase at fixed temperature (5.59–5.63), and friction where temperature plays no part. The
+  /// coefficient is that of FrictionInput::held().
   FrictionResponse update(const FrictionInput& in) const;
   /// The mechanical phase at fixed entropy S^e_c (5.24–5.31). Θ_c follows from the entropy in closed form, so
   /// one equation in γ is left. μ_0 is held at Θ_n (5.22). Without a heat capacity the interface has no

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "contact/face.hpp"
@@ -24,13 +25,12 @@ double fourth(double t) {
   return cube(t) * t;
 }
 
-/// ∂h_i/∂h of the one-sided conductances.
-std::array<double, 2> side_shares() {
-  const OneSided sides = HeatTransferLaw::one_sided(1.0);
+}  // namespace
+
+std::array<double, 2> HeatTerm::side_shares() const {
+  const OneSided sides = law_.one_sided(1.0);
   return {sides.slave, sides.master};
 }
-
-}  // namespace
 
 /// Points in a row that share their nodes.
 struct HeatTerm::Run {
@@ -56,18 +56,33 @@ void HeatTerm::place(std::vector<HeatPoint> points) {
   points_ = std::move(points);
   fixed_.resize(law_.of_temperature() ? 0 : points_.size());
   for (std::size_t p = 0; p < fixed_.size(); ++p)
-    fixed_[p] = law_.at(-points_[p].penetration, points_[p].pressure, k_room_temperature).value;
+    fixed_[p] = conductance(static_cast<Index>(p), k_room_temperature).value;
+}
+
+Conductance HeatTerm::conductance(Index point, double temperature) const {
+  const HeatPoint& p = points_[at(point)];
+  const double opening = -p.penetration;
+  if (curvature_.empty() || !(opening > 0)) return law_.at(opening, p.pressure, temperature);
+  const SurfaceCurvature& curvature = curvature_[at(point)];
+  Conductance h = law_.at(curvature.plane_gap(opening), p.pressure, temperature);
+  h.by_opening *= curvature.plane_gap_slope(opening);
+  return h;
 }
 
 void HeatTerm::begin_phase(const HeatSpan& span) {
-  phase_ = Phase{.span = span, .stage_dt = span.dt, .staged = false, .start = {}, .first_flux = {}};
+  phase_ = Phase{.span = span,
+                 .stage_dt = span.dt,
+                 .staged = false,
+                 .start = {},
+                 .first_flux = {},
+                 .first_dissipation = {}};
 }
 
 // Θ* of S^e_c* = S^e_c,n + carried (S^e_c − S^e_c,n); of the slip every stage has its part.
 void HeatTerm::begin_stage(const algebra::Stage& stage, std::span<const double> before) {
   if (!phase_) return;
   if (stage.carried != 0) {
-    std::vector<double> start(points_.size(), 0.0), flux(points_.size(), 0.0);
+    std::vector<double> start(points_.size(), 0.0), flux(points_.size(), 0.0), made(points_.size(), 0.0);
     for (Index p = 0; p < partners_.n_points(); ++p) {
       const HeatPoint& point = points_[at(p)];
       start[at(p)] = point.step.temperature;
@@ -75,13 +90,16 @@ void HeatTerm::begin_stage(const algebra::Stage& stage, std::span<const double> 
       const AtPoint s = see(p, before);
       start[at(p)] *= std::pow(s.interface.temperature / point.step.temperature, stage.carried);
       flux[at(p)] = stage.carried * phase_->stage_dt * (s.interface.flux[0] + s.interface.flux[1]);
+      made[at(p)] = stage.carried * s.dissipation * phase_->stage_dt / phase_->span.dt;
     }
     phase_->start = std::move(start);
     phase_->first_flux = std::move(flux);
+    phase_->first_dissipation = std::move(made);
     phase_->staged = true;
   } else {
     phase_->start.clear();
     phase_->first_flux.clear();
+    phase_->first_dissipation.clear();
     phase_->staged = false;
   }
   phase_->stage_dt = stage.dt;
@@ -131,15 +149,29 @@ HeatTerm::AtPoint HeatTerm::see(Index point, std::span<const double> temperature
   if (!flows)
     s.h = {};
   else if (fixed_.empty())
-    s.h = law_.at(-p.penetration, p.pressure, 0.5 * (s.slave + s.master));
+    s.h = conductance(point, 0.5 * (s.slave + s.master));
   else
     s.h.value = fixed_[at(point)];
   s.has_temperature = p.has_temperature;
   if (!p.has_temperature) return s;
-  const OneSided one_sided = HeatTransferLaw::one_sided(s.h.value);
+  const OneSided one_sided = law_.one_sided(s.h.value);
   const InterfaceSides sides{{s.slave, s.master},
-                             {one_sided.slave, s.master_takes_heat ? one_sided.master : 0.0}};
-  s.interface = interface_balance(balance_step(point), sides);
+                             {one_sided.slave, s.master_takes_heat ? one_sided.master : 0.0},
+                             law_.slave_share(s.master_takes_heat)};
+  const InterfaceStep step = balance_step(point);
+  s.dissipation = p.step.dissipation;
+  if (p.friction != nullptr) {
+    const InterfaceReturn found =
+        interface_return_mapping(*p.friction, p.slip, phase_ ? phase_->span.dt : p.step.time_step, sides,
+                                 InterfaceStage{step.time_step, step.temperature});
+    s.interface = found.heat;
+    s.friction = found.friction;
+    s.dissipation = found.friction.dissipation;
+    if (!found.heat.balanced || found.friction.status != FrictionStatus::converged)
+      s.interface.flux.fill(std::numeric_limits<double>::quiet_NaN());  // the step is rejected
+    return s;
+  }
+  s.interface = interface_balance(step, sides);
   if (p.joint && std::isfinite(p.joint->stiffness))
     s.interface = interface_response(sides, s.interface.temperature, p.joint->stiffness);
   return s;
@@ -189,7 +221,7 @@ void HeatTerm::add_residual(std::span<const double> x, std::span<double> r) {
 
 // With h_i = s_i h: ∂Q_i/∂h = s_i (Θ_i − Θ_c) − h_i ∂Θ_c/∂h, ∂Θ_c/∂h = Σ s_j (Θ_j − Θ_c)/stiffness, and the
 // change of conduction, ±(Θ_s − Θ_m), taken off.
-std::array<double, 2> HeatTerm::flux_by_conductance(const AtPoint& s) {
+std::array<double, 2> HeatTerm::flux_by_conductance(const AtPoint& s) const {
   const bool both = s.master_takes_heat;
   const std::array<double, 2> share = side_shares();
   const std::array<double, 2> difference = {s.slave - s.interface.temperature,
@@ -270,7 +302,7 @@ void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperatu
                              std::span<double> heat) const {
   const HeatPoint& point = points_[at(s.point)];
   const double w = partners_.weight[at(s.point)];
-  const Conductance h = law_.at(-point.penetration, point.pressure, 0.5 * (s.slave + s.master));
+  const Conductance h = conductance(s.point, 0.5 * (s.slave + s.master));
   const double slope = w * (h.by_pressure * point.pressure_slope - h.by_opening);
   if (slope != 0) {
     add_exchange(s, temperature, slope, 0, heat);
@@ -424,10 +456,31 @@ InterfaceHeat HeatTerm::interface_heat(std::span<const double> temperature) cons
     const double dt = phase_ ? phase_->stage_dt : point.step.time_step;
     double taken = dt * (s.interface.flux[0] + s.interface.flux[1]);
     if (phase_ && phase_->staged) taken += phase_->first_flux[at(p)];
-    heat.dissipated += w * point.step.dissipation;
-    heat.stored += w * (point.step.dissipation + taken);
+    const double made = dissipated(s);
+    heat.dissipated += w * made;
+    heat.stored += w * (made + taken);
   }
   return heat;
+}
+
+double HeatTerm::dissipated(const AtPoint& s) const {
+  if (!phase_ || !phase_->staged) return s.dissipation;
+  return phase_->first_dissipation[at(s.point)] + s.dissipation * phase_->stage_dt / phase_->span.dt;
+}
+
+std::vector<std::optional<FrictionResponse>> HeatTerm::keep_slip(std::span<const double> temperature) {
+  std::vector<std::optional<FrictionResponse>> slip(points_.size());
+  if (!active_) return slip;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    HeatPoint& point = points_[at(p)];
+    if (point.friction == nullptr || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;
+    const AtPoint s = see(p, temperature);
+    slip[at(p)] = s.friction;
+    slip[at(p)]->dissipation = point.step.dissipation = dissipated(s);
+    point.step.structural_entropy = s.friction.structural_entropy;
+    point.friction = nullptr;
+  }
+  return slip;
 }
 
 }  // namespace solidus::contact

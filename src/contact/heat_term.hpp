@@ -15,6 +15,7 @@
 #include "contact/partners.hpp"
 #include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
+#include "contact/surface_curvature.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::contact {
@@ -24,8 +25,12 @@ struct HeatPoint {
   double penetration = 0;        ///< g_N [m]
   double pressure = 0;           ///< t_N [Pa]
   double pressure_slope = 0;     ///< ∂t_N/∂g_N [Pa/m]
-  bool has_temperature = false;  ///< friction acts: Θ_c is balanced, from `step`
+  bool has_temperature = false;  ///< friction acts or the interface stores heat: Θ_c is balanced, from `step`
   InterfaceStep step;
+  /// Where the thermal phase finds the slip anew (5.40–5.51): the law and its input. `step` then has the
+  /// dissipation and the entropy of the mechanical phase, which are not used.
+  const FrictionLaw* friction = nullptr;
+  FrictionInput slip{};
   std::optional<JointSlopes> joint;  ///< slip answers Θ_c: dissipation in `step` is that of its solution
 };
 
@@ -91,6 +96,8 @@ class HeatTerm : public algebra::Contribution {
   /// @param nodal  the nodal form; for linear faces only
   HeatTerm(const mesh::Mesh& mesh, const PartnerList& partners, ContactGraph& graph,
            const HeatTransferLaw& law, bool nodal);
+  /// The slave's curvature at every point, [point]; empty: faces are plane. Before place().
+  void set_curvature(std::vector<SurfaceCurvature> curvature) { curvature_ = std::move(curvature); }
   /// Freezes the configuration, [point]; the partners are those of the list now.
   void place(std::vector<HeatPoint> points);
   const std::vector<HeatPoint>& points() const { return points_; }
@@ -129,6 +136,10 @@ class HeatTerm : public algebra::Contribution {
   std::vector<double> conductances(std::span<const double> temperature) const;
   /// Θ_c of every point at these temperatures [K]; where friction does not act, as it was at t_n.
   std::vector<double> interface_temperatures(std::span<const double> temperature) const;
+  /// Slip at these temperatures of every point where this phase finds it anew (HeatPoint::friction); its
+  /// dissipation is what the phase has made of it, in both stages. Otherwise nothing. From now on the points
+  /// keep it. Before end_phase().
+  std::vector<std::optional<FrictionResponse>> keep_slip(std::span<const double> temperature);
   /// Returns the heat of the interface over the phase, at the temperatures of its end. The heat of a point
   /// without a partner goes to no body.
   InterfaceHeat interface_heat(std::span<const double> temperature) const;
@@ -150,6 +161,8 @@ class HeatTerm : public algebra::Contribution {
     double radiation = 0;  ///< e
     bool has_temperature = false;
     InterfaceResponse interface;  ///< with a temperature
+    FrictionResponse friction;    ///< slip that this phase finds, of the whole step
+    double dissipation = 0;       ///< D_c,mech Δt of the whole step [J/m²]
   };
   struct Run;
   AtPoint see(Index point, std::span<const double> temperature) const;
@@ -161,7 +174,11 @@ class HeatTerm : public algebra::Contribution {
   static void add_sides(const AtPoint& at, const std::array<double, 2>& flux, std::span<double> heat);
   /// Derivatives with respect to h of the fluxes Q_1 and Q_2 of the balance at fixed Θ_s, Θ_m, less those of
   /// conduction.
-  static std::array<double, 2> flux_by_conductance(const AtPoint& at);
+  std::array<double, 2> flux_by_conductance(const AtPoint& at) const;
+  /// ∂h_i/∂h of the one-sided conductances.
+  std::array<double, 2> side_shares() const;
+  /// What friction makes of heat over the phase, as it is found at the end of its last stage [J/m²].
+  double dissipated(const AtPoint& at) const;
   /// @param per_h  scratch
   void add_point_tangent(const AtPoint& at, std::span<const double> x, std::span<double> k,
                          std::vector<double>& per_h) const;
@@ -171,6 +188,8 @@ class HeatTerm : public algebra::Contribution {
   void add_share_slope(const AtPoint& at, std::span<const double> temperature, std::size_t b,
                        std::span<double> heat) const;
   InterfaceStep balance_step(Index point) const;
+  /// h at the plane gap that resists as that of the point does, and its slope in the gap itself.
+  Conductance conductance(Index point, double temperature) const;
 
   Index n_owned_;
   const PartnerList& partners_;
@@ -180,13 +199,15 @@ class HeatTerm : public algebra::Contribution {
   bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
   std::vector<HeatPoint> points_;
+  std::vector<SurfaceCurvature> curvature_;  ///< of the slave, [point]; empty: none
   std::optional<double> tool_temperature_;
   struct Phase {
     HeatSpan span;
     double stage_dt = 0;
-    bool staged = false;             ///< from `start` instead of the Θ_c of the points
-    std::vector<double> start;       ///< Θ_c that the second stage starts from, [point]
-    std::vector<double> first_flux;  ///< heat that the first one took from the bodies, [point] [J/m²]
+    bool staged = false;                    ///< from `start` instead of the Θ_c of the points
+    std::vector<double> start;              ///< Θ_c that the second stage starts from, [point]
+    std::vector<double> first_flux;         ///< heat that the first one took from the bodies, [point] [J/m²]
+    std::vector<double> first_dissipation;  ///< and its part of what friction makes in all, [point] [J/m²]
   };
   std::optional<Phase> phase_;
   std::vector<double> fixed_;  ///< h of a law that does not change with the temperature, [point]

@@ -2,23 +2,20 @@
 ///
 ///   q = h (Θ_s − Θ_m) + σ_r F (Θ_s⁴ − Θ_m⁴)        [W/m²], from slave to master
 ///
-///   closed (g <= 0):       power   h = h_open(0, Θ_g) + h_co (t_N/H_e)^ε   for ε > 0   (3.49 beside the gas)
-///                                  h = h_co                                for ε = 0
-///                          spots   h = h_S(t_N, Θ_g) + h_G(t_N, Θ_g)                   (3.46–3.48)
-///                          table   h(t_N), h(t_N, Θ_g)
-///   open (gap g > 0):      constant   h_o
-///                          table      h(g), h(g, Θ_g)                                  (7.9)
-///                          gas        k_a/(g + k_a/h_o)                                (3.50)
+///   closed (g <= 0)   h = h_c(t_N, Θ_g), beside what the gap conducts where the law says so  (3.46-3.49)
+///   open (gap g > 0)  h = h_o(g, Θ_g)                                                        (3.50, 7.9)
 ///
-/// g [m] opening, t_N [Pa] contact pressure, Θ_g [K] mean of the two surfaces' temperatures, h_co, h_o
-/// [W/(m² K)], H_e [Pa] Vickers hardness, k_a [W/(m K)] conductivity of the gas, F = 1/(1/ε_1 + 1/ε_2 − 1) of
-/// two large grey parallel surfaces that face each other (view factor 1: the gap is small against them), σ_r
-/// the Stefan–Boltzmann constant. h_S, h_G: contact/asperities.hpp. With spots, the law `gas` of the gap
-/// begins where h_G ends, k_a/(g + Y_0 + c_g Θ_g); any other law of the gap is that of the gas between the
-/// spots too, h_G = h_open(0).
+/// g [m] opening, t_N [Pa] contact pressure, Θ_g [K] mean of the two surfaces' temperatures; h_c and h_o are
+/// laws in files of their own (laws/contact_law.hpp, laws/gap_law.hpp). F = 1/(1/ε_1 + 1/ε_2 − 1) of two
+/// large grey parallel surfaces that face each other (view factor 1: the gap is small against them), σ_r the
+/// Stefan–Boltzmann constant.
 ///
-/// Continuity where contact is lost, at t_N = 0 and g = 0: spots vanish with the pressure, and conduct beside
-/// what crosses a gap of zero. A constant or tabulated closed value must meet the law of the gap: a law that
+/// What is beside a closed law is h_o(0), or, where the surfaces are rough and the law of the gap means their
+/// gas too, h_o(Y(t_N)), Y the distance of their mean planes. Such a gap begins where that ends: h_o(g +
+/// Y(0)).
+///
+/// Continuity where contact is lost, at t_N = 0 and g = 0: a closed law that conducts beside the gap's
+/// vanishes with the pressure. One that is all of the conductance must meet the law of the gap: a law that
 /// jumps there is refused. Radiation acts in both states (it is small beside h when closed), so it does not
 /// jump either.
 ///
@@ -26,39 +23,29 @@
 /// its value at contact, with slope zero, to value and slope at p_t or g_t. So the slope in the gap is
 /// continuous whatever the penalty is, and that of spots has a bound. Bends inside of tables stay.
 ///
-/// One coefficient from body to body. 3.45 is one-sided, from each body to an interface temperature Θ_c: two
-/// equal sides of 2h each, in general 1/h = 1/h_1 + 1/h_2 (OneSided).
+/// One coefficient from body to body. 3.45 is one-sided, from each body to an interface temperature Θ_c, with
+/// 1/h = 1/h_1 + 1/h_2 (OneSided): h_1 = h/s and h_2 = h/(1 − s), s the share of the resistance that lies on
+/// the slave's side, a half unless the data say otherwise.
 ///
 /// Source: monograph 3.45–3.50, table 7.9.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/errors.hpp"
 #include "base/table.hpp"
-#include "contact/asperities.hpp"
-#include "contact/table_family.hpp"
 
 namespace solidus::contact {
 
-struct HeatTransferSpec {
-  enum class ContactLaw { power, spots, table };
-  enum class GapLaw { constant, table, gas };
-  ContactLaw contact_law = ContactLaw::power;
-  double conductance = 0;  ///< law `power`: h_co [W/(m² K)], body to body
-  double exponent = 0;     ///< law `power`: ε of 3.49 [1]
-  /// H_e [Pa], needed by `power` when the exponent is not zero, and by `spots` with `gas`.
-  std::optional<double> hardness;
-  Asperities asperities;                     ///< law `spots`
-  std::optional<Table> contact_conductance;  ///< law `table`: h(t_N) [W/(m² K)] of the pressure [Pa]
+class ContactLaw;  // laws/contact_law.hpp
+class GapLaw;      // laws/gap_law.hpp
+struct LawConductance;
 
-  GapLaw gap_law = GapLaw::constant;
-  /// h_o [W/(m² K)] of `constant` and `gas`; absent: the value at contact. Not with `spots` and `gas`.
-  std::optional<double> open_conductance;
-  std::optional<Table> gap_table;  ///< law `table`: h(g) [W/(m² K)] of the opening [m], g >= 0
-  double gas_conductivity = 0;     ///< k_a [W/(m K)]
-  double temperature_jump = 0;     ///< c_g [m/K], of `spots` with `gas` only
+struct HeatTransferSpec {
+  std::shared_ptr<const ContactLaw> contact_law;  ///< null: PowerContact with no conductance
+  std::shared_ptr<const GapLaw> gap_law;          ///< null: ConstantGap with the conductance of contact
 
   /// Tables that change with the temperature stand here instead, in the order of the temperatures.
   struct AtTemperature {
@@ -67,6 +54,8 @@ struct HeatTransferSpec {
   };
   std::vector<AtTemperature> families;
 
+  /// s, the share of the resistance 1/h that lies between the slave and Θ_c (3.45), between 0 and 1.
+  double slave_resistance = 0.5;
   /// Emissivities of the slave's and the master's surface; absent or zero: no radiation.
   double slave_emissivity = 0, master_emissivity = 0;
 
@@ -99,34 +88,29 @@ class HeatTransferLaw {
   Conductance at(double opening, double pressure, double temperature) const;
   /// Whether h changes with Θ_g.
   bool of_temperature() const { return of_temperature_; }
-  /// h_1 and h_2 of a conductance: equal halves of the resistance.
-  static OneSided one_sided(double conductance) { return {2 * conductance, 2 * conductance}; }
+  /// h_1 and h_2 of a conductance (3.45).
+  OneSided one_sided(double conductance) const {
+    return {conductance / spec_.slave_resistance, conductance / (1 - spec_.slave_resistance)};
+  }
+  /// h_1/(h_1 + h_2), the part of the interface's heat that the slave takes where neither side conducts.
+  double slave_share(bool master_takes_heat = true) const {
+    return master_takes_heat ? 1 - spec_.slave_resistance : 1.0;
+  }
   /// σ_r F [W/(m² K⁴)], zero without radiation.
   double radiation_factor() const { return radiation_factor_; }
 
  private:
-  /// Conductance of one state (open or closed), a function of the gap or of the pressure.
-  struct Branch {
-    double value = 0, slope = 0, by_temperature = 0;
-    double mixed = 0;  ///< change of the slope with the temperature
-  };
-  Branch open(double gap, double temperature) const;
-  Branch closed(double pressure, double temperature) const;
-  Branch pressed_spots(double pressure, double temperature) const;
-  static Branch transition(double x, double width, const Branch& start, const Branch& end);
-  bool spots() const { return spec_.contact_law == HeatTransferSpec::ContactLaw::spots; }
-  void read_tables();
-  void check_contact() const;
-  void check_gap() const;
+  LawConductance open(double gap, double temperature) const;
+  LawConductance closed(double pressure, double temperature) const;
+  void prepare_laws();
   /// At the temperatures that matter.
   void check_continuity() const;
   void check_transition() const;
 
-  HeatTransferSpec spec_;
-  TableFamily contact_tables_, gap_tables_;
-  double open_conductance_ = 0;                               ///< h_o
+  HeatTransferSpec spec_;            ///< its laws ready for use
+  bool between_asperities_ = false;  ///< the gap's gas is between the asperities of rough surfaces too
   double transition_gap_ = 1e-6, transition_pressure_ = 1e5;  ///< g_t, p_t
-  std::vector<double> temperatures_;                          ///< of the families; any one without [K]
+  std::vector<double> temperatures_;                          ///< of the laws; any one without [K]
   bool of_temperature_ = false;
   double radiation_factor_ = 0;
 };

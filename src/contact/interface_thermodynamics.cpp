@@ -25,12 +25,12 @@ bool isolated(double heat_capacity, const InterfaceSides& sides) {
   return heat_capacity == 0 && sum(sides.conductance) == 0;
 }
 
-/// Half of the heat to either side.
+/// Heat shared by InterfaceSides::slave_share.
 InterfaceResponse shared_heat(const InterfaceStep& step, const InterfaceSides& sides) {
   auto r = interface_response(sides, resting_temperature(sides), std::numeric_limits<double>::infinity());
-  r.by_side = {0.5, 0.5};
+  r.by_side = {sides.slave_share, 1 - sides.slave_share};
   const double heat = step.dissipation - step.temperature * step.structural_entropy;
-  r.flux[0] = r.flux[1] = -0.5 * heat / step.time_step;
+  for (std::size_t i = 0; i < 2; ++i) r.flux[i] = -r.by_side[i] * heat / step.time_step;
   return r;
 }
 
@@ -72,13 +72,20 @@ InterfaceResponse interface_response(const InterfaceSides& sides, double tempera
 }
 
 double interface_entropy(const FrictionLaw& law, double temperature, double internal_variable) {
-  const double thermal = law.heat_capacity() * std::log(temperature / k_interface_reference);
+  const double thermal = interface_entropy(law.heat_capacity(), temperature);
   return law.stores() ? thermal - law.coefficient().point(internal_variable, temperature).stored_theta
                       : thermal;
 }
 
+double interface_entropy(double heat_capacity, double temperature) {
+  return heat_capacity * std::log(temperature / k_interface_reference);
+}
+double interface_energy(double heat_capacity, double temperature) {
+  return heat_capacity * (temperature - k_interface_reference);
+}
+
 double interface_energy(const FrictionLaw& law, double temperature, double internal_variable) {
-  const double thermal = law.heat_capacity() * (temperature - k_interface_reference);
+  const double thermal = interface_energy(law.heat_capacity(), temperature);
   if (!law.stores()) return thermal;
   const auto at = law.coefficient().point(internal_variable, temperature);
   return thermal + at.stored - temperature * at.stored_theta;
@@ -90,7 +97,7 @@ double plastic_entropy_increment(const FrictionLaw& law, double slip, double pre
 
 double resting_temperature(const InterfaceSides& sides) {
   const double h = sum(sides.conductance);
-  return h > 0 ? supply(sides) / h : 0.5 * sum(sides.temperature);
+  return h > 0 ? supply(sides) / h : std::lerp(sides.temperature[1], sides.temperature[0], sides.slave_share);
 }
 
 InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSides& sides) {
@@ -119,10 +126,12 @@ InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSi
 }
 
 InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionInput& in, double time_step,
-                                         const InterfaceSides& sides) {
+                                         const InterfaceSides& sides,
+                                         const std::optional<InterfaceStage>& stage) {
   const double rate = 1 / time_step, conductance = sum(sides.conductance), source = supply(sides);
-  const double capacity = law.heat_capacity() * rate;
-  const InterfaceStep still{time_step, law.heat_capacity(), in.temperature, 0, 0};
+  const InterfaceStage from = stage.value_or(InterfaceStage{time_step, in.temperature});
+  const double capacity = law.heat_capacity() / from.time_step;
+  const InterfaceStep still{from.time_step, law.heat_capacity(), from.temperature, 0, 0};
   const auto& coefficient = law.coefficient();
   const double stored =
       law.stores() ? coefficient.point(in.internal_variable, in.temperature).stored_theta : 0;
@@ -155,7 +164,7 @@ InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionI
       }
     }
     f.structural_entropy = entropy;
-    const double gained = capacity * std::log(theta / in.temperature) + entropy * rate;
+    const double gained = capacity * std::log(theta / from.temperature) + entropy * rate;
     slope = gained + capacity + conductance - heat_theta * rate +
             (theta * entropy_slip - heat_slip) * slip_theta * rate;
     return theta * (gained + conductance) - source - f.dissipation * rate;

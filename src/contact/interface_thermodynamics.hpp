@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "contact/friction.hpp"
 
@@ -28,6 +29,9 @@ inline constexpr double k_interface_reference = 293.15;
 double interface_entropy(const FrictionLaw& law, double temperature, double internal_variable);
 /// E_c without the springs W_c: C_co (Θ_c − Θ_0) + K_c − Θ_c ∂K_c/∂Θ [J/m²] (3.34, 3.41).
 double interface_energy(const FrictionLaw& law, double temperature, double internal_variable);
+/// The same without friction: C_co ln(Θ_c/Θ_0) and C_co (Θ_c − Θ_0).
+double interface_entropy(double heat_capacity, double temperature);
+double interface_energy(double heat_capacity, double temperature);
 /// Increment of S^p_c by slip, −γ t_N dμ_0/dΘ >= 0 [J/(m² K)] (3.53c); Θ_c times it is D_c,ther Δt (3.59).
 double plastic_entropy_increment(const FrictionLaw& law, double slip, double pressure, double temperature);
 
@@ -35,6 +39,9 @@ double plastic_entropy_increment(const FrictionLaw& law, double slip, double pre
 struct InterfaceSides {
   std::array<double, 2> temperature;  ///< Θ_i [K]
   std::array<double, 2> conductance;  ///< h_i [W/(m² K)], >= 0
+  /// h_1/(h_1 + h_2) where neither conducts: how heat made in the interface is shared, the limit of
+  /// conductances that vanish in this ratio.
+  double slave_share = 0.5;
 };
 
 /// Data of the interface at the start of a step, for its balance.
@@ -59,8 +66,8 @@ struct InterfaceResponse {
 };
 
 /// Θ_c with slip held as the mechanical phase has left it. The balance is convex in Θ_c: Newton's method from
-/// the isentropic temperature cannot fail. Where nothing conducts and nothing stores, half of the heat goes
-/// to either side (the limit h_1 = h_2 -> 0) and Θ_c is the mean.
+/// the isentropic temperature cannot fail. Where nothing conducts and nothing stores, the heat is shared as
+/// InterfaceSides::slave_share says and Θ_c is the mean with the same weights.
 InterfaceResponse interface_balance(const InterfaceStep& step, const InterfaceSides& sides);
 
 /// The fluxes at a known Θ_c, with dr/dΘ_c = `stiffness` of the balance that it comes from.
@@ -68,8 +75,7 @@ InterfaceResponse interface_response(const InterfaceSides& sides, double tempera
 
 /// Slip and Θ_c as the solution of both equations, Φ_c = 0 and the balance (5.32–5.51, of which 5.40 is the
 /// pair of equations): the return mapping of the simultaneous scheme, where trial traction, pressure and the
-/// bodies' temperatures are those of t_{n+1}.
-/// @param in ζ_c and Θ_c at t_n, trial traction and pressure at t_{n+1}
+/// bodies' temperatures are those of t_{n+1}, and on demand that of the thermal phase of a split.
 struct InterfaceReturn {
   FrictionResponse friction;  ///< at Θ_c of the end; dissipation by μ_0(Θ_c) (5.51); slopes at fixed Θ_c
   InterfaceResponse heat;     ///< its stiffness holds how slip answers Θ_c
@@ -78,8 +84,17 @@ struct InterfaceReturn {
   /// Θ_c Ṡ^e_c)/∂x at fixed Θ_c [W/(m² Pa)]: ∂Θ_c/∂x = source/stiffness, ∂Q_i/∂x = −by_side[i] source.
   double source_by_trial = 0, source_by_pressure = 0;
 };
+/// One of two stages of a thermal phase, over which the slip of the whole step acts at an even rate.
+struct InterfaceStage {
+  double time_step = 0;    ///< of the stage [s]
+  double temperature = 0;  ///< Θ_c from which its capacity sets out [K]
+};
+/// @param in         ζ_c and Θ_c at t_n, trial traction and pressure at t_{n+1}
+/// @param time_step  over which slip makes heat [s]
+/// @param stage      absent: the whole of it, from Θ_c at t_n
 InterfaceReturn interface_return_mapping(const FrictionLaw& law, const FrictionInput& in, double time_step,
-                                         const InterfaceSides& sides);
+                                         const InterfaceSides& sides,
+                                         const std::optional<InterfaceStage>& stage = {});
 
 /// Θ_c of an interface at rest, where Q_1 + Q_2 = 0: to begin with.
 double resting_temperature(const InterfaceSides& sides);

@@ -75,7 +75,7 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
     if (!kinematics_.concerns(p)) continue;
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_.motion(p, from, ContactKinematics::Asked::motion);
-    const PointForces f = law_.forces(motion, from, step_.coupled.around(motion));
+    const PointForces f = law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(p));
     if (f.status != status_[at(p)] && from.counted) ++changes_;
     status_[at(p)] = f.status;
     count.add(from, motion, f);
@@ -109,7 +109,8 @@ void MechanicsTerm::log(const Count& count) const {
 
 template <int dim>
 void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) {
-  const PointForces f = law_.forces(motion, step_.from[at(point)], step_.coupled.around(motion));
+  const PointForces f =
+      law_.forces(motion, step_.from[at(point)], step_.coupled.around(motion), step_.iterate_of(point));
   if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_ == 0) return;
   const std::size_t n = motion.nodes.size();
   const double w = motion.weight;

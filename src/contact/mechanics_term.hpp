@@ -1,6 +1,7 @@
 /// Contact forces as a term of the mechanical phase; an internal part of ContactPair.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct ContactStep {
   double begun = 0;                  ///< t_n [s]
   std::vector<double> displacement;  ///< u_n, [local node][component] [m]
   CoupledInterface coupled;          ///< of the simultaneous scheme
+  /// Θ_c and ζ_c of the pass before in a scheme that iterates within the step: [point]; else empty.
+  std::vector<FrictionInput::Iterate> iterate;
+  std::optional<FrictionInput::Iterate> iterate_of(Index point) const {
+    if (iterate.empty()) return {};
+    return iterate[static_cast<std::size_t>(point)];
+  }
   /// Wet points whose face has no coherent node, so that no shell moves them: [point].
   std::vector<char> liquid;
 };

@@ -54,8 +54,10 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
   NodalAverage<k_kept> kept(n);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const PointState& state = now_.points[static_cast<std::size_t>(p)];
-    if (law_.friction) {
-      const double mu = law_.friction->coefficient().value(state.internal_variable, state.temperature).value;
+    if (law_.friction || has_temperature()) {
+      const double mu =
+          law_.friction ? law_.friction->coefficient().value(state.internal_variable, state.temperature).value
+                        : 0.0;
       const ContactKinematics::Particle particle = kinematics_->particle(p);
       for (std::size_t b = 0; b < particle.nodes.size(); ++b)
         kept.add(particle.nodes[b], particle.weight * particle.share[b],
@@ -86,16 +88,16 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     fields.paired_area.push_back(paired_area[static_cast<std::size_t>(node)]);
     fields.heat_flux.push_back(m[3]);
     fields.frictional_heat_flux.push_back(m[4]);
+    const auto k = kept.at(node);
+    if (law_.friction || has_temperature()) fields.temperature.push_back(k[5]);
     if (!law_.friction) continue;
     fields.status.push_back(m[5]);
     fields.traction.push_back({m[6], m[7], m[8]});
-    const auto k = kept.at(node);
     fields.slip.push_back(k[0]);
     fields.internal_variable.push_back(k[1]);
     fields.coefficient.push_back(k[2]);
     fields.dissipation.push_back(k[3]);
     fields.wear_depth.push_back(k[4]);
-    fields.temperature.push_back(k[5]);
   }
   if (!worn_ || !law_.friction) return fields;
   for (const MasterWear::Depth& worn : worn_->depths(now_.master)) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "algebra/parallel.hpp"
@@ -14,6 +15,7 @@
 #include "contact/master_mesh.hpp"
 #include "contact/penalty.hpp"
 #include "contact/sliding_kinematics.hpp"
+#include "contact/surface_curvature.hpp"
 
 namespace solidus::contact {
 
@@ -89,6 +91,18 @@ double find_penalty(const mesh::Mesh& mesh, const ContactSpec& spec, const Conta
   return std::min(spec.penalty * stiffness, spec.largest_penalty);
 }
 
+/// The curvature of the slave's face at every point; empty where the surface is plane.
+std::vector<SurfaceCurvature> curvature_of_points(const ContactSurface& slave, AnalysisKind kind,
+                                                  const ContactKinematics& kinematics) {
+  const std::vector<SurfaceCurvature> of_face =
+      surface_curvatures(slave, kind, MeshMasterOptions{}.feature_angle);
+  if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
+  std::vector<SurfaceCurvature> of_point(at(kinematics.n_points()));
+  for (Index p = 0; p < kinematics.n_points(); ++p)
+    of_point[at(p)] = of_face[static_cast<std::size_t>(kinematics.particle(p).number / k_points_of_a_face)];
+  return of_point;
+}
+
 void choose_roles(const mesh::Mesh& mesh, std::span<const double> modulus, ContactSpec& spec) {
   constexpr double k_alike = 0.05;  // sizes of faces
   const ContactSurface first(mesh, spec.slave), second(mesh, spec.master);
@@ -96,7 +110,9 @@ void choose_roles(const mesh::Mesh& mesh, std::span<const double> modulus, Conta
   bool swap = ratio > 1 + k_alike;
   if (std::abs(ratio - 1) <= k_alike && modulus.size() == mesh.bodies.size())
     swap = local_stiffness(mesh, first, modulus) > (1 + k_alike) * local_stiffness(mesh, second, modulus);
-  if (swap) std::swap(spec.slave, spec.master);
+  if (!swap) return;
+  std::swap(spec.slave, spec.master);
+  if (spec.heat) spec.heat->slave_resistance = 1 - spec.heat->slave_resistance;
 }
 
 }  // namespace
@@ -108,6 +124,7 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
   const ContactSurface slave(mesh, spec_.slave);
   std::optional<ContactSurface> master;
   if (!spec_.rigid_master) master.emplace(mesh, spec_.master);
+  if (master) require_apart(slave, *master);
   make_kinematics(kind, slave, master ? &*master : nullptr);
   make_laws(slave, find_penalty(mesh, spec_, slave, master ? &*master : nullptr, body_modulus));
   if (spec_.wear && spec_.wear->master_share > 0) {
@@ -133,17 +150,35 @@ ContactPair::ContactPair(const mesh::Mesh& mesh, AnalysisKind kind, ContactSpec 
     // The nodal form needs shape functions that are nowhere below zero.
     const bool nodal = spec_.nodal_heat && has_linear_faces(slave) && (!master || has_linear_faces(*master));
     heat_ = std::make_unique<HeatTerm>(mesh, partners_, *graph_, *heat_law_, nodal);
+    heat_->set_curvature(curvature_of_points(slave, kind, *kinematics_));
   }
   restore({}, std::vector<double>(mesh.x.size() * static_cast<std::size_t>(components_), 0.0), 0);
 }
 
 ContactPair::~ContactPair() = default;
 
+/// A surface that folds on itself is no pair: a point would find its own face as its partner.
+void ContactPair::require_apart(const ContactSurface& slave, const ContactSurface& master) const {
+  const auto refuse = [this](const std::string& what) {
+    throw InputError(spec_.where, fmt::format("contact '{}': {}", spec_.name, what),
+                     "two surfaces that have no node in common: contact of a surface with itself is not "
+                     "computed, and bodies that touch have nodes of their own ([[interface]] splits them)");
+  };
+  if (spec_.slave == spec_.master)
+    refuse(fmt::format("slave and master are the same surface '{}'", spec_.slave));
+  const std::vector<Index>&of_slave = slave.all_nodes(), &of_master = master.all_nodes();
+  std::vector<Index> both;
+  std::set_intersection(of_slave.begin(), of_slave.end(), of_master.begin(), of_master.end(),
+                        std::back_inserter(both));
+  const double shared = algebra::global_sum(static_cast<double>(
+      std::ranges::count_if(both, [this](Index node) { return node < mesh_.n_owned_nodes; })));
+  if (shared > 0)
+    refuse(fmt::format("the surfaces '{}' and '{}' share {:.0f} node{}", spec_.slave, spec_.master, shared,
+                       shared > 1 ? "s" : ""));
+}
+
 void ContactPair::make_kinematics(AnalysisKind kind, const ContactSurface& slave,
                                   const ContactSurface* master) {
-  if (spec_.slave == spec_.master)
-    throw InputError(spec_.where,
-                     fmt::format("contact '{}': slave and master are the same surface", spec_.name));
   const bool slides = spec_.formulation == Formulation::large_sliding;
   if (master == nullptr && !slides)
     throw InputError(spec_.where, fmt::format("contact '{}': a rigid surface with small sliding", spec_.name),
@@ -203,21 +238,24 @@ void ContactPair::set_temperature(std::span<const double> temperature) {
 }
 
 void ContactPair::begin_heat(double dt, bool adiabatic) {
-  if (heat_ && law_.friction) heat_->begin_phase({dt, adiabatic});
+  if (has_temperature()) heat_->begin_phase({dt, adiabatic});
 }
 
 void ContactPair::hold_deformation() {
   predicted_.clear();
-  if (!heat_ || !law_.friction) return;
+  if (!has_temperature()) return;
   step_.from = now_.points;
   step_.dt = 0;
   std::vector<HeatPoint> heat;
-  for (const PointState& now : now_.points) heat.push_back(heat_point(now, now, {}));
+  for (const PointState& now : now_.points) {
+    heat.push_back(heat_point(now, now, {}));
+    heat.back().has_temperature = now.temperature > 0;  // it may store what the bodies give
+  }
   heat_->place(std::move(heat));
 }
 
 void ContactPair::predict_heat() {
-  if (!heat_ || !law_.friction) return;
+  if (!has_temperature()) return;
   std::vector<HeatPoint> heat = heat_->points();
   predicted_.clear();
   for (HeatPoint& point : heat) {
@@ -287,6 +325,7 @@ ContactState ContactPair::renewed_state(const ContactState& old, bool new_slave,
 
 void ContactPair::set_out_from(const ContactState& state) {
   start_traction_.clear();
+  last_penetration_.clear();
   if (!state.points.empty()) {
     step_.from = state.points;
     worn_from_ = state.master;
@@ -312,7 +351,21 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
                      .time_step = pass.dt,
                      .temperature = {pass.temperature.begin(), pass.temperature.end()},
                      .tool_temperature = tool_temperature_at(pass.time)};
-  if (law_.friction && !pass.temperature.empty()) find_interface_temperatures(pass.temperature);
+  if ((law_.friction || has_temperature()) && !pass.temperature.empty())
+    find_interface_temperatures(pass.temperature);
+  step_.iterate.clear();
+  if (pass.iterate == nullptr || pass.iterate->points.size() != step_.from.size()) return;
+  for (std::size_t p = 0; p < step_.from.size(); ++p) {
+    const PointState &before = pass.iterate->points[p], &from = step_.from[p];
+    step_.iterate.push_back(
+        {before.temperature > 0 ? before.temperature : from.temperature, before.internal_variable});
+  }
+}
+
+void ContactPair::rest(const ContactState& old, double time, double dt, std::span<const double> temperature) {
+  const std::vector<double> displacement(mesh_.x.size() * static_cast<std::size_t>(components_), 0.0);
+  begin(old, {.time = time, .dt = dt, .displacement = displacement, .temperature = temperature});
+  update(displacement);
 }
 
 /// Liquid metal that touches its wall wets it; it stays wet while the metal there is below coherency,
@@ -337,11 +390,14 @@ void ContactPair::find_wet_points(std::span<const double> coherency) {
   }
 }
 
-/// Sets the temperature of interface points that have none yet to the mean of the two sides at t_n, whatever
-/// the other iterates of the step. A point without a partner at t_n counts no slip in the step in which it
-/// finds one, so friction does not need its temperature.
+/// Sets the temperature of interface points that have none yet to that at rest between the two sides at t_n,
+/// whatever the other iterates of the step; where no heat passes Θ_c has no balance and is the sides' mean
+/// in every step. A point without a partner at t_n counts no slip in the step in which it finds one, so
+/// friction does not need its temperature.
 void ContactPair::find_interface_temperatures(std::span<const double> temperature) {
-  const auto known = [](const PointState& from) { return from.temperature > 0; };
+  const bool balances = has_temperature();
+  const double of_slave = heat_law_ ? heat_law_->slave_share() : 0.5;
+  const auto known = [&](const PointState& from) { return balances && from.temperature > 0; };
   if (std::ranges::all_of(step_.from, known)) return;
   configuration_->place(step_.begun, step_.displacement);
   const std::optional<double> tool = tool_temperature_at(step_.begun);
@@ -355,7 +411,7 @@ void ContactPair::find_interface_temperatures(std::span<const double> temperatur
     for (std::size_t b = 0; b < motion.nodes.size(); ++b)
       side[b < n_slave ? 0 : 1] += motion.share[b] * temperature[at(motion.nodes[b])];
     const bool meshed = motion.nodes.size() > n_slave;
-    from.temperature = 0.5 * (side[0] + (meshed ? -side[1] : tool.value_or(side[0])));
+    from.temperature = std::lerp(meshed ? -side[1] : tool.value_or(side[0]), side[0], of_slave);
   }
 }
 
@@ -375,7 +431,8 @@ void ContactPair::update(std::span<const double> displacement) {
     const PointState& from = step_.from[at(p)];
     const PointMotion motion = kinematics_->motion(p, from, ContactKinematics::Asked::motion);
     const PointForces forces =
-        active_ ? law_.forces(motion, from, step_.coupled.around(motion)) : PointForces{};
+        active_ ? law_.forces(motion, from, step_.coupled.around(motion), step_.iterate_of(p))
+                : PointForces{};
     now_.points[at(p)] = law_.next(motion, from, forces);
     if (!active_) now_.points[at(p)].anchored = false;
     if (worn_ && forces.status == PointStatus::slips) wear_master(motion, now_.points[at(p)], forces);
@@ -403,9 +460,15 @@ HeatPoint ContactPair::heat_point(const PointState& from, const PointState& now,
   HeatPoint point{.penetration = seen_by_heat(penetration, now.suction),
                   .pressure = now.pressure,
                   .pressure_slope = now.pressure >= 0 ? forces.normal.tangent : 0.0,
-                  .has_temperature = law_.friction && step_.dt > 0 && from.temperature > 0,
+                  .has_temperature = has_temperature() && step_.dt > 0 && from.temperature > 0,
                   .step = {},
                   .joint = forces.joint};
+  // 5.40 anew in the thermal phase; the other schemes have solved it, or iterate to it.
+  if (law_.friction && spec_.friction->thermal_return_mapping && step_.coupled.law == nullptr &&
+      step_.iterate.empty() && forces.status != PointStatus::open) {
+    point.friction = &*law_.friction;
+    point.slip = {forces.trial, std::max(now.pressure, 0.0), from.internal_variable, from.temperature};
+  }
   point.step = {step_.dt, spec_.interface_heat_capacity, from.temperature, forces.friction.structural_entropy,
                 forces.friction.dissipation};
   return point;
@@ -425,35 +488,70 @@ void ContactPair::show_whole_step() {
 
 InterfaceSums ContactPair::commit_heat(std::span<const double> temperature) {
   InterfaceSums sums;
-  if (!heat_ || !law_.friction) return sums;
+  if (!has_temperature()) return sums;
   const std::vector<double> found = heat_->interface_temperatures(temperature);
   const InterfaceHeat heat = heat_->interface_heat(temperature);
+  const auto hardening = [&](std::size_t p) {
+    const PointState &from = step_.from[p], &now = now_.points[p];
+    return now.work - from.work - now.dissipation + from.dissipation;
+  };
+  for (std::size_t p = 0; p < found.size(); ++p)
+    if (const auto particle = kinematics_->particle(static_cast<Index>(p));
+        particle.counted && step_.from[p].temperature > 0)
+      sums.hardening += particle.weight * hardening(p);
+  take_slip(temperature);
   if (heat_->stores() && !predicted_.empty()) show_whole_step();
   heat_->end_phase();
   sums.dissipated = heat.dissipated;
   sums.stored = heat.stored;
-  const FrictionLaw& law = *law_.friction;
+  const double capacity = spec_.interface_heat_capacity;
+  const auto energy = [&](double t, double internal_variable) {
+    return law_.friction ? interface_energy(*law_.friction, t, internal_variable)
+                         : interface_energy(capacity, t);
+  };
+  const auto entropy = [&](double t, double internal_variable) {
+    return law_.friction ? interface_entropy(*law_.friction, t, internal_variable)
+                         : interface_entropy(capacity, t);
+  };
   for (std::size_t p = 0; p < found.size(); ++p) {
     const PointState& from = step_.from[p];
     PointState& now = now_.points[p];
     if (!(from.temperature > 0)) continue;
     now.temperature = found[p];
-    const double made = plastic_entropy_increment(law, now.slip - from.slip, now.pressure, now.temperature);
+    double made = 0;
+    if (law_.friction)
+      made = plastic_entropy_increment(*law_.friction, now.slip - from.slip, now.pressure, now.temperature);
     now.plastic_entropy = from.plastic_entropy + made;
     const ContactKinematics::Particle particle = kinematics_->particle(static_cast<Index>(p));
     if (!particle.counted) continue;
     const double w = particle.weight, between = before_heat_[p];
-    const double energy = interface_energy(law, from.temperature, from.internal_variable);
-    const double entropy = interface_entropy(law, from.temperature, from.internal_variable);
-    sums.hardening += w * (now.work - from.work - now.dissipation + from.dissipation);
-    sums.energy += w * (interface_energy(law, now.temperature, now.internal_variable) - energy);
-    sums.entropy += w * (interface_entropy(law, now.temperature, now.internal_variable) - entropy);
-    sums.mechanical_energy += w * (interface_energy(law, between, now.internal_variable) - energy);
-    sums.mechanical_entropy += w * (interface_entropy(law, between, now.internal_variable) - entropy);
+    const double old_energy = energy(from.temperature, from.internal_variable);
+    const double old_entropy = entropy(from.temperature, from.internal_variable);
+    sums.energy += w * (energy(now.temperature, now.internal_variable) - old_energy);
+    sums.entropy += w * (entropy(now.temperature, now.internal_variable) - old_entropy);
+    sums.mechanical_energy += w * (energy(between, now.internal_variable) - old_energy);
+    sums.mechanical_entropy += w * (entropy(between, now.internal_variable) - old_entropy);
     sums.plastic_entropy += w * made;
   }
   MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof(sums) / sizeof(double), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   return sums;
+}
+
+void ContactPair::take_slip(std::span<const double> temperature) {
+  const std::vector<std::optional<FrictionResponse>> found = heat_->keep_slip(temperature);
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    if (!found[p]) continue;
+    const FrictionResponse& slip = *found[p];
+    const PointState& from = step_.from[p];
+    PointState& now = now_.points[p];
+    now.status = slip.sticks ? PointStatus::sticks : PointStatus::slips;
+    if (const double size = norm(now.traction); size > 0)
+      now.traction = scale(slip.traction / size, now.traction);
+    now.internal_variable = slip.internal_variable;
+    now.slip = from.slip + slip.slip;
+    now.dissipation = from.dissipation + slip.dissipation;
+    now.work = from.work + slip.slip * slip.traction;
+  }
 }
 
 bool ContactPair::symmetric_heat() const {
@@ -465,6 +563,7 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
   step_.time = step_.begun = time;
   step_.dt = 0;
   step_.coupled = {};
+  step_.iterate.clear();
   predicted_.clear();
   if (heat_) heat_->end_phase();
   step_.displacement.assign(displacement.begin(), displacement.end());
@@ -505,9 +604,24 @@ std::vector<double> ContactPair::nodal_penetration() const {
   return mean;
 }
 
+void ContactPair::accelerate(const std::vector<double>& penetration) {
+  constexpr double k_longest = 30;
+  if (last_penetration_.size() != penetration.size()) {
+    step_factor_.assign(penetration.size(), 1.0);
+  } else {
+    for (std::size_t i = 0; i < penetration.size(); ++i) {
+      const double last = last_penetration_[i], fallen = last - penetration[i];
+      const double ratio = fallen != 0 ? last / fallen : 1.0;
+      step_factor_[i] = ratio > 0 ? std::clamp(step_factor_[i] * ratio, 1.0, k_longest) : 1.0;
+    }
+  }
+  last_penetration_ = penetration;
+}
+
 void ContactPair::augment() {
   if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return;
   const std::vector<double> penetration = nodal_penetration();
+  accelerate(penetration);
   if (start_traction_.empty())
     for (const PointState& from : step_.from) start_traction_.push_back(from.traction);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
@@ -515,7 +629,7 @@ void ContactPair::augment() {
     const ContactKinematics::Particle particle = kinematics_->particle(p);
     double mean = 0;
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
-      mean += particle.share[b] * penetration[at(particle.nodes[b])];
+      mean += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
     if (now_.points[at(p)].status == PointStatus::open)
       from.multiplier = least_multiplier(from);
     else

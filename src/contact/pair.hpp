@@ -75,7 +75,7 @@ struct ContactNodalFields {
   /// History of the points, with friction; else empty. μ is that of ζ_c and Θ_c. A master that wears has its
   /// own dissipation and depth.
   std::vector<double> slip, internal_variable, coefficient, dissipation, wear_depth;
-  std::vector<double> temperature;  ///< Θ_c [K]
+  std::vector<double> temperature;  ///< Θ_c, with friction or where the interface stores heat [K]
 };
 
 /// Input of a pass of the mechanical phase: the times, the fields at t_n and the way in which the interface's
@@ -89,7 +89,10 @@ struct ContactPass {
   std::span<const double> coherency{};
   bool isentropic = false;    ///< the pass holds the entropy of the interface, not Θ_c
   bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see set_temperature()
-  double share = 1;           ///< s of normal.hpp
+  /// Result of the pass before in a scheme whose phases take turns within the step: friction holds its Θ_c,
+  /// or its entropy. Null: that of t_n.
+  const ContactState* iterate = nullptr;
+  double share = 1;  ///< s of normal.hpp
 };
 
 class ContactPair {
@@ -139,6 +142,11 @@ class ContactPair {
   /// Restores the pair as it was after the update() that ended in `state` (empty: initial_state()) at this
   /// displacement and time. Local.
   void restore(const ContactState& state, std::span<const double> displacement, double time);
+  /// Whether the interface has a temperature Θ_c of its own: heat passes, and it rubs or stores heat.
+  bool has_temperature() const { return heat_ && (law_.friction || spec_.interface_heat_capacity > 0); }
+  /// Begins a step of bodies that do not deform and updates the pair: heat alone, where the interface stores
+  /// it. Local.
+  void rest(const ContactState& old, double time, double dt, std::span<const double> temperature);
   /// State of the points at the last update() or restore().
   const ContactState& state() const { return now_; }
 
@@ -159,7 +167,8 @@ class ContactPair {
   /// Uzawa's step of the augmented Lagrangian: the multipliers grow with the mean penetrations around the
   /// slave's nodes, λ += ε_N Σ N_a ḡ_a, and friction starts from the tractions of the last update(). There
   /// are more points than the unknowns of a face can bring to zero penetration one by one, but their means
-  /// can be. Collective.
+  /// can be. Where a mean falls slowly from turn to turn the step is lengthened by Aitken's factor: a node at
+  /// the edge of contact has few closed points, hence a weak spring. Collective.
   void augment();
   /// The largest mean penetration around a node of the slave at the last update(), over closed points, as a
   /// share of what is allowed; zero where there is no augmented Lagrangian. Collective.
@@ -216,8 +225,13 @@ class ContactPair {
   void find_wet_points(std::span<const double> coherency);
   void wear_master(const PointMotion& motion, const PointState& now, const PointForces& forces);
   HeatPoint heat_point(const PointState& from, const PointState& now, const PointForces& forces) const;
+  /// Takes over the slip that the thermal phase has found anew.
+  void take_slip(std::span<const double> temperature);
+  void require_apart(const ContactSurface& slave, const ContactSurface& master) const;
   void show_whole_step();
   void find_interface_temperatures(std::span<const double> temperature);
+  /// Lengthens the steps of the nodes from their mean penetrations now and one turn before.
+  void accelerate(const std::vector<double>& penetration);
   /// Mean penetrations ḡ_a of the augmented Lagrangian, weighted with w N_a², [local node] [m]. Collective.
   std::vector<double> nodal_penetration() const;
   /// The state of a point at t_n, with the traction that it had there.
@@ -246,6 +260,9 @@ class ContactPair {
   std::unique_ptr<MasterWear> worn_;   ///< absent where the master does not wear
   std::vector<WornNode> worn_from_;    ///< at t_n
   std::vector<Point> start_traction_;  ///< at t_n, [point] [Pa]; empty where step_.from still has them
+  /// Of the last turn of the augmented Lagrangian in this step: ḡ_a [m] and the factors of the steps, [local
+  /// node]; empty in the first one.
+  std::vector<double> last_penetration_, step_factor_;
   ContactState now_;
   std::vector<double> displacement_;  ///< of now_
   double time_ = 0;                   ///< likewise

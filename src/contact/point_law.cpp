@@ -23,7 +23,7 @@ FrictionResponse PointLaw::respond(const FrictionInput& in, const std::optional<
   f.trial_slope += r.traction_by_temperature * r.source_by_trial / r.heat.stiffness;
   f.pressure_slope += r.traction_by_temperature * r.source_by_pressure / r.heat.stiffness;
   joint = JointSlopes{r.heat.stiffness, r.source_by_trial, r.source_by_pressure, 0, {}};
-  const OneSided part = HeatTransferLaw::one_sided(1.0);
+  const OneSided part = around->law->one_sided(1.0);
   double moved = part.slave * (sides.temperature[0] - f.temperature);
   if (around->master_takes_heat) moved += part.master * (sides.temperature[1] - f.temperature);
   joint->traction_by_conductance = r.traction_by_temperature * moved / r.heat.stiffness;
@@ -33,7 +33,8 @@ FrictionResponse PointLaw::respond(const FrictionInput& in, const std::optional<
 }
 
 PointForces PointLaw::forces(const PointMotion& motion, const PointState& from,
-                             const std::optional<Surroundings>& around) const {
+                             const std::optional<Surroundings>& around,
+                             const std::optional<FrictionInput::Iterate>& iterate) const {
   PointForces f;
   if (!motion.partnered) return f;
   f.normal = normal.update(
@@ -46,7 +47,7 @@ PointForces PointLaw::forces(const PointMotion& motion, const PointState& from,
   const Point trial = add_scaled(motion.carried, friction->tangential_penalty(), motion.slip);
   f.trial = norm(trial);
   const double pressing = std::max(f.normal.pressure, 0.0);  // tension of a wet point makes no friction
-  const FrictionInput in{f.trial, pressing, from.internal_variable, from.temperature};
+  const FrictionInput in{f.trial, pressing, from.internal_variable, from.temperature, iterate};
   if (around)
     f.conductance =
         around->conductance(seen_by_heat(motion.penetration + from.offset, from.suction), f.normal.pressure);

@@ -26,8 +26,8 @@ struct Surroundings {
     return law->at(-penetration, pressure, 0.5 * (temperature[0] + temperature[1]));
   }
   InterfaceSides sides(double conductance) const {
-    const OneSided h = HeatTransferLaw::one_sided(conductance);
-    return {temperature, {h.slave, master_takes_heat ? h.master : 0.0}};
+    const OneSided h = law->one_sided(conductance);
+    return {temperature, {h.slave, master_takes_heat ? h.master : 0.0}, law->slave_share(master_takes_heat)};
   }
 };
 
@@ -73,9 +73,11 @@ struct PointLaw {
   double share = 1;              ///< s of normal.hpp
 
   /// @param from the state at t_n with the present multipliers: λ_N, and T_n or the traction that replaces it
-  /// @param around  where slip and Θ_c are found together: the simultaneous scheme
+  /// @param around   where slip and Θ_c are found together: the simultaneous scheme
+  /// @param iterate  of a scheme whose phases take turns within the step
   PointForces forces(const PointMotion& motion, const PointState& from,
-                     const std::optional<Surroundings>& around = {}) const;
+                     const std::optional<Surroundings>& around = {},
+                     const std::optional<FrictionInput::Iterate>& iterate = {}) const;
   /// The state that the forces lead to, at t_{n+1}. A point that is open, or where no friction acts, keeps
   /// what friction left.
   PointState next(const PointMotion& motion, const PointState& from, const PointForces& forces) const;

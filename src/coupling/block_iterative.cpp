@@ -14,6 +14,7 @@
 #include "coupling/contact_work.hpp"
 #include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
+#include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
 #include "heat/worst_node.hpp"
 
@@ -32,14 +33,23 @@ double largest(std::span<const double> a) {
   return algebra::global_max(size);
 }
 
+/// Θ_c of all points of all pairs [K]; zero where it is not known.
+std::vector<double> interface_temperatures(const std::vector<contact::ContactState>& contacts) {
+  std::vector<double> result;
+  for (const contact::ContactState& contact : contacts)
+    for (const contact::PointState& point : contact.points) result.push_back(point.temperature);
+  return result;
+}
+
 }  // namespace
 
 /// A step on its way.
 struct BlockIterative::Iterate {
   double time = 0, dt = 0;
-  int number = 0;                     ///< of the iteration
-  State now;                          ///< results of the last passes
-  std::vector<double> plateau_share;  ///< at t_n, [local node]
+  int number = 0;                 ///< of the iteration
+  State now;                      ///< results of the last passes
+  PhaseIterate phases;            ///< fractions of phase changes that the mechanical pass holds
+  std::vector<double> interface;  ///< Θ_c that friction holds in it; empty in the first iteration [K]
   /// Θ⁽ⁱ⁾ that the mechanical pass sees, and Θ⁽ⁱ⁻¹⁾ [K], [local node].
   std::vector<double> temperature, before;
   bool solved = false;  ///< both passes reached the tolerances of their phases
@@ -78,12 +88,14 @@ void BlockIterative::forget() {
 
 StepEffort BlockIterative::advance(const State& old, State& trial, double time, double dt) {
   ContactWork contact(phases_);
-  Iterate it;
-  it.time = time;
-  it.dt = dt;
-  it.now = old;
-  it.temperature = old.heat.temperature;
-  it.plateau_share = plateau_share(phases_, old.heat);
+  Iterate it{.time = time,
+             .dt = dt,
+             .now = old,
+             .phases = {phases_, old.heat},
+             .interface = {},
+             .temperature = old.heat.temperature,
+             .before = {},
+             .effort = {}};
   for (Relaxation& relaxation : relaxation_) relaxation.begin();
   changes_.clear();
   while (true) {
@@ -111,14 +123,15 @@ StepEffort BlockIterative::advance(const State& old, State& trial, double time, 
 }
 
 bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps) const {
-  mechanics::MechanicalPass pass{
-      .time = it.time, .dt = it.dt, .temperature = old.heat.temperature, .plateau_share = it.plateau_share};
+  mechanics::MechanicalPass pass{.time = it.time, .dt = it.dt, .temperature = old.heat.temperature};
+  it.phases.hold(pass);
   pass.newton_steps = newton_steps;
   if (it.number > 1) {
     pass.iterate_temperature = it.temperature;
     pass.iterate = &it.now.mechanics;
   }
-  return mechanical_pass(phases_, old, it.now, pass, it.effort);
+  const std::vector<contact::ContactState> before = it.number > 1 ? it.now.contacts : old.contacts;
+  return mechanical_pass(phases_, old, it.now, pass, it.effort, before);
 }
 
 bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {
@@ -144,8 +157,11 @@ void BlockIterative::iterate(const State& old, Iterate& it) {
     if (!grew) throw;
     diverged(it, rejected.reason());
   }
-  changes_.push_back({largest_difference(it.now.heat.temperature, answered(it)),
-                      largest_difference(it.now.mechanics.displacement, displacement)});
+  double change = largest_difference(it.now.heat.temperature, answered(it));
+  const std::vector<double> interface = interface_temperatures(it.now.contacts);
+  if (it.interface.size() == interface.size())
+    change = std::max(change, largest_difference(interface, it.interface));
+  changes_.push_back({change, largest_difference(it.now.mechanics.displacement, displacement)});
 }
 
 /// Whether the thermal pass works at the configuration of the iteration before.
@@ -164,7 +180,11 @@ bool BlockIterative::agrees(const State& old, const Iterate& it) const {
     return change <= options_.tolerance * largest_difference(now, before) ||
            change <= k_rounding * largest(now);
   };
-  return it.solved && small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature) &&
+  const double of_fractions =
+      it.phases.any() ? it.phases.difference(it.now.heat.temperature, plateau_share(phases_, it.now.heat))
+                      : 0.0;
+  return it.solved && of_fractions <= options_.tolerance &&
+         small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature) &&
          small(changes_.back().displacement, it.now.mechanics.displacement, old.mechanics.displacement);
 }
 
@@ -211,6 +231,8 @@ void BlockIterative::relax(Iterate& it) {
   const double factor = relaxation_[second ? 1 : 0].factor(std::span(change).first(n_owned));
   for (std::size_t i = 0; i < change.size(); ++i) change[i] = from[i] + factor * change[i];
   it.before = std::exchange(it.temperature, std::move(change));
+  it.interface = interface_temperatures(it.now.contacts);
+  it.phases.advance(it.now.heat.temperature, plateau_share(phases_, it.now.heat));
 }
 
 }  // namespace solidus::coupling

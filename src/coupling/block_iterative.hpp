@@ -6,8 +6,9 @@
 ///   thermal:     the balance of energy at a configuration, from Θ_n and S_n                   (4.43, 4.53)
 ///
 /// Every pass starts from the state at t_n; an iterate says only what it holds and where Newton's method sets
-/// out. In Gauss–Seidel's sweep the thermal pass works at the newest configuration, in Jacobi's at the one
-/// before; the first iteration is that of the split in both.
+/// out. Friction follows Θ_c⁽ⁱ⁾ of the interface (isentropic passes: its entropy), fractions of phase changes
+/// are those of Θ⁽ⁱ⁾. In Gauss–Seidel's sweep the thermal pass works at the newest configuration, in Jacobi's
+/// at the one before; the first iteration is that of the split in both.
 ///
 /// Isothermal passes converge where the coupling number (or its relaxed value) is below one, isentropic ones
 /// whatever it is (docs/theory/coupling.md).
@@ -52,7 +53,7 @@ class BlockIterative final : public CouplingScheme {
 
   /// Largest changes in one iteration, over all nodes and processes.
   struct Change {
-    double temperature = 0;   ///< that the thermal pass asks for [K]
+    double temperature = 0;   ///< that the thermal pass asks for, at nodes and of interfaces [K]
     double displacement = 0;  ///< [m]
   };
   /// Changes of the last step, one per iteration.

@@ -45,9 +45,9 @@ void advance_history(const contact::PointState& from, const contact::PointState&
 
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
                     const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
-                    std::span<const double> coherency) {
+                    std::span<const double> coherency, const std::vector<contact::ContactState>& iterate) {
   const profile::Part part("contact");
-  const contact::ContactPass of_contact{
+  contact::ContactPass of_contact{
       .time = pass.time,
       .dt = pass.dt,
       .displacement = old.displacement,
@@ -57,8 +57,16 @@ void begin_contacts(const Phases& phases, const std::vector<contact::ContactStat
       .simultaneous =
           phases.heat != nullptr && phases.mechanics->mapping() == mechanics::Mapping::simultaneous,
       .share = phases.mechanics->force_share()};
-  for (std::size_t i = 0; i < phases.contacts.size(); ++i)
+  for (std::size_t i = 0; i < phases.contacts.size(); ++i) {
+    of_contact.iterate = iterate.empty() ? nullptr : &iterate[i];
     phases.contacts[i]->begin(state_of(contacts, i), of_contact);
+  }
+}
+
+void rest_contacts(const Phases& phases, const State& old, double time, double dt) {
+  for (std::size_t i = 0; i < phases.contacts.size(); ++i)
+    if (phases.contacts[i]->has_temperature())
+      phases.contacts[i]->rest(state_of(old.contacts, i), time, dt, old.heat.temperature);
 }
 
 std::vector<contact::ContactState> contact_states(const Phases& phases) {

@@ -7,9 +7,13 @@ namespace solidus::coupling {
 
 /// A mechanical pass sets out: pairs from `contacts` at t_n (State::contacts).
 /// @param coherency  at t_n (coherency_of)
+/// @param iterate    of the pass before within the step (ContactPass::iterate); empty: there is none
 void begin_contacts(const Phases& phases, const std::vector<contact::ContactState>& contacts,
                     const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
-                    std::span<const double> coherency = {});
+                    std::span<const double> coherency = {},
+                    const std::vector<contact::ContactState>& iterate = {});
+/// A step of heat alone sets out: pairs that store heat, between bodies that do not deform.
+void rest_contacts(const Phases& phases, const State& old, double time, double dt);
 /// Returns the states of the pairs at their last update.
 std::vector<contact::ContactState> contact_states(const Phases& phases);
 /// Restores the pairs to their states in `state`.

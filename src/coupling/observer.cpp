@@ -22,6 +22,7 @@ EnergyAudit& EnergyAudit::operator+=(const EnergyAudit& next) {
   plastic_dissipation += next.plastic_dissipation;
   plastic_work += next.plastic_work;
   bodies += next.bodies;
+  inelastic_entropy += next.inelastic_entropy;
   return *this;
 }
 

@@ -42,13 +42,19 @@ struct EnergyAudit {
   double plastic_dissipation = 0;  ///< heat of plastic flow (2.117)
   double plastic_work = 0;         ///< work of the deviator on plastic flow
   BodyHeat bodies;                 ///< of bodies that came and left before the step, no part of the defect
-  double hardening() const { return plastic_work - plastic_dissipation; }  ///< stored by hardening
+  double inelastic_entropy = 0;    ///< change of the entropy S^I of plastic flow (4.43b) [J/K]
+  /// Internal energy of the first state of the run and of the present one less that, each computed from the
+  /// fields of its moment (internal_energy.hpp); of a run, not of a step.
+  double internal_at_start = 0, internal = 0;
+  double hardening() const { return plastic_work - plastic_dissipation; }  ///< stored by plastic flow
   double frictional_heat = 0;        ///< heat of friction that the thermal phase took up
   contact::InterfaceSums interface;  ///< of the last thermal pass; sums of a step, not of a run
   double defect() const {
     return stored_heat + structural + contact + kinetic + numerical + friction - frictional_heat - work -
            heat_in;
   }
+  /// The same of a run, of which energies at its two ends alone are known.
+  double state_defect() const { return internal + numerical - work - heat_in; }
   /// The same of two steps in a row.
   EnergyAudit& operator+=(const EnergyAudit& next);
 };
@@ -91,6 +97,7 @@ struct StepEffort {
   double least_dissipation = 0, largest_dissipation = 0;
   double solid_fraction = 1;                        ///< of the bodies that can melt, by volume
   double min_temperature = 0, max_temperature = 0;  ///< [K]
+  double internal_energy = 0;  ///< of the state, where it has one (internal_energy.hpp) [J]
   /// The effort of two steps in a row as that of one: the harder iteration, sums, and the end of the second.
   StepEffort& operator+=(const StepEffort& next);
 };

@@ -2,6 +2,8 @@
 
 #include <mpi.h>
 
+#include <algorithm>
+
 #include "base/errors.hpp"
 #include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
@@ -23,12 +25,13 @@ void add(const algebra::NewtonReport& newton, int hardest, double seconds, Phase
 }  // namespace
 
 bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
-                     const mechanics::MechanicalPass& pass, StepEffort& effort) {
+                     const mechanics::MechanicalPass& pass, StepEffort& effort,
+                     const std::vector<contact::ContactState>& contacts) {
   const profile::Part part("mechanics");
   const double start = MPI_Wtime();
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
-  begin_contacts(phases, old.contacts, old.mechanics, pass, coherency);
+  begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts);
   mechanics::PhaseReport report;
   mechanics::MechanicalPass turn = pass;
   mechanics::MechanicalState next;
@@ -60,6 +63,7 @@ bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& tr
   effort.energy.viscous_dissipation = report.work.dissipation - report.work.plastic_dissipation;
   effort.energy.plastic_dissipation = report.work.plastic_dissipation;
   effort.energy.plastic_work = report.work.plastic_work;
+  effort.energy.inelastic_entropy = report.work.inelastic_entropy;
   effort.least_dissipation = report.work.least_dissipation;
   effort.largest_dissipation = report.work.largest_dissipation;
   effort.mechanics.seconds += MPI_Wtime() - start;
@@ -71,6 +75,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
                   StepEffort& effort) {
   const profile::Part part("heat");
   const double start = MPI_Wtime();
+  if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
   for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
   const heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
 
@@ -89,7 +94,9 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   }
   effort.energy.interface = {};
   commit_contact_heat(phases, trial.heat.temperature, report.balance.contributions, effort.energy);
-  if (phases.mechanics != nullptr) trial.contacts = contact_states(phases);
+  const auto remembers = [](const contact::ContactPair* pair) { return pair->has_temperature(); };
+  if (phases.mechanics != nullptr || std::ranges::any_of(phases.contacts, remembers))
+    trial.contacts = contact_states(phases);
   add(report.newton, report.hardest, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;
 }

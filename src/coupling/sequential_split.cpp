@@ -25,6 +25,22 @@ std::vector<double> rate(const std::vector<double>& from, const std::vector<doub
   return result;
 }
 
+/// The interfaces that have a temperature begin with the one at rest between the bodies at t_n: in the first
+/// step it is not known before a mechanical phase, and heat comes first.
+void find_interface_temperatures(const Phases& phases, const State& old, double time) {
+  if (!old.contacts.empty()) return;
+  const std::vector<double> coherency = coherency_of(phases, old.heat);
+  for (contact::ContactPair* pair : phases.contacts) {
+    if (!pair->has_temperature()) continue;
+    pair->begin({}, {.time = time,
+                     .dt = 0,
+                     .displacement = old.mechanics.displacement,
+                     .temperature = old.heat.temperature,
+                     .coherency = coherency});
+    pair->update(old.mechanics.displacement);
+  }
+}
+
 }  // namespace
 
 SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order)
@@ -80,6 +96,7 @@ StepEffort SequentialSplit::heat_first(const State& old, State& trial, double ti
 StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double time, double dt) {
   StepEffort effort;
   phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, plateau_share(phases_, old.heat));
+  find_interface_temperatures(phases_, old, time - dt);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   thermal_pass(phases_, old, warm, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
   book_interface(effort.energy, phases_.structural != nullptr);

@@ -28,15 +28,23 @@ void require_numbers(const StepMeasure& measure) {
 
 struct Simulation::Progress {
   State committed, trial;
-  std::size_t stage = 0;  ///< in TimeOptions::stages
+  SolidFraction solid_fraction_of;  ///< of a committed state
+  std::size_t stage = 0;            ///< in TimeOptions::stages
   StageStart stage_start;
   std::optional<StepControl> control;  ///< of the stage
   std::optional<MeasuredStep> step;
   std::vector<double> outputs;  ///< times at which fields are written, rising
   StepRecord record;            ///< of the step last committed; its rejections are those since
-  double solid_fraction = 1;    ///< of the committed state
+  struct Pending {
+    PlannedStep step;
+    StepMeasure measure;
+    StepRecord record;
+  };
+  std::optional<Pending> pending;  ///< the step that `trial` is the end of
+  bool ended = false;              ///< observers were told of the end
+  double solid_fraction = 1;       ///< of the committed state
   ShotHistory shots;
-  BodyHeat pending;     ///< of bodies that came and left since the last step
+  BodyHeat carried;     ///< of bodies that came and left since the last step
   int saved = -1;       ///< the step whose checkpoint is written
   bool warned = false;  ///< of a limit that the smallest step exceeds
   Stop stop;
@@ -50,6 +58,8 @@ Simulation::Simulation(std::unique_ptr<CouplingScheme> scheme, TimeOptions optio
     if (measures_error(stage.step) && !estimate_)
       throw std::invalid_argument("adaptive steps need an estimate of their error");
 }
+
+Simulation::~Simulation() = default;
 
 bool Simulation::measures_error(const StepOptions& step) {
   return step.adaptive && step.limits.control != ErrorControl::none;
@@ -67,7 +77,7 @@ void Simulation::save(Progress& p, const ControlState& control) {
   scheme_->forget();
   const Continuation continuation{
       p.record.number, options_.stages[p.stage].step, control, p.stage_start, p.step->rates(), p.shots,
-      p.pending};
+      p.carried};
   for (Observer* o : observers_) o->checkpoint(continuation, p.committed);
   p.saved = p.record.number;
 }
@@ -79,8 +89,7 @@ void Simulation::measure_steps(Progress& p, const StepOptions& step, Rates rates
     p.step.emplace(*scheme_);
 }
 
-void Simulation::enter_stage(Progress& p, const SolidFraction& solid_fraction,
-                             const std::optional<Continuation>& from) {
+void Simulation::enter_stage(Progress& p, const std::optional<Continuation>& from) {
   const Stage& stage = options_.stages[p.stage];
   const bool first = p.stage == 0, staged = stage.of_case > 0;
   const double start = first ? p.committed.time : options_.stages[p.stage - 1].end;
@@ -111,7 +120,7 @@ void Simulation::enter_stage(Progress& p, const SolidFraction& solid_fraction,
   p.record.stage_of_case = stage.of_case;
   p.record.cycle = stage.cycle;
   if (staged) begin_bodies(p, anew, from && from->stage.number == p.stage_start.number);
-  p.solid_fraction = solid_fraction(p.committed);
+  p.solid_fraction = p.solid_fraction_of(p.committed);
   if (criteria_ != nullptr) criteria_->forget();
   scheme_->synchronise(p.committed);
   scheme_->forget();  // as after a checkpoint of this state
@@ -126,13 +135,13 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
   const bool changes = anew && !changed_before;
   if (changes && stage.shot > 0) p.committed.shot = stage.shot;
   if (changes && stage.begins_shot && shot_map_ != nullptr)
-    p.pending.corrected += shot_map_->begin(p.committed, p.shots);
+    p.carried.corrected += shot_map_->begin(p.committed, p.shots);
   const BodyHeat heat = stage_begins_(p.stage, p.stage_start, changes ? &p.committed : nullptr);
   scheme_->conditions_changed();
   if (!changes) return;
   p.stage_start.displacement = p.committed.mechanics.displacement;
   if (p.stage > 0) {
-    p.pending += heat;
+    p.carried += heat;
     p.shots.heat += heat;
   }
   if (!stage.pours) return;
@@ -160,7 +169,17 @@ Outcome Simulation::stopped(const Stop& why, Progress& p, Outcome outcome) {
 
 Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
                         const std::optional<Continuation>& from) {
-  Progress p;
+  begin(std::move(initial), solid_fraction, from);
+  std::optional<Outcome> outcome;
+  while (!(outcome = take_step())) commit_step();
+  progress_.reset();  // states are large
+  return *outcome;
+}
+
+void Simulation::begin(State initial, SolidFraction solid_fraction, const std::optional<Continuation>& from) {
+  progress_ = std::make_unique<Progress>();
+  Progress& p = *progress_;
+  p.solid_fraction_of = std::move(solid_fraction);
   if (criteria_ != nullptr) criteria_->forget();
   criteria::State records = std::move(initial.criteria);  // there is one of them, which commit() hands on
   p.trial = initial;
@@ -168,9 +187,10 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
   p.committed.criteria = std::move(records);
   p.saved = from ? from->steps : -1;
   p.record.number = from ? from->steps : 0;
+  p.record.time = p.committed.time;
   if (from) {
     p.shots = from->shots;
-    p.pending = from->pending;
+    p.carried = from->pending;
     p.stage = from->stage.number > 0 ? static_cast<std::size_t>(from->stage.number) - 1 : 0;
     if (periodic(p)) return end_at_once(p, from->stage);
   }
@@ -183,30 +203,32 @@ Outcome Simulation::run(State initial, const SolidFraction& solid_fraction,
   if (from && options_.stages[next].begins_shot && next == p.stage + 1)
     stage_begins_(p.stage, from->stage, nullptr);
   p.stage = next;
-  enter_stage(p, solid_fraction, from);
+  enter_stage(p, from);
   for (Observer* o : observers_) o->begin(p.committed);
-  while (true) {
-    if (const std::optional<Outcome> outcome = run_stage(p)) return *outcome;
-    if (p.stage + 1 == options_.stages.size() || periodic(p)) break;
-    ++p.stage;
-    enter_stage(p, solid_fraction, {});
-  }
-  for (Observer* o : observers_) o->end(p.committed);
-  return Outcome::finished;
 }
 
-// A run that goes on from its end has nothing left but to end.
-Outcome Simulation::end_at_once(Progress& p, const StageStart& stage_start) {
+void Simulation::end_at_once(Progress& p, const StageStart& stage_start) {
   if (!periodic(p)) p.stage = options_.stages.size() - 1;
   if (options_.stages[p.stage].of_case > 0) stage_begins_(p.stage, stage_start, nullptr);
   scheme_->synchronise(p.committed);
   for (Observer* o : observers_) o->begin(p.committed);
   for (Observer* o : observers_) o->end(p.committed);
-  return Outcome::finished;
+  p.ended = true;
 }
 
-std::optional<Outcome> Simulation::run_stage(Progress& p) {
-  while (!p.control->finished(p.committed.time)) {
+std::optional<Outcome> Simulation::take_step() {
+  Progress& p = *progress_;
+  while (!p.ended) {
+    if (p.control->finished(p.committed.time)) {
+      if (p.stage + 1 < options_.stages.size() && !periodic(p)) {
+        ++p.stage;
+        enter_stage(p, {});
+        continue;
+      }
+      for (Observer* o : observers_) o->end(p.committed);
+      p.ended = true;
+      break;
+    }
     if (stop_asked()) {
       if (p.saved != p.record.number || p.record.rejected > 0) save(p, p.control->state());
       Stop asked;
@@ -214,9 +236,8 @@ std::optional<Outcome> Simulation::run_stage(Progress& p) {
       return stopped(asked, p, Outcome::interrupted);
     }
     switch (try_step(p)) {
-      case Try::committed:
-        if (checkpoint_due(p.record)) save(p, p.control->state());
-        break;
+      case Try::taken:
+        return {};
       case Try::repeat:
         scheme_->synchronise(p.committed);
         break;
@@ -227,7 +248,60 @@ std::optional<Outcome> Simulation::run_stage(Progress& p) {
         return stopped(p.stop, p, Outcome::stuck);
     }
   }
-  return {};
+  return Outcome::finished;
+}
+
+void Simulation::commit_step() {
+  Progress& p = *progress_;
+  const Progress::Pending pending = std::move(*p.pending);
+  p.pending.reset();
+  p.record = pending.record;
+  commit(p, pending.step, pending.measure);
+  if (checkpoint_due(p.record)) save(p, p.control->state());
+}
+
+void Simulation::discard_step(std::optional<double> step) {
+  Progress& p = *progress_;
+  p.pending.reset();
+  ++p.record.rejected;
+  p.record.rejection = "repeated as asked";
+  scheme_->synchronise(p.committed);
+  if (step) ask_step(*step);
+}
+
+void Simulation::ask_step(double step) {
+  Progress& p = *progress_;
+  ControlState control = p.control->state();
+  control.size = step;
+  control.reason = "as asked";
+  p.control->resume(std::move(control));
+}
+
+void Simulation::conditions_changed() {
+  Progress& p = *progress_;
+  scheme_->conditions_changed();
+  scheme_->synchronise(p.committed);
+  scheme_->forget();
+}
+
+bool Simulation::pending() const {
+  return progress_->pending.has_value();
+}
+
+const State& Simulation::state() const {
+  return progress_->pending ? progress_->trial : progress_->committed;
+}
+
+const StepRecord& Simulation::record() const {
+  return progress_->pending ? progress_->pending->record : progress_->record;
+}
+
+const StageStart& Simulation::stage_start() const {
+  return progress_->stage_start;
+}
+
+std::size_t Simulation::stage() const {
+  return progress_->stage;
 }
 
 // The committed state is not touched before the step is known to be good: a step that is repeated starts from
@@ -235,6 +309,7 @@ std::optional<Outcome> Simulation::run_stage(Progress& p) {
 Simulation::Try Simulation::try_step(Progress& p) {
   const PlannedStep step = p.control->plan(p.committed.time);
   StepMeasure measure;
+  StepRecord record;
   try {
     const MeasuredStep::Taken taken = p.step->take(p.committed, p.trial, step.time, step.dt);
     measure = {std::max(taken.effort.heat.hard(), taken.effort.mechanics.hard()), taken.error.temperature,
@@ -246,7 +321,8 @@ Simulation::Try Simulation::try_step(Progress& p) {
       p.control->shortened(step, measure);
       return Try::repeat;
     }
-    static_cast<StepEffort&>(p.record) = taken.effort;
+    record = p.record;
+    static_cast<StepEffort&>(record) = taken.effort;
   } catch (const algebra::Interrupted&) {
     return Try::repeat;  // before which stop_asked() ends the run
   } catch (const StepRejected& rejection) {
@@ -256,8 +332,19 @@ Simulation::Try Simulation::try_step(Progress& p) {
     p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt};
     return Try::stuck;
   }
-  commit(p, step, measure);
-  return Try::committed;
+  p.trial.time = step.time;
+  p.trial.shot = p.committed.shot;
+  p.trial.poured = p.committed.poured;
+  record.number = p.record.number + 1;
+  record.time = step.time;
+  record.dt = step.dt;
+  record.reason = step.reason;
+  record.temperature_error = measure.temperature_error;
+  record.displacement_error = measure.displacement_error;
+  record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time);
+  record.energy.bodies = p.carried;
+  p.pending = {step, measure, std::move(record)};
+  return Try::taken;
 }
 
 // A step that is committed although it exceeds a limit contains a jump, or is the smallest one: its rates are
@@ -274,9 +361,6 @@ void Simulation::check_limits(Progress& p, const PlannedStep& step, const StepMe
 }
 
 void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure& measure) {
-  p.trial.time = step.time;
-  p.trial.shot = p.committed.shot;
-  p.trial.poured = p.committed.poured;
   p.trial.criteria = std::move(p.committed.criteria);
   if (criteria_ != nullptr)
     criteria_->step({p.committed.time - p.committed.poured, p.committed.heat, p.committed.mechanics},
@@ -286,16 +370,7 @@ void Simulation::commit(Progress& p, const PlannedStep& step, const StepMeasure&
   check_limits(p, step, measure);
   p.control->accepted(step, measure);
   p.solid_fraction = p.record.solid_fraction;
-
-  ++p.record.number;
-  p.record.time = step.time;
-  p.record.dt = step.dt;
-  p.record.reason = step.reason;
-  p.record.temperature_error = measure.temperature_error;
-  p.record.displacement_error = measure.displacement_error;
-  p.record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time);
-  p.record.energy.bodies = p.pending;
-  p.pending = {};
+  p.carried = {};
   if (shot_map_ != nullptr) {
     p.shots.lowest = std::min(p.shots.lowest, p.record.min_temperature);
     p.shots.highest = std::max(p.shots.highest, p.record.max_temperature);

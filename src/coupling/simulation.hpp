@@ -1,4 +1,5 @@
-/// The loop over time: plan a step, take and measure it, commit or repeat it.
+/// The loop over time: plan a step, take and measure it, commit or repeat it. run() goes through it to its
+/// end; a caller that looks at every step drives the same loop by begin(), take_step() and commit_step().
 #pragma once
 
 #include <functional>
@@ -52,6 +53,7 @@ class Simulation {
   /// Throws std::invalid_argument where it is missing.
   Simulation(std::unique_ptr<CouplingScheme> scheme, TimeOptions options,
              std::optional<ErrorEstimate> estimate = {});
+  ~Simulation();
   /// Observers are called in the order they were added; they must outlive the simulation.
   void add(Observer& observer) { observers_.push_back(&observer); }
   /// Brings State::criteria along with every step that is committed; must outlive the simulation.
@@ -80,15 +82,39 @@ class Simulation {
   Outcome run(State initial, const SolidFraction& solid_fraction,
               const std::optional<Continuation>& from = {});
 
+  /// Begins a run as run() does, up to its first step. Collective.
+  void begin(State initial, SolidFraction solid_fraction, const std::optional<Continuation>& from = {});
+  /// Takes the next step, in as many tries as it needs, and leaves it pending: commit_step() or
+  /// discard_step() follows. Returns nothing while the run goes on, else how it ended; then no step is
+  /// pending. Collective.
+  std::optional<Outcome> take_step();
+  /// The pending step counts: observers learn of it, a checkpoint is written where one is due. Collective.
+  void commit_step();
+  /// The pending step does not count: the run stands where it stood before it. Collective.
+  /// @param step  the size wanted in its place [s]; absent: as before
+  void discard_step(std::optional<double> step = {});
+  /// The size wanted for the next step [s], before it lands on a time that must be met. No step is pending.
+  void ask_step(double step);
+  /// The phases have got other conditions from outside. No step is pending. Collective.
+  void conditions_changed();
+  bool pending() const;
+  /// The state of the pending step, else the last committed one. Not before begin().
+  const State& state() const;
+  /// The pending step, else the last committed one.
+  const StepRecord& record() const;
+  /// Start of the present stage.
+  const StageStart& stage_start() const;
+  /// The present stage, in TimeOptions::stages.
+  std::size_t stage() const;
+
  private:
   struct Progress;  ///< variables of the loop over steps
 
-  enum class Try { committed, repeat, stuck };
+  enum class Try { taken, repeat, stuck };
   /// Begins the stage that holds at the committed time, or goes on in it.
-  void enter_stage(Progress& p, const SolidFraction& solid_fraction, const std::optional<Continuation>& from);
-  /// Runs within the stage as run() does; returns nothing if the end of the stage is reached.
-  std::optional<Outcome> run_stage(Progress& p);
-  Outcome end_at_once(Progress& p, const StageStart& stage_start);
+  void enter_stage(Progress& p, const std::optional<Continuation>& from);
+  /// A run that goes on from its end has nothing left but to end.
+  void end_at_once(Progress& p, const StageStart& stage_start);
   void begin_bodies(Progress& p, bool anew, bool changed_before);
   void end_shot(Progress& p);
   /// Whether a run stands at the end of a shot that left the die as it found it.
@@ -105,6 +131,7 @@ class Simulation {
   void measure_steps(Progress& p, const StepOptions& step, Rates rates);
 
   std::unique_ptr<CouplingScheme> scheme_;
+  std::unique_ptr<Progress> progress_;  ///< from begin() on
   TimeOptions options_;
   std::optional<ErrorEstimate> estimate_;
   std::vector<Observer*> observers_;

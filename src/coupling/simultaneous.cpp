@@ -9,6 +9,7 @@
 #include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
+#include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
 #include "material/time_integration.hpp"
 
@@ -17,6 +18,12 @@ namespace solidus::coupling {
 namespace {
 
 constexpr int k_revisions = 5;  ///< of the limits of conduction, each with a further solution of both fields
+/// Solutions with fractions of phase changes that follow the temperatures: at most, and the difference
+/// between two at which they have settled, as a part of what the step changes.
+constexpr int k_fraction_turns = 30;
+constexpr double k_settled = 1e-9;
+/// The difference that may be left where the residuals with the new fractions are within the tolerances.
+constexpr double k_balanced = 1e-3;
 
 const Phases& checked(const Phases& phases, const SimultaneousOptions& options) {
   if (phases.heat == nullptr || phases.mechanics == nullptr || phases.structural == nullptr)
@@ -52,7 +59,8 @@ void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried)
   for (double EnergyAudit::*part :
        {&EnergyAudit::stored_heat, &EnergyAudit::work, &EnergyAudit::unbalanced, &EnergyAudit::numerical,
         &EnergyAudit::heat_in, &EnergyAudit::entropy_in, &EnergyAudit::heat_exchanged,
-        &EnergyAudit::viscous_dissipation, &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work})
+        &EnergyAudit::viscous_dissipation, &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work,
+        &EnergyAudit::inelastic_entropy})
     sum.*part += carried * first.*part;
   add(first.interface, sum.interface, carried);
 }
@@ -96,8 +104,10 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
 StepEffort SimultaneousScheme::backward_euler(const State& old, State& trial, double time, double dt) {
   newton_->thermal().begin(old.heat, time, dt);
   const std::vector<double> share = plateau_share(phases_, old.heat);
+  PhaseIterate fractions(phases_, old.heat);
   return stage(old.mechanics, old.contacts, coherency_of(phases_, old.heat),
-               {.time = time, .dt = dt, .temperature = old.heat.temperature, .plateau_share = share}, trial);
+               {.time = time, .dt = dt, .temperature = old.heat.temperature, .plateau_share = share}, trial,
+               &fractions);
 }
 
 StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double time, double dt,
@@ -132,17 +142,26 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   return effort;
 }
 
+bool SimultaneousScheme::settled(const PhaseIterate& fractions, std::span<const double> plateau_share,
+                                 int turn) {
+  const double left = fractions.difference(newton_->thermal().temperature(), plateau_share);
+  if (left <= k_settled) return true;
+  const CoupledResidual& start = report_.residuals.front();
+  return turn > 0 && left <= k_balanced && start.force <= phases_.mechanics->options().newton.tolerance &&
+         start.heat <= newton_->thermal().tolerance();
+}
+
 StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
                                      const std::vector<contact::ContactState>& contacts,
                                      std::span<const double> coherency, mechanics::MechanicalPass pass,
-                                     State& trial) {
+                                     State& trial, PhaseIterate* fractions) {
   const profile::Part part("both fields");
   const double start = MPI_Wtime();
   pass.iterate_temperature = newton_->thermal().temperature();
   begin_contacts(phases_, contacts, old, pass, coherency);
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
-  int iterations = 0, linear_iterations = 0, revisions = 0;
+  int iterations = 0, linear_iterations = 0, revisions = 0, fraction_turns = 0;
   for (int turn = 1;; ++turn) {
     try {
       report_ = newton_->solve(old, pass, x);
@@ -152,8 +171,19 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     iterations += report_.iterations;
     linear_iterations += report_.linear_iterations;
     if (!penetrations_small(phases_, turn)) continue;
-    if (revisions == k_revisions || !newton_->thermal().revise_limits()) break;
-    ++revisions;
+    if (revisions < k_revisions && newton_->thermal().revise_limits()) {
+      ++revisions;
+      continue;
+    }
+    if (fractions == nullptr || !fractions->any()) break;
+    std::vector<double> share = newton_->thermal().plateau_share();
+    if (settled(*fractions, share, fraction_turns)) break;
+    if (++fraction_turns > k_fraction_turns)
+      throw StepRejected(
+          "both fields: the fractions of phase changes do not settle at the temperatures that "
+          "they lead to");
+    fractions->advance(newton_->thermal().temperature(), std::move(share));
+    fractions->hold(pass);
   }
   const mechanics::MechanicalWork work =
       phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
@@ -168,6 +198,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   energy.viscous_dissipation = work.dissipation - work.plastic_dissipation;
   energy.plastic_dissipation = work.plastic_dissipation;
   energy.plastic_work = work.plastic_work;
+  energy.inelastic_entropy = work.inelastic_entropy;
   energy.stored_heat = balance.stored;
   for (const heat::ConditionHeat& condition : balance.conditions) energy.heat_in += condition.heat;
   energy.entropy_in = balance.entropy_in;

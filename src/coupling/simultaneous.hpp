@@ -19,6 +19,8 @@
 
 namespace solidus::coupling {
 
+class PhaseIterate;
+
 class ContactWork;
 
 struct SimultaneousOptions {
@@ -47,8 +49,12 @@ class SimultaneousScheme final : public CouplingScheme {
   StepEffort two_stages(const State& old, State& trial, double time, double dt, ContactWork& contact);
   /// Mechanics from `old`, heat as thermal() has begun.
   /// @param coherency  at t_n
+  /// @param fractions  of phase changes, which follow the temperatures; null: those of `pass` are held
   StepEffort stage(const mechanics::MechanicalState& old, const std::vector<contact::ContactState>& contacts,
-                   std::span<const double> coherency, mechanics::MechanicalPass pass, State& trial);
+                   std::span<const double> coherency, mechanics::MechanicalPass pass, State& trial,
+                   PhaseIterate* fractions = nullptr);
+  /// Whether the solution found agrees with the fractions that it was found with.
+  bool settled(const PhaseIterate& fractions, std::span<const double> plateau_share, int turn);
   void drop_carried();
 
   Phases phases_;

@@ -34,6 +34,8 @@ StabilityAudit stability_audit(const Phases& phases, const State& old, const Sta
   constexpr double k_rounding = 1e-14;  // of each entropy that is a difference
   r.tolerance = std::max(0.0, energy.unbalanced) + std::max(0.0, -energy.numerical) +
                 effort.heat.residual * energy.heat_exchanged + k_rounding * ambient * stored.magnitude;
+  // A fraction that follows the temperature alone lets a phase change under pressure do work against it.
+  r.tolerance += structural.transformed;
   return r;
 }
 

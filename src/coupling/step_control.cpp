@@ -19,16 +19,27 @@ constexpr double k_stretch = 1e-3;
 constexpr double k_tells = 0.3;
 // An estimate that is far off must not cost more than this at once.
 constexpr double k_deepest_cut = 0.1;
+/// Powers of two of the smallest steps. An error in time does not end a run, so it need not be chased for
+/// ever. A step that does not converge does: contact that closes within a long step, or a melt that is
+/// chilled at once, may need the first moment of it.
+constexpr int k_of_errors = -10, k_of_failures = -20;
+
+double smallest_of_errors(const StepOptions& options) {
+  return options.min_step > 0 ? options.min_step : std::ldexp(options.step, k_of_errors);
+}
+
+double smallest_of_failures(const StepOptions& options) {
+  return options.min_step > 0 ? options.min_step : std::ldexp(options.step, k_of_failures);
+}
 
 }  // namespace
 
 StepControl::StepControl(const StepOptions& options, double start, std::vector<double> landings)
     : options_(options), landings_(std::move(landings)) {
   if (!(options_.step > 0)) throw std::invalid_argument("the time step must be positive");
-  if (options_.min_step <= 0) options_.min_step = options_.step / 1024;
   if (options_.max_step <= 0) options_.max_step = options_.adaptive ? 10 * options_.step : options_.step;
   if (!options_.adaptive) options_.max_step = options_.step;
-  if (options_.min_step > options_.step || options_.max_step < options_.step)
+  if (smallest_of_errors(options_) > options_.step || options_.max_step < options_.step)
     throw std::invalid_argument("min_step <= step <= max_step must hold");
   if (!(options_.growth > 1) || !(options_.cut > 0 && options_.cut < 1))
     throw std::invalid_argument("growth must exceed one and cut lie between zero and one");
@@ -99,7 +110,7 @@ void StepControl::recover() {
 bool StepControl::rejected(const PlannedStep& step, const std::string& why) {
   state_.size = step.dt * options_.cut;
   state_.reason = "rejected: " + why;
-  return state_.size >= options_.min_step * (1 - k_same_time);
+  return state_.size >= smallest_of_failures(options_) * (1 - k_same_time);
 }
 
 // Errors at a kink of the solution fall as Δt, in a shock as √Δt, its root mean square over a body, which
@@ -113,7 +124,8 @@ bool StepControl::is_jump(const PlannedStep& step, const Strictest& limit) const
 }
 
 bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) const {
-  if (!options_.adaptive || step.dt <= options_.min_step * (1 + k_stretch) * (1 + k_same_time)) return false;
+  if (!options_.adaptive || step.dt <= smallest_of_errors(options_) * (1 + k_stretch) * (1 + k_same_time))
+    return false;
   const Strictest limit = strictest(options_.limits, measure);
   return limit.exceeded && !is_jump(step, limit);
 }
@@ -129,7 +141,7 @@ void StepControl::shortened(const PlannedStep& step, const StepMeasure& measure)
 }
 
 void StepControl::resize(double size, const std::string& reason) {
-  state_.size = std::max(size, options_.min_step);
+  state_.size = std::max(size, std::min(smallest_of_errors(options_), state_.size));
   state_.reason = state_.size > size ? "smallest allowed" : reason;
 }
 

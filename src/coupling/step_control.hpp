@@ -11,9 +11,11 @@
 namespace solidus::coupling {
 
 struct StepOptions {
-  double step = 1;          ///< the step asked for; where adaptive, the first one [s]
-  bool adaptive = false;    ///< sizes follow `limits`, between min_step and max_step
-  double min_step = 0;      ///< [s]; zero: step / 1024
+  double step = 1;        ///< the step asked for; where adaptive, the first one [s]
+  bool adaptive = false;  ///< sizes follow `limits`, between min_step and max_step
+  /// The smallest step [s]. Zero: errors make no step shorter than step / 1024, and one that does not
+  /// converge is cut down to step / 2^20, whence it grows again.
+  double min_step = 0;
   double max_step = 0;      ///< [s]; zero: 10 × step when adaptive, else step
   double growth = 1.5;      ///< largest factor from one step to the next
   double cut = 0.5;         ///< factor after a step that did not go through

@@ -52,6 +52,13 @@ double ConsistentHeat::stored(std::span<const double> temperature) const {
   return sum;
 }
 
+double ConsistentHeat::enthalpy(std::span<const double> temperature) const {
+  double sum = 0;
+  for (const auto& block : points_) sum += block->enthalpy(temperature);
+  for (std::size_t i = 0; i < from_.size(); ++i) sum -= nodes_.upper(static_cast<Index>(i), temperature[i]);
+  return sum;
+}
+
 double ConsistentHeat::latent(std::span<const double> from, std::span<const double> to) const {
   double sum = 0;
   for (const auto& block : points_) sum += block->latent(from, to);

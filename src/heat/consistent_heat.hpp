@@ -45,6 +45,7 @@ class ConsistentHeat final : public algebra::Contribution {
   double stored(std::span<const double> temperature) const;                                      ///< [J]
   double latent(std::span<const double> from, std::span<const double> to) const;                 ///< [J]
   EntropyChange entropy_change(std::span<const double> from, std::span<const double> to) const;  ///< [J/K]
+  double enthalpy(std::span<const double> temperature) const;  ///< the whole content [J]
   std::size_t bytes() const { return nodes_.bytes(); }
 
  private:

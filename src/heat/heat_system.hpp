@@ -69,6 +69,10 @@ class HeatSystem {
   /// at the last find_limits(), rather than pass it on) can heat or cool beyond it. Collective.
   /// @param with_contributions  false: they are taken to pass heat on
   TemperatureRange ambient_range(bool with_contributions = true) const;
+  /// The range of these temperatures over the nodes that contributions give heat to or take it from, all
+  /// processes [K]; +∞ and −∞ where there is none. Friction, say, heats the nodes of its contact, and no node
+  /// can be hotter than the hottest of these and of those at the start of a step. Collective.
+  TemperatureRange range_of_contributions(std::span<const double> temperature);
   /// r on owned nodes [W]. Returns this process's share of the heat moved by surfaces, sources and
   /// contributions, magnitudes before they cancel.
   double residual(std::span<const double> temperature, std::span<double> r);

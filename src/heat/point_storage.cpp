@@ -85,6 +85,15 @@ class Storage final : public PointStorage {
     return sum(total);
   }
 
+  double enthalpy(std::span<const double> temperature) const override {
+    Lane total(0.0);
+    for_points(temperature, [&](Index batch, int q, std::size_t, Lane t) {
+      total +=
+          enthalpy(t) * geometry_.weight_at(batch, q) * geometry_.counted[static_cast<std::size_t>(batch)];
+    });
+    return sum(total);
+  }
+
   double latent(std::span<const double> old_temperature, std::span<const double> temperature) const override {
     double total = 0;
     for (const material::PhaseChange& change : material_.phase_changes) {

@@ -34,6 +34,8 @@ class PointStorage {
   virtual double stored(std::span<const double> temperature) const = 0;
   virtual double latent(std::span<const double> old_temperature,
                         std::span<const double> temperature) const = 0;
+  /// The heat content of the counted elements [J].
+  virtual double enthalpy(std::span<const double> temperature) const = 0;
   /// Change of the entropy ∫ dH/Θ over the counted elements.
   virtual EntropyChange entropy_change(std::span<const double> from, std::span<const double> to) const = 0;
   virtual std::size_t bytes() const = 0;

@@ -22,6 +22,17 @@ namespace {
 constexpr double k_by_deformation = 1;              ///< [K]
 constexpr double k_by_deformation_of_range = 0.01;  ///< as a share of the range of temperatures
 
+/// The range of two fields over all processes. Collective.
+TemperatureRange range_of(std::span<const double> a, std::span<const double> b) {
+  TemperatureRange range;
+  for (const std::span<const double> temperatures : {a, b})
+    for (const double temperature : temperatures) {
+      range.lowest = std::min(range.lowest, temperature);
+      range.highest = std::max(range.highest, temperature);
+    }
+  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+}
+
 }  // namespace
 
 ThermalIteration::ThermalIteration(ThermalPhase& phase) : phase_(phase) {}
@@ -49,6 +60,7 @@ void ThermalIteration::begin_stage(const ThermalState& old, const ThermalState& 
   }
   now_ = phase_.start(stage, time);
   range_ = phase_.limit_conduction(stage, old);
+  at_start_ = range_of(old.temperature, stage.temperature);
   if (nodal()) {
     stored_from_ = old.enthalpy;
     for (std::size_t i = 0; i < stored_from_.size(); ++i)
@@ -79,13 +91,26 @@ void ThermalIteration::evaluate() {
   unbalanced_ = algebra::global_sum(sum);
 }
 
+/// Where contributions alone leave the range open, it ends at the temperatures of the nodes they act on.
+TemperatureRange ThermalIteration::range_of_now() const {
+  if (std::isfinite(range_.lowest) && std::isfinite(range_.highest)) return range_;
+  TemperatureRange range = phase_.system_->ambient_range(false);
+  const TemperatureRange heated = phase_.system_->range_of_contributions(now_.temperature);
+  for (const TemperatureRange& other : {at_start_, heated}) {
+    range.lowest = std::min(range.lowest, other.lowest);
+    range.highest = std::max(range.highest, other.highest);
+  }
+  return range;
+}
+
 bool ThermalIteration::revise_limits() {
+  const TemperatureRange range = range_of_now();
   double beyond = 0;
   for (std::size_t i = 0; i < phase_.reactions_.size(); ++i)
-    beyond = std::max({beyond, range_.lowest - now_.temperature[i], now_.temperature[i] - range_.highest});
-  const double width = range_.highest - range_.lowest;
+    beyond = std::max({beyond, range.lowest - now_.temperature[i], now_.temperature[i] - range.highest});
+  const double width = range.highest - range.lowest;
   if (!(algebra::global_max(beyond) > k_by_deformation + k_by_deformation_of_range * width)) return false;
-  if (phase_.system_->hold_nodes(now_.temperature, range_) != ConductionLimiter::Held::further) return false;
+  if (phase_.system_->hold_nodes(now_.temperature, range) != ConductionLimiter::Held::further) return false;
   phase_.system_->find_limits(now_.temperature);
   return true;
 }

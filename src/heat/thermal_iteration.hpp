@@ -32,6 +32,8 @@ class ThermalIteration {
 
   /// Θ of now, [local node], ghosts up to date.
   std::span<const double> temperature() const { return now_.temperature; }
+  /// ThermalPhase::plateau_share of now. Collective.
+  std::vector<double> plateau_share() const { return phase_.plateau_share(now_); }
   /// Evaluates F at the present Θ with the present contributions. Collective.
   void evaluate();
   /// F, [owned node] [W]; where the temperature is prescribed, the heat that holds it.
@@ -68,6 +70,7 @@ class ThermalIteration {
 
  private:
   bool nodal() const { return phase_.nodal(); }
+  TemperatureRange range_of_now() const;
 
   ThermalPhase& phase_;
   std::unique_ptr<EnthalpyNewton> newton_;  ///< where the enthalpy of the nodes is the unknown
@@ -76,7 +79,8 @@ class ThermalIteration {
   std::vector<double> stored_from_;  ///< H*, [local node]; where the enthalpy of the nodes is the unknown
   std::vector<double> residual_, rhs_, step_;
   double dt_ = 0, unbalanced_ = 0;
-  TemperatureRange range_;  ///< within which conduction is to stay
+  TemperatureRange range_;     ///< within which conduction is to stay; open where something heats or cools
+  TemperatureRange at_start_;  ///< of the temperatures at t_n and of the first stage
 };
 
 }  // namespace solidus::heat

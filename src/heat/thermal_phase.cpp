@@ -647,6 +647,17 @@ EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const Therm
   return {algebra::global_sum(sum.change), algebra::global_sum(sum.magnitude)};
 }
 
+double ThermalPhase::enthalpy(const ThermalState& state) const {
+  double sum = 0;
+  if (!nodal()) {
+    for (const auto& block : points_) sum += block->enthalpy(state.temperature);
+  } else {
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) sum += state.enthalpy[at(i)];
+    if (consistent_) sum += consistent_->enthalpy(state.temperature);
+  }
+  return algebra::global_sum(sum);
+}
+
 double ThermalPhase::mean_temperature(const ThermalState& state, int body) const {
   double sum = 0, volume = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {

@@ -193,6 +193,8 @@ class ThermalPhase {
   /// Change of the entropy of sensible and latent heat, ∫ dH/Θ over all bodies [J/K]. Temperatures above
   /// zero. Collective.
   EntropyChange entropy_change(const ThermalState& from, const ThermalState& to) const;
+  /// Sensible and latent heat of a state, counted from a zero of the materials [J]. Collective.
+  double enthalpy(const ThermalState& state) const;
   /// Mean temperature of a body over its volume [K].
   double mean_temperature(const ThermalState& state, int body) const;
 

@@ -14,6 +14,10 @@ struct Casting {
   /// Solid fractions between which it cracks rather than strains, and no melt heals it.
   std::array<double, 2> brittle_range = {0.90, 0.99};
 
+  /// Tension of metal below coherency at which pores open in it, counted from the atmosphere [Pa]
+  /// (mechanics/pores.hpp): next to none, for cast metal holds films of oxide and gas that open at once.
+  double pore_tension = 100;
+
   /// Coarsening of secondary arms: λ₂ = c (t_f/1 s)ⁿ, t_f the local solidification time (W. Kurz,
   /// D. J. Fisher, Fundamentals of Solidification, 4th ed. 1998, eq. 4.25). Absent: the spacing is not known.
   std::optional<double> arm_spacing;     ///< c [m], the spacing after a solidification time of one second

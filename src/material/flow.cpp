@@ -18,6 +18,7 @@ std::vector<Property> Flow::properties() const {
     used.push_back({"plasticity.rate_exponent", "1", &exponent});
     if (!linear_rate()) used.push_back({"plasticity.drag_stress", "Pa", &drag_stress});
   }
+  if (heat_share) used.push_back({"plasticity.taylor_quinney", "1", &*heat_share});
   return used;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ enum class LiquidModel {
   degenerated      ///< 2.79–2.83: yield radius times f_S; the liquid is purely viscoplastic
 };
 
+/// Below it the overstress rises with more than the tenth power of the rate.
+inline constexpr double k_least_rate_exponent = 0.1;
+
 struct Flow {
   Table flow_stress;  ///< σ_0(Θ) [Pa], at ξ = 0; falls with temperature (2.121)
 
@@ -46,8 +50,12 @@ struct Flow {
   /// η(Θ) of the overstress [Pa s], zero everywhere: rate independent. With exponent n and drag stress D the
   /// flow rate is γ̇ = f_S/η Φ (Φ/D)^(n − 1): for n = 1 the monograph's 2.109b, else η_2.109b = η D^(n − 1).
   Table viscosity;
-  Table exponent{1.0};     ///< n(Θ) >= 1
-  Table drag_stress{1.0};  ///< D(Θ) [Pa], of n > 1
+  Table exponent{1.0};     ///< n(Θ), at least k_least_rate_exponent
+  Table drag_stress{1.0};  ///< D(Θ) [Pa], of n other than 1
+
+  /// Taylor–Quinney factor β(Θ), the share of plastic power that becomes heat. Absent: what hardening does
+  /// not store (2.118).
+  std::optional<Table> heat_share;
 
   /// The tables that the kinds read, in the order of the material file.
   std::vector<Property> properties() const;

@@ -189,6 +189,8 @@ void add_flow(Material& material, const FlowData& data) {
   add_isotropic(material, flow, data);
   add_kinematic(material, flow, data);
   add_rate(material, flow, data);
+  if (data.taylor_quinney)
+    flow.heat_share = read_property(material, "plasticity.taylor_quinney", *data.taylor_quinney);
   material.flow = std::move(flow);
 }
 

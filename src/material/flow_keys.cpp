@@ -114,10 +114,10 @@ void rate_keys(Section<FlowData>& s) {
           "times the strain rate above the yield stress. Left out: twice_shear_viscosity, the single eta of "
           "the monograph (2.98).");
   s.function("rate_exponent", &FlowData::rate_exponent, "1")
-      .range(1, 100)
+      .range(k_least_rate_exponent, 100)
       .of(k_temperature)
       .when("rate_dependence", {"perzyna"})
-      .doc("n; left out: 1.");
+      .doc("n; left out: 1. Below 1 the overstress rises faster than the strain rate.");
   s.function("drag_stress", &FlowData::drag_stress, "Pa")
       .positive()
       .of(k_temperature)
@@ -125,6 +125,18 @@ void rate_keys(Section<FlowData>& s) {
       .doc(
           "D: at the overstress Phi = D, gamma' = D/eta whatever n. Needed unless n = 1 everywhere, where it "
           "changes nothing.");
+}
+
+void heat_keys(Section<FlowData>& s) {
+  s.function("taylor_quinney", &FlowData::taylor_quinney, "1")
+      .range(0, 1)
+      .of(k_temperature)
+      .doc(
+          "Factor of Taylor and Quinney: the share of the plastic power s : d(eps_vp)/dt that becomes heat, "
+          "such "
+          "as 0.9; the rest is stored in the metal. Left out: what hardening does not store, 1 - "
+          "K_xi/sigma_y "
+          "for isotropic hardening (2.118).");
 }
 
 Section<FlowData> flow_keys() {
@@ -135,6 +147,7 @@ Section<FlowData> flow_keys() {
   isotropic_keys(s);
   kinematic_keys(s);
   rate_keys(s);
+  heat_keys(s);
   s.key("allow_thermal_hardening", &FlowData::allow_thermal_hardening)
       .initially(false)
       .doc(

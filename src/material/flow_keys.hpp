@@ -27,7 +27,7 @@ struct FlowData {
   KinematicHardening kinematic = KinematicHardening::none;
   Function kinematic_modulus, recall;
   bool perzyna = false;  ///< rate dependent
-  std::optional<Function> viscosity, rate_exponent, drag_stress;
+  std::optional<Function> viscosity, rate_exponent, drag_stress, taylor_quinney;
   bool allow_thermal_hardening = false;
   SourceLocation where;
 };

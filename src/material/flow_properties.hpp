@@ -20,15 +20,19 @@ struct FlowProperties {
   T viscosity{};                                      ///< η of the overstress [Pa s]
   T exponent{}, drag_stress{};                        ///< n, D [Pa]
   T temperature{};                                    ///< Θ [K], for measured flow curves
-  T beyond{};  ///< [K] from there along the line of the measured curves
+  T beyond{};      ///< [K] from there along the line of the measured curves
+  T softening{};   ///< −dσ_0/dΘ of the yield radius [Pa/K]
+  T heat_share{};  ///< β of Taylor and Quinney; without meaning where Flow has none
 };
 
 /// @param T double, Lane, Jet or automatic differentiation; near its value a table is its line
 template <class T>
 FlowProperties<T> flow_properties_at(const Flow& flow, const T& temperature) {
   FlowProperties<T> p;
-  p.flow_stress = detail::value(flow.flow_stress, temperature);
-  p.hardening_origin = p.flow_stress;
+  const Table::Line<T> yield = detail::line(flow.flow_stress, temperature);
+  p.flow_stress = p.hardening_origin = yield.value;
+  p.softening = T(0.0) - yield.slope;
+  p.heat_share = flow.heat_share ? detail::value(*flow.heat_share, temperature) : T(0.0);
   for (std::size_t i = 0; i < k_hardening_parameters; ++i)
     p.hardening[i] = detail::value(flow.hardening[i], temperature);
   p.kinematic_modulus = flow.kinematic == KinematicHardening::none
@@ -44,7 +48,7 @@ FlowProperties<T> flow_properties_at(const Flow& flow, const T& temperature) {
 }
 
 /// Numbers N of the flow rule near Θ_n, each made by `along` of its value and its slope there. What is
-/// dissipative is frozen: σ_0 of the yield radius, the recall, η, n and D.
+/// dissipative is frozen: σ_0 of the yield radius, β, the recall, η, n and D.
 template <class N, class T, class Along>
 [[gnu::always_inline]] inline FlowProperties<N> flow_along(const FlowProperties<T>& v,
                                                            const FlowProperties<T>& d,
@@ -60,7 +64,9 @@ template <class N, class T, class Along>
           .exponent = v.exponent,
           .drag_stress = v.drag_stress,
           .temperature = line_temperature,
-          .beyond = along(T(0.0), T(1.0))};
+          .beyond = along(T(0.0), T(1.0)),
+          .softening = v.softening,
+          .heat_share = v.heat_share};
 }
 template <class T>
 [[gnu::always_inline]] inline FlowProperties<T> flow_values(const FlowProperties<T>& values,

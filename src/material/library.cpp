@@ -8,27 +8,12 @@
 
 #include "base/document.hpp"
 #include "material/elasticity.hpp"
+#include "material/laws/fraction_law.hpp"
 
 namespace solidus::material {
 namespace {
 
 namespace fs = std::filesystem;
-
-PhaseFraction make_fraction(const FractionData& f) {
-  if (f.kind == "table") {
-    if (f.temperatures.size() != f.fractions.size())
-      throw std::invalid_argument("there are " + std::to_string(f.temperatures.size()) +
-                                  " temperatures and " + std::to_string(f.fractions.size()) + " fractions");
-    std::vector<std::pair<double, double>> points;
-    for (std::size_t i = 0; i < f.fractions.size(); ++i)
-      points.emplace_back(f.temperatures[i], f.fractions[i]);
-    return PhaseFraction::table(std::move(points));
-  }
-  if (f.kind == "lever_rule")
-    return PhaseFraction::lever_rule(f.melting_point, f.liquidus, f.eutectic, f.partition);
-  if (f.kind == "scheil") return PhaseFraction::scheil(f.melting_point, f.liquidus, f.eutectic, f.partition);
-  return PhaseFraction::linear(f.solidus, f.liquidus);
-}
 
 void add_phase_change(Material& material, const PhaseChangeData& data) {
   for (const PhaseChange& other : material.phase_changes) {
@@ -42,7 +27,7 @@ void add_phase_change(Material& material, const PhaseChangeData& data) {
   }
   try {
     material.phase_changes.push_back(
-        {data.name, make_fraction(data.fraction), data.latent_heat, data.volume_change, data.solidification});
+        {data.name, data.fraction.law->curve(), data.latent_heat, data.volume_change, data.solidification});
   } catch (const std::invalid_argument& error) {
     throw InputError(data.fraction.where,
                      "the fraction of the phase change '" + data.name + "': " + error.what());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,12 +15,11 @@
 
 namespace solidus::material {
 
+class FractionLaw;  // laws/fraction_law.hpp
+
 /// The keys of [phase_change.fraction].
 struct FractionData {
-  std::string kind;
-  double solidus = 0, liquidus = 0, melting_point = 0, eutectic = 0;  ///< [K], those that the kind takes
-  double partition = 0;
-  std::vector<double> temperatures, fractions;  ///< of kind "table"
+  std::shared_ptr<const FractionLaw> law;
   SourceLocation where;
 };
 

@@ -1,4 +1,5 @@
 /// The keys of a material file.
+#include "material/laws/fraction_law.hpp"
 #include "material/library.hpp"
 
 namespace solidus::material {
@@ -6,40 +7,7 @@ namespace {
 
 Section<FractionData> fraction_keys() {
   Section<FractionData> s("fraction", "The phase that is stable when cold, as a function of temperature.");
-  s.key("kind", &FractionData::kind)
-      .choices({"linear", "table", "lever_rule", "scheil"})
-      .initially("linear")
-      .doc(
-          "linear between solidus and liquidus (equal: isothermal), a table, the lever rule, or Scheil's "
-          "equation.");
-  s.quantity("solidus", &FractionData::solidus, "K")
-      .positive()
-      .when("kind", {"linear"})
-      .doc("The fraction is 1 below.");
-  s.quantity("liquidus", &FractionData::liquidus, "K")
-      .positive()
-      .when("kind", {"linear", "lever_rule", "scheil"})
-      .doc("The fraction is 0 above.");
-  s.quantity("melting_point", &FractionData::melting_point, "K")
-      .positive()
-      .when("kind", {"lever_rule", "scheil"})
-      .doc("Of the pure solvent.");
-  s.quantity("eutectic", &FractionData::eutectic, "K")
-      .positive()
-      .when("kind", {"lever_rule", "scheil"})
-      .doc("What is liquid there freezes isothermally.");
-  s.key("partition", &FractionData::partition)
-      .range(0, 1)
-      .when("kind", {"lever_rule", "scheil"})
-      .doc("Partition coefficient k of the solute.");
-  s.quantity("temperatures", &FractionData::temperatures, "K")
-      .positive()
-      .when("kind", {"table"})
-      .doc("Rising or falling; the same temperature twice is an isothermal part.");
-  s.key("fractions", &FractionData::fractions)
-      .range(0, 1)
-      .when("kind", {"table"})
-      .doc("One for each temperature, from 1 at the coldest to 0 at the hottest.");
+  s.kinds("kind", &FractionData::law, fraction_laws()).initially("linear").doc("The form of the curve.");
   s.place(&FractionData::where);
   return s;
 }
@@ -70,6 +38,15 @@ Section<Casting> casting_keys() {
           "Solid fraction from which the solid is a coherent network: strain before it is strain of the "
           "melt, "
           "strain after it is strain of the casting.");
+  s.quantity("pore_tension", &Casting::pore_tension, "Pa")
+      .initially("100 Pa")
+      .positive()
+      .doc(
+          "Tension, counted from the pressure of the atmosphere, at which pores open in metal below the "
+          "coherency_fraction: a pool that nothing feeds shrinks into pores from then on (field "
+          "pore_fraction) and stays on its walls. Next to none by default, for films of oxide and gas open "
+          "at "
+          "once.");
   s.key("brittle_range", &Casting::brittle_range)
       .initially(Value::list({0.90, 0.99}))
       .range(0, 1)

@@ -4,14 +4,37 @@
 
 namespace solidus::material {
 
+namespace {
+
+double shear_at(const Material& material, double theta) {
+  return material.young_modulus.value(theta) / (2 * (1 + material.poisson_ratio.value(theta)));
+}
+
+/// σ_s: the yield stress at the solidus, or what stands for it without plasticity; may be zero.
+double shell_strength(const Material& material) {
+  const double solidus = material.solidification()->fraction.solidus();
+  return material.flow ? material.flow->flow_stress.value(solidus)
+                       : k_shell_strain * shear_at(material, solidus);
+}
+
+}  // namespace
+
+MushViscosity mush_viscosity(const Material& material) {
+  const double coherency = material.casting.coherency_fraction;
+  if (coherency >= 1) return {};
+  double strength = shell_strength(material);
+  if (!(strength > 0))
+    strength = k_shell_strain * shear_at(material, material.solidification()->fraction.solidus());
+  return {.coherency = coherency,
+          .at_coherency = k_mush_strength * strength / k_mush_rate,
+          .rise = -std::log(k_mush_strength) / (1 - coherency),
+          .onset = -std::log(k_mush_onset) / k_mush_onset_width};
+}
+
 MeltModulus melt_modulus(const Material& material, double gravity, double extent) {
   using Bound = MeltModulus::Bound;
   if (!material.mechanical() || !material.chooses_viscosity()) return {};
-  const PhaseFraction& fraction = material.solidification()->fraction;
-  const double solidus = fraction.solidus(), liquidus = fraction.liquidus();
-  const auto shear_at = [&](double theta) {
-    return material.young_modulus.value(theta) / (2 * (1 + material.poisson_ratio.value(theta)));
-  };
+  const double liquidus = material.solidification()->fraction.liquidus();
   const double head = material.density * gravity * extent;
   MeltModulus melt{.extent = head > 0 ? extent : 0.0};
   const auto set = [&melt](double share, double reference, Bound bound) {
@@ -23,13 +46,13 @@ MeltModulus melt_modulus(const Material& material, double gravity, double extent
     set(k_melt_heads, head, Bound::head);
   else
     set(k_melt_heads, k_atmosphere, Bound::atmosphere);
-  const double strength =
-      material.flow ? material.flow->flow_stress.value(solidus) : k_shell_strain * shear_at(solidus);
+  const double strength = shell_strength(material);
   if (strength > 0 && k_melt_strengths * strength < melt.modulus)
     set(k_melt_strengths, strength, Bound::strength);
   const double bulk =
       material.young_modulus.value(liquidus) / (3 * (1 - 2 * material.poisson_ratio.value(liquidus)));
   if (k_least_melt_share * bulk > melt.modulus) set(k_least_melt_share, bulk, Bound::arithmetic);
+  melt.mush = mush_viscosity(material);
   return melt;
 }
 

@@ -15,10 +15,27 @@
 ///
 /// η follows the step, so a melt is as stiff in a short step as in a long one, and its stress goes to zero
 /// with the strain increments. Measured in docs/decisions/0011-melt.md.
+///
+/// Towards coherency and beyond the metal is a network of dendrites, whose creep is a property of the metal
+/// and does not depend on the step. Its viscosity is
+///
+///   η(f_S) = max(2Ĝ Δt, η_N(f_S)),   η_N = η_c (η_s/η_c)^((f_S − f_c)/(1 − f_c))  from coherency f_c on,
+///                                    η_N = η_c k_mush_onset^((f_c − f_S)/k_mush_onset_width)  below it,
+///   η_s = σ_s/k_mush_rate,  η_c = k_mush_strength η_s:
+///
+/// at a strain rate of k_mush_rate mush carries η ε̇/(1 − f_S), from some tens of kilopascals at coherency to
+/// more than the strength of the shell where little melt is left. Strengths of solidifying alloys rise as
+/// steeply (D. G. Eskin, Suyitno, L. Katgerman, Prog. Mater. Sci. 49 (2004) 629-711). Below coherency melt
+/// flows between the dendrites and feeds what shrinks: the thin melt. The two meet within
+/// k_mush_onset_width, so that a skin that has just become coherent does not stand before a liquid.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include <string>
 
+#include "base/simd.hpp"
 #include "material/material.hpp"
 
 namespace solidus::material {
@@ -31,8 +48,44 @@ inline constexpr double k_melt_strengths = 1;
 inline constexpr double k_shell_strain = 1e-3;
 /// 2Ĝ as a share of the bulk modulus: less gains nothing.
 inline constexpr double k_least_melt_share = 1e-7;
+/// Strength of the mush at coherency as a share of that of the shell, and the strain rate it is meant at
+/// [1/s].
+inline constexpr double k_mush_strength = 1e-2, k_mush_rate = 1e-3;
+/// Fall of the viscosity of the network below coherency, and the solid fraction over which it falls so far.
+inline constexpr double k_mush_onset = 1e-3, k_mush_onset_width = 0.05;
 /// The pressure of the atmosphere at sea level [Pa].
 inline constexpr double k_atmosphere = 101325;
+
+/// Viscosity of metal that is partly solid.
+struct MushViscosity {
+  double coherency = 1;     ///< f_c
+  double at_coherency = 0;  ///< η_c [Pa s]; zero: the mush is as thin as the melt
+  double rise = 0;          ///< ln(η_s/η_c)/(1 − f_c)
+  double onset = 0;         ///< −ln(k_mush_onset)/k_mush_onset_width
+
+  /// η at a solid fraction, T a number or a Lane [Pa s].
+  /// @param melt  that of the melt in the step
+  template <class T>
+  T at(const T& solid_fraction, const T& melt) const {
+    using std::max;
+    return max(melt, of_network(solid_fraction));
+  }
+  /// The stress that mush below a solid fraction of 1 carries at k_mush_rate [Pa].
+  template <class T>
+  T strength(const T& solid_fraction) const {
+    return T(k_mush_rate) * of_network(solid_fraction) / (T(1.0) - solid_fraction);
+  }
+  /// The curve above without the melt [Pa s].
+  template <class T>
+  T of_network(const T& solid_fraction) const {
+    using std::exp;
+    const T above = solid_fraction - T(coherency);
+    return T(at_coherency) * exp(select(above > T(0.0), T(rise), T(onset)) * above);
+  }
+};
+
+/// Of a material with a solidification and mechanical properties; zero if its coherency_fraction is 1.
+MushViscosity mush_viscosity(const Material& material);
 
 /// Modulus of a melt, with the quantity that it was chosen in proportion to.
 struct MeltModulus {
@@ -41,6 +94,7 @@ struct MeltModulus {
   double reference = 0;  ///< the head, the atmosphere, σ_s or k, whichever decides [Pa]
   Bound bound = Bound::head;
   double extent = 0;  ///< H [m]; zero without gravity
+  MushViscosity mush{};
 };
 
 /// Zero unless the material chooses_viscosity().

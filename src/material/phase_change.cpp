@@ -9,42 +9,6 @@ namespace {
 
 using Point = std::pair<double, double>;
 
-constexpr double k_sampling_tolerance = 1e-6;  ///< of the fraction, between the exact curve and its chords
-
-/// Appends points of f on (a, b], b included, so that the chords stay within the tolerance of f.
-template <class Fraction>
-void sample(const Fraction& f, double a, double b, int depth, std::vector<Point>& points) {
-  const double fa = f(a), fb = f(b);
-  bool fits = true;
-  for (const double t : {0.25, 0.5, 0.75})
-    fits = fits && std::abs(f(a + t * (b - a)) - (fa + t * (fb - fa))) <= 0.9 * k_sampling_tolerance;
-  if (fits || depth == 0) {
-    points.emplace_back(b, fb);
-    return;
-  }
-  const double middle = 0.5 * (a + b);
-  sample(f, a, middle, depth - 1, points);
-  sample(f, middle, b, depth - 1, points);
-}
-
-/// The curve f between `low` and `high`, with an isothermal rest at `low`.
-template <class Fraction>
-std::vector<Point> sampled(const Fraction& f, double low, double high) {
-  std::vector<Point> points{{low, 1.0}};
-  if (f(low) < 1.0) points.emplace_back(low, f(low));
-  sample(f, low, high, 20, points);
-  points.back().second = 0.0;  // f(high) up to rounding
-  return points;
-}
-
-void check_alloy(double melting_point, double liquidus, double eutectic, double partition) {
-  if (!(melting_point > liquidus && liquidus > eutectic))
-    throw std::invalid_argument(
-        "the melting point of the solvent must lie above the liquidus, and that above the eutectic");
-  if (!(partition > 0 && partition < 1))
-    throw std::invalid_argument("the partition coefficient must lie between 0 and 1");
-}
-
 bool colder(const Point& p, double temperature) {
   return p.first < temperature;
 }
@@ -87,25 +51,6 @@ PhaseFraction PhaseFraction::linear(double solidus, double liquidus) {
 
 PhaseFraction PhaseFraction::table(std::vector<Point> points) {
   return PhaseFraction(std::move(points));
-}
-
-PhaseFraction PhaseFraction::lever_rule(double melting_point, double liquidus, double eutectic,
-                                        double partition) {
-  check_alloy(melting_point, liquidus, eutectic, partition);
-  const double solidus = (liquidus - (1 - partition) * melting_point) / partition;
-  const auto f = [&](double t) {
-    return t <= solidus ? 1.0 : (liquidus - t) / ((1 - partition) * (melting_point - t));
-  };
-  return PhaseFraction(sampled(f, std::max(eutectic, solidus), liquidus));
-}
-
-PhaseFraction PhaseFraction::scheil(double melting_point, double liquidus, double eutectic,
-                                    double partition) {
-  check_alloy(melting_point, liquidus, eutectic, partition);
-  const auto f = [&](double t) {
-    return 1 - std::pow((melting_point - t) / (melting_point - liquidus), 1 / (partition - 1));
-  };
-  return PhaseFraction(sampled(f, eutectic, liquidus));
 }
 
 double PhaseFraction::value(double temperature, double plateau_share) const {

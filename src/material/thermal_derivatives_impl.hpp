@@ -17,7 +17,8 @@ Viscoplastic::Properties<Jet<T>> thermal_properties(const Viscoplastic& law, con
   }
   if (frozen.flow_stress) hold(p.flow.flow_stress);
   if (frozen.viscosity)
-    for (Jet<T>* a : {&p.elastic.viscosity, &p.flow.viscosity, &p.flow.exponent, &p.flow.drag_stress})
+    for (Jet<T>* a :
+         {&p.elastic.viscosity, &p.flow.viscosity, &p.flow.exponent, &p.flow.drag_stress, &p.flow.heat_share})
       hold(*a);
   if (frozen.recall) hold(p.flow.recall);
   return p;
@@ -118,8 +119,28 @@ class Variation {
       d.strain = by_elastic;
       return d;
     }
-    // D_plas Δt = γ f,  f = x + w √⅔ σ_0 + ⅔ K b ζ:ζ
-    const T rate(1.0 / dt_), zeta2 = dot(zeta_, zeta_);
+    const T rate(1.0 / dt_);
+    const Derivatives<T> plastic = law_.material().flow->heat_share ? shared_heat() : unstored();
+    d.value += rate * plastic.value;
+    d.temperature += rate * plastic.temperature;
+    d.strain = rate * plastic.strain + along_strain(by_elastic, zeros(), T(0.0));
+    return d;
+  }
+
+  /// The energy of plastic work that is stored beside that of hardening, since the start of the step [J/m³];
+  /// the material has a Taylor–Quinney factor.
+  Derivatives<T> cold_work() const {
+    const Derivatives<T> free = unstored(), heat = shared_heat();
+    return {free.value - heat.value, free.temperature - heat.temperature, free.strain - heat.strain};
+  }
+
+ private:
+  J radius() const { return J(T(return_mapping::k_root_two_thirds)) * shear_.strength; }  // w √⅔
+  J recall() const { return radius() * p_.flow.recall; }                                  // b
+
+  /// D_plas Δt = γ f,  f = x + w √⅔ σ_0 + ⅔ K b ζ:ζ, without a Taylor–Quinney factor.
+  Derivatives<T> unstored() const {
+    const T zeta2 = dot(zeta_, zeta_);
     const J fixed = radius() * p_.flow.flow_stress;
     const J recalled = law_.symmetric()
                            ? J(T(0.0))
@@ -127,16 +148,26 @@ class Variation {
     const T force = overstress_ + fixed.v + recalled.v * zeta2;
     const T force_theta = overstress_theta_ + overstress_gamma_ * gamma_theta_ + fixed.d +
                           recalled.d * zeta2 + T(2.0) * recalled.v * dot(zeta_, zeta_theta_);
-    d.value += rate * gamma_ * force;
-    d.temperature += rate * (gamma_theta_ * force + gamma_ * force_theta);
-    d.strain = along_strain(by_elastic, T(T(2.0) * rate * gamma_ * recalled.v) * zeta_,
-                            rate * (force + gamma_ * overstress_gamma_));
-    return d;
+    return {
+        gamma_ * force, gamma_theta_ * force + gamma_ * force_theta,
+        along_strain(zeros(), T(T(2.0) * gamma_ * recalled.v) * zeta_, force + gamma_ * overstress_gamma_)};
   }
 
- private:
-  J radius() const { return J(T(return_mapping::k_root_two_thirds)) * shear_.strength; }  // w √⅔
-  J recall() const { return radius() * p_.flow.recall; }                                  // b
+  /// β times the plastic work P = s γ (n : ê − γ) of the step.
+  Derivatives<T> shared_heat() const {
+    const T zero(0.0), along = dot(normal_, trial_), left = along - gamma_;
+    const J &s = shear_.twice_shear, &share = p_.flow.heat_share;
+    const T work = s.v * gamma_ * left;
+    const auto heats = work > zero;
+    const T beta = select(heats, share.v, zero), slope = select(heats, share.d, zero);
+    const T by_gamma = s.v * (left - gamma_);
+    const Sym<T> by_normal = T(s.v * gamma_) * across(trial_);
+    const T work_theta = s.d * gamma_ * left + by_gamma * gamma_theta_ + dot(by_normal, normal_theta_);
+    const T through_gamma = by_gamma + per_norm_ * dot(by_normal, drift_);
+    const Sym<T> by_strain = T(s.v * gamma_) * normal_ + T(s.v * per_norm_) * by_normal +
+                             T(through_gamma * inverse_ * s.v) * normal_;
+    return {beta * work, beta * work_theta + slope * work, beta * by_strain};
+  }
 
   /// a − n (n : a).
   Sym<T> across(const Sym<T>& a) const { return a - dot(normal_, a) * normal_; }
@@ -190,6 +221,7 @@ class Variation {
     drift_ = across(T(modulus.v * fading_gamma) * start.back_strain);
     const Sym<T> turn = across(stiff.d * trial_ + pull.d * start.back_strain) + gamma_theta_ * drift_;
     const Sym<T> normal_theta = inverse_norm * turn;
+    normal_theta_ = normal_theta;
     elastic_theta_ = T(zero - gamma_theta_) * normal_ - gamma_ * normal_theta;
 
     // ζ = B (ζ* − w γ n)
@@ -244,7 +276,7 @@ class Variation {
   T gamma_theta_{0.0}, xi_theta_{0.0};
   T zeta_turn_{0.0};  ///< ζ turns with n by −zeta_turn_ dn
   Sym<T> normal_ = zeros(), drift_ = zeros(), elastic_theta_ = zeros(), zeta_theta_ = zeros(),
-         zeta_gamma_ = zeros();
+         zeta_gamma_ = zeros(), normal_theta_ = zeros();
 
   static Sym<T> zeros() { return {{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)}}; }
 };

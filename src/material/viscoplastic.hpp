@@ -6,6 +6,7 @@
 ///   Φ = ‖s − w q‖ − w √⅔ (σ_0 + K_ξ),  n = (s − w q)/‖s − w q‖                          (2.106, 2.107)
 ///   ε̇^vp = γ̇ n,  ξ̇ = w √⅔ γ̇,  ζ̇ = −γ̇ (w n + b ζ),  q = −⅔ K ζ                          (2.108)
 ///   γ̇ = m/η Φ (Φ/D)^(n−1),  η = 0: Φ <= 0                                              (2.109b, 2.112)
+///   Ṡ^I = −γ̇ w √⅔ dσ_0/dΘ                                                              (2.119b, 4.43b)
 ///   ε̇^v = λ/η_l s,  λ = 1 − f_S                                                        (2.104)
 ///
 /// The liquid models (2.3.1) differ in 2Ĝ, in the share m of the flow and in the strength factor w:
@@ -45,6 +46,10 @@ class Viscoplastic {
     Sym<T> plastic_strain;  ///< ε^vp, deviatoric
     Sym<T> back_strain;     ///< ζ, deviatoric; q = −⅔ K ζ
     T hardening{};          ///< ξ, the equivalent plastic strain
+    T inelastic_entropy{};  ///< S^I (4.43b, 4.48c) [J/(m³ K)]
+    /// Energy of plastic work that is stored beside that of hardening, with a Taylor–Quinney factor only; its
+    /// force acts on nothing [J/m³].
+    T cold_work{};
   };
 
   template <class T>
@@ -56,8 +61,9 @@ class Viscoplastic {
     Sym<T> direction;       ///< n, where flow_increment > 0
     T flow_increment;       ///< γ over the effective step
     T viscous_dissipation;  ///< 2.114 [W/m³]
-    T plastic_dissipation;  ///< 2.117, without the power stored by hardening [W/m³]
+    T plastic_dissipation;  ///< 2.117, without the power that is stored [W/m³]
     T plastic_power;        ///< s : ε̇^vp [W/m³]
+    T thermal_dissipation;  ///< D_ther = Θ Ṡ^I (2.120), Θ that of the flow stress [W/m³]
     T dissipation;          ///< D_mech, the sum of both (2.113) [W/m³]
     Status status = Status::converged;
     // These members are read by thermal_derivatives.hpp and isentropic.hpp if flow_increment > 0:
@@ -122,10 +128,10 @@ class Viscoplastic {
   template <class T>
   struct Flowed {
     Sym<T> plastic_strain, back_strain;
-    T hardening, twice_shear;
+    T hardening, inelastic_entropy, cold_work, twice_shear;
     Sym<T> left, direction;
     return_mapping::Solution<T> solution;
-    T relative_norm, dissipation, power;
+    T relative_norm, dissipation, power, thermal_dissipation;
     Status status;
   };
   template <class T>
@@ -143,7 +149,7 @@ class Viscoplastic {
                               const Sym<T>& free, const Sym<T>& strain, double dt,
                               const return_mapping::Problem<T>& problem,
                               const return_mapping::Solution<T>& solution,
-                              const return_mapping::Yield<T>& end);
+                              const return_mapping::Yield<T>& end, bool shares_heat);
 
   const Material* material_;
   const Flow* flow_;

@@ -97,7 +97,8 @@ template <class T>
   const Sym<T> s = sh.twice_shear * rest, viscous = sh.viscous_share * rest;       // 4.146a, 4.145
   const T dissipation = T(1.0 / dt) * dot(s, viscous);                             // 2.114
   return {.stress = {{s[0] + pressure, s[1] + pressure, s[2] + pressure, s[3], s[4], s[5]}},
-          .state = {old_viscous + viscous, f.plastic_strain, f.back_strain, f.hardening},
+          .state = {old_viscous + viscous, f.plastic_strain, f.back_strain, f.hardening, f.inelastic_entropy,
+                    f.cold_work},
           .bulk = p.elastic.bulk,
           .twice_shear = f.twice_shear,
           .left = f.left,
@@ -107,6 +108,7 @@ template <class T>
           .viscous_dissipation = dissipation,
           .plastic_dissipation = f.dissipation,
           .plastic_power = f.power,
+          .thermal_dissipation = f.thermal_dissipation,
           .dissipation = dissipation + f.dissipation,
           .status = f.status,
           .overstress = f.solution.overstress,
@@ -124,11 +126,14 @@ template <class T>
                   Flowed<T>{start.plastic_strain,
                             start.back_strain,
                             start.hardening,
+                            start.inelastic_entropy,
+                            start.cold_work,
                             sh.twice_shear,
                             none,
                             none,
                             {zero, zero, zero, true},
                             one,
+                            zero,
                             zero,
                             zero,
                             status});
@@ -143,9 +148,11 @@ template <class T>
   using namespace return_mapping;
   const Solution<T> solution =
       linear_rate_ ? solve_linear_rate(problem, trial) : solve_power_rate(problem, trial);
+  const bool shares_heat = flow_->heat_share.has_value();
   if (problem.recalls)
-    return returned<true>(p, start, sh, free, strain, dt, problem, solution, yield(problem, solution.gamma));
-  return returned<false>(p, start, sh, free, strain, dt, problem, solution, trial);  // β̂ stays
+    return returned<true>(p, start, sh, free, strain, dt, problem, solution, yield(problem, solution.gamma),
+                          shares_heat);
+  return returned<false>(p, start, sh, free, strain, dt, problem, solution, trial, shares_heat);  // β̂ stays
 }
 
 /// The state on the (overstressed) yield surface, and the tangent. Lanes inside it have γ = 0.
@@ -153,7 +160,7 @@ template <bool recalls, class T>
 [[gnu::always_inline]] inline Viscoplastic::Response<T> Viscoplastic::returned(
     const Properties<T>& p, const State<T>& start, const Shear<T>& sh, const Sym<T>& free,
     const Sym<T>& strain, double dt, const return_mapping::Problem<T>& problem,
-    const return_mapping::Solution<T>& solution, const return_mapping::Yield<T>& end) {
+    const return_mapping::Solution<T>& solution, const return_mapping::Yield<T>& end, bool shares_heat) {
   using namespace return_mapping;
   const T gamma = solution.gamma, stiff = sh.twice_shear, w = sh.strength, radius = T(k_root_two_thirds) * w;
   const T inverse_norm = T(1.0) / end.norm, rate = T(1.0 / dt) * gamma;
@@ -170,17 +177,28 @@ template <bool recalls, class T>
     left -=
         T(along * gamma * inverse_norm * end.drift) * (problem.back_strain - dot(n, problem.back_strain) * n);
   }
+  const T power = rate * stiff * dot(rest, n), produced = rate * radius * p.flow.softening;  // 2.119b
+  T cold_work = start.cold_work;
+  if (shares_heat) {
+    // Where the back stress outweighs s, flow gives work back and none of it can become heat.
+    const T zero(0.0), heat = p.flow.heat_share * select(power > zero, power, zero);
+    cold_work += T(dt) * (dissipation - heat);
+    dissipation = heat;
+  }
   return response(p, start.viscous_strain, sh, rest, strain, dt,
                   Flowed<T>{.plastic_strain = start.plastic_strain + flow,  // 4.144a
                             .back_strain = back_strain,
-                            .hardening = start.hardening + radius * gamma,  // 4.144c
+                            .hardening = start.hardening + radius * gamma,                    // 4.144c
+                            .inelastic_entropy = start.inelastic_entropy + T(dt) * produced,  // 4.43b
+                            .cold_work = cold_work,
                             .twice_shear = stiff * (T(1.0) - turning),
                             .left = left,
                             .direction = n,
                             .solution = solution,
                             .relative_norm = end.norm,
                             .dissipation = dissipation,
-                            .power = rate * stiff * dot(rest, n),
+                            .power = power,
+                            .thermal_dissipation = p.flow.temperature * produced,
                             .status = solution.converged ? Status::converged : Status::cut_the_step});
 }
 

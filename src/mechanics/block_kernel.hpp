@@ -8,6 +8,7 @@
 
 #include "algebra/block_matrix.hpp"
 #include "material/material.hpp"
+#include "material/melt.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "mechanics/phase_fields.hpp"
 #include "mechanics/structural_heat.hpp"
@@ -36,9 +37,14 @@ struct StepStart {
   double stress_share = 1;  ///< of t_{n+1} in the mean
   StressAtWork work = StressAtWork::end;
   PhaseFields phases{};  ///< of the block's body at t_n
-  /// 2Ĝ of a melt whose viscosity the program chooses (material/melt.hpp), η = 2Ĝ × effective_dt [Pa]. Zero:
-  /// the material has its viscosity.
-  double melt_modulus = 0;
+  /// The melt whose viscosity the program chooses; null, or a modulus of zero: the material has its viscosity.
+  const material::MeltModulus* melt = nullptr;
+
+  double melt_modulus() const { return melt != nullptr ? melt->modulus : 0.0; }
+  /// η of such a melt or mush in the step [Pa s].
+  Lane melt_viscosity(const Lane& solid_fraction) const {
+    return melt->mush.at(solid_fraction, Lane(melt->modulus * effective_dt));
+  }
 };
 
 /// Sums over the counted elements of a block.
@@ -47,6 +53,7 @@ struct BlockWork {
   /// Work of the pressure on the volume that mixed elements leave to their sub-scales [J].
   double stabilisation_work = 0;
   double least_dissipation = 0, largest_dissipation = 0;  ///< [W/m³]
+  double inelastic_entropy = 0;                           ///< change of S^I [J/K]
 };
 
 /// [m³], in two dimensions per depth or radian.

@@ -84,14 +84,19 @@ class CoupledPoints : public Block, public CoupledKernel {
     const auto& at = this->points_.at(batch, q);
     const auto partials = material::structural_partials<Lane>(
         this->law_.material(),
-        material::along_lines(this->law_.material(), at.temperature, theta, at.strain_offset), theta,
+        material::along_lines(this->law_.material(), at.line_temperature, theta, at.strain_offset), theta,
         at.now.strain_trace, at.now.elastic_squared, p.elastic.solid_fraction.v >= Lane(1.0),
         at.now.hardening, at.now.back_squared);
     const Lane rate(1.0 / this->dt_);
     Rates d;
     d.stress = update.stress();
     if (form == StructuralForm::energy) {
-      const auto energy = update.along(partials.internal_energy);
+      auto energy = update.along(partials.internal_energy);
+      if (this->law_.material().flow && this->law_.material().flow->heat_share) {
+        const auto stored = update.cold_work();
+        energy.temperature += stored.temperature;
+        energy.strain += stored.strain;
+      }
       const Lane at_end(this->stress_share_);  // of σ in the stress at work
       d.heat_temperature = rate * (energy.temperature - at_end * dot(d.stress, increment));
       d.heat_strain = rate * (energy.strain - this->mean_stress(batch, q, r.stress) -

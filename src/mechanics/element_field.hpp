@@ -14,9 +14,12 @@ enum class ElementField {
   equivalent_plastic_strain,  ///< ξ
   flow_stress,                ///< σ_0 + K_ξ, the von Mises stress (less back stress) of slow flow [Pa]
   dissipation,                ///< D_mech [W/m³]
+  thermal_dissipation,        ///< D_ther = Θ Ṡ^I (2.120) [W/m³]
+  inelastic_entropy,          ///< S^I (4.43b) [J/(m³ K)]
   von_mises,                  ///< of the average stress [Pa]
   pressure,                   ///< −tr σ/3 [Pa], positive in compression
-  intermediate_temperature    ///< Θ̄ of the isentropic mapping [K]
+  intermediate_temperature,   ///< Θ̄ of the isentropic mapping [K]
+  pore_fraction               ///< θ, the volume of pores per volume of the casting (pores.hpp)
 };
 
 /// 6 or 1.

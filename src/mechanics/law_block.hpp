@@ -124,10 +124,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(start.held_displacement, batch);
       for (int q = 0; q < geometry_.n_points; ++q)
-        this->points_.hold_deformation(
-            batch, q,
-            this->deformation(at_point(batch, q).strain(displacement), this->old_state(batch, q),
-                              this->is_solid(batch, q)));
+        this->hold_point(batch, q, at_point(batch, q).strain(displacement));
     }
   }
 

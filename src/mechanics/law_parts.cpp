@@ -42,6 +42,7 @@ ViscoplasticValues<Lane> values_of(const material::Viscoplastic::State<Lane>& st
   v.viscous_strain = state.viscous_strain;
   v.plastic_strain = state.plastic_strain;
   v.equivalent_plastic_strain = state.hardening;
+  v.inelastic_entropy = state.inelastic_entropy;
   return v;
 }
 
@@ -77,6 +78,8 @@ std::vector<std::size_t> kept_lanes(const material::Material& material) {
   if (material.flow->kinematic != material::KinematicHardening::none)
     append_lanes(&State::back_strain, lanes);
   append_lanes(&State::hardening, lanes);
+  if (!material.flow->flow_stress.constant()) append_lanes(&State::inelastic_entropy, lanes);
+  if (material.flow->heat_share) append_lanes(&State::cold_work, lanes);
   return lanes;
 }
 
@@ -136,6 +139,12 @@ void put(ElementField which, const ViscoplasticValues<double>& values, double* t
       return;
     case ElementField::flow_stress:
       *to = values.flow_stress;
+      return;
+    case ElementField::thermal_dissipation:
+      *to = values.thermal_dissipation;
+      return;
+    case ElementField::inelastic_entropy:
+      *to = values.inelastic_entropy;
       return;
     default:
       put_common(which, values, to);

@@ -104,6 +104,24 @@ std::array<T, 2> hardening_change(const material::Viscoplastic::State<T>& state,
 struct PlasticPower {
   Lane power{}, dissipation{};
 };
+
+/// S^I of a state [J/(m³ K)], and the energy of plastic work that is stored beside that of hardening [J/m³].
+template <class T>
+T inelastic_entropy(const material::Viscoelastic::State<T>&) {
+  return T(0.0);
+}
+template <class T>
+T inelastic_entropy(const material::Viscoplastic::State<T>& state) {
+  return state.inelastic_entropy;
+}
+template <class T>
+T cold_work(const material::Viscoelastic::State<T>&) {
+  return T(0.0);
+}
+template <class T>
+T cold_work(const material::Viscoplastic::State<T>& state) {
+  return state.cold_work;
+}
 template <class Response>
 PlasticPower plastic_power(const material::Viscoelastic&, const Response&) {
   return {};
@@ -128,7 +146,7 @@ template <class T>
 struct ViscoplasticValues {
   using OfOne = ViscoplasticValues<double>;
   Sym<T> stress, strain, viscous_strain, plastic_strain, back_stress;
-  T equivalent_plastic_strain{}, flow_stress{}, dissipation{};
+  T equivalent_plastic_strain{}, flow_stress{}, dissipation{}, thermal_dissipation{}, inelastic_entropy{};
 };
 template <class T>
 struct IsentropicValues {
@@ -155,6 +173,7 @@ ViscoplasticValues<Lane> values_of(const material::Viscoplastic& law,
   v.stress = r.stress;
   v.strain = strain;
   v.dissipation = r.dissipation;
+  v.thermal_dissipation = r.thermal_dissipation;
   return v;
 }
 /// The same for the isentropic mapping, at Θ̄ but for the frozen properties.
@@ -169,6 +188,7 @@ IsentropicValues<Lane> values_of(const material::Isentropic& law,
   v.mechanical.stress = r.stress;
   v.mechanical.strain = strain;
   v.mechanical.dissipation = r.dissipation;
+  v.mechanical.thermal_dissipation = r.thermal_dissipation;
   return v;
 }
 

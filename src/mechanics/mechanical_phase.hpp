@@ -80,6 +80,7 @@ struct MechanicalWork {
   double dissipation = 0;          ///< Δt ∫ D_mech dV, viscous and plastic (2.113)
   double plastic_dissipation = 0;  ///< the plastic part of it (2.117)
   double plastic_work = 0;  ///< Δt ∫ s : ε̇^vp dV: plastic dissipation and energy stored by hardening
+  double inelastic_entropy = 0;  ///< change of ∫ S^I dV (4.43b) [J/K]
   /// The least and the largest D_mech at any point and zero [W/m³]; the least is negative by rounding at
   /// most.
   double least_dissipation = 0, largest_dissipation = 0;
@@ -104,11 +105,14 @@ enum class StressAtWork { end, end_kept, kept };
 struct MechanicalPass {
   double time = 0, dt = 0;              ///< t_{n+1} and the step [s]
   std::span<const double> temperature;  ///< Θ_n [K], [local node], ghosts up to date
-  /// heat::ThermalPhase::plateau_share at t_n, [local node], ghosts up to date: how much of an isothermal
-  /// change is done at nodes that have its temperature. Empty: none of it, there is melt.
+  /// Temperatures of solid fraction and straining of phase changes [K], [local node], ghosts up to date.
+  /// Empty: Θ_n (4.81); a scheme that iterates gives those of its iterate, so that it ends with Θ_{n+1}.
+  std::span<const double> phase_temperature{};
+  /// heat::ThermalPhase::plateau_share at the moment of those temperatures, [local node], ghosts up to date:
+  /// how much of an isothermal change is done at nodes that have its temperature. Empty: none of it, there is
+  /// melt.
   std::span<const double> plateau_share{};
-  /// Θ of the iterate: held in its place, or the one at which the entropy is held. Solid fraction and
-  /// straining of phase changes stay those of t_n (4.81).
+  /// Θ of the iterate: held in its place, or the one at which the entropy is held.
   std::span<const double> iterate_temperature{};
   /// Displacement and history of the iterate: Newton's start, and whose entropy is held.
   const MechanicalState* iterate = nullptr;

@@ -74,8 +74,10 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
          .new_stress = remembers || keeps ? &stress_[b] : nullptr,
          .stress_share = remembers ? inertia_->motion().work_share : 1,
          .work = pass.work,
-         .phases = nodal_phases_.evaluate(b, pass.temperature, pass.plateau_share),
-         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
+         .phases = nodal_phases_.evaluate(
+             b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
+             pass.plateau_share),
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
   if (pressure_) pressure_->begin();
   stress_at_work_ = pass.work;
   residual_is_known_ = false;
@@ -248,7 +250,7 @@ void MechanicalPhase::hold_deformation(const MechanicalState& state, std::span<c
          .dt = 1,
          .effective_dt = 1,
          .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
-         .melt_modulus = melt_[static_cast<std::size_t>(mesh_.blocks[b].body)].modulus});
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
@@ -270,6 +272,7 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
     total.dissipation += work.dissipation;
     total.plastic_dissipation += work.plastic_dissipation;
     total.plastic_work += work.plastic_work;
+    total.inelastic_entropy += work.inelastic_entropy;
     total.least_dissipation = std::min(total.least_dissipation, work.least_dissipation);
     total.largest_dissipation = std::max(total.largest_dissipation, work.largest_dissipation);
   }
@@ -306,15 +309,16 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
   residual(x, r);
   r.resize(n_forces());
   x = x.first(n_displacements());
-  double local[9] = {0,
-                     0,
-                     0,
-                     sums.internal_work,
-                     sums.dissipation,
-                     sums.plastic_dissipation,
-                     sums.plastic_work,
-                     0,
-                     sums.stabilisation_work};
+  double local[10] = {0,
+                      0,
+                      0,
+                      sums.internal_work,
+                      sums.dissipation,
+                      sums.plastic_dissipation,
+                      sums.plastic_work,
+                      0,
+                      sums.stabilisation_work,
+                      sums.inelastic_entropy};
   if (stress_at_work_ != StressAtWork::kept) kept_ = {external_, r};
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double increment = x[i] - old.displacement[i];
@@ -335,8 +339,8 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
     local[7] = motion.kinetic;
     local[8] += motion.numerical;
   }
-  double all[9];
-  MPI_Allreduce(local, all, 9, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  double all[10];
+  MPI_Allreduce(local, all, 10, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   return {.external_work = all[0],
           .support_work = all[1],
           .residual_work = all[2],
@@ -344,6 +348,7 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
           .dissipation = all[4],
           .plastic_dissipation = all[5],
           .plastic_work = all[6],
+          .inelastic_entropy = all[9],
           .least_dissipation = algebra::global_min(sums.least_dissipation),
           .largest_dissipation = algebra::global_max(sums.largest_dissipation),
           .kinetic = all[7],

@@ -4,6 +4,7 @@
 #include "mechanics/element_matrix.hpp"
 #include "mechanics/mixed_parts.hpp"
 #include "mechanics/point_block.hpp"
+#include "mechanics/pores.hpp"
 #include "mechanics/pressure_nodes.hpp"
 
 namespace solidus::mechanics {
@@ -13,9 +14,9 @@ inline constexpr double k_volume_tolerance = 1e-11;
 inline constexpr int k_max_volumes = 30;
 /// Largest volumetric strain of one step of that iteration: beyond it no law holds.
 inline constexpr double k_largest_volume_step = 0.05;
-/// Behind the law's state at a point: e_v, and in axisymmetry p_a − p̄ of its nodes.
+/// Behind the law's state at a point: e_v, the pore fraction, and in axisymmetry p_a − p̄ of its nodes.
 template <int n_nodes, AnalysisKind kind>
-inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 1 + n_nodes : 1;
+inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 2 + n_nodes : 2;
 
 template <class Law, int n_nodes, AnalysisKind kind>
 class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_nodes, kind>>,
@@ -37,7 +38,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
 
   MixedBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material,
              Stabilisation stabilisation)
-      : Base(mesh, block, material), Nodes(mesh, block, Base::geometry_, stabilisation) {
+      : Base(mesh, block, material),
+        Nodes(mesh, block, Base::geometry_, stabilisation),
+        pores_(material, n_batches()) {
     const auto n = static_cast<std::size_t>(n_batches());
     volume_.resize(n, Lane(0.0));
     old_volume_.resize(n, Lane(0.0));
@@ -56,6 +59,8 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       old_divergence_[i] = trace(b.strain(gather(start.old_displacement, batch)));
       const Sym<Lane> held = strain(b.strain(gather(start.held_displacement, batch)), volume_[i]);
       const Lane bulk = this->set_properties(start, batch, 0, held);
+      pores_.begin_step(batch, this->phase_at(start, batch, 0).solid_fraction, start.melt_modulus(),
+                        kept_pores(*start.old_history, batch));
       Lane stiffness = bulk;
       if constexpr (adiabatic) {
         tangent_[i] = volume_tangent(this->update(batch, 0, held));
@@ -79,7 +84,8 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Vectors displacement = gather(u, batch);
       const Sym<Lane> gradient = b.strain(displacement);
       const Nodal p = this->gather_pressure(this->field_.pressure, batch), mass = masses(batch);
-      const MixedPoint point = answer(batch, gradient, mean(p, batch));
+      const Lane mean_pressure = mean(p, batch), pores = pores_.fraction(batch, mean_pressure);
+      const MixedPoint point = answer(batch, gradient, mean_pressure);
       Vectors f{};
       b.add_force(weight(batch) * dev(point.response.stress), f);
       this->add_pressure_force(b, batch, p, f);
@@ -87,7 +93,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Lane changed =
           abs(trace(gradient) - old_divergence_[at(batch)]) + abs(point.volume - old_volume_[at(batch)]);
       for (std::size_t a = 0; a < n_nodes; ++a) {
-        defect[a] -= mass[a] * point.volume;
+        defect[a] -= mass[a] * (point.volume + pores);
         change[a] = mass[a] * changed;
       }
       this->subtract_stabilisation(b, batch, p, defect);
@@ -104,9 +110,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
       const Lane w = weight(batch);
-      const auto response = answer(batch, b.strain(gather(u, batch)),
-                                   mean(this->gather_pressure(this->field_.pressure, batch), batch))
-                                .response;
+      const Lane pressure = mean(this->gather_pressure(this->field_.pressure, batch), batch);
+      const auto response = answer(batch, b.strain(gather(u, batch)), pressure).response;
+      this->pore_compliance_[at(batch)] = pores_.compliance(batch, pressure);
       this->tangent_shear_[at(batch)] = max(response.twice_shear, Lane(k_least_shear) * response.bulk);
       Matrix symmetric;
       std::optional<Matrix> skew;
@@ -130,13 +136,15 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
       const Sym<Lane> old_gradient = b.strain(old_displacement), gradient = b.strain(displacement);
       const Lane old_volume = kept_volume(*this->old_history_, batch);
-      const MixedPoint point =
-          answer(batch, gradient, mean(this->gather_pressure(this->field_.pressure, batch), batch));
+      const Lane mean_pressure = mean(this->gather_pressure(this->field_.pressure, batch), batch);
+      const MixedPoint point = answer(batch, gradient, mean_pressure);
       typename Base::Average average;
       const Sym<Lane> at_work = this->record(batch, 0, strain(old_gradient, old_volume), point.strain,
                                              point.response, trial, average, tally);
       keep_volume(trial, batch, point.volume);
-      // The work of the pressure on the difference of the volumes is taken up by the sub-scales.
+      trial.values[at(batch) * n_kept_ + n_state_ + 1] = pores_.finish(batch, mean_pressure);
+      // The work of the pressure on the difference of the volumes is taken up by the sub-scales and the
+      // pores.
       const Nodal now = this->volume_change(b, batch, displacement),
                   before = this->volume_change(b, batch, old_displacement);
       const Nodal variation = variation_at_work(batch, trial);
@@ -149,13 +157,22 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     return this->total(tally);
   }
 
+  void get_field(ElementField which, std::span<double> out) const override {
+    if (which == ElementField::pore_fraction)
+      pores_.get(Base::geometry_.n_elements, out);
+    else
+      Base::get_field(which, out);
+  }
+  void keep_fields() override {
+    Base::keep_fields();
+    pores_.keep();
+  }
+
   void hold_deformation(const StepStart& start) override {
     prepare(start);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Sym<Lane> gradient = at_point(batch).strain(gather(start.held_displacement, batch));
-      this->points_.hold_deformation(batch, 0,
-                                     this->deformation(strain(gradient, volume_[at(batch)]),
-                                                       this->old_state(batch, 0), this->is_solid(batch, 0)));
+      this->hold_point(batch, 0, strain(gradient, volume_[at(batch)]));
     }
   }
 
@@ -190,7 +207,8 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   std::size_t bytes() const override {
     return Base::bytes() + this->bytes_of_nodes() +
            (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity()) * sizeof(Lane) +
-           tangent_.capacity() * sizeof(VolumeTangent) + kept_variation_.capacity() * sizeof(Nodal);
+           tangent_.capacity() * sizeof(VolumeTangent) + pores_.bytes() +
+           kept_variation_.capacity() * sizeof(Nodal);
   }
 
   void add_augmentation(double factor, std::span<const double> stiffness,
@@ -221,6 +239,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
         b.add_force(Lane(unit) * t.right, right);
         compliance = Lane(1.0) / t.stiffness;
       }
+      compliance += this->pore_compliance_[at(batch)];
       const auto terms = this->compliance_terms(Lane(-unit * unit), compliance, batch);
       const Slot* const slots = this->slots_of(batch);
       for (std::size_t a = 0; a < n_nodes; ++a)
@@ -262,6 +281,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   Lane kept_volume(const BlockHistory& history, Index batch) const {
     return history.values[at(batch) * n_kept_ + n_state_];
   }
+  Lane kept_pores(const BlockHistory& history, Index batch) const {
+    return history.values[at(batch) * n_kept_ + n_state_ + 1];
+  }
   /// The law at ∇u and the mean pressure of the element.
   MixedPoint answer(Index batch, const Sym<Lane>& gradient, const Lane& pressure) {
     const bool found = find_volume(batch, gradient, pressure);
@@ -283,11 +305,11 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   /// stabilisation is the same from the first iteration of a step to the last, and from scheme to scheme.
   Properties stabilisation_properties(const StepStart& start, Index batch) const {
     if (start.pass_temperature.data() == start.temperature.data()) return this->properties_[at(batch)];
+    const material::PhaseState<Lane> phase = this->phase_at(start, batch, 0);
     Properties properties =
         this->law_.properties_at(temperature_at(this->geometry_, batch, 0, start.temperature),
-                                 temperature_at(this->geometry_, batch, 0, start.initial_temperature),
-                                 this->phase_at(start, batch, 0));
-    if (start.melt_modulus > 0) set_melt_viscosity(Lane(start.melt_modulus * start.effective_dt), properties);
+                                 temperature_at(this->geometry_, batch, 0, start.initial_temperature), phase);
+    if (start.melt_modulus() > 0) set_melt_viscosity(start.melt_viscosity(phase.solid_fraction), properties);
     return properties;
   }
 
@@ -319,7 +341,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Nodal p = this->gather_pressure(this->field_.pressure, batch);
       const Lane middle = mean(p, batch);
       for (std::size_t a = 0; a < n_nodes; ++a) {
-        const std::size_t place = at(batch) * n_kept_ + n_state_ + 1 + a;
+        const std::size_t place = at(batch) * n_kept_ + n_state_ + 2 + a;
         variation[a] = trial.values[place] = p[a] - middle;
         if (this->new_stress_ != nullptr)
           variation[a] = Lane(this->stress_share_) * variation[a] +
@@ -334,9 +356,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     return variation;
   }
 
-  PackVector<Lane> volume_;            ///< e_v of the last update, [batch]
-  PackVector<Lane> old_volume_;        ///< e_v at t_n, [batch]
-  PackVector<Lane> old_divergence_;    ///< div u at t_n, [batch]
+  PackVector<Lane> volume_;          ///< e_v of the last update, [batch]
+  PackVector<Lane> old_volume_;      ///< e_v at t_n, [batch]
+  PackVector<Lane> old_divergence_;  ///< div u at t_n, [batch]
+  Pores pores_;
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
   PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where it is not requested
 };

@@ -121,6 +121,10 @@ class PointBlock : public BlockKernel {
   }
 
   void spread_heat_as_stored(const PackVector<Lane>& weights) override {
+    if (!std::exchange(keeps_base_, true)) {  // histories have it behind the law's state from now on
+      n_state_ += k_base_lanes;
+      n_kept_ += k_base_lanes;
+    }
     points_.keep();
     points_.spread_as_stored(weights);
   }
@@ -142,7 +146,8 @@ class PointBlock : public BlockKernel {
  protected:
   /// Sums of a step over the counted elements, lane by lane.
   struct Tally {
-    Lane internal_work{0.0}, stabilisation_work{0.0}, dissipation{0.0}, least{0.0}, largest{0.0};
+    Lane internal_work{0.0}, stabilisation_work{0.0}, dissipation{0.0}, least{0.0}, largest{0.0},
+        inelastic_entropy{0.0};
     PlasticPower plastic;
   };
   /// Average over the points of a batch, weighted with their volumes.
@@ -191,6 +196,7 @@ class PointBlock : public BlockKernel {
     work_ = start.work;
     effective_dt_ = start.effective_dt;
     temperature_ = start.temperature;
+    initial_temperature_ = start.initial_temperature;
     old_displacement_ = start.old_displacement;
     points_.set_dt(start.dt);
     directions_.begin();
@@ -203,14 +209,23 @@ class PointBlock : public BlockKernel {
     const bool iterates = start.pass_temperature.data() != start.temperature.data();
     const Lane old_theta = temperature_at(geometry_, batch, q, start.temperature);
     const Lane theta = iterates ? temperature_at(geometry_, batch, q, start.pass_temperature) : old_theta;
-    Properties properties = law_.properties_at(
-        theta, temperature_at(geometry_, batch, q, start.initial_temperature), phase_at(start, batch, q));
-    if (start.melt_modulus > 0) set_melt_viscosity(Lane(start.melt_modulus * start.effective_dt), properties);
-    if constexpr (HoldsEntropy<Properties>)
-      properties.entropy = law_.entropy(properties, held_strain, state_of(*start.held_history, batch, q));
-    properties_.set(index(batch, q), properties);
+    const material::PhaseState<Lane> phase = phase_at(start, batch, q);
+    Properties properties =
+        law_.properties_at(theta, temperature_at(geometry_, batch, q, start.initial_temperature), phase);
+    if (start.melt_modulus() > 0) set_melt_viscosity(start.melt_viscosity(phase.solid_fraction), properties);
     const auto& p = elastic_part(law_, properties);
     points_.set_temperature(batch, q, old_theta, theta, p.thermal_strain);
+    if constexpr (HoldsEntropy<Properties>) {
+      const State held = state_of(*start.held_history, batch, q);
+      properties.entropy = law_.entropy(properties, held_strain, held);
+      // That of the state at t_n goes on as it is; an iterate has the base of this step already.
+      if (start.held_history == start.old_history && keeps_base_) {
+        const StructuralBase base = old_base(batch, q);
+        properties.entropy +=
+            points_.entropy_ahead(batch, q, deformation(held_strain, held, base.solid > Lane(0.0)), base);
+      }
+    }
+    properties_.set(index(batch, q), properties);
     return p.bulk;
   }
 
@@ -230,8 +245,32 @@ class PointBlock : public BlockKernel {
       for (std::size_t i = 0; i < dim; ++i) f[a][i] += weighted_bulk * abs(b.divergence(a, i));
   }
 
+  /// The base of the state at t_n, behind its law's history; zero where nothing has been solved yet. Where
+  /// energy is evaluated anew, or nobody asked for structural heat, that of this step.
+  StructuralBase old_base(Index batch, int q) const {
+    if (!keeps_base_ || !points_.carries_energy()) return points_.base(batch, q, is_solid(batch, q));
+    const Lane* from = base_of(*old_history_, batch, q);
+    StructuralBase base{from[0], from[1], from[2]};
+    const LaneMask known = base.line_temperature > Lane(0.0);
+    if (!any(!known)) return base;
+    const StructuralBase initial =
+        points_.initial_base(temperature_at(geometry_, batch, q, initial_temperature_));
+    for (Lane StructuralBase::*part :
+         {&StructuralBase::line_temperature, &StructuralBase::strain_offset, &StructuralBase::solid})
+      base.*part = select(known, base.*part, initial.*part);
+    return base;
+  }
+
   LaneMask is_solid(Index batch, int q) const {
     return elastic_part(law_, properties_[index(batch, q)]).solid_fraction >= Lane(1.0);
+  }
+
+  /// Holds the deformation of the state at t_n in a point.
+  void hold_point(Index batch, int q, const Sym<Lane>& strain) {
+    if (!points_.kept()) return;
+    const StructuralBase base = old_base(batch, q);
+    points_.hold_deformation(batch, q, deformation(strain, old_state(batch, q), base.solid > Lane(0.0)),
+                             base);
   }
 
   /// Keeps the answer of a point at the end of a step: history, values for results, what the thermal phase
@@ -258,7 +297,9 @@ class PointBlock : public BlockKernel {
       point.change = change(strain, response.state, old_strain, old, solid);
       point.dissipated = Lane(dt_) * response.dissipation;
       point.work = work;
-      points_.set_old(batch, q, deformation(old_strain, old, solid));
+      const StructuralBase base = old_base(batch, q);
+      points_.set_old(batch, q, deformation(old_strain, old, base.solid > Lane(0.0)), base);
+      if (keeps_base_) keep_base(trial, batch, q, points_.base(batch, q, solid));
     }
 
     const PlasticPower power = plastic_power(law_, response);
@@ -266,6 +307,8 @@ class PointBlock : public BlockKernel {
     tally.dissipation += share * response.dissipation;
     tally.plastic.dissipation += share * power.dissipation;
     tally.plastic.power += share * power.power;
+    tally.inelastic_entropy +=
+        share * (inelastic_entropy(response.state) - inelastic_entropy(old_state(batch, q)));
     tally.least = min(tally.least, counted(batch) * response.dissipation);
     tally.largest = max(tally.largest, counted(batch) * response.dissipation);
     return at_work;
@@ -287,6 +330,7 @@ class PointBlock : public BlockKernel {
     work.dissipation = dt_ * sum(tally.dissipation);
     work.plastic_dissipation = dt_ * sum(tally.plastic.dissipation);
     work.plastic_work = dt_ * sum(tally.plastic.power);
+    work.inelastic_entropy = sum(tally.inelastic_entropy);
     for (int lane = 0; lane < k_lanes; ++lane) {
       work.least_dissipation = std::min(work.least_dissipation, tally.least[lane]);
       work.largest_dissipation = std::max(work.largest_dissipation, tally.largest[lane]);
@@ -324,10 +368,24 @@ class PointBlock : public BlockKernel {
     return {};
   }
 
+  static constexpr std::size_t k_base_lanes = sizeof(StructuralBase) / sizeof(Lane);
+
+  template <class History>
+  auto base_of(History& history, Index batch, int q) const {
+    return history.values.data() + index(batch, q) * n_kept_ + n_state_ - k_base_lanes;
+  }
+  void keep_base(BlockHistory& history, Index batch, int q, const StructuralBase& base) const {
+    Lane* to = base_of(history, batch, q);
+    to[0] = base.line_temperature;
+    to[1] = base.strain_offset;
+    to[2] = base.solid;
+  }
+
   static Deformation deformation(const Sym<Lane>& strain, const State& state, const LaneMask& solid) {
     const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
     const auto [hardening, back_squared] = hardening_of(state);
-    return {trace(strain), select(solid, dot(elastic, elastic), Lane(0.0)), hardening, back_squared};
+    return {trace(strain), select(solid, dot(elastic, elastic), Lane(0.0)), hardening, back_squared,
+            cold_work(state)};
   }
 
   /// Now : Δ since the old state.
@@ -337,7 +395,7 @@ class PointBlock : public BlockKernel {
     const Sym<Lane> old_elastic = dev(old_strain - inelastic_strain(old));
     const auto [hardening, back] = hardening_change(state, old);
     return {trace(strain - old_strain), select(solid, dot(elastic, elastic - old_elastic), Lane(0.0)),
-            hardening, back};
+            hardening, back, cold_work(state) - cold_work(old)};
   }
 
   /// The mean of the stresses at both ends of a dynamic step; leaves that of its end for the next one.
@@ -424,18 +482,21 @@ class PointBlock : public BlockKernel {
   Law law_;
   StructuralPoints points_;
   std::vector<std::size_t> kept_;       ///< lanes of the state that the material can change, rising
-  std::size_t n_state_, n_kept_;        ///< of them; with n_extra: lanes of a point's history
+  std::size_t n_state_;                 ///< of them, with structural heat also those of StructuralBase
+  std::size_t n_kept_;                  ///< with n_extra: lanes of a point's history
   CommonPacks<Properties> properties_;  ///< at Θ_n: [batch][point]
   algebra::LaneSlots slots_;
   CommonPacks<Values> averages_;  ///< [batch], of the last finish()
   /// Those that are kept, from the next finish() until the one after it is committed.
   std::optional<CommonPacks<Values>> kept_averages_;
   bool keeps_averages_ = false;  ///< the next finish() sets them aside
+  bool keeps_base_ = false;      ///< histories hold a StructuralBase
   FlowDirections directions_;    ///< of the tangents since begin_step()
   /// Whether they are unknowns of their own: false for the consistent tangent.
   bool follows_directions_ = true;
-  std::span<const double> temperature_;       ///< Θ_n of the step, [local node]
-  std::span<const double> old_displacement_;  ///< at t_n [m], [local node][component]
+  std::span<const double> temperature_;          ///< Θ_n of the step, [local node]
+  std::span<const double> initial_temperature_;  ///< Θ_0, [local node]
+  std::span<const double> old_displacement_;     ///< at t_n [m], [local node][component]
   const BlockHistory* old_history_ = nullptr;
   const BlockHistory* start_history_ = nullptr;
   const BlockHistory* old_stress_ = nullptr;

@@ -32,6 +32,7 @@ class PressureNodes : public MixedKernel {
     compliance_.resize(n);
     twice_shear_.resize(n);
     tangent_shear_.resize(n);
+    pore_compliance_.resize(n, Lane(0.0));
     tau_.resize(n);
     if constexpr (hoop) masses_ = mesh::basis_integrals(mesh, block, kind);
   }
@@ -95,7 +96,7 @@ class PressureNodes : public MixedKernel {
   void add_schur(double scale, algebra::BlockMatrix& matrix) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal mass = masses(batch);
-      auto terms = compliance_terms(Lane(scale), compliance_[at(batch)], batch);
+      auto terms = compliance_terms(Lane(scale), compliance_[at(batch)] + pore_compliance_[at(batch)], batch);
       const Lane softness = Lane(scale) / tangent_shear_[at(batch)];
       for (std::size_t a = 0; a < n_nodes; ++a) terms[a * n_nodes + a] += softness * mass[a];
       const Slot* const slots = pressure_slots_.of(batch);
@@ -141,6 +142,7 @@ class PressureNodes : public MixedKernel {
     twice_shear_[at(batch)] = tangent_shear_[at(batch)] = twice_shear;
     tau_[at(batch)] = Lane(orthogonal_ ? k_orthogonal : k_algebraic) * squared_length(b) / twice_shear;
     compliance_[at(batch)] = compliance;
+    pore_compliance_[at(batch)] = Lane(0.0);
   }
 
   /// h² of the stabilisation: that of a regular simplex with the same mean square of gradients, hence of the
@@ -277,8 +279,8 @@ class PressureNodes : public MixedKernel {
       for (std::size_t i = 0; i < dim; ++i) rows[a] -= stabilised * b.gradient[a][i] * (g[i] + body_force(i));
   }
   std::size_t bytes_of_nodes() const {
-    return (compliance_.capacity() + twice_shear_.capacity() + tangent_shear_.capacity() + tau_.capacity() +
-            masses_.capacity()) *
+    return (compliance_.capacity() + twice_shear_.capacity() + tangent_shear_.capacity() +
+            pore_compliance_.capacity() + tau_.capacity() + masses_.capacity()) *
                sizeof(Lane) +
            pressure_slots_.bytes();
   }
@@ -291,6 +293,7 @@ class PressureNodes : public MixedKernel {
   /// 2Ĝ of the last tangent [Pa]: what the Schur complement ∇·A⁻¹∇ and multigrid's share of the divergence go
   /// by. Where metal flows by many yield strains it is a hundredth of that of the stabilisation.
   PackVector<Lane> tangent_shear_;
+  PackVector<Lane> pore_compliance_;  ///< of the last tangent (pores.hpp) [1/Pa]
 
  private:
   const mesh::BlockGeometry& geometry_;

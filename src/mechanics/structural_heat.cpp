@@ -39,8 +39,19 @@ StructuralChange StructuralHeat::change(std::span<const double> temperature) con
     const StructuralChange part = block->structural_points().change(temperature);
     total.energy += part.energy;
     total.entropy += part.entropy;
+    total.transformed += part.transformed;
   }
-  return {algebra::global_sum(total.energy), algebra::global_sum(total.entropy)};
+  return {algebra::global_sum(total.energy), algebra::global_sum(total.entropy),
+          algebra::global_sum(total.transformed)};
+}
+
+double StructuralHeat::energy(MechanicalPhase& phase, const MechanicalState& state,
+                              std::span<const double> temperature,
+                              std::span<const double> plateau_share) const {
+  phase.hold_deformation(state, temperature, plateau_share);
+  double total = 0;
+  for (const auto& block : phase.blocks()) total += block->structural_points().energy(temperature);
+  return algebra::global_sum(total);
 }
 
 StructuralChange StructuralHeat::mechanical_change() const {

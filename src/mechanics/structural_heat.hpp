@@ -20,9 +20,12 @@
 /// σ, D_mech and the internal variables being those of the mechanical phase, isothermal or isentropic;
 /// both including the capacity products of 2.127a. They differ at second order in the step; the energy form
 /// closes the first law to the residuals. Solid fraction and straining of phase changes are held at their
-/// values in the mechanical phase at both ends of the step (4.81): the energy of the transformation itself is
-/// the latent heat. In the mushy zone the deviatoric elastic energy (s:s f_S/4G, about 1e-7 of the latent
-/// heat) is left out.
+/// values in the mechanical phase within a step (4.81). Where they are brought up to date, and with them the
+/// lines of the tables, E_n and S_n stay those that the last step ended with: the energy of a transformation
+/// free of stress is the latent heat, and the work p Δe^pc under stress is exchanged with the heat of the
+/// point. (With the specific heat at constant strain E_n and S_n are evaluated anew: the latent heat is then
+/// that at fixed strain.) In the mushy zone the deviatoric elastic energy (s:s f_S/4G, about 1e-7 of the
+/// latent heat) is left out.
 #pragma once
 
 #include <span>
@@ -38,12 +41,15 @@ enum class StructuralForm { entropy, energy, literal, temperature };
 /// Changes of the structural energy [J] and of the structural entropy [J/K].
 struct StructuralChange {
   double energy = 0, entropy = 0;
+  /// Sum of the magnitudes of what new phases and lines of tables have brought at fixed entropy and strain:
+  /// the work p Δe^pc of a phase change and ½ k (Δe^pc)² [J].
+  double transformed = 0;
 };
 
 /// Adds to the thermal residual in watts (heat stored is positive). The tangent is lumped to the diagonal, so
-/// that the thermal matrix stays symmetric and of non-negative type. With the open rule, whose capacity is not
-/// lumped, negative entries are left out: C_v is less than C_p, and beside the small eigenvalues of a consistent
-/// capacity a lumped difference of the two would make the matrix indefinite.
+/// that the thermal matrix stays symmetric and of non-negative type. With the open rule, whose capacity is
+/// not lumped, negative entries are left out: C_v is less than C_p, and beside the small eigenvalues of a
+/// consistent capacity a lumped difference of the two would make the matrix indefinite.
 class StructuralHeat : public algebra::Contribution {
  public:
   /// @param phase   must outlive this object; its last
@@ -67,6 +73,11 @@ class StructuralHeat : public algebra::Contribution {
   StructuralChange change(std::span<const double> temperature) const;
   /// StructuralPoints::mechanical_change of the last solve of the mechanical phase. Collective.
   StructuralChange mechanical_change() const;
+  /// The structural energy E of a state, computed from its fields [J]: free of stress and without hardening
+  /// it is zero at constant pressure. Holds the deformation of that state as
+  /// MechanicalPhase::hold_deformation does, so not between the passes of a step. Collective.
+  double energy(MechanicalPhase& phase, const MechanicalState& state, std::span<const double> temperature,
+                std::span<const double> plateau_share) const;
 
  private:
   const MechanicalPhase& phase_;

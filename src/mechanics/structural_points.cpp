@@ -49,7 +49,7 @@ void StructuralPoints::set_temperature(Index batch, int point, Lane temperature,
                                        Lane thermal_strain) {
   if (!kept()) return;
   Point& p = at(batch, point);
-  p.temperature = temperature;
+  p.line_temperature = p.temperature = temperature;
   p.pass_temperature = pass_temperature;
   const Lane reference(material_.expansion_reference);
   p.strain_offset = thermal_strain - properties_at(material_, pass_temperature, reference).thermal_strain;
@@ -57,27 +57,75 @@ void StructuralPoints::set_temperature(Index batch, int point, Lane temperature,
 
 StructuralPoints::State StructuralPoints::state(const Point& at, const Deformation& deformation,
                                                 Lane temperature) const {
+  return state(at.line_temperature, at.strain_offset, deformation, temperature);
+}
+
+StructuralPoints::State StructuralPoints::state(Lane line_temperature, Lane strain_offset,
+                                                const Deformation& deformation, Lane temperature) const {
   const auto partials = material::structural_partials<Lane>(
-      material_, material::along_lines(material_, at.temperature, temperature, at.strain_offset), temperature,
+      material_, material::along_lines(material_, line_temperature, temperature, strain_offset), temperature,
       deformation.strain_trace, deformation.elastic_squared, deformation.elastic_squared >= Lane(0.0),
       deformation.hardening, deformation.back_squared);
-  return {partials.entropy.value, partials.internal_energy.value, partials.internal_energy.temperature};
+  return {partials.entropy.value, partials.internal_energy.value + deformation.cold_work,
+          partials.internal_energy.temperature};
 }
 
-void StructuralPoints::set_old(Index batch, int point, const Deformation& deformation) {
+// The state at t_n has the energy that it ended its step with. What the new lines and phases make of it at
+// fixed strain and entropy, Δψ + Θ ΔS²/2C, is exchanged with the heat of the point in this step.
+void StructuralPoints::set_old(Index batch, int point, const Deformation& deformation,
+                               const StructuralBase& base) {
   Point& p = at(batch, point);
-  const State old = state(p, deformation, p.temperature);
+  const State opened = state(p, deformation, p.temperature);
+  if (!carries_energy()) {
+    p.old_entropy = opened.entropy;
+    p.old_energy = opened.internal_energy;
+    p.transformed = Lane(0.0);
+    return;
+  }
+  const State old = state(base.line_temperature, base.strain_offset, deformation, p.temperature);
   p.old_entropy = old.entropy;
   p.old_energy = old.internal_energy;
+  const Lane entropy = opened.entropy - old.entropy;
+  const Lane capacity = Lane(material_.density) * material_.specific_heat.value(p.temperature);
+  const LaneMask stores = capacity > Lane(0.0);
+  p.transformed =
+      abs(opened.internal_energy - old.internal_energy - p.temperature * entropy) +
+      select(stores, Lane(0.5) * p.temperature * entropy * entropy / select(stores, capacity, Lane(1.0)),
+             Lane(0.0));
 }
 
-void StructuralPoints::hold_deformation(Index batch, int point, const Deformation& deformation) {
+Lane StructuralPoints::entropy_ahead(Index batch, int point, const Deformation& deformation,
+                                     const StructuralBase& old) const {
+  if (!kept() || !carries_energy()) return Lane(0.0);
+  const Point& p = at(batch, point);
+  return state(old.line_temperature, old.strain_offset, deformation, p.pass_temperature).entropy -
+         state(p, deformation, p.pass_temperature).entropy;
+}
+
+StructuralBase StructuralPoints::base(Index batch, int point, const LaneMask& solid) const {
+  const Point& p = at(batch, point);
+  return {p.line_temperature, p.strain_offset, select(solid, Lane(1.0), Lane(0.0))};
+}
+
+StructuralBase StructuralPoints::initial_base(Lane initial_temperature) const {
+  const Lane reference(material_.expansion_reference);
+  return {initial_temperature,
+          Lane(-3.0) * material_.expansion.value(initial_temperature) * (initial_temperature - reference),
+          Lane(1.0)};
+}
+
+void StructuralPoints::hold_deformation(Index batch, int point, const Deformation& deformation,
+                                        const StructuralBase& base) {
   if (!kept()) return;
   Point& p = at(batch, point);
+  if (carries_energy()) {
+    p.line_temperature = base.line_temperature;
+    p.strain_offset = base.strain_offset;
+  }
   p.now = deformation;
   p.change = {Lane(0.0), Lane(0.0), Lane(0.0), Lane(0.0)};
   p.dissipated = p.work = Lane(0.0);
-  set_old(batch, point, deformation);
+  set_old(batch, point, deformation, base);
 }
 
 void StructuralPoints::begin_stage(const algebra::Stage& stage, std::span<const double> temperature) {
@@ -103,7 +151,7 @@ void StructuralPoints::begin_stage(const algebra::Stage& stage, std::span<const 
 /// H^ep Δt at t_{n+1} [J/m³] (2.127b).
 StructuralPoints::Sloped StructuralPoints::structural_heating(const Point& at, Lane temperature) const {
   using J = Jet<Lane>;
-  const auto p = material::along_lines(material_, at.temperature, temperature, at.strain_offset);
+  const auto p = material::along_lines(material_, at.line_temperature, temperature, at.strain_offset);
   const J &k = p.elastic.bulk, &g = p.elastic.shear, pull = k * p.elastic.thermal_strain;
   const Lane two(2.0);
   // ∂σ/∂Θ : Δε^E and its derivative.
@@ -212,16 +260,32 @@ void StructuralPoints::add_heat(StructuralForm form, std::span<const double> tem
 StructuralChange StructuralPoints::change(std::span<const double> temperature) const {
   StructuralChange total;
   for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
-    Lane energy(0.0), entropy(0.0);
+    Lane energy(0.0), entropy(0.0), transformed(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
       const State now = state(at, at.now, temperature_at(geometry_, batch, q, temperature));
+      transformed += geometry_.weight_at(batch, q) * at.transformed;
       energy += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy);
       entropy += geometry_.weight_at(batch, q) * (now.entropy - at.old_entropy);
     }
     const Lane counted = geometry_.counted[static_cast<std::size_t>(batch)];
     total.energy += sum(energy * counted);
     total.entropy += sum(entropy * counted);
+    total.transformed += sum(transformed * counted);
+  }
+  return total;
+}
+
+double StructuralPoints::energy(std::span<const double> temperature) const {
+  double total = 0;
+  for (Index batch = 0; kept() && batch < geometry_.n_batches; ++batch) {
+    Lane energy(0.0);
+    for (int q = 0; q < geometry_.n_points; ++q) {
+      const Point& at = points_[index(batch, q)];
+      energy += geometry_.weight_at(batch, q) *
+                state(at, at.now, temperature_at(geometry_, batch, q, temperature)).internal_energy;
+    }
+    total += sum(energy * geometry_.counted[static_cast<std::size_t>(batch)]);
   }
   return total;
 }

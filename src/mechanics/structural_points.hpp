@@ -16,6 +16,16 @@ struct Deformation {
   Lane elastic_squared;  ///< dev ε^E : dev ε^E, zero unless solid
   Lane hardening;        ///< ξ
   Lane back_squared;     ///< ζ : ζ
+  Lane cold_work{0.0};   ///< energy of plastic work that is stored beside that of hardening [J/m³]
+};
+
+/// What energy and entropy of a point are evaluated with beside its deformation and temperature: the tables'
+/// lines (material/structural_lines.hpp) and the phases, those of the last mechanical phase. A part of the
+/// state: the energy of a state is a function of the state alone.
+struct StructuralBase {
+  Lane line_temperature;  ///< Θ of the lines [K]
+  Lane strain_offset;     ///< e^θ less 3 α (Θ − Θ_ref)
+  Lane solid;             ///< one where the point was solid, else zero
 };
 
 /// Densities of entropy and energy of deformation and hardening.
@@ -27,7 +37,9 @@ struct StructuralDensities {
 class StructuralPoints {
  public:
   struct Point {
-    Lane temperature;       ///< Θ_n [K]
+    Lane
+        line_temperature;  ///< Θ of the lines: Θ_n, or as in StructuralBase where the deformation is held [K]
+    Lane temperature;      ///< Θ_n [K]
     Lane pass_temperature;  ///< at the end of the mechanical phase: the one it holds, or Θ̄ [K]
     Lane strain_offset;  ///< e^θ minus 3 α (Θ − Θ_ref): initial strain and straining of phase changes, held
                          ///< (4.81)
@@ -37,6 +49,7 @@ class StructuralPoints {
     Lane old_energy;     ///< E of the deformation at t_n and Θ_n [J/m³]
     Lane dissipated;     ///< D_mech Δt [J/m³]
     Lane work;           ///< σ_{n+1} : Δε [J/m³]
+    Lane transformed;    ///< magnitude of the energy that the new base has brought at fixed S and ε [J/m³]
   };
 
   /// Keeps a reference to the geometry.
@@ -46,6 +59,11 @@ class StructuralPoints {
   /// needed without structural heat.
   void keep() { points_.resize(n_points_); }
   bool kept() const { return !points_.empty(); }
+  /// Whether the energy goes on as it is where lines and phases change. With the specific heat at constant
+  /// strain the latent heat is that at fixed strain: the energy is evaluated anew (docs/theory/coupling.md).
+  bool carries_energy() const {
+    return material_.specific_heat_at == material::SpecificHeatAt::constant_pressure;
+  }
   Point& at(Index batch, int point) { return points_[index(batch, point)]; }
   const Point& at(Index batch, int point) const { return points_[index(batch, point)]; }
   /// A step of one stage begins, kept or not.
@@ -63,10 +81,16 @@ class StructuralPoints {
   /// @param temperature     Θ_n
   /// @param thermal_strain  e^θ of the mechanical phase, which works at `pass_temperature`
   void set_temperature(Index batch, int point, Lane temperature, Lane pass_temperature, Lane thermal_strain);
-  /// Fills the old entropy and energy from the deformation at t_n.
-  void set_old(Index batch, int point, const Deformation& old);
-  /// Fills all but the temperatures of a point whose deformation is held, if kept.
-  void hold_deformation(Index batch, int point, const Deformation& deformation);
+  /// Fills the old entropy and energy: those of the state at t_n, which has its own base.
+  void set_old(Index batch, int point, const Deformation& old, const StructuralBase& base);
+  /// Fills all of a point whose deformation is held, with the base of its state, if kept.
+  void hold_deformation(Index batch, int point, const Deformation& deformation, const StructuralBase& base);
+  /// S with the base `old` less S with that of the step, at the temperature of the pass [J/(m³ K)].
+  Lane entropy_ahead(Index batch, int point, const Deformation& deformation, const StructuralBase& old) const;
+  /// The base of the step; of a point that has been solved for.
+  StructuralBase base(Index batch, int point, const LaneMask& solid) const;
+  /// The base of a body at Θ_0, which has not been deformed yet.
+  StructuralBase initial_base(Lane initial_temperature) const;
 
   /// At a temperature and the deformation at t_{n+1}.
   StructuralDensities densities(Index batch, int point, Lane temperature) const;
@@ -84,6 +108,8 @@ class StructuralPoints {
   /// Up to the end of the mechanical phase, where points have temperatures of their own: the sensible heat
   /// between Θ_n and Θ̄ is in it, while that of the nodes stays.
   StructuralChange mechanical_change() const;
+  /// The structural energy of the deformation at the nodal temperature, over the counted elements [J].
+  double energy(std::span<const double> temperature) const;
   std::size_t bytes() const {
     return points_.capacity() * sizeof(Point) + carried_.capacity() * sizeof(Start);
   }
@@ -98,6 +124,8 @@ class StructuralPoints {
     Lane entropy, internal_energy, capacity;
   };
   State state(const Point& at, const Deformation& deformation, Lane temperature) const;
+  State state(Lane line_temperature, Lane strain_offset, const Deformation& deformation,
+              Lane temperature) const;
   /// A quantity and its derivative with respect to temperature.
   struct Sloped {
     Lane value, slope;

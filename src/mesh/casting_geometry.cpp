@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/log.hpp"
+#include "mesh/gmsh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reader_process.hpp"
 #include "mesh/shape.hpp"
@@ -40,6 +41,7 @@ std::string complaint_of(const InputError& error, const std::string& path) {
 }  // namespace
 
 RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough) {
+  require_gmsh(source.path);
   std::optional<RawMesh> best;
   double best_quality = 0;
   int best_way = 0;

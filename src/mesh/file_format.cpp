@@ -55,6 +55,10 @@ bool begins_as_vtk(std::string_view head) {
   return head.starts_with("# vtk DataFile");
 }
 
+bool begins_as_vtk_xml(std::string_view head) {
+  return head.find("<VTKFile") != std::string_view::npos;
+}
+
 struct Known {
   FileFormat format;
   /// Endings as Gmsh compares them: ".Step" is none of a CAD file to it, so it is none here.
@@ -81,7 +85,8 @@ const std::vector<Known>& known_formats() {
       {FileFormat::med, {".med", ".MED", ".rmed"}, begins_as_hdf5, "the signature of HDF5"},
       {FileFormat::nastran, {".bdf", ".BDF", ".nas", ".NAS"}, is_text, "text"},
       {FileFormat::medit, {".mesh", ".MESH"}, begins_as_medit, "'MeshVersionFormatted'"},
-      {FileFormat::vtk, {".vtk", ".VTK"}, begins_as_vtk, "'# vtk DataFile'"}};
+      {FileFormat::vtk, {".vtk", ".VTK"}, begins_as_vtk, "'# vtk DataFile'"},
+      {FileFormat::vtu, {".vtu"}, begins_as_vtk_xml, "'<VTKFile'"}};
   return known;
 }
 
@@ -118,6 +123,10 @@ FileFormat file_format(const std::string& path) {
     throw InputError({path}, "the file is not what its name says: a " + ending + " file begins with " +
                                  std::string(known->begins_with));
   return known->format;
+}
+
+const char* mesh_formats() {
+  return ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .vtu, .unv, .med, .bdf, …";
 }
 
 bool is_cad(FileFormat format) {

@@ -20,12 +20,16 @@ enum class FileFormat {
   med,
   nastran,
   medit,
-  vtk
+  vtk,
+  vtu
 };
 
 /// The format of a regular file that exists and is not empty.
 /// Throws InputError where the name has no known ending or the content is not what the ending says.
 FileFormat file_format(const std::string& path);
+
+/// The most common formats, for messages.
+const char* mesh_formats();
 
 /// A file of a CAD program: shapes without groups.
 bool is_cad(FileFormat format);

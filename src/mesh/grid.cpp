@@ -147,10 +147,16 @@ void add_boundary(RawMesh& mesh, const Grid& grid, const std::vector<Index>& ele
       const auto [place, first] = alone.insert(face_key(face.data(), n_vertices));
       if (!first) alone.erase(place);
     }
+  std::vector<char> outside(mesh.x.size(), 0);  // vertices of these faces
+  for (const FaceKey& key : alone)
+    for (const Index vertex : key.vertices)
+      if (vertex >= 0) outside[static_cast<std::size_t>(vertex)] = 1;
+  const auto is_outside = [&](Index vertex) { return outside[static_cast<std::size_t>(vertex)] != 0; };
   GlobalIndex number = count_elements(mesh);
   for (std::size_t e = 0; e < elements.size(); e += static_cast<std::size_t>(nn))
     for (int f = 0; f < face_count(grid.shape); ++f) {
       collect(e, f);
+      if (!std::all_of(face.begin(), face.begin() + n_vertices, is_outside)) continue;
       if (!alone.contains(face_key(face.data(), n_vertices))) continue;
       Point centre, normal;
       face_centre_and_normal(mesh, face, n_vertices, centre, normal);

@@ -1,87 +1,23 @@
-// The only file that knows Gmsh.
-#include <gmsh.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cmath>
+// Which reader reads a mesh file.
 #include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <map>
-#include <new>
-#include <sstream>
-#include <unordered_map>
+#include <optional>
+#include <utility>
 
 #include "base/errors.hpp"
-#include "base/keys.hpp"
 #include "mesh/abaqus_input.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
+#include "mesh/gmsh_mesh_file.hpp"
+#include "mesh/gmsh_reader.hpp"
 #include "mesh/gmsh_script.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/reader_process.hpp"
+#include "mesh/vtu_mesh.hpp"
 
 namespace solidus::mesh {
 
 namespace {
-
-// Gmsh's element types (Gmsh reference manual, "MSH file format").
-const std::map<int, Shape>& shapes_of_gmsh() {
-  static const std::map<int, Shape> shapes{{1, Shape::line2},  {8, Shape::line3},  {2, Shape::tri3},
-                                           {9, Shape::tri6},   {3, Shape::quad4},  {16, Shape::quad8},
-                                           {4, Shape::tet4},   {11, Shape::tet10}, {5, Shape::hex8},
-                                           {17, Shape::hex20}, {15, Shape::point1}};
-  return shapes;
-}
-
-/// OpenCASCADE writes banners and complaints to the standard streams, whatever Gmsh's verbosity.
-class Silence {
- public:
-  Silence() : out_(std::cout.rdbuf(nothing_.rdbuf())), error_(std::cerr.rdbuf(nothing_.rdbuf())) {}
-  ~Silence() {
-    std::cout.rdbuf(out_);
-    std::cerr.rdbuf(error_);
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  std::ostringstream nothing_;
-  std::streambuf *out_, *error_;
-};
-
-/// Gmsh's state is global: one session at a time, closed whatever happens.
-class Session {
- public:
-  /// @param constants  what DefineConstant of a .geo script takes instead of its own values
-  explicit Session(const std::map<std::string, double>& constants = {}) {
-    gmsh::initialize(0, nullptr, false);
-    for (const auto& [name, value] : constants) gmsh::onelab::setNumber(name, {value});
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.Verbosity", 0);
-    gmsh::logger::start();
-  }
-  ~Session() {
-    gmsh::onelab::clear();  // constants outlive finalize()
-    gmsh::finalize();
-  }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-
-  /// Returns the errors and warnings of Gmsh, in its words.
-  static std::string complaints() {
-    std::vector<std::string> log;
-    gmsh::logger::get(log);
-    std::string text;
-    for (const std::string& line : log)
-      if (line.starts_with("Error")) text += (text.empty() ? "" : "; ") + line;
-    return text;
-  }
-
- private:
-  Silence silence_;
-};
 
 void check_readable(const std::string& path) {
   std::error_code error;
@@ -89,216 +25,6 @@ void check_readable(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error)) throw InputError({path}, "the mesh is not a file");
   if (std::filesystem::file_size(path, error) == 0) throw InputError({path}, "the mesh file is empty");
   if (!std::ifstream(path)) throw InputError({path}, "the mesh file cannot be read");
-}
-
-constexpr const char* k_formats = ".msh 2.2 or 4.1, .geo, .step, Abaqus .inp, .unv, .med, .bdf, …";
-
-/// A file in memory, with a name that Gmsh can open as long as this lives.
-class MemoryFile {
- public:
-  explicit MemoryFile(const std::string& text) : descriptor_(memfd_create("script", 0)) {
-    if (descriptor_ < 0 ||
-        ::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-      throw std::bad_alloc();
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
-
-/// Whether a file is one line without a line end, which Gmsh 4.8 takes for an empty script.
-bool is_one_open_line(const std::string& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str().find('\n') == std::string::npos;
-}
-
-void open_in_gmsh(const std::string& path, FileFormat format) {
-  if (format != FileFormat::gmsh_script || !is_one_open_line(path)) return gmsh::open(path);
-  const std::string whole = std::filesystem::absolute(path).string();
-  const char quote = whole.find('"') == std::string::npos ? '"' : '\'';
-  const MemoryFile around("Include " + (quote + whole) + quote + ";\n");
-  gmsh::open(around.path());
-}
-
-void open(const std::string& path, FileFormat format) {
-  const std::string advice = k_formats;
-  try {
-    open_in_gmsh(path, format);
-  } catch (const std::string& complaint) {
-    throw InputError({path}, "the mesh cannot be read: " + complaint, advice);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& e) {
-    throw InputError({path}, std::string("the mesh cannot be read: ") + e.what(), advice);
-  } catch (...) {  // the CAD kernel's own exceptions
-    throw InputError({path}, "the mesh cannot be read", advice);
-  }
-  // A damaged .msh does not make open() throw; its log is the only sign.
-  if (const std::string complaints = Session::complaints(); !complaints.empty())
-    throw InputError({path}, "the mesh cannot be read: " + complaints, advice);
-}
-
-/// The constants that a .geo script declares: DefineConstant[ size = {8, Name "size"} ].
-std::vector<std::string> declared_constants(const std::string& path) {
-  const Session session;
-  open(path, FileFormat::gmsh_script);
-  std::vector<std::string> names;
-  gmsh::onelab::getNames(names);
-  std::erase_if(names, [](const std::string& name) {
-    return name.starts_with("Gmsh/") || name.starts_with("ONELAB/");
-  });
-  return names;
-}
-
-/// Gmsh sets any name without a word: a misspelt one would change nothing.
-void check_constants(const std::string& path, FileFormat format,
-                     const std::map<std::string, double>& constants) {
-  if (constants.empty()) return;
-  if (format != FileFormat::gmsh_script)
-    throw InputError({path}, "the mesh file is no .geo script and has no constants");
-  const std::vector<std::string> declared = declared_constants(path);
-  for (const auto& [name, value] : constants)
-    if (std::find(declared.begin(), declared.end(), name) == declared.end())
-      throw InputError({path}, "the script declares no constant '" + name + "'",
-                       declared.empty() ? "DefineConstant[ " + name + " = {value, Name \"" + name + "\"} ];"
-                                        : one_of(declared, name));
-}
-
-void generate(const std::string& path, double size, int element_order) {
-  try {
-    if (size > 0) {
-      gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-      gmsh::option::setNumber("Mesh.MeshSizeMin",
-                              size);  // else Gmsh's default, a tenth of the model, may win
-    }
-    if (element_order == 2) gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
-    gmsh::vectorpair volumes;
-    gmsh::model::getEntities(volumes, 3);
-    gmsh::model::mesh::generate(volumes.empty() ? 2 : 3);
-    gmsh::model::mesh::setOrder(element_order);
-  } catch (const std::string& complaint) {
-    throw InputError({path}, "Gmsh could not mesh the geometry: " + complaint);
-  }
-}
-
-std::unordered_map<std::size_t, Index> read_nodes(double unit, RawMesh& mesh) {
-  std::vector<std::size_t> tags;
-  std::vector<double> x, parametric;
-  gmsh::model::mesh::getNodes(tags, x, parametric);
-  std::unordered_map<std::size_t, Index> index;
-  index.reserve(tags.size());
-  // In the order of their numbers: the same mesh however the file is sorted.
-  std::vector<std::size_t> order(tags.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
-  for (const std::size_t i : order) {
-    if (!index.emplace(tags[i], static_cast<Index>(mesh.x.size())).second) continue;
-    mesh.x.push_back({unit * x[3 * i], unit * x[3 * i + 1], unit * x[3 * i + 2]});
-    mesh.input_node.push_back(static_cast<GlobalIndex>(tags[i]));
-  }
-  return index;
-}
-
-void read_entity(const std::string& path, int dimension, int entity,
-                 const std::unordered_map<std::size_t, Index>& index, RawGroup& group) {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> elements, nodes;
-  gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
-  for (std::size_t t = 0; t < types.size(); ++t) {
-    const auto shape = shapes_of_gmsh().find(types[t]);
-    if (shape == shapes_of_gmsh().end()) {
-      std::string name;
-      int d = 0, order = 0, n = 0, primary = 0;
-      std::vector<double> local;
-      gmsh::model::mesh::getElementProperties(types[t], name, d, order, n, local, primary);
-      throw InputError({path}, "the mesh has elements of the type '" + name + "'",
-                       "tri3, tri6, quad4, quad8, tet4, tet10, hex8, hex20");
-    }
-    auto block = std::find_if(group.blocks.begin(), group.blocks.end(),
-                              [&](const RawBlock& b) { return b.shape == shape->second; });
-    if (block == group.blocks.end())
-      block = group.blocks.insert(group.blocks.end(), RawBlock{shape->second, {}, {}});
-    for (const std::size_t tag : nodes[t]) {
-      const auto found = index.find(tag);
-      if (found == index.end())
-        throw InputError(
-            {path}, "an element refers to node " + std::to_string(tag) + ", which the mesh does not have");
-      block->nodes.push_back(found->second);
-    }
-    for (const std::size_t tag : elements[t]) block->input_element.push_back(static_cast<GlobalIndex>(tag));
-  }
-}
-
-// Physical groups by name; entities without any become body_1, body_2, … so that a plain mesh of one body
-// works as it is.
-void read_groups(const std::string& path, const std::unordered_map<std::size_t, Index>& index,
-                 RawMesh& mesh) {
-  gmsh::vectorpair groups;
-  gmsh::model::getPhysicalGroups(groups);
-  for (const auto& [dimension, tag] : groups) {
-    std::string name;
-    gmsh::model::getPhysicalName(dimension, tag, name);
-    if (name.empty()) name = "group_" + std::to_string(dimension) + "d_" + std::to_string(tag);
-    std::vector<int> entities;
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
-    RawGroup group{dimension, {}};
-    for (const int entity : entities) read_entity(path, dimension, entity, index, group);
-    if (group.blocks.empty()) continue;
-    // The same name for a body and its boundary would be ambiguous.
-    if (mesh.groups.contains(name)) name += "_" + std::to_string(dimension) + "d";
-    mesh.groups.emplace(name, std::move(group));
-  }
-  gmsh::vectorpair entities;
-  gmsh::model::getEntities(entities, mesh.dimension);
-  int number = 0;
-  for (const auto& [dimension, entity] : entities) {
-    std::vector<int> tags;
-    gmsh::model::getPhysicalGroupsForEntity(dimension, entity, tags);
-    if (!tags.empty()) continue;
-    RawGroup group{dimension, {}};
-    read_entity(path, dimension, entity, index, group);
-    if (!group.blocks.empty()) mesh.groups.emplace("body_" + std::to_string(++number), std::move(group));
-  }
-}
-
-int mesh_dimension() {
-  for (int d = 3; d > 1; --d) {
-    std::vector<int> types;
-    gmsh::model::mesh::getElementTypes(types, d);
-    if (!types.empty()) return d;
-  }
-  return 0;
-}
-
-void name_groups(const std::string& path, const GeometryChoice& geometry, double unit_in_metres,
-                 FileFormat format) {
-  try {
-    make_geometry_groups(path, geometry, unit_in_metres, is_cad(format));
-  } catch (const std::exception&) {
-    throw;
-  } catch (const std::string& complaint) {
-    throw InputError({path}, "the geometry cannot be read: " + complaint);
-  } catch (...) {  // the CAD kernel's own exceptions
-    throw InputError({path}, "the geometry cannot be read");
-  }
-}
-
-/// With the CAD kernel's own exceptions as messages.
-void make_casting(const MeshSource& source, const CastingGeometry& casting) {
-  try {
-    make_casting_mesh(source, casting);
-  } catch (const std::exception&) {
-    throw;
-  } catch (const std::string& complaint) {
-    throw InputError({source.path}, "the geometry cannot be meshed: " + complaint);
-  } catch (...) {
-    throw InputError({source.path}, "the geometry cannot be meshed: the CAD kernel gave up");
-  }
 }
 
 }  // namespace
@@ -319,26 +45,14 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
     refuse_options_file(path);
     if (format == FileFormat::gmsh_script) check_gmsh_script(path);
   }
-  check_constants(path, format, source.constants);
+  if (!source.constants.empty() && format != FileFormat::gmsh_script)
+    throw InputError({path}, "the mesh file is no .geo script and has no constants");
   if (format == FileFormat::abaqus) return read_abaqus_input(path, source.unit_in_metres);
-  const Session session(source.constants);
-  open(path, format);
-  if (casting != nullptr) {
-    make_casting(source, *casting);
-  } else if (is_geometry(format)) {
-    name_groups(path, source.geometry, source.unit_in_metres, format);
-    generate(path, source.element_size / source.unit_in_metres, source.element_order);
-  }
-
-  RawMesh mesh;
-  mesh.dimension = mesh_dimension();
-  if (mesh.dimension == 0)
-    throw InputError(
-        {path}, "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
-        k_formats);
-  const auto index = read_nodes(source.unit_in_metres, mesh);
-  read_groups(path, index, mesh);
-  return mesh;
+  if (format == FileFormat::vtu) return read_vtu_mesh(path, source.unit_in_metres);
+  if (format == FileFormat::gmsh_mesh)
+    if (std::optional<RawMesh> mesh = read_gmsh_mesh_file(path, source.unit_in_metres))
+      return std::move(*mesh);
+  return read_with_gmsh(source, format, casting);
 }
 
 RawMesh read_mesh(const std::string& path, double unit_in_metres, double element_size, int element_order,

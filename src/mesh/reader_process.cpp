@@ -24,6 +24,7 @@
 
 #include "base/errors.hpp"
 #include "base/log.hpp"
+#include "base/program_path.hpp"
 #include "base/units.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/reader_message.hpp"
@@ -177,7 +178,7 @@ Reader::Reader(const MeshSource& source, const CastingGeometry* casting, const R
   posix_spawn_file_actions_adddup2(&actions, reads, k_request);
   posix_spawn_file_actions_adddup2(&actions, writes, k_answer);
   posix_spawn_file_actions_addclosefrom_np(&actions, k_answer + 1);
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const std::string program = program_path().string();
   std::string name = "solidus", verb = k_verb;
   std::array<char*, 3> argv = {name.data(), verb.data(), nullptr};
   const int failed = posix_spawn(&pid_, program.c_str(), &actions, nullptr, argv.data(), environ);
@@ -320,6 +321,10 @@ std::optional<int> serve_as_reader(int argc, char** argv) {
   }
   starts_readers = true;
   return {};
+}
+
+void read_in_processes() {
+  starts_readers = true;
 }
 
 void give_up_reading_when(bool (*asked)()) {

@@ -17,6 +17,10 @@ namespace solidus::mesh {
 /// reader's work and returns the exit code; else read_mesh() starts readers from now on.
 std::optional<int> serve_as_reader(int argc, char** argv);
 
+/// From now on read_mesh() starts readers: for a process that is not the program, but knows where it is
+/// (base/program_path.hpp).
+void read_in_processes();
+
 /// Tells read_mesh() when to give up waiting for a reader: it ends it then and throws StepRejected.
 /// @param asked  called about ten times a second; nullptr: wait on
 void give_up_reading_when(bool (*asked)());

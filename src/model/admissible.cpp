@@ -120,10 +120,7 @@ void check_mechanics(const CaseSpec& spec, Admissibility& a) {
 }
 
 void check_integration(const CaseSpec& spec, Admissibility& a) {
-  const CouplingSpec& c = spec.coupling;
-  const bool second_order = c.scheme == CouplingSpec::Scheme::double_pass ||
-                            (c.scheme == CouplingSpec::Scheme::simultaneous &&
-                             c.integration == CouplingSpec::Integration::sdirk2) ||
+  const bool second_order = spec.coupling.scheme->traits().second_order ||
                             spec.mechanics.integration == mechanics::TimeIntegration::two_step;
   if (second_order) a.violations.push_back("nothing is proved for a time integration of second order");
   if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 namespace solidus::model {
@@ -66,7 +67,7 @@ std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const Case
 }
 
 /// Advice for steps that coupling::GuardedScheme refuses.
-std::vector<std::string> guard_advice(const CaseSpec& spec) {
+std::vector<std::string> guard_advice(const coupling::Stop& stop, const CaseSpec& spec) {
   std::vector<std::string> advice;
   if (spec.heat.integration == heat::Integration::open)
     advice.emplace_back(
@@ -74,8 +75,7 @@ std::vector<std::string> guard_advice(const CaseSpec& spec) {
         "chills");
   if (!spec.heat.bounds) advice.emplace_back("heat.bounds = true");
   advice.emplace_back("a heat transfer that changes less steeply with gap and pressure: [contact.heat]");
-  if (spec.coupling.scheme == CouplingSpec::Scheme::simultaneous)
-    advice.emplace_back("coupling.scheme = \"isentropic\", whose thermal phase has one solution");
+  std::ranges::move(spec.coupling.scheme->advice(stop), std::back_inserter(advice));
   if (carries_loads(spec))
     advice.emplace_back(
         "loads beyond the limit load of a body that yields: it flows on and on, and flow heats");
@@ -90,25 +90,10 @@ std::vector<std::string> contact_advice() {
 }
 
 std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseSpec& spec) {
-  if (says(stop, "does not follow")) return guard_advice(spec);
-  const IterationSpec& i = spec.coupling.iteration;
-  std::vector<std::string> advice;
-  if (i.passes == IterationSpec::Passes::isothermal) {
-    advice.emplace_back(
-        "isentropic passes, which converge however strong the coupling is: coupling.iteration.passes");
-    if (i.relaxation != IterationSpec::Relaxation::aitken)
-      advice.emplace_back("coupling.iteration.relaxation = \"aitken\"");
-  }
-  if (!says(stop, "diverges"))
-    advice.push_back(
-        fmt::format("more iterations: coupling.iteration.max_iterations (now {}), or "
-                    "coupling.iteration.tolerance (now {:g})",
-                    i.max_iterations, i.tolerance));
+  if (says(stop, "does not follow")) return guard_advice(stop, spec);
+  std::vector<std::string> advice = spec.coupling.scheme->advice(stop);
   if (!spec.contacts.empty())
     advice.emplace_back("a heat transfer that changes less steeply with the gap: [contact.heat]");
-  advice.emplace_back(
-      "another scheme: coupling.scheme = \"isentropic\" takes one turn a step, \"simultaneous\" solves "
-      "both fields at once");
   return advice;
 }
 
@@ -144,10 +129,12 @@ const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) 
 
 std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
                       const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
-  const std::string checkpoint_line = fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
+  const std::string checkpoint_line =
+      checkpoint.empty() ? "" : fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
   if (stop.asked)
-    return fmt::format("stopped as asked at t = {:.6g} s\n", time) + checkpoint_line +
-           "  to continue: the same command with --restart";
+    return fmt::format("stopped as asked at t = {:.6g} s", time) +
+           (checkpoint.empty() ? ""
+                               : "\n" + checkpoint_line + "  to continue: the same command with --restart");
   std::string text =
       fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time, stop.reason);
   if (!stop.where.empty()) text += fmt::format("  where: {}\n", stop.where);
@@ -160,10 +147,10 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
   const CouplingEstimate* unstable = too_strong(couplings);
   if (unstable != nullptr)
     text += fmt::format(
-        "\n    - the coupling is too strong for the isothermal split: {};\n      coupling.scheme = "
-        "\"isentropic\" "
-        "is stable for every step. Shorter steps do not help",
-        model::text(*unstable));
+        "\n    - the coupling is too strong for the {} split: {};\n      coupling.scheme = \"{}\" is stable "
+        "for "
+        "every step. Shorter steps do not help",
+        spec.coupling.scheme->name(), model::text(*unstable), coupling::k_stable_scheme);
   const bool mechanics = stop.reason.starts_with("mechanics"), coupling = stop.reason.starts_with("coupling"),
              contact = stop.reason.starts_with("contact");
   for (const std::string& advice : coupling    ? coupling_advice(stop, spec)
@@ -175,6 +162,7 @@ std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double t
   if (unstable == nullptr)
     text += fmt::format("\n    - smaller steps: time.step (now {:g} s), time.min_step",
                         spec.time.step.value_or(0));
+  if (checkpoint.empty()) return text;
   return text +
          "\n  The results so far are whole; after a change that leaves mesh and materials alone, the same "
          "command with --restart\n  continues from there.";

@@ -23,14 +23,16 @@ bool closes_first_law(const CaseSpec& spec) {
 void StabilityWatch::step(const coupling::StepRecord& record, const coupling::State&) {
   const coupling::StabilityAudit& l = record.stability;
   if (warned_ || !admissibility_.holds() || !(l.increment() > l.tolerance)) return;
-  const bool isothermal = spec_.coupling.scheme == CouplingSpec::Scheme::isothermal;
+  const coupling::SchemeKind& scheme = *spec_.coupling.scheme;
   logging::warn(
       "t = {:g} s, step {}: the functional L of stability grew by {:.3g} J ({:+.3g} in the mechanical, "
       "{:+.3g} in "
       "the thermal phase; {:.1g} J are residuals and rounding), though nothing feeds it; {}",
       record.time, record.number, l.increment(), l.mechanical, l.thermal, l.tolerance,
-      isothermal ? "the isothermal split is unstable here: scheme = \"isentropic\" in [coupling]"
-                 : "try smaller steps, a smaller mechanics.tolerance, smoother property tables");
+      scheme.traits().needs_weak_coupling
+          ? fmt::format("the {} split is unstable here: scheme = \"{}\" in [coupling]", scheme.name(),
+                        coupling::k_stable_scheme)
+          : "try smaller steps, a smaller mechanics.tolerance, smoother property tables");
   warned_ = true;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -35,8 +36,8 @@ const mesh::Point& at(const mesh::Mesh& mesh, Index node) {
 struct BoundaryFace {
   std::array<GlobalIndex, 4> key{-1, -1, -1, -1};
   int body = 0;
-  double area = 0;
-  bool counted = false;  ///< here, by the owner of its lowest node
+  std::array<Index, 4> nodes{};  ///< its vertices in the order of the element
+  int n_vertices = 0;
   bool operator<(const BoundaryFace& other) const {
     return std::tie(key, body) < std::tie(other.key, other.body);
   }
@@ -58,58 +59,101 @@ double area_of(const mesh::Mesh& mesh, std::span<const Index> vertices, Analysis
   return area;
 }
 
-/// Faces with a node that is owned here, so that this process knows both their elements; of `n_parts` parts
-/// those whose lowest number falls into one.
-std::vector<BoundaryFace> faces_of_part(const mesh::Mesh& mesh, AnalysisKind kind, int part, int n_parts) {
-  std::vector<BoundaryFace> faces;
-  for (const mesh::Block& block : mesh.blocks) {
-    const int vertices = mesh::vertex_count(mesh::face_shape(block.shape));
+/// The place of a face in the mesh.
+struct FacePlace {
+  Index element = 0;
+  int block = 0, face = 0;
+};
+
+/// Calls visit(place, lowest) for every face; `lowest` is the vertex whose number over all processes is the
+/// lowest.
+template <class Visit>
+void each_face(const mesh::Mesh& mesh, Visit&& visit) {
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const mesh::Block& block = mesh.blocks[b];
+    const auto n_vertices = static_cast<std::size_t>(mesh::vertex_count(mesh::face_shape(block.shape)));
     for (Index e = 0; e < block.size(); ++e)
       for (int f = 0; f < mesh::face_count(block.shape); ++f) {
-        const std::span<const int> local = mesh::face_nodes(block.shape, f);
-        BoundaryFace face;
-        std::array<Index, 4> nodes{};
-        Index lowest = -1;
-        bool known = false;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(vertices); ++i) {
-          const Index node = nodes[i] = block.element(e)[local[i]];
-          known = known || node < mesh.n_owned_nodes;
-          face.key[i] = mesh.global_node[static_cast<std::size_t>(node)];
-          if (lowest < 0 || face.key[i] < mesh.global_node[static_cast<std::size_t>(lowest)]) lowest = node;
-        }
-        if (!known || mesh.global_node[static_cast<std::size_t>(lowest)] % n_parts != part) continue;
-        face.counted = lowest < mesh.n_owned_nodes;
-        face.area = area_of(mesh, std::span(nodes).first(static_cast<std::size_t>(vertices)), kind);
-        face.body = block.body;
-        std::sort(face.key.begin(), face.key.begin() + vertices);
-        faces.push_back(face);
+        const std::span<const int> local = mesh::face_nodes(block.shape, f).first(n_vertices);
+        const auto number = [&](int vertex) {
+          return mesh.global_node[static_cast<std::size_t>(block.element(e)[vertex])];
+        };
+        visit(FacePlace{e, static_cast<int>(b), f}, block.element(e)[std::ranges::min(local, {}, number)]);
       }
   }
-  std::sort(faces.begin(), faces.end());
+}
+
+/// Faces sorted by their lowest vertex, of the vertices from `first` to before `last`. Where these are owned
+/// here, all elements that have the face are held here.
+struct FacesOfNodes {
+  std::vector<std::size_t> start;  ///< of each vertex in `places`; one more at the end
+  std::vector<FacePlace> places;
+};
+
+FacesOfNodes faces_of_nodes(const mesh::Mesh& mesh, Index first, Index last) {
+  const auto slot = [&](Index node) { return static_cast<std::size_t>(node - first); };
+  const auto among = [&](Index node) { return node >= first && node < last; };
+  FacesOfNodes faces;
+  faces.start.assign(slot(last) + 1, 0);
+  each_face(mesh, [&](const FacePlace&, Index lowest) {
+    if (among(lowest)) ++faces.start[slot(lowest) + 1];
+  });
+  std::partial_sum(faces.start.begin(), faces.start.end(), faces.start.begin());
+  faces.places.resize(faces.start.back());
+  std::vector<std::size_t> next(faces.start.begin(), faces.start.end() - 1);
+  each_face(mesh, [&](const FacePlace& place, Index lowest) {
+    if (among(lowest)) faces.places[next[slot(lowest)]++] = place;
+  });
   return faces;
 }
 
-/// Adds the skins, and the areas that bodies share.
+BoundaryFace face_at(const mesh::Mesh& mesh, const FacePlace& place) {
+  const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(place.block)];
+  const std::span<const int> local = mesh::face_nodes(block.shape, place.face);
+  BoundaryFace face;
+  face.body = block.body;
+  face.n_vertices = mesh::vertex_count(mesh::face_shape(block.shape));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(face.n_vertices); ++i) {
+    face.nodes[i] = block.element(place.element)[local[i]];
+    face.key[i] = mesh.global_node[static_cast<std::size_t>(face.nodes[i])];
+  }
+  std::sort(face.key.begin(), face.key.begin() + face.n_vertices);
+  return face;
+}
+
+/// Adds the areas of the faces that one element alone of a body has, of faces with the same lowest vertex.
+void measure_alone(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const BoundaryFace> faces,
+                   std::vector<BodyMeasures>& bodies) {
+  for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
+    while (end < faces.size() && faces[end].key == faces[i].key) ++end;
+    const std::span<const BoundaryFace> same = faces.subspan(i, end - i);
+    for (const BoundaryFace& face : same) {
+      const auto inside = std::ranges::count(same, face.body, &BoundaryFace::body);
+      if (inside > 1) continue;
+      const double area =
+          area_of(mesh, std::span(face.nodes).first(static_cast<std::size_t>(face.n_vertices)), kind);
+      BodyMeasures& body = bodies[static_cast<std::size_t>(face.body)];
+      body.skin += area;
+      for (const BoundaryFace& other : same)
+        if (other.body != face.body) body.shared[static_cast<std::size_t>(other.body)] += area;
+    }
+  }
+}
+
+/// Adds the skins, and the areas that bodies share. A face is counted by the owner of its lowest vertex. The
+/// vertices are taken in few portions: each costs a pass through the mesh and holds its faces.
 void measure_skins(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<BodyMeasures>& bodies) {
-  Index elements = 0;
-  for (const mesh::Block& block : mesh.blocks) elements += block.size();
-  const int n_parts = 1 + elements / 100000;
-  for (int part = 0; part < n_parts; ++part) {
-    const std::vector<BoundaryFace> faces = faces_of_part(mesh, kind, part, n_parts);
-    for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
-      while (end < faces.size() && faces[end].key == faces[i].key) ++end;
-      for (std::size_t k = i; k < end; ++k) {
-        const BoundaryFace& face = faces[k];
-        const auto inside = std::count_if(faces.begin() + static_cast<std::ptrdiff_t>(i),
-                                          faces.begin() + static_cast<std::ptrdiff_t>(end),
-                                          [&](const BoundaryFace& f) { return f.body == face.body; });
-        if (inside > 1) continue;
-        BodyMeasures& body = bodies[static_cast<std::size_t>(face.body)];
-        if (face.counted) body.skin += face.area;
-        for (std::size_t other = i; other < end; ++other)
-          if (face.counted && faces[other].body != face.body)
-            body.shared[static_cast<std::size_t>(faces[other].body)] += face.area;
-      }
+  constexpr Index k_portion = 4'000'000;
+  std::vector<BoundaryFace> of_node;
+  for (Index first = 0; first < mesh.n_owned_nodes; first += k_portion) {
+    const Index last = std::min(mesh.n_owned_nodes, first + k_portion);
+    const FacesOfNodes faces = faces_of_nodes(mesh, first, last);
+    for (std::size_t n = 0; n + 1 < faces.start.size(); ++n) {
+      of_node.clear();
+      for (std::size_t k = faces.start[n]; k < faces.start[n + 1]; ++k)
+        of_node.push_back(face_at(mesh, faces.places[k]));
+      std::sort(of_node.begin(), of_node.end());
+      measure_alone(mesh, kind, of_node, bodies);
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "model/heat_input.hpp"
 #include "model/rigid_surface_input.hpp"
 #include "model/run_input.hpp"
+#include "model/scheme_input.hpp"
 #include "model/stage_input.hpp"
 #include "model/time_input.hpp"
 #include "results/run_folder.hpp"
@@ -268,9 +269,7 @@ void check_contacts(const CaseSpec& spec) {
                        "slave = \"...\" and master = \"...\", or surfaces = [\"...\", \"...\"]");
     if (c.sides()[0] == c.sides()[1])
       throw InputError(c.where, fmt::format("the contact '{}' has one surface on both sides", c.name));
-    if (c.heat && c.heat->exponent > 0 && !c.heat->hardness)
-      throw InputError(c.heat->where, "'hardness' is missing: an exponent needs it",
-                       "hardness = \"... MPa\"");
+    if (c.heat) contact::HeatTransferLaw checked(*c.heat);
   }
 }
 
@@ -364,90 +363,21 @@ void check_probes(const CaseSpec& spec) {
   }
 }
 
-void check_simultaneous(const CaseSpec& spec) {
-  const CouplingSpec& c = spec.coupling;
-  const bool two_stages = c.integration == CouplingSpec::Integration::sdirk2;
-  if (!spec.simultaneous()) {
-    if (two_stages || c.solver != algebra::CoupledSolverKind::automatic)
-      throw InputError(c.where,
-                       "coupling.integration and coupling.solver are those of the simultaneous scheme",
-                       "scheme = \"simultaneous\", or neither key");
-    return;
-  }
-  if (c.structural_heating == CouplingSpec::StructuralHeating::none)
-    throw InputError(c.where, "without structural heat there is nothing to solve simultaneously",
-                     "structural_heating \"energy\" or \"entropy\", or scheme = \"isothermal\"");
-  if (two_stages && spec.dynamics)
-    throw InputError(c.where, "integration = \"sdirk2\" is for quasi-statics",
-                     "integration = \"backward_euler\", which leaves inertia to its own integrator");
-  if (two_stages && spec.mechanics.integration != mechanics::TimeIntegration::backward_euler)
-    throw InputError(c.where, "two integrators of second order in one step",
-                     "coupling.integration = \"sdirk2\" or mechanics.integration = \"bdf2\"");
-}
-
-void check_iteration(const CouplingSpec& c) {
-  const IterationSpec& i = c.iteration;
-  if (c.scheme != CouplingSpec::Scheme::block_iterative) {
-    if (i != IterationSpec{})
-      throw InputError(c.where, "[coupling.iteration] is of the block-iterative scheme",
-                       "scheme = \"block_iterative\", or no such section");
-    return;
-  }
-  using Relaxation = IterationSpec::Relaxation;
-  if (i.relaxation == Relaxation::none && i.factor != 1)
-    throw InputError(c.where, "'factor' means nothing without relaxation",
-                     "relaxation \"fixed\" or \"aitken\", or no factor");
-  if (i.relaxation == Relaxation::aitken && i.passes == IterationSpec::Passes::isentropic)
-    throw InputError(c.where,
-                     "relaxation = \"aitken\" is for isothermal passes; isentropic ones converge without it",
-                     "passes = \"isothermal\", or relaxation \"none\" or \"fixed\"");
-}
-
 void check_coupling(const CaseSpec& spec) {
   if (!spec.coupled()) return;
-  using Scheme = CouplingSpec::Scheme;
   using Heating = CouplingSpec::StructuralHeating;
   const CouplingSpec& c = spec.coupling;
-  const Heating form = c.structural_heating;
-  if (spec.isentropic() && form == Heating::none)
-    throw InputError(c.where, "the isentropic split holds entropy, which structural_heating = \"none\" loses",
-                     "structural_heating \"entropy\" or \"energy\", or scheme = \"isothermal\"");
-  if ((form == Heating::literal || form == Heating::temperature) && c.scheme != Scheme::isothermal)
-    throw InputError(c.where,
-                     fmt::format("structural_heating = \"{}\" counts from the end of a mechanical phase at "
-                                 "the temperature of the step's start",
-                                 form == Heating::literal ? "literal" : "temperature"),
-                     "scheme = \"isothermal\", or structural_heating \"entropy\" or \"energy\"");
-  check_simultaneous(spec);
-  check_iteration(c);
+  if (const auto wrong = c.scheme->objection(scheme_context(spec, false)))
+    throw InputError(c.where, wrong->found, wrong->allowed);
   if (const std::string reason = against_two_stages(spec);
       spec.heat.stepping == heat::ThermalStepping::sdirk2 && !reason.empty())
     throw InputError(
         c.where, "heat.stepping = \"sdirk2\": " + reason,
-        "no such key, or scheme \"isentropic\" or \"isothermal\" with structural_heating \"energy\" "
-        "or \"none\"");
-  if (c.order && c.scheme != Scheme::isentropic && c.scheme != Scheme::isothermal)
-    throw InputError(c.where, "'order' is of the isentropic and the isothermal split",
-                     "one of these schemes, or no 'order'");
-  if (c.order == coupling::PhaseOrder::heat_first &&
-      (form == Heating::literal || form == Heating::temperature))
-    throw InputError(c.where,
-                     "printed forms of structural heat count from a mechanical phase that comes first",
-                     "order = \"mechanics_first\", or structural_heating \"energy\" or \"entropy\"");
-  if (c.scheme == Scheme::double_pass && spec.dynamics)
-    throw InputError(c.where, "the double pass is for quasi-statics",
-                     "scheme = \"isentropic\", \"simultaneous\" or \"isothermal\"");
-  if (c.scheme == Scheme::double_pass && form != Heating::energy)
-    throw InputError(c.where,
-                     "temperature x difference of entropy is of first order, the double pass of second",
-                     "structural_heating = \"energy\"");
-  if (!c.as_printed) return;
-  if (form == Heating::energy || form == Heating::none)
+        "no such key, or a split whose phases come in turn, once a step, with structural_heating "
+        "\"energy\" or \"none\"");
+  if (c.as_printed && (c.structural_heating == Heating::energy || c.structural_heating == Heating::none))
     throw InputError(c.where, "as_printed has no meaning without a printed form of structural heat",
                      "structural_heating \"entropy\", \"literal\" or \"temperature\", or as_printed = false");
-  if (c.scheme == Scheme::simultaneous && c.integration == CouplingSpec::Integration::sdirk2)
-    throw InputError(c.where, "printed forms of sensible heat go with backward Euler",
-                     "as_printed = false, or a scheme of first order");
 }
 
 void check_simplices(const CaseSpec& spec) {

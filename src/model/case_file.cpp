@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/log.hpp"
+#include "base/version.hpp"
 #include "model/case_keys.hpp"
 #include "model/overrides.hpp"
 #include "model/physics_switch.hpp"
@@ -107,7 +108,7 @@ void resolve_paths(Value& document) {
 }  // namespace
 
 std::string Case::toml() const {
-  return fmt::format("# Solidus {}, from {}\n{}", SOLIDUS_VERSION,
+  return fmt::format("# Solidus {}, from {}\n{}", program_version(),
                      fs::absolute(file).lexically_normal().string(), to_toml(document));
 }
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "base/program_path.hpp"
 #include "base/types.hpp"
 #include "material/library.hpp"
 #include "model/body_input.hpp"
@@ -25,8 +26,7 @@ std::vector<fs::path> material_folders() {
     for (std::string path; std::getline(paths, path, ':');)
       if (!path.empty()) add(path);
   }
-  std::error_code error;
-  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  fs::path folder = program_path().parent_path();
   constexpr int k_levels = 3;  // as far as build/release/solidus lies below the sources
   for (int level = 0; level < k_levels && folder.has_relative_path();
        ++level, folder = folder.parent_path()) {

@@ -3,17 +3,16 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "algebra/coupled_solver.hpp"
 #include "algebra/linear_solver.hpp"
 #include "base/keys.hpp"
 #include "base/types.hpp"
 #include "contact/spec.hpp"
-#include "coupling/block_iterative.hpp"
-#include "coupling/phase_order.hpp"
+#include "coupling/scheme_kind.hpp"
 #include "coupling/step_limits.hpp"
 #include "heat/thermal_phase.hpp"
 #include "mechanics/mechanical_phase.hpp"
@@ -315,36 +314,13 @@ struct DynamicsSpec {
   SourceLocation where;
 };
 
-/// Numerics of the block-iterative scheme (coupling/block_iterative.hpp).
-struct IterationSpec {
-  using Sweep = coupling::IterationOptions::Sweep;
-  using Loop = coupling::IterationOptions::Loop;
-  using Relaxation = coupling::RelaxationOptions::Kind;
-  enum class Passes { isentropic, isothermal };
-  Sweep sweep = Sweep::gauss_seidel;
-  Passes passes = Passes::isentropic;
-  Loop loop = Loop::nested;
-  Relaxation relaxation = Relaxation::none;
-  double factor = 1;        ///< of a fixed relaxation, and the first one of Aitken's
-  double tolerance = 1e-8;  ///< of temperatures and displacements between two iterates, relative
-  int max_iterations = 100;
-
-  bool operator==(const IterationSpec&) const = default;
-};
-
 struct CouplingSpec {
-  enum class Scheme { isentropic, isothermal, simultaneous, block_iterative, double_pass };
-  Scheme scheme = Scheme::isentropic;
-  std::optional<coupling::PhaseOrder> order;  ///< of the sequential splits; absent: phase_order() chooses
+  std::shared_ptr<const coupling::SchemeKind> scheme = coupling::default_scheme();
   /// Form in which deformation enters the heat balance (mechanics/structural_heat.hpp); none: it does not.
   enum class StructuralHeating { energy, entropy, literal, temperature, none };
   StructuralHeating structural_heating = StructuralHeating::energy;
   bool as_printed = false;  ///< the sensible heat in the same form, not as a difference of enthalpies
-  enum class Integration { backward_euler, sdirk2 };
-  Integration integration = Integration::backward_euler;                      ///< of the simultaneous scheme
-  algebra::CoupledSolverKind solver = algebra::CoupledSolverKind::automatic;  ///< of the same
   std::optional<double> ambient_temperature;  ///< Θ_a of 2.24 [K]; absent: from the conditions
-  IterationSpec iteration;
   SourceLocation where;
 };
 
@@ -425,13 +401,12 @@ struct CaseSpec {
   bool has_mechanics() const { return analysis.physics != Physics::heat; }
   bool coupled() const { return analysis.physics == Physics::thermomechanical; }
   /// Both fields by one iteration.
-  bool simultaneous() const { return coupled() && coupling.scheme == CouplingSpec::Scheme::simultaneous; }
+  bool simultaneous() const {
+    return coupled() && coupling.scheme->traits().mapping == mechanics::Mapping::simultaneous;
+  }
   /// Heat and mechanics with a mechanical phase that holds entropy.
   bool isentropic() const {
-    using Scheme = CouplingSpec::Scheme;
-    return coupled() && (coupling.scheme == Scheme::isentropic || coupling.scheme == Scheme::double_pass ||
-                         (coupling.scheme == Scheme::block_iterative &&
-                          coupling.iteration.passes == IterationSpec::Passes::isentropic));
+    return coupled() && coupling.scheme->traits().mapping == mechanics::Mapping::isentropic;
   }
 };
 

@@ -1,31 +1,10 @@
+#include "contact/laws/contact_law.hpp"
+#include "contact/laws/gap_law.hpp"
 #include "model/case_keys.hpp"
 
 namespace solidus::model {
 
 namespace {
-
-Section<contact::Asperities> asperity_keys() {
-  using A = contact::Asperities;
-  Section<A> s("asperities", "The rough surfaces, of contact_law = \"spots\" (3.47, 3.48).");
-  s.quantity("roughness", &A::roughness, "m")
-      .positive()
-      .doc("Root mean square height of both surfaces together, sqrt(s1^2 + s2^2).");
-  s.key("slope", &A::slope)
-      .positive()
-      .doc("Mean slope of the asperities of both surfaces together, sqrt(m1^2 + m2^2).");
-  s.function("conductivity", &A::conductivity, "W/m/K")
-      .of({Argument::temperature})
-      .positive()
-      .doc("Mean conductivity of the two bodies, 2 k1 k2 / (k1 + k2).");
-  s.quantity("hardness_coefficient", &A::hardness_coefficient, "Pa")
-      .positive()
-      .doc("c1 of the hardness of small indentations, c1 (d / 1 um)^c2, of the softer body.");
-  s.key("hardness_exponent", &A::hardness_exponent)
-      .initially(0.0)
-      .range(-0.9, 0)
-      .doc("c2, the exponent of that hardness; zero: the same whatever the size.");
-  return s;
-}
 
 Section<contact::HeatTransferSpec::AtTemperature> heat_table_keys() {
   using T = contact::HeatTransferSpec::AtTemperature;
@@ -51,59 +30,10 @@ Section<contact::HeatTransferSpec::AtTemperature> heat_table_keys() {
 Section<contact::HeatTransferSpec> contact_heat_keys() {
   using H = contact::HeatTransferSpec;
   Section<H> s("heat", "Heat through the interface; without this section it is insulated.");
-  s.choice("contact_law", &H::contact_law,
-           {{"power", H::ContactLaw::power,
-             "the conductance, or with an exponent h_open(0) + conductance (p / hardness)^exponent (3.49)"},
-            {"spots", H::ContactLaw::spots, "spots of contact and what is between them (3.46-3.48)"},
-            {"table", H::ContactLaw::table, "a table of the pressure"}})
+  s.kinds("contact_law", &H::contact_law, contact::contact_laws())
       .initially("power")
       .doc("Heat where the bodies touch.");
-  s.quantity("conductance", &H::conductance, "W/m2/K")
-      .positive()
-      .when("contact_law", {"power"})
-      .doc("h_co, from body to body: where the bodies touch, and where the gap law starts at a gap of zero.");
-  s.key("exponent", &H::exponent)
-      .initially(0.0)
-      .range(0, 2)
-      .when("contact_law", {"power"})
-      .doc(
-          "Exponent of h = h_open(0) + h_co (p / hardness)^exponent where the bodies touch (3.49); zero: "
-          "h_co.");
-  s.quantity("hardness", &H::hardness, "Pa")
-      .positive()
-      .when("contact_law", {"power", "spots"})
-      .doc("Hardness H_e of 3.49, needed with an exponent; of 3.48, needed with spots and gas.");
-  s.section("asperities", &H::asperities, asperity_keys()).when("contact_law", {"spots"});
-  s.function("contact_conductance", &H::contact_conductance, "W/m2/K")
-      .of({Argument::pressure})
-      .at_least(0)
-      .when("contact_law", {"table"})
-      .doc("Conductance as a table of the pressure; at none it is that of a gap of zero.");
-  s.choice("gap_law", &H::gap_law,
-           {{"constant", H::GapLaw::constant, "the same whatever the gap"},
-            {"table", H::GapLaw::table, "a table of the gap"},
-            {"gas", H::GapLaw::gas, "conduction through gas, k / (gap + k / open_conductance) (3.50)"}})
-      .doc("Heat across the open gap.");
-  s.function("gap_conductance", &H::gap_table, "W/m2/K")
-      .of({Argument::gap})
-      .at_least(0)
-      .when("gap_law", {"table"})
-      .doc("Conductance as a table of the gap; it starts at the conductance of contact without pressure.");
-  s.quantity("gas_conductivity", &H::gas_conductivity, "W/m/K")
-      .positive()
-      .when("gap_law", {"gas"})
-      .doc("Conductivity of the gas in the gap.");
-  s.quantity("temperature_jump", &H::temperature_jump, "m/K")
-      .initially("0 m/K")
-      .at_least(0)
-      .when("gap_law", {"gas"})
-      .doc("c_g of the gas between spots (3.48): widens its gap by c_g x temperature; air 1.3e-9 m/K.");
-  s.quantity("open_conductance", &H::open_conductance, "W/m2/K")
-      .positive()
-      .when("gap_law", {"constant", "gas"})
-      .doc(
-          "h_o, the conductance of the interface that has just opened; without it that of contact. With "
-          "spots and gas it follows from the asperities.");
+  s.kinds("gap_law", &H::gap_law, contact::gap_laws()).doc("Heat across the open gap.");
   s.sections("at", &H::families, heat_table_keys());
   s.key("smooth", &H::smooth)
       .initially(false)
@@ -114,6 +44,14 @@ Section<contact::HeatTransferSpec> contact_heat_keys() {
   s.quantity("transition_pressure", &H::transition_pressure, "Pa")
       .positive()
       .doc("Pressures up to which a smooth law is replaced; without it 0.1 MPa.");
+  s.key("slave_resistance", &H::slave_resistance)
+      .initially(0.5)
+      .range(0.001, 0.999)
+      .doc(
+          "Share of the interface's resistance that lies between the slave (of `surfaces`: the first) and "
+          "the "
+          "temperature of the interface: h1 = h / share, h2 = h / (1 - share) (3.45). It divides the heat of "
+          "friction and places a coating on one side.");
   s.key("slave_emissivity", &H::slave_emissivity)
       .initially(0.0)
       .range(0, 1)
@@ -218,7 +156,8 @@ Section<ContactSpec> contact_keys() {
       .positive()
       .doc(
           "Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces. "
-          "Without it and `penalty` the factor is 10; next to a melt the penalty is then at most that with "
+          "Without it and `penalty` the factor is 100, with multipliers or inertia 10; next to a melt the "
+          "penalty is then at most that with "
           "which the `atmosphere` moves a liquid skin by 0.1 % of the body's free contraction.");
   s.key("stabilisation", &C::stabilisation)
       .initially(1e-10)

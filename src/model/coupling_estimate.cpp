@@ -41,12 +41,6 @@ bool axially_held(const CaseSpec& spec, const mesh::Mesh& mesh) {
   return !algebra::any_process(std::find(held.begin(), owned, 0) != owned);
 }
 
-bool takes_isothermal_passes(const CouplingSpec& c) {
-  using Scheme = CouplingSpec::Scheme;
-  return c.scheme == Scheme::isothermal ||
-         (c.scheme == Scheme::block_iterative && c.iteration.passes == IterationSpec::Passes::isothermal);
-}
-
 }  // namespace
 
 std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
@@ -82,11 +76,13 @@ std::string text(const CouplingEstimate& e) {
 }
 
 void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates) {
-  if (!takes_isothermal_passes(spec.coupling) || estimates.empty()) return;
+  const bool isothermal = spec.coupling.scheme->traits().mapping == mechanics::Mapping::isothermal;
+  if (!isothermal || estimates.empty()) return;
   const CouplingEstimate& worst = *std::max_element(
       estimates.begin(), estimates.end(),
       [](const CouplingEstimate& a, const CouplingEstimate& b) { return a.decisive() < b.decisive(); });
-  const char* advice = "scheme = \"isentropic\" in [coupling] has no such limit";
+  const std::string advice =
+      fmt::format("scheme = \"{}\" in [coupling] has no such limit", coupling::k_stable_scheme);
   if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler) {
     logging::warn(
         "isothermal passes with inertia by {}: no strength of coupling is known to be stable, and high "

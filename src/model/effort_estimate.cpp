@@ -32,18 +32,7 @@ Cost cost(const CaseSpec& spec, double nodes_of_mechanics) {
 
 /// How much more a scheme does in a step than one pass of each phase.
 double passes(const CaseSpec& spec) {
-  if (!spec.coupled()) return 1;
-  using Scheme = CouplingSpec::Scheme;
-  switch (spec.coupling.scheme) {
-    case Scheme::double_pass:
-      return 2;
-    case Scheme::block_iterative:
-      return 8;
-    case Scheme::simultaneous:
-      return 2;
-    default:
-      return 1;
-  }
+  return spec.coupled() ? spec.coupling.scheme->traits().effort : 1;
 }
 
 double fixed_steps(const CaseSpec& spec, const Assembly& a) {

@@ -17,6 +17,7 @@
 #include "results/checkpoint.hpp"
 #include "results/deck_supports.hpp"
 #include "results/output_file.hpp"
+#include "results/temperature_history.hpp"
 
 namespace solidus::model {
 
@@ -156,6 +157,41 @@ std::vector<std::vector<Index>> tied_entries(const algebra::MultiPointConstraint
 
 }  // namespace
 
+namespace {
+
+ExportReport export_history(const CaseSpec& spec, const Assembly& a, const ExportOptions& options) {
+  if (options.deformed)
+    throw InputError({}, "a temperature history is that of the undeformed casting", "no --deformed");
+  if (spec.stages.size() > 1)
+    throw InputError(spec.analysis.where,
+                     "a temperature history is of one stage: bodies come and go in stages",
+                     "the end of the run, without --temperature-history");
+  const algebra::ActiveSet& active = a.mechanics->active();
+  results::StructuralDeck deck{
+      .title = spec.title.empty() ? "Solidus" : spec.title,
+      .kind = spec.analysis.kind,
+      .mesh = a.mesh,
+      .active = active,
+      .materials = a.materials,
+      .displacement = {},
+      .temperature = {},
+      .stress = {},
+      .plastic_strain = {},
+      .fixed = a.mechanics->fixed(),
+      .constraints = tied_entries(a.mechanics->constraints(), a.mechanics->fixed().size()),
+      .force = {},
+      .history = results::read_temperature_history(options.folder / "fields.pvd", a.mesh, active)};
+  for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
+  deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
+  ExportReport report{deck.history.back().time, 0, 0, deck.history.size(), deck.supports.size()};
+  for (const mesh::Block& block : a.mesh.blocks)
+    if (active.body(block.body)) report.elements += static_cast<std::size_t>(block.size());
+  results::write_file(options.file, results::structural_deck(deck, options.dialect));
+  return report;
+}
+
+}  // namespace
+
 ExportReport export_state(const Case& c, const ExportOptions& options) {
   CaseSpec spec = c.spec;  // with the contacts that its interfaces make
   check_exportable(spec);
@@ -163,6 +199,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   a.materials = load_materials(spec);
   a.mesh = load_mesh(spec);
   build(spec, a);
+  if (options.temperature_history) return export_history(spec, a, options);
   results::Checkpoint from =
       results::CheckpointFolder(options.folder)
           .read(a.mesh, fingerprint(spec, a.mesh, a.materials, a.initial.heat.temperature), a.initial);
@@ -188,7 +225,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
                              .iterate_temperature = temperature},
                             effort);
 
-  ExportReport report{state.time, 0, 0, 0};
+  ExportReport report{state.time, 0, 0, 0, 0};
   for (std::size_t i = 0; i < state.mechanics.displacement.size(); ++i)
     report.adjusted = std::max(report.adjusted,
                                std::abs(still.mechanics.displacement[i] - state.mechanics.displacement[i]));

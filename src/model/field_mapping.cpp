@@ -12,7 +12,7 @@
 #include "base/log.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/element_search.hpp"
-#include "results/vtu_reader.hpp"
+#include "results/field_reader.hpp"
 
 namespace solidus::model {
 
@@ -33,7 +33,7 @@ struct Source {
 std::vector<double> solid_fractions(const PlaceSpec& place, const material::EnthalpyCurve& curve) {
   if (curve.jumps().empty()) return {};
   try {
-    return results::read_vtu(place.file, "solid_fraction", place.body, place.length, place.where).values;
+    return results::read_field(place.file, "solid_fraction", place.body, place.length, place.where).values;
   } catch (const InputError&) {
     logging::warn(
         "'{}' has no field solid_fraction: what is at the temperature of an isothermal change counts as "
@@ -52,7 +52,7 @@ double enthalpy(const material::EnthalpyCurve& curve, double temperature, double
 
 Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::EnthalpyCurve& curve) {
   results::ReadField field =
-      results::read_vtu(place.file, place.column, place.body, place.length, place.where);
+      results::read_field(place.file, place.column, place.body, place.length, place.where);
   if (field.mesh.dimension != (kind == AnalysisKind::solid ? 3 : 2))
     throw InputError(place.where, fmt::format("'{}' has {} dimensions, the analysis {}", place.file,
                                               field.mesh.dimension, kind == AnalysisKind::solid ? 3 : 2));
@@ -64,6 +64,8 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
       throw InputError(place.where, fmt::format("the field '{}': {}", place.column, error.what()));
     }
   }
+  const std::vector<double> cell_values = std::move(field.cell_values),
+                            cell_volumes = std::move(field.cell_volumes);
   Source source{std::move(field.mesh), std::move(field.values)};
   const std::vector<double> fractions = solid_fractions(place, curve);
   const std::vector<double> weight = closed_weights(source.mesh, 0, kind);
@@ -83,6 +85,13 @@ Source read_source(const PlaceSpec& place, AnalysisKind kind, const material::En
     source.high = std::max(source.high, h);
     source.volume += weight[i];
     source.total += weight[i] * h;
+  }
+  if (cell_values.empty()) return source;
+  // Values of cells: the heat of the file is theirs, whatever is interpolated between them.
+  source.volume = source.total = 0;
+  for (std::size_t c = 0; c < cell_values.size(); ++c) {
+    source.volume += cell_volumes[c];
+    source.total += cell_volumes[c] * enthalpy(curve, to_kelvin(cell_values[c]), 0.0);
   }
   return source;
 }

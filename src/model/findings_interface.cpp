@@ -7,8 +7,11 @@
 #include <set>
 
 #include "algebra/parallel.hpp"
+#include "contact/laws/contact_law.hpp"
+#include "contact/laws/gap_law.hpp"
 #include "model/body_input.hpp"
 #include "model/findings.hpp"
+#include "model/friction_input.hpp"
 
 namespace solidus::model {
 
@@ -148,18 +151,35 @@ void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& fi
 void conductances(const CaseSpec& spec, Findings& findings) {
   for (const ContactSpec& contact : spec.contacts) {
     if (!contact.heat) continue;
-    using Law = contact::HeatTransferSpec::ContactLaw;
-    const double h = contact.heat->conductance;
-    if (contact.heat->contact_law == Law::power && (h < 20 || h > 1e6))
+    for (const contact::ConductanceLaw* law : std::initializer_list<const contact::ConductanceLaw*>{
+             contact.heat->contact_law.get(), contact.heat->gap_law.get()})
+      for (const contact::Remark& remark : law->remarks(contact.name))
+        findings.push_back({remark.error, contact.where, remark.found, remark.usual});
+  }
+}
+
+/// 5.24 without a heat capacity would forbid every slip that changes the entropy: the interface keeps its
+/// temperature instead, and the estimate of the isentropic split with it (5.13a).
+void isentropic_friction(const CaseSpec& spec, Findings& findings) {
+  if (!spec.coupled()) return;
+  const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
+  if (traits.mapping != mechanics::Mapping::isentropic || traits.iterates) return;
+  for (const ContactSpec& contact : spec.contacts) {
+    if (!contact.friction || contact.interface.heat_capacity > 0 ||
+        contact.friction->internal_variable != contact::InternalVariable::normal_work)
+      continue;
+    const contact::FrictionCoefficient mu(friction_spec(*contact.friction).coefficient);
+    if (mu.hardening_depends_on_temperature())
       findings.push_back(
-          {h > 1e8, contact.where,
-           fmt::format("the contact '{}' conducts {:g} W/m2/K where it is closed", contact.name, h),
-           "usual are 100 to 50000 W/m2/K between casting and mould"});
-    const bool through_gas = contact.heat->gap_law == contact::HeatTransferSpec::GapLaw::gas;
-    if (const double gas = contact.heat->gas_conductivity; gas > 0.6 || (through_gas && gas < 0.005))
-      findings.push_back({false, contact.where,
-                          fmt::format("the gas in the gap of '{}' conducts {:g} W/m/K", contact.name, gas),
-                          "air conducts 0.03 to 0.1 W/m/K, hydrogen 0.2 to 0.6"});
+          {false, contact.friction->where,
+           fmt::format(
+               "the hardening of friction in '{}' depends on temperature, but its interface stores no "
+               "heat: the isentropic split holds its temperature instead of its entropy there, and is "
+               "stable only as the isothermal one is",
+               contact.name),
+           "[contact.interface] heat_capacity above zero (1000 J/m2/K is a skin of 0.3 mm of steel), or "
+           "scheme "
+           "= \"simultaneous\" or \"block_iterative\""});
   }
 }
 
@@ -171,6 +191,7 @@ void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findi
   bodies_without_a_way_for_heat(spec, a, findings);
   films_beside_contacts(spec, a, findings);
   conductances(spec, findings);
+  isentropic_friction(spec, findings);
 }
 
 }  // namespace solidus::model

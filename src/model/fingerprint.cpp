@@ -168,7 +168,7 @@ std::string material_text(const material::Material& m) {
   for (const double number :
        {m.casting.coherency_fraction, m.casting.brittle_range[0], m.casting.brittle_range[1],
         m.casting.arm_spacing.value_or(0), m.casting.arm_spacing_exponent,
-        m.casting.melt_viscosity.value_or(0), m.casting.critical_pressure_drop})
+        m.casting.melt_viscosity.value_or(0), m.casting.critical_pressure_drop, m.casting.pore_tension})
     hash.add(number);
   return fmt::format("{} ({:016x})", m.name, hash.value());
 }

@@ -46,12 +46,14 @@ contact::FrictionSpec friction_spec(const FrictionSpec& spec) {
   r.where = r.coefficient.where = spec.where;
   r.internal_variable = spec.internal_variable;
   r.coefficient.unit = unit_of(spec);
+  r.coefficient.law = spec.law;
   for (const Function& term : spec.coefficient) r.coefficient.terms.push_back(term.table);
   for (const FrictionCurveSpec& c : spec.curves)
     r.coefficient.curves.push_back(curve(c, spec.curves.size() == 1));
   r.tangential_penalty = spec.tangential_penalty;
   r.tangential_penalty_factor = spec.tangential_penalty_factor;
   r.symmetric = spec.symmetric;
+  r.thermal_return_mapping = spec.thermal_return_mapping;
   contact::FrictionCoefficient checked(r.coefficient);
   return r;
 }

@@ -1,4 +1,5 @@
 /// The keys of [contact.friction], [contact.wear] and [contact.interface].
+#include "contact/laws/coefficient_law.hpp"
 #include "model/friction_spec.hpp"
 
 namespace solidus::model {
@@ -27,15 +28,19 @@ Section<FrictionSpec> friction_keys() {
   using F = FrictionSpec;
   using enum contact::InternalVariable;
   Section<F> s("friction", "Coulomb friction |t_T| <= mu p; without this section surfaces slide freely.");
+  s.kinds("law", &F::law, contact::coefficient_laws())
+      .initially("data")
+      .doc("The coefficient of friction mu as a function of the internal variable z in its unit.");
   s.function("coefficient", &F::coefficient, "1")
       .of({Argument::temperature})
       .or_one()
+      .when("law", {"data"})
       .doc(
           "mu: a number, a table of temperature, or a list [mu_0, mu_1, ...] of such, the polynomial mu_0 + "
           "mu_1 z + mu_2 z^2 + ... of the internal variable z in its unit (3.62). mu_0 must not rise with "
           "temperature (3.60). Or give [[contact.friction.curve]].")
       .required = false;
-  s.sections("curve", &F::curves, curve_keys());
+  s.sections("curve", &F::curves, curve_keys()).when("law", {"data"});
   s.choice("internal_variable", &F::internal_variable,
            {{"normal_work", normal_work, "pressure times slip (3.53b); its hardening stores energy (3.41c)"},
             {"frictional_work", frictional_work, "the work of friction"},
@@ -43,7 +48,7 @@ Section<FrictionSpec> friction_keys() {
       .initially("normal_work")
       .doc("What hardens, softens or wears the surface: z, added up on the slave's points.");
   s.key("internal_variable_unit", &F::internal_variable_unit)
-      .doc("Unit of z in `coefficient` or `curve`, as \"kN/mm\"; without it N/m for work and m for slip.");
+      .doc("Unit of z, as \"kN/mm\"; without it N/m for work and m for slip.");
   s.quantity("tangential_penalty", &F::tangential_penalty, "N/m3")
       .positive()
       .doc("Traction per elastic slip before it slides; without it from `tangential_penalty_factor`.");
@@ -56,6 +61,14 @@ Section<FrictionSpec> friction_keys() {
       .doc(
           "Leaves out of the matrix, not out of the forces, how the limit of friction follows the pressure: "
           "for symmetric solvers, at the price of iterations.");
+  s.key("thermal_return_mapping", &F::thermal_return_mapping)
+      .initially(false)
+      .doc(
+          "The thermal phase of a split finds slip and temperature of the interface anew, with the "
+          "coefficient "
+          "at its own temperature (5.40-5.51), in place of keeping the slip of the mechanical phase, with "
+          "which the first law closes. Schemes simultaneous and block_iterative solve these equations in any "
+          "case; not with double_pass.");
   s.place(&F::where);
   return s;
 }

@@ -2,6 +2,7 @@
 /// (model/friction_input.hpp makes the contact room's specifications of them).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,13 +19,15 @@ struct FrictionCurveSpec {
 };
 
 struct FrictionSpec {
-  std::vector<Function> coefficient;  ///< μ_0, μ_1, …; empty: curves
+  std::shared_ptr<const contact::CoefficientLaw> law;  ///< null: coefficient or curves
+  std::vector<Function> coefficient;                   ///< μ_0, μ_1, …; empty: curves
   std::vector<FrictionCurveSpec> curves;
   contact::InternalVariable internal_variable = contact::InternalVariable::normal_work;
   std::optional<std::string> internal_variable_unit;
   std::optional<double> tangential_penalty;  ///< ε_T [N/m³]; absent: from the factor
   double tangential_penalty_factor = 0;      ///< of ε_N
   bool symmetric = false;
+  bool thermal_return_mapping = false;
   SourceLocation where;
 };
 

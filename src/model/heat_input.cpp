@@ -46,12 +46,10 @@ heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage)
 }
 
 std::string against_two_stages(const CaseSpec& spec) {
-  using Scheme = CouplingSpec::Scheme;
   using Heating = CouplingSpec::StructuralHeating;
   if (!spec.coupled()) return {};
   const CouplingSpec& c = spec.coupling;
-  if (c.scheme != Scheme::isentropic && c.scheme != Scheme::isothermal)
-    return "the scheme has an integration of its own";
+  if (!c.scheme->traits().leaves_stepping) return "the scheme has an integration of its own";
   if (c.structural_heating != Heating::energy && c.structural_heating != Heating::none)
     return "this form of structural heat is of first order";
   return {};

@@ -220,7 +220,8 @@ Section<MeshSpec> mesh_keys() {
       .doc("A built-in shape; give this or `file`.");
   s.key("file", &MeshSpec::file)
       .doc(
-          "A file that Gmsh reads: .msh, .geo, STEP, Abaqus .inp, .unv, ...; relative to the case file. A "
+          "A mesh (.msh, Abaqus .inp, .vtu, .unv, ...) or a geometry that Gmsh meshes (.geo, STEP, ...); "
+          "relative to the case file. A "
           ".geo "
           "script may only make geometry (SECURITY.md), unless the program is started with --trust-geo.");
   s.key("unit", &MeshSpec::unit).initially("m").doc("Unit of length of the file, for example \"mm\".");

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <numeric>
 
 #include "base/keys.hpp"
@@ -19,6 +18,8 @@
 #include "mesh/hot_spots.hpp"
 #include "model/case_file.hpp"
 #include "model/case_materials.hpp"
+#include "model/casting_processes.hpp"
+#include "model/geometry_bodies.hpp"
 #include "model/mesh_input.hpp"
 #include "model/new_case_text.hpp"
 #include "model/roles.hpp"
@@ -30,143 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Process {
-  const char* name;
-  std::vector<std::string> materials;  ///< of the mould, the first that the library has
-  Role mould;
-  double mould_start, superheat;  ///< [°C], [K]
-  double least_wall;              ///< [m]
-  double walls;                   ///< thickness of the mould over that of the casting
-  const char* law;                ///< of casting and mould; empty: by the materials
-  double film;                    ///< outside [W/(m² K)]
-  const char* film_source;
-  bool layers;  ///< of thin elements of the mould on the casting
-  /// Of shots: stages besides solidify [s], the film of the spray [W/(m² K)] and where that comes from.
-  double pour = 0, open = 0, eject = 0, spray = 0, close = 0, spray_film = 0;
-  const char* spray_source = "";
-};
-
-const std::vector<Process>& all_processes() {
-  static const std::vector<Process> list = {{"sand",
-                                             {"green_sand"},
-                                             Role::mould,
-                                             20,
-                                             80,
-                                             0.025,
-                                             1.5,
-                                             "",
-                                             10,
-                                             "still air, 5 to 15 W/(m2 K) with radiation",
-                                             true},
-                                            {"shell",
-                                             {"furan_sand", "dry_silica_sand", "green_sand"},
-                                             Role::mould,
-                                             20,
-                                             80,
-                                             0.012,
-                                             0.0,
-                                             "",
-                                             15,
-                                             "air and radiation of a warm shell, 10 to 25 W/(m2 K)",
-                                             true},
-                                            {"gravity_die",
-                                             {"h13_tool_steel", "steel_mould"},
-                                             Role::die,
-                                             250,
-                                             70,
-                                             0.02,
-                                             1.5,
-                                             "die_insulating_coating",
-                                             20,
-                                             "air and radiation of a die at 250 degC",
-                                             false,
-                                             5,
-                                             5,
-                                             15,
-                                             5,
-                                             15,
-                                             300,
-                                             "compressed air and a little water on the coating: an estimate"},
-                                            {"high_pressure",
-                                             {"h13_tool_steel", "steel_mould"},
-                                             Role::die,
-                                             200,
-                                             40,
-                                             0.025,
-                                             3.0,
-                                             "high_pressure_die_spray",
-                                             200,
-                                             "air and cooling channels, spread over the outside: an estimate",
-                                             false,
-                                             0.5,
-                                             3,
-                                             3,
-                                             3,
-                                             5,
-                                             2000,
-                                             "water and lubricant, 500 to 10000 W/(m2 K): an estimate"}};
-  return list;
-}
-
-const Process& process_named(const std::string& name) {
-  for (const Process& p : all_processes())
-    if (name == p.name) return p;
-  throw InputError({"--process"}, fmt::format("there is no process '{}'", name), one_of(processes(), name));
-}
-
-/// A body of the file.
-struct Found {
-  std::string name;
-  Role role = Role::casting;
-  mesh::BodyExtent extent;
-};
-
-bool is_metal(Role role) {
-  return role == Role::casting || role == Role::riser;
-}
-
-std::map<std::string, Role> wanted_roles(const std::vector<std::string>& as) {
-  const std::vector<Role> all = {Role::casting, Role::riser,  Role::mould, Role::core,
-                                 Role::chill,   Role::sleeve, Role::die,   Role::insulation};
-  std::map<std::string, Role> wanted;
-  std::vector<std::string> names;
-  for (const Role role : all) names.emplace_back(name(role));
-  for (const std::string& assignment : as) {
-    const std::size_t equals = assignment.find('=');
-    const std::string what = equals == std::string::npos ? "" : assignment.substr(equals + 1);
-    const auto role = std::ranges::find(names, what);
-    if (equals == 0 || role == names.end())
-      throw InputError({"--as"}, fmt::format("'{}' gives no body a role", assignment),
-                       "--as NAME=ROLE, a role being " + one_of(names, what));
-    wanted[assignment.substr(0, equals)] = all[static_cast<std::size_t>(role - names.begin())];
-  }
-  return wanted;
-}
-
-std::vector<Found> bodies_of(const mesh::RawMesh& mesh, const std::vector<std::string>& as) {
-  std::map<std::string, Role> wanted = wanted_roles(as);
-  std::vector<Found> bodies;
-  std::vector<std::string> names;
-  for (const auto& [group, content] : mesh.groups) {
-    if (content.dimension != mesh.dimension) continue;
-    names.push_back(group);
-    Found& body = bodies.emplace_back(Found{group, Role::casting, mesh::extent_of(mesh, group)});
-    if (const auto role = wanted.find(group); role != wanted.end()) {
-      body.role = role->second;
-      wanted.erase(role);
-    } else if (const auto told = role_in_name(group)) {
-      body.role = *told;
-    }
-  }
-  if (!wanted.empty())
-    throw InputError({"--as"}, fmt::format("the geometry has no body '{}'", wanted.begin()->first),
-                     one_of(names, wanted.begin()->first));
-  if (std::ranges::none_of(bodies, [](const Found& b) { return b.role == Role::casting; }))
-    throw InputError({"--as"}, "no body of the geometry is a casting",
-                     fmt::format("--as NAME=casting, of {}", fmt::join(names, ", ")));
-  return bodies;
-}
-
 double rounded_up(double value, double to) {
   return to * std::ceil(value / to - 1e-9);
 }
@@ -175,13 +39,6 @@ double rounded_up(double value, double to) {
 double two_digits(double value) {
   const double digit = std::pow(10.0, std::floor(std::log10(value)) - 1);
   return digit * std::round(value / digit);
-}
-
-std::string first_known(const std::vector<std::string>& names) {
-  const std::vector<std::string> known = material::material_names(material_folders());
-  for (const std::string& name : names)
-    if (std::ranges::find(known, name) != known.end()) return name;
-  return names.back();
 }
 
 /// A cylinder with 1.2 times the modulus of the thickest place, and metal enough for the shrinkage of all.
@@ -249,16 +106,16 @@ class NewCase {
     mesh::MeshSource source{options_.geometry.string(), units::convert(1, options_.unit, "m")};
     mesh_ = mesh::mesh_casting(source, {}, 0);
     bodies_ = bodies_of(mesh_, options_.as);
-    for (const Found& body : bodies_) {
+    for (const GeometryBody& body : bodies_) {
       if (body.role == Role::mould || body.role == Role::die) has_mould_ = true;
       if (is_metal(body.role)) metal_.push_back(body.name);
     }
     for (std::size_t i = 0; i < 3; ++i) {
       low_[i] = 1e300, high_[i] = -1e300;
-      for (const Found& body : bodies_)
+      for (const GeometryBody& body : bodies_)
         low_[i] = std::min(low_[i], body.extent.low[i]), high_[i] = std::max(high_[i], body.extent.high[i]);
     }
-    for (const Found& body : bodies_)
+    for (const GeometryBody& body : bodies_)
       if (is_metal(body.role)) {
         volume_ += body.extent.volume;
         area_ += body.extent.area;
@@ -322,7 +179,7 @@ class NewCase {
   }
 
   bool has_riser() const {
-    return std::ranges::any_of(bodies_, [](const Found& b) { return b.role == Role::riser; });
+    return std::ranges::any_of(bodies_, [](const GeometryBody& b) { return b.role == Role::riser; });
   }
 
   /// Into the half that is kept; what is near the plane of symmetry comes as near to it as a share of the
@@ -339,7 +196,7 @@ class NewCase {
     const auto axis = static_cast<std::size_t>(options_.symmetry[0] - 'x');
     const double middle = 0.5 * (low_[axis] + high_[axis]);
     double first = 0, whole = 0;
-    for (const Found& body : bodies_)
+    for (const GeometryBody& body : bodies_)
       first += body.extent.volume * body.extent.centre[axis], whole += body.extent.volume;
     constexpr double k_even = 2e-3;
     if (std::abs(first / whole - middle) > k_even * (high_[axis] - low_[axis]))
@@ -366,8 +223,8 @@ class NewCase {
 
   void choose_bodies() {
     int castings = 0;
-    for (const Found& body : bodies_) castings += body.role == Role::casting;
-    for (const Found& body : bodies_) {
+    for (const GeometryBody& body : bodies_) castings += body.role == Role::casting;
+    for (const GeometryBody& body : bodies_) {
       DraftBody& draft = draft_.bodies.emplace_back();
       draft.group = body.name;
       draft.name = castings == 1 && body.role == Role::casting && body.name.starts_with("body_") ? "casting"
@@ -590,10 +447,10 @@ class NewCase {
   }
 
   const NewCaseOptions& options_;
-  const Process& process_;
+  const CastingProcess& process_;
   material::Material alloy_;
   mesh::RawMesh mesh_;
-  std::vector<Found> bodies_;
+  std::vector<GeometryBody> bodies_;
   std::vector<std::string> metal_;
   bool has_mould_ = false;
   mesh::Point low_{}, high_{};
@@ -605,12 +462,6 @@ class NewCase {
 };
 
 }  // namespace
-
-std::vector<std::string> processes() {
-  std::vector<std::string> names;
-  for (const Process& p : all_processes()) names.emplace_back(p.name);
-  return names;
-}
 
 NewCaseReport make_new_case(const NewCaseOptions& options) {
   return NewCase(options).make();

@@ -1,3 +1,4 @@
+#include "base/kinds.hpp"
 #include "model/case_keys.hpp"
 
 namespace solidus::model {
@@ -135,83 +136,12 @@ Section<MechanicsSpec> mechanics_keys() {
   return s;
 }
 
-namespace {
-
-Section<IterationSpec> iteration_keys() {
-  using I = IterationSpec;
-  Section<I> s("iteration", "The block-iterative scheme: both phases in turn until they agree.");
-  s.choice("sweep", &I::sweep,
-           {{"gauss_seidel", I::Sweep::gauss_seidel, "each phase sees the newest state of the other"},
-            {"jacobi", I::Sweep::jacobi, "each phase sees the other as the iteration before left it"}})
-      .initially("gauss_seidel")
-      .doc("Who sees whom (monograph 4.2, 4.3).");
-  s.choice("passes", &I::passes,
-           {{"isentropic", I::Passes::isentropic, "the mechanical phase holds the entropy of the iterate"},
-            {"isothermal", I::Passes::isothermal, "it holds the temperature of the iterate"}})
-      .initially("isentropic")
-      .doc("What the mechanical phase holds; both end at the simultaneous solution.");
-  s.choice("loop", &I::loop,
-           {{"nested", I::Loop::nested, "each phase is solved to its own tolerance"},
-            {"single", I::Loop::single, "one Newton step of each phase per iteration"}})
-      .initially("nested")
-      .doc("How the iterations of the phases and those between them are nested (monograph 4.4).");
-  s.choice("relaxation", &I::relaxation,
-           {{"none", I::Relaxation::none, "whole steps"},
-            {"fixed", I::Relaxation::fixed, "steps times `factor`"},
-            {"aitken", I::Relaxation::aitken,
-             "isothermal passes only: factor from the last two steps, the first one `factor`"}})
-      .initially("none")
-      .doc("What becomes of the temperature's change between two iterates.");
-  s.key("factor", &I::factor)
-      .initially(1.0)
-      .range(1e-3, 2.0)
-      .doc(
-          "Relaxation factor. Sweeps of Gauss-Seidel converge with factors up to 4/3 where passes are "
-          "isentropic, below 2/(1 + delta) where they are isothermal, delta being the coupling number.");
-  s.key("tolerance", &I::tolerance)
-      .initially(1e-8)
-      .range(1e-14, 0.1)
-      .doc(
-          "The iteration ends when temperature and displacement change by less than this share of what the "
-          "step changed. The first law closes to the tolerances of the phases, whatever this one.");
-  s.key("max_iterations", &I::max_iterations)
-      .initially(100)
-      .range(1, 10000)
-      .doc("Iterations before a step is cut.");
-  return s;
-}
-
-}  // namespace
-
 Section<CouplingSpec> coupling_keys() {
-  using Scheme = CouplingSpec::Scheme;
   Section<CouplingSpec> s("coupling", "How the two phases take turns.");
   s.place(&CouplingSpec::where);
-  s.choice("scheme", &CouplingSpec::scheme,
-           {{"isentropic", Scheme::isentropic,
-             "mechanical phase at fixed entropy of every point, then thermal phase at fixed configuration: "
-             "stable however strongly deformation and heat are coupled"},
-            {"isothermal", Scheme::isothermal, "mechanical phase at fixed temperature, then the same"},
-            {"double_pass", Scheme::double_pass,
-             "isentropic split of second order: half a mechanical phase, thermal phase, half a mechanical "
-             "phase"},
-            {"block_iterative", Scheme::block_iterative, "both phases in turn until they agree"},
-            {"simultaneous", Scheme::simultaneous, "one Newton iteration for both fields"}})
+  s.kinds("scheme", &CouplingSpec::scheme, coupling::schemes())
       .initially("isentropic")
       .doc("The coupling scheme. With heat or mechanics alone there is nothing to couple.");
-  using coupling::PhaseOrder;
-  s.choice("order", &CouplingSpec::order,
-           {{"automatic", std::nullopt,
-             "heat_first; mechanics_first with friction where nothing melts, whose heat is then conducted in "
-             "the step that makes it, with inertia and with printed forms of structural heat"},
-            {"heat_first", PhaseOrder::heat_first,
-             "displacements and stresses belong to the temperatures of the step's end; what deformation and "
-             "friction warm is conducted in the next step"},
-            {"mechanics_first", PhaseOrder::mechanics_first,
-             "as printed (4.40 - 4.54): displacements and stresses belong to the temperatures of the step's "
-             "start"}})
-      .initially("automatic")
-      .doc("Which phase of the isentropic and of the isothermal split comes first in a step.");
   using Heating = CouplingSpec::StructuralHeating;
   s.choice(
        "structural_heating", &CouplingSpec::structural_heating,
@@ -233,28 +163,11 @@ Section<CouplingSpec> coupling_keys() {
       .doc(
           "Sensible heat in the form of `structural_heating` too, as the monograph prints it: temperature x "
           "difference of entropy, or capacity x difference of temperature. Loses heat at second order.");
-  s.choice("integration", &CouplingSpec::integration,
-           {{"backward_euler", CouplingSpec::Integration::backward_euler, "first order"},
-            {"sdirk2", CouplingSpec::Integration::sdirk2,
-             "two implicit stages, second order, L-stable (Alexander 1977)"}})
-      .initially("backward_euler")
-      .doc("Integration in time of the simultaneous scheme.");
-  using Solver = algebra::CoupledSolverKind;
-  s.choice("solver", &CouplingSpec::solver,
-           {{"automatic", Solver::automatic,
-             "direct in two dimensions and below 20 000 unknowns, 3 000 where elements are mixed; "
-             "field_split above"},
-            {"direct", Solver::direct, "MUMPS, LU"},
-            {"field_split", Solver::field_split,
-             "GMRES; multigrid on the displacements, incomplete factors on pressures and temperatures"}})
-      .initially("automatic")
-      .doc("Linear solver of the simultaneous scheme.");
   s.quantity("ambient_temperature", &CouplingSpec::ambient_temperature, "K")
       .positive()
       .doc(
           "Of the stability functional 2.24; without it the common temperature of the surroundings, or the "
           "lowest initial temperature.");
-  s.section("iteration", &CouplingSpec::iteration, iteration_keys());
   return s;
 }
 

@@ -11,7 +11,7 @@
 #include "base/keys.hpp"
 #include "base/point_table.hpp"
 #include "mesh/element_search.hpp"
-#include "results/vtu_reader.hpp"
+#include "results/field_reader.hpp"
 
 namespace solidus::model {
 
@@ -101,7 +101,7 @@ class Field {
   Field(const PlaceSpec& spec, AnalysisKind kind)
       : spec_(spec),
         kind_(kind),
-        read_(results::read_vtu(spec.file, spec.column, spec.body, spec.length, spec.where)) {
+        read_(results::read_field(spec.file, spec.column, spec.body, spec.length, spec.where)) {
     const int dimension = kind == AnalysisKind::solid ? 3 : 2;
     if (read_.mesh.dimension != dimension)
       throw InputError(spec.where, fmt::format("'{}' has {} dimensions, the analysis {}", spec.file,

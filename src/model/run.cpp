@@ -4,6 +4,7 @@
 #include <petscsys.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -21,12 +22,16 @@
 #include "model/assembly.hpp"
 #include "model/audit_watch.hpp"
 #include "model/bounds_watch.hpp"
+#include "model/case_keys.hpp"
 #include "model/case_materials.hpp"
 #include "model/cast_bodies.hpp"
 #include "model/coupling_estimate.hpp"
 #include "model/findings.hpp"
 #include "model/fingerprint.hpp"
+#include "model/heat_input.hpp"
+#include "model/mechanics_input.hpp"
 #include "model/mesh_input.hpp"
+#include "model/overrides.hpp"
 #include "model/overview.hpp"
 #include "model/range_watch.hpp"
 #include "model/run_input.hpp"
@@ -119,10 +124,12 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   return r;
 }
 
-RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recorder) {
-  recorder.begin(a.initial);
-  coupling::StepRecord record;
-  coupling::State steady = a.initial;
+/// @param recorder  null: nothing is written
+/// @param steady    the state reached
+RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* recorder, coupling::State& steady,
+                     coupling::StepRecord& record) {
+  if (recorder != nullptr) recorder->begin(a.initial);
+  record = {};
   try {
     const double start = MPI_Wtime();
     const heat::PhaseReport report = a.heat->solve_steady(a.initial.heat, steady.heat, 0);
@@ -139,14 +146,15 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, results::Recorder& recor
     coupling::summarise(a.phases, steady, record);
   } catch (const StepRejected& rejected) {
     const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};
-    recorder.stopped(stop, a.initial);
+    if (recorder != nullptr) recorder->stopped(stop, a.initial);
     return {false, stop_text(stop, spec, 0, {})};
   }
   record.number = 1;
   record.reason = "steady";
   record.output = true;
-  recorder.step(record, steady);
-  recorder.end(steady);
+  if (recorder == nullptr) return {};
+  recorder->step(record, steady);
+  recorder->end(steady);
   return {};
 }
 
@@ -161,63 +169,114 @@ std::unique_ptr<coupling::ShotMap> shot_map(const CaseSpec& spec, const Assembly
   return std::make_unique<coupling::ShotMap>(*a.heat, staying_bodies(spec), options);
 }
 
-RunResult run_transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
-                        std::optional<results::Checkpoint> from, results::Recorder& recorder) {
-  coupling::TimeOptions times = time_options(spec);
-  std::optional<coupling::ErrorEstimate> estimate;
-  if (spec.time.adaptive) {
-    coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
-    const double error = displacement_error(spec.time, norm.diagonal());
-    const auto limit = [&](coupling::StepLimits& limits) {
-      limits.displacement = error;
-      limits.inertia = spec.dynamics.has_value();
-    };
-    limit(times.step.limits);
-    for (coupling::Stage& stage : times.stages) limit(stage.step.limits);
-    using coupling::Displacement;
-    estimate.emplace(std::move(norm), &a.phases,
-                     spec.dynamics ? Displacement::motion : Displacement::distortion);
+/// What marches through time: the simulation with all that watches it. The parts refer to each other.
+class Transient {
+ public:
+  /// @param recorder  null: nothing is written
+  Transient(const CaseSpec& spec, const RunOptions& options, Assembly& a, coupling::Observer* recorder)
+      : spec_(spec),
+        options_(options),
+        a_(a),
+        simulation_(make_simulation(spec, a)),
+        range_(spec, a),
+        stability_(spec, a.coldest_start()),
+        first_law_(spec, a.heat.get()),
+        walls_(a.phases.contacts) {
+    simulation_.add(range_);
+    if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
+    if (a.phases.coherency != nullptr) simulation_.add(walls_);
+    if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation_.add(lag_);
+    simulation_.add(dissipation_);
+    if (a.phases.audits_stability()) simulation_.add(stability_);
+    if (spec.has_heat()) simulation_.add(first_law_);
+    if (recorder != nullptr) simulation_.add(*recorder);
+    simulation_.add(why_);
+    if (a.criteria) simulation_.follow(*a.criteria);
+    simulation_.stop_when(options.stop_asked);
+    simulation_.at_stage(
+        [this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
+          return apply(spec_, stage, start.displacement, begins, a_);
+        });
+    shots_ = shot_map(spec, a);
+    if (shots_) simulation_.follow_shots(*shots_);
   }
-  coupling::Simulation simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
-  RangeWatch watch(spec, a);
-  DissipationWatch dissipation;
-  StabilityWatch stability(spec, a.coldest_start());
-  FirstLawWatch first_law(spec, a.heat.get());
-  WallWatch walls(a.phases.contacts);
-  StopReason why;
-  simulation.add(watch);
-  std::optional<BoundsWatch> bounds;
-  if (a.heat) simulation.add(bounds.emplace(spec, *a.heat));
-  if (a.phases.coherency != nullptr) simulation.add(walls);
-  LagWatch lag;
-  if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation.add(lag);
-  simulation.add(dissipation);
-  if (a.phases.audits_stability()) simulation.add(stability);
-  if (spec.has_heat()) simulation.add(first_law);
-  simulation.add(recorder);
-  simulation.add(why);
-  if (a.criteria) simulation.follow(*a.criteria);
-  simulation.stop_when(options.stop_asked);
-  simulation.at_stage([&](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
-    return apply(spec, stage, start.displacement, begins, a);
-  });
-  const std::unique_ptr<coupling::ShotMap> shots = shot_map(spec, a);
-  if (shots) simulation.follow_shots(*shots);
-  // A state is large: the one at the start is not needed beside those of the run.
-  coupling::State start = std::move(from ? from->state : a.initial);
-  a.initial = {};
-  const coupling::Outcome outcome = simulation.run(
-      std::move(start),
-      [&a](const coupling::State& state) { return a.heat ? a.heat->mean_solid_fraction(state.heat) : 1.0; },
-      from ? std::optional(from->continuation) : std::nullopt);
-  if (outcome == coupling::Outcome::finished) return {};
-  std::vector<CouplingEstimate> couplings;
-  if (spec.coupled() && spec.coupling.scheme == CouplingSpec::Scheme::isothermal)
-    couplings = coupling_estimates(spec, a.materials, a.mesh, a.start);
-  return {false, stop_text(why.stop, spec, why.time,
-                           results::CheckpointFolder(options.folder).latest().lexically_normal().string(),
-                           couplings)};
-}
+  Transient(const Transient&) = delete;
+  Transient& operator=(const Transient&) = delete;
+
+  void begin(std::optional<results::Checkpoint> from) {
+    // A state is large: the one at the start is not needed beside those of the run.
+    coupling::State start = std::move(from ? from->state : a_.initial);
+    a_.initial = {};
+    simulation_.begin(
+        std::move(start),
+        [this](const coupling::State& state) {
+          return a_.heat ? a_.heat->mean_solid_fraction(state.heat) : 1.0;
+        },
+        from ? std::optional(from->continuation) : std::nullopt);
+  }
+
+  /// What a step ended with; nothing while the run goes on.
+  std::optional<RunResult> result(std::optional<coupling::Outcome> outcome) const {
+    if (!outcome) return {};
+    if (*outcome == coupling::Outcome::finished) return RunResult{};
+    std::vector<CouplingEstimate> couplings;
+    if (spec_.coupled() && spec_.coupling.scheme->traits().needs_weak_coupling)
+      couplings = coupling_estimates(spec_, a_.materials, a_.mesh, a_.start);
+    const std::string checkpoint =
+        options_.folder.empty()
+            ? ""
+            : results::CheckpointFolder(options_.folder).latest().lexically_normal().string();
+    return RunResult{false, stop_text(why_.stop, spec_, why_.time, checkpoint, couplings)};
+  }
+
+  /// Gives the phases the conditions that the case has now.
+  void change_conditions() {
+    const coupling::StageStart& start = simulation_.stage_start();
+    if (!a_.stages.empty()) {
+      apply(spec_, simulation_.stage(), start.displacement, nullptr, a_);
+    } else {
+      if (a_.mechanics) a_.mechanics->set_conditions(mechanical_conditions(spec_), start.displacement);
+      if (a_.heat) a_.heat->set_conditions(thermal_conditions(spec_));
+    }
+    simulation_.conditions_changed();
+  }
+
+  coupling::Simulation& simulation() { return simulation_; }
+
+ private:
+  static coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
+    coupling::TimeOptions times = time_options(spec);
+    std::optional<coupling::ErrorEstimate> estimate;
+    if (spec.time.adaptive) {
+      coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
+      const double error = displacement_error(spec.time, norm.diagonal());
+      const auto limit = [&](coupling::StepLimits& limits) {
+        limits.displacement = error;
+        limits.inertia = spec.dynamics.has_value();
+      };
+      limit(times.step.limits);
+      for (coupling::Stage& stage : times.stages) limit(stage.step.limits);
+      using coupling::Displacement;
+      estimate.emplace(std::move(norm), &a.phases,
+                       spec.dynamics ? Displacement::motion : Displacement::distortion);
+    }
+    return coupling::Simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
+  }
+
+  const CaseSpec& spec_;
+  const RunOptions& options_;
+  Assembly& a_;
+  coupling::Simulation simulation_;
+  RangeWatch range_;
+  std::optional<BoundsWatch> bounds_;
+  DissipationWatch dissipation_;
+  StabilityWatch stability_;
+  FirstLawWatch first_law_;
+  WallWatch walls_;
+  LagWatch lag_;
+  std::unique_ptr<coupling::ShotMap> shots_;
+  StopReason why_;
+};
 
 // The checkpoint that a run is to go on from; nothing without --restart.
 std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOptions& options, Assembly& a,
@@ -278,10 +337,58 @@ CheckedRun check_run(Case c) {
   return checked;
 }
 
-RunResult run_case(Case c, const RunOptions& options) {
-  const double start = MPI_Wtime();
-  check_restart(c.spec, options);
+/// The order is that of making; the later refer to the earlier.
+struct Session::Parts {
+  Case c;
+  RunOptions options;
   Assembly a;
+  std::optional<results::RunLock> lock;
+  std::optional<results::RunFolder> folder;
+  std::optional<results::Recorder> recorder;
+  std::optional<results::Checkpoint> from;
+  std::optional<Transient> transient;
+  std::optional<coupling::State> steady;  ///< the state that a steady case has reached
+  coupling::StepRecord steady_record;
+  std::optional<RunResult> ended;
+  bool changed = false;  ///< the case has other conditions than the phases
+  bool begun = false;
+
+  void begin() {
+    if (begun) return;
+    begun = true;
+    transient->begin(std::move(from));
+    from.reset();
+  }
+  coupling::Simulation& simulation() { return transient->simulation(); }
+  void commit() {
+    if (begun && simulation().pending()) simulation().commit_step();
+  }
+  /// The next step, after changes of conditions and with the size that is wanted.
+  std::optional<RunResult> take(std::optional<double> step) {
+    if (std::exchange(changed, false)) transient->change_conditions();
+    if (step) simulation().ask_step(*step);
+    ended = transient->result(simulation().take_step());
+    return ended;
+  }
+};
+
+namespace {
+
+void check_step(std::optional<double> step) {
+  if (step && !(*step > 0 && std::isfinite(*step)))
+    throw InputError({}, fmt::format("a step of {:g} s", *step), "a step above zero");
+}
+
+}  // namespace
+
+Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts>()) {
+  const double start = MPI_Wtime();
+  parts_->c = std::move(given);
+  parts_->options = std::move(options);
+  Case& c = parts_->c;
+  const RunOptions& o = parts_->options;
+  check_restart(c.spec, o);
+  Assembly& a = parts_->a;
   std::optional<profile::Part> part;
   part.emplace("materials");
   a.materials = load_materials(c.spec);
@@ -298,11 +405,16 @@ RunResult run_case(Case c, const RunOptions& options) {
   if (a.phases.audits_stability())
     announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
 
-  results::RecorderOptions r = recorder_options(c, options, a);
+  results::RecorderOptions r = recorder_options(c, o, a);
+  if (o.folder.empty()) {
+    if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, nullptr);
+    return;
+  }
   r.summary.overview = overview(c.spec, a, measures);
   r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
-  const results::RunLock lock(options.folder);
-  std::optional<results::Checkpoint> from = checkpoint(c.spec, options, a, r.fingerprint);
+  parts_->lock.emplace(o.folder);
+  std::optional<results::Checkpoint>& from = parts_->from;
+  from = checkpoint(c.spec, o, a, r.fingerprint);
   if (from) {
     r.progress_options.start = from->state.time;
     // A state is large: of this one the recorder asks for the time.
@@ -316,17 +428,101 @@ RunResult run_case(Case c, const RunOptions& options) {
         melt.body, melt.modulus, melt.against);
   std::vector<std::string> tables;
   for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
-  const results::RunFolder folder(options.folder, c.toml(), options.restart, tables);
+  parts_->folder.emplace(o.folder, c.toml(), o.restart, tables);
   r.summary.seconds.emplace_back("mesh", loaded - start);
   r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
-  results::Recorder recorder(folder, a.mesh, a.phases, std::move(r));
-  part.reset();
+  parts_->recorder.emplace(*parts_->folder, a.mesh, a.phases, std::move(r));
+  if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, &*parts_->recorder);
+}
+
+Session::~Session() = default;
+
+RunResult Session::run() {
+  Parts& p = *parts_;
+  if (p.ended) return *p.ended;
   try {
-    return c.spec.time.steady ? run_steady(c.spec, a, recorder)
-                              : run_transient(c.spec, options, a, std::move(from), recorder);
+    if (p.c.spec.time.steady) {
+      coupling::Observer* recorder = p.recorder ? &*p.recorder : nullptr;
+      p.ended = run_steady(p.c.spec, p.a, recorder, p.steady.emplace(p.a.initial), p.steady_record);
+      return *p.ended;
+    }
+    p.begin();
+    p.commit();
+    while (!p.take({})) p.simulation().commit_step();
+    return *p.ended;
   } catch (const algebra::Interrupted&) {  // outside of a step: there is no new state to keep
     return {false, "stopped as asked before the first step"};
   }
+}
+
+std::optional<RunResult> Session::advance(std::optional<double> step) {
+  Parts& p = *parts_;
+  if (!p.transient)
+    throw InputError(p.c.spec.time.where, "a steady analysis has no steps", "run() computes it at once");
+  check_step(step);
+  if (p.ended) return p.ended;
+  p.begin();
+  p.commit();
+  return p.take(step);
+}
+
+std::optional<RunResult> Session::repeat(std::optional<double> step) {
+  Parts& p = *parts_;
+  if (!pending()) throw InputError({}, "there is no step to repeat", "repeat() behind advance()");
+  check_step(step);
+  p.simulation().discard_step(step);
+  return p.take({});
+}
+
+void Session::commit() {
+  parts_->commit();
+}
+
+void Session::change(const std::string& assignment) {
+  Parts& p = *parts_;
+  const SourceLocation where{"--set " + assignment, 0, 0};
+  if (!assignment.starts_with("thermal_condition.") && !assignment.starts_with("mechanical_condition."))
+    throw InputError(where, "this key cannot change within a run",
+                     "keys of conditions, for example thermal_condition.NAME.ambient=50 degC");
+  if (!p.transient) throw InputError(where, "a steady analysis has no steps between which something changes");
+  Value document = p.c.document;
+  apply_override(document, assignment);
+  CaseSpec spec;
+  case_keys().assign(spec, document);
+  resolve_stages(spec);
+  check_case(spec);
+  p.c.document = std::move(document);
+  p.c.spec.thermal_conditions = std::move(spec.thermal_conditions);
+  p.c.spec.mechanical_conditions = std::move(spec.mechanical_conditions);
+  p.begin();  // with the conditions that the phases were built with
+  p.changed = true;
+}
+
+bool Session::pending() const {
+  return parts_->begun && parts_->simulation().pending();
+}
+
+const coupling::State& Session::state() const {
+  if (parts_->steady) return *parts_->steady;
+  return parts_->begun  ? parts_->simulation().state()
+         : parts_->from ? parts_->from->state
+                        : parts_->a.initial;
+}
+
+const coupling::StepRecord& Session::record() const {
+  return parts_->begun ? parts_->simulation().record() : parts_->steady_record;
+}
+
+const Case& Session::running() const {
+  return parts_->c;
+}
+
+const Assembly& Session::assembly() const {
+  return parts_->a;
+}
+
+RunResult run_case(Case c, const RunOptions& options) {
+  return Session(std::move(c), options).run();
 }
 
 }  // namespace solidus::model

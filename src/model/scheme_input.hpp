@@ -3,18 +3,17 @@
 
 #include <memory>
 
-#include "coupling/phase_order.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/scheme.hpp"
+#include "coupling/scheme_kind.hpp"
 #include "mechanics/structural_heat.hpp"
 #include "model/case_spec.hpp"
 
 namespace solidus::model {
 
-/// Returns the order of the phases of a sequential split: as the case says, or heat first unless friction
-/// between bodies that do not melt, inertia or a printed form of structural heat forbids it.
+/// The case as schemes see it.
 /// @param melts  something that deforms does
-coupling::PhaseOrder phase_order(const CaseSpec& spec, bool melts);
+coupling::SchemeContext scheme_context(const CaseSpec& spec, bool melts);
 /// Whether displacements and stresses of a step belong to the temperatures at its start: a sequential split
 /// that does mechanics first, without inertia.
 bool lags_a_step(const CaseSpec& spec, bool melts);

@@ -48,7 +48,9 @@ Section<TimeSpec> time_keys() {
       .doc("Change in an adaptive step of the solid share of the volume that can melt; without it 0.1.");
   s.quantity("min_step", &TimeSpec::min_step, "s")
       .positive()
-      .doc("The run stops when a step of this size does not go through; without it step / 1024.");
+      .doc(
+          "The run stops when a step of this size does not go through. Without it errors make no step "
+          "shorter than step / 1024, and the run stops when step / 2^20 does not go through.");
   s.quantity("max_step", &TimeSpec::max_step, "s")
       .positive()
       .doc("Largest adaptive step; without it ten times `step`.");

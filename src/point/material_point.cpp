@@ -104,8 +104,10 @@ StepResult MaterialPoint::attempt_adiabatic(const Target& end, double dt) const 
 
 Law::Properties<double> MaterialPoint::properties(double temperature, double effective_step) const {
   Law::Properties<double> p = law_.properties_at(temperature, strain_reference());
-  if (law_.material().chooses_viscosity())
-    p.elastic.viscosity = effective_step * material::melt_modulus(law_.material(), 0, 0).modulus;
+  if (law_.material().chooses_viscosity()) {
+    const material::MeltModulus melt = material::melt_modulus(law_.material(), 0, 0);
+    p.elastic.viscosity = melt.mush.at(p.elastic.solid_fraction, effective_step * melt.modulus);
+  }
   return p;
 }
 

@@ -11,6 +11,7 @@
 #include "criteria/gather.hpp"
 #include "criteria/pools.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "mesh/block_geometry.hpp"
 
 namespace solidus::results {
 
@@ -172,6 +173,38 @@ void add_stress(const mesh::Mesh& mesh, const FieldSet& fields, const std::vecto
   }
 }
 
+/// The pores of the cast bodies, where any have opened.
+std::optional<Answers::Pores> pores(const mesh::Mesh& mesh, AnalysisKind kind, const FieldSet& fields,
+                                    const std::vector<char>& bodies) {
+  const Values fraction(fields, "pore_fraction");
+  if (fraction.empty()) return {};
+  Largest densest;
+  double volume = 0, whole = 0;
+  std::size_t first = 0;
+  for (const mesh::Block& block : mesh.blocks) {
+    if (bodies[static_cast<std::size_t>(block.body)] != 0) {
+      const PackVector<Lane> integrals = mesh::basis_integrals(mesh, block, kind);
+      const auto n_nodes = static_cast<std::size_t>(mesh::node_count(block.shape));
+      for (Index e = 0; e < block.n_counted; ++e) {
+        double of_element = 0;
+        for (std::size_t a = 0; a < n_nodes; ++a)
+          of_element += integrals[static_cast<std::size_t>(e / k_lanes) * n_nodes + a][e % k_lanes];
+        const double value = fraction[first + static_cast<std::size_t>(e)];
+        whole += of_element;
+        volume += value * of_element;
+        densest.see(value, static_cast<double>(block.input_element[static_cast<std::size_t>(e)]),
+                    centre(mesh, block, e));
+      }
+    }
+    first += static_cast<std::size_t>(block.size());
+  }
+  const std::optional<ValueAt> largest = densest.over_processes();
+  volume = algebra::global_sum(volume);
+  whole = algebra::global_sum(whole);
+  if (!largest || !(largest->value > 0)) return {};
+  return Answers::Pores{.volume = volume, .share = volume / whole, .densest = *largest};
+}
+
 /// Relative defect of the first law beyond which it is not reported as closed.
 constexpr double k_closed = 1e-6;
 
@@ -317,6 +350,7 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
   }
   if (!castings.empty()) a.pools = cut_off_pools(state.criteria);
   if (phases.mechanics == nullptr || !mechanical) return a;
+  if (!castings.empty()) a.pores = pores(mesh, phases.mechanics->kind(), fields, stressed);
   a.gaps = open_gaps(mesh, phases, fields);
   if (const Field* field = fields.find("distortion"); field != nullptr && !castings.empty()) {
     const Values distortion(fields, "distortion");
@@ -353,6 +387,10 @@ std::string text(const Answers& a, const std::vector<criteria::Finding>& criteri
   text += riser_lines(a);
   if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools));
   if (!a.castings.empty()) text += criteria_lines(criteria);
+  if (a.pores)
+    text += line("shrinkage that nothing fed (pores)",
+                 fmt::format("{:.3g} % of the casting; the densest, {:.3g} %, {}", 100 * a.pores->share,
+                             100 * a.pores->densest.value, place(a.pores->densest.where)));
   for (const GapAnswer& gap : a.gaps)
     text += line(fmt::format("largest gap of '{}'", gap.contact),
                  fmt::format("{:.4g} mm {}", 1e3 * gap.gap.value, place(gap.gap.where)));
@@ -391,6 +429,10 @@ Json json(const Answers& a) {
     }
     json.add("pools_cut_off", std::move(pools));
   }
+  if (a.pores)
+    json.add("pores", value_json(a.pores->densest, "1")
+                          .add("volume[m3]", a.pores->volume)
+                          .add("share_of_casting", a.pores->share));
   Json gaps;
   for (const GapAnswer& gap : a.gaps) gaps.add(gap.contact, value_json(gap.gap, "m"));
   json.add("largest_gaps", std::move(gaps));

@@ -58,6 +58,13 @@ struct Answers {
     std::optional<double> frozen;  ///< when that one froze [s]
   };
   std::optional<CutOffPools> pools;
+  /// Shrinkage pores of cast bodies in mixed elements (mechanics/pores.hpp); absent where there are none.
+  struct Pores {
+    double volume = 0;  ///< of all [m³], in two dimensions per depth or radian
+    double share = 0;   ///< of the volume of the castings
+    ValueAt densest;    ///< the largest pore fraction
+  };
+  std::optional<Pores> pores;
   std::vector<GapAnswer> gaps;        ///< by contact, those that are open somewhere
   std::optional<ValueAt> distortion;  ///< of cast bodies, the largest [m]
   std::optional<ValueAt> stress;      ///< von Mises, the largest: of cast bodies, else of all [Pa]

@@ -4,10 +4,16 @@
 
 namespace solidus::results {
 
-std::vector<double> element_heat_flux(const mesh::Mesh& mesh, AnalysisKind kind,
-                                      const std::function<const material::Material&(int)>& material_of,
-                                      std::span<const double> temperature) {
-  std::vector<double> flux;
+namespace {
+
+/// Means over the elements of what `add` sums at each point from weight, conductivity, temperature and its
+/// gradient, [cell][component].
+template <class Add>
+std::vector<double> element_means(const mesh::Mesh& mesh, AnalysisKind kind,
+                                  const std::function<const material::Material&(int)>& material_of,
+                                  std::span<const double> temperature, std::size_t n_components,
+                                  const Add& add) {
+  std::vector<double> means;
   for (const mesh::Block& block : mesh.blocks) {
     const mesh::BlockGeometry g(mesh, block, kind, mesh::stiffness_rule(block.shape));
     const auto n_nodes = static_cast<std::size_t>(g.n_nodes), dim = static_cast<std::size_t>(g.dim);
@@ -15,7 +21,7 @@ std::vector<double> element_heat_flux(const mesh::Mesh& mesh, AnalysisKind kind,
     for (Index e = 0; e < g.n_elements; ++e) {
       const Index batch = e / k_lanes;
       const int lane = static_cast<int>(e % k_lanes);
-      std::vector<double> sum(dim, 0.0);
+      std::vector<double> sum(n_components, 0.0);
       double volume = 0;
       for (int q = 0; q < g.n_points; ++q) {
         const Lane* const gradients = g.gradients_at(batch, q);
@@ -27,13 +33,35 @@ std::vector<double> element_heat_flux(const mesh::Mesh& mesh, AnalysisKind kind,
           theta += g.values[static_cast<std::size_t>(q) * n_nodes + a] * value;
           for (std::size_t i = 0; i < dim; ++i) gradient[i] += gradients[a * dim + i][lane] * value;
         }
-        for (std::size_t i = 0; i < dim; ++i) sum[i] -= w * conductivity.value(theta) * gradient[i];
+        add(w, conductivity.value(theta), theta, gradient, sum);
         volume += w;
       }
-      for (const double value : sum) flux.push_back(value / volume);
+      for (const double value : sum) means.push_back(value / volume);
     }
   }
-  return flux;
+  return means;
+}
+
+}  // namespace
+
+std::vector<double> element_heat_flux(const mesh::Mesh& mesh, AnalysisKind kind,
+                                      const std::function<const material::Material&(int)>& material_of,
+                                      std::span<const double> temperature) {
+  return element_means(
+      mesh, kind, material_of, temperature, static_cast<std::size_t>(mesh.dimension),
+      [](double w, double k, double, const std::vector<double>& gradient, std::vector<double>& sum) {
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] -= w * k * gradient[i];
+      });
+}
+
+std::vector<double> element_conduction_dissipation(
+    const mesh::Mesh& mesh, AnalysisKind kind,
+    const std::function<const material::Material&(int)>& material_of, std::span<const double> temperature) {
+  return element_means(
+      mesh, kind, material_of, temperature, 1,
+      [](double w, double k, double theta, const std::vector<double>& gradient, std::vector<double>& sum) {
+        for (const double slope : gradient) sum[0] += w * k * slope * slope / theta;
+      });
 }
 
 }  // namespace solidus::results

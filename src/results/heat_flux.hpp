@@ -18,4 +18,10 @@ std::vector<double> element_heat_flux(const mesh::Mesh& mesh, AnalysisKind kind,
                                       const std::function<const material::Material&(int)>& material_of,
                                       std::span<const double> temperature);
 
+/// D_cond = −q·∇Θ/Θ = k |∇Θ|²/Θ (2.9b), what conduction dissipates: means over the elements, [cell] [W/m³].
+/// It is never negative. Parameters as above.
+std::vector<double> element_conduction_dissipation(
+    const mesh::Mesh& mesh, AnalysisKind kind,
+    const std::function<const material::Material&(int)>& material_of, std::span<const double> temperature);
+
 }  // namespace solidus::results

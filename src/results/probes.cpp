@@ -82,6 +82,76 @@ std::vector<std::pair<std::size_t, double>> cell_weights(const Mesh& mesh, Analy
   return weights;
 }
 
+/// The elements of this process around each node of a group, with the places of their values; blocks in
+/// order.
+struct ElementAt {
+  std::size_t cell;
+  std::span<const Index> nodes;
+};
+std::map<Index, std::vector<ElementAt>> elements_at(const Mesh& mesh, const std::vector<Index>& group) {
+  std::map<Index, std::vector<ElementAt>> at;
+  for (const Index node : group) at[node];
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const mesh::Block& block = mesh.blocks[b];
+    const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
+    for (Index e = 0; e < block.size(); ++e) {
+      const ElementAt here{cell_offset(mesh, b) + static_cast<std::size_t>(e), {block.element(e), n}};
+      for (const Index node : here.nodes)
+        if (const auto found = at.find(node); found != at.end()) found->second.push_back(here);
+    }
+  }
+  return at;
+}
+
+/// The share of the element behind each face in the area of a surface; behind a face between two bodies that
+/// share nodes that of the first. A process that counts a face holds the elements at its nodes.
+std::vector<std::pair<std::size_t, double>> face_weights(const Mesh& mesh, AnalysisKind kind,
+                                                         const std::string& group) {
+  std::vector<std::pair<std::size_t, double>> weights;
+  double all = 0;
+  if (const auto surface = mesh.surfaces.find(group); surface != mesh.surfaces.end()) {
+    const auto around = elements_at(mesh, surface->second.nodes);
+    for (const mesh::Block& faces : surface->second.faces) {
+      const mesh::FaceGeometry g(mesh, faces, kind, mesh::gauss_rule(faces.shape, 4));
+      const auto n_points = static_cast<std::size_t>(g.n_points), n = static_cast<std::size_t>(g.n_nodes);
+      for (Index f = 0; f < faces.n_counted; ++f) {
+        const std::span<const Index> nodes(faces.element(f), n);
+        const std::vector<ElementAt>& candidates = around.at(nodes[0]);
+        const auto owner = std::ranges::find_if(candidates, [&](const ElementAt& element) {
+          return std::ranges::all_of(nodes, [&](Index node) {
+            return std::ranges::find(element.nodes, node) != element.nodes.end();
+          });
+        });
+        if (owner == candidates.end()) continue;
+        double area = 0;
+        for (std::size_t q = 0; q < n_points; ++q)
+          area += g.weight[static_cast<std::size_t>(f) * n_points + q];
+        weights.emplace_back(owner->cell, area);
+        all += area;
+      }
+    }
+  }
+  all = algebra::global_sum(all);
+  for (auto& [cell, weight] : weights) weight /= all;
+  return weights;
+}
+
+/// Elements around the nodes of a set: every node counts alike, and at a node every element.
+std::vector<std::pair<std::size_t, double>> weights_around(const Mesh& mesh,
+                                                           const std::vector<Index>& nodes) {
+  std::vector<std::pair<std::size_t, double>> weights;
+  double n = 0;
+  for (const auto& [node, elements] : elements_at(mesh, nodes)) {
+    if (node >= mesh.n_owned_nodes || elements.empty()) continue;
+    for (const ElementAt& element : elements)
+      weights.emplace_back(element.cell, 1.0 / static_cast<double>(elements.size()));
+    ++n;
+  }
+  n = algebra::global_sum(n);
+  for (auto& [cell, weight] : weights) weight /= n;
+  return weights;
+}
+
 /// @param values  of the field
 double component_of(const Field& field, std::span<const double> values, std::size_t entity, int component) {
   const auto nc = static_cast<std::size_t>(field.components);
@@ -188,9 +258,12 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
   const auto nodes = mesh.node_sets.find(probe.group);
   if (nodes == mesh.node_sets.end())
     refuse(fmt::format("there is no group '{}'", probe.group), "groups: " + group_names(mesh));
-  if (field.place == Place::cell && body < 0)
-    refuse(fmt::format("the field '{}' belongs to elements", probe.field),
-           "it has a mean, an integral, a minimum and a maximum over a body, and values at points");
+  const bool surface = algebra::any_process(mesh.surfaces.contains(probe.group));
+  const auto of_elements = [&] {
+    return body >= 0 ? cell_weights(mesh, kind, body)
+           : surface ? face_weights(mesh, kind, probe.group)
+                     : weights_around(mesh, nodes->second);
+  };
 
   Sample sample;
   sample.field = probe.field;
@@ -202,14 +275,12 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
       for (const Index node : nodes->second)
         if (node < mesh.n_owned_nodes) sample.weights.emplace_back(static_cast<std::size_t>(node), 1.0);
     } else {
-      for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-        for (Index e = 0; mesh.blocks[b].body == body && e < mesh.blocks[b].n_counted; ++e)
-          sample.weights.emplace_back(cell_offset(mesh, b) + static_cast<std::size_t>(e), 1.0);
+      sample.weights = of_elements();
     }
     if (!algebra::any_process(!sample.weights.empty()))
       refuse(fmt::format("the group '{}' is empty", probe.group), {});
   } else if (field.place == Place::cell) {
-    sample.weights = cell_weights(mesh, kind, body);
+    sample.weights = of_elements();
   } else {
     const mesh::NodalFunctional mean = mesh::group_mean(mesh, probe.group, kind);
     for (std::size_t a = 0; a < mean.nodes.size(); ++a)

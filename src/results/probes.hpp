@@ -43,8 +43,8 @@ enum class Statistic {
   integral  ///< the unit shown is the field's times m³ (bodies) or m² (surfaces)
 };
 
-/// Group: a body, a surface, or a set of nodes (which has plain means and no integral). Fields of cells are
-/// those of bodies.
+/// Group: a body, a surface, or a set of nodes (which has plain means and no integral). A field of cells has
+/// on a surface the values of the elements behind its faces, and on a set of nodes those around them.
 struct GroupProbe : Sampled {
   std::string group;
   Statistic statistic = Statistic::mean;

@@ -8,6 +8,7 @@
 #include "base/log.hpp"
 #include "base/profile.hpp"
 #include "coupling/energy_scale.hpp"
+#include "coupling/internal_energy.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::results {
@@ -16,6 +17,11 @@ namespace {
 
 bool dynamic(const coupling::Phases& phases) {
   return phases.mechanics != nullptr && phases.mechanics->dynamic();
+}
+
+/// A body that leaves takes its energy with it.
+bool follows_internal_energy(const coupling::Phases& phases, const RecorderOptions& options) {
+  return !options.stages && coupling::has_internal_energy(phases);
 }
 
 /// @param taken  columns that probes give
@@ -29,7 +35,8 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
                                  .dynamics = dynamic(phases),
                                  .stability = phases.audits_stability(),
                                  .heat = phases.heat != nullptr,
-                                 .bodies = options.shots};
+                                 .bodies = options.shots,
+                                 .internal_energy = follows_internal_energy(phases, options)};
   if (phases.mechanics != nullptr)
     for (const contact::ContactPair* pair : phases.contacts)
       columns.pairs.push_back({pair->spec().name, pair->spec().friction.has_value(),
@@ -156,6 +163,7 @@ void Recorder::begin(const coupling::State& state) {
   const profile::Part part("output");
   coupling::StepEffort initial;
   coupling::summarise(phases_, state, initial);
+  measure_internal_energy(initial, state);
   show_castings(initial, state);
   const double heat_content =
       phases_.heat != nullptr ? coupling::heat_content(*phases_.heat, state.heat) : 0.0;
@@ -175,7 +183,9 @@ void Recorder::begin(const coupling::State& state) {
     });
     return;
   }
-  globals_.start(initial, {}, {}, heat_content, heat_of_bodies(state));
+  coupling::EnergyAudit none;
+  none.internal_at_start = initial.internal_energy;
+  globals_.start(initial, none, {}, heat_content, heat_of_bodies(state));
   if (criteria_probed_) fields_.update_criteria(state);
   add_history_row(state);
   add_pools(state);
@@ -187,6 +197,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   const double start = MPI_Wtime();
   coupling::StepRecord record = taken;
   show_castings(record, state);
+  measure_internal_energy(record, state);
   globals_.add(record, heat_of_bodies(state));
   stage_ = record.stage_of_case;
   cycle_ = record.cycle;
@@ -214,6 +225,11 @@ void Recorder::shot(const coupling::ShotRecord& record, const coupling::State& s
     shots_->add(record, solid);
     if (progress_) progress_->shot(shot_text(shots_->rows().back()));
   });
+}
+
+void Recorder::measure_internal_energy(coupling::StepEffort& effort, const coupling::State& state) const {
+  if (follows_internal_energy(phases_, options_))
+    effort.internal_energy = coupling::internal_energy(phases_, state);
 }
 
 void Recorder::show_castings(coupling::StepEffort& effort, const coupling::State& state) const {

@@ -67,6 +67,7 @@ class Recorder : public coupling::Observer {
   double heat_of_bodies(const coupling::State& state) const;
   void write_fields(const coupling::State& state);
   /// The solid fraction of what is cast, instead of that of all that can melt.
+  void measure_internal_energy(coupling::StepEffort& effort, const coupling::State& state) const;
   void show_castings(coupling::StepEffort& effort, const coupling::State& state) const;
   void add_pools(const coupling::State& state);
   void note_left_walls(const coupling::StepRecord& record);

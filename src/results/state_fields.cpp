@@ -48,6 +48,9 @@ constexpr ElementFieldName k_elements[] = {
     {"equivalent_plastic_strain", "1", ElementField::equivalent_plastic_strain, true},
     {"back_stress", "Pa", ElementField::back_stress, true},
     {"flow_stress", "Pa", ElementField::flow_stress, true},
+    {"pore_fraction", "1", ElementField::pore_fraction, false},
+    {"thermal_dissipation", "W/m3", ElementField::thermal_dissipation, true, true},
+    {"inelastic_entropy", "J/m3/K", ElementField::inelastic_entropy, true, true},
     {"strain", "1", ElementField::strain, false, true},
     {"intermediate_temperature", "K", ElementField::intermediate_temperature, false, true}};
 
@@ -75,6 +78,11 @@ bool heats(const contact::ContactPair* pair) {
 
 bool with_heat(const coupling::Phases& phases) {
   return phases.heat != nullptr && std::any_of(phases.contacts.begin(), phases.contacts.end(), heats);
+}
+
+/// An interface has a temperature without friction too, where it stores heat.
+bool interfaces_store(const coupling::Phases& phases) {
+  return std::ranges::any_of(phases.contacts, &contact::ContactPair::has_temperature);
 }
 
 bool with_friction(const coupling::Phases& phases) {
@@ -135,8 +143,9 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
       add_everywhere({field.name, internal ? internal_variable_unit(phases) : field.unit}, 1);
     }
     add_everywhere({"contact_status", "1"}, 1);
-    if (phases.heat != nullptr) add_everywhere({"interface_temperature", "K"}, 1);
   }
+  if (phases.heat != nullptr && (with_friction(phases) || interfaces_store(phases)))
+    add_everywhere({"interface_temperature", "K"}, 1);
   for (const contact::ContactPair* pair : phases.contacts)
     for (const std::string& surface : {pair->spec().slave, pair->spec().master})
       if (surface == pair->spec().slave || !pair->spec().rigid_master) surfaces_[surface] = contact;
@@ -193,14 +202,18 @@ void StateFields::add_elements() {
 }
 
 void StateFields::add_heat_flux() {
-  const auto compute = [this] {
-    return element_heat_flux(
-        mesh_, kind_,
-        [this](int body) -> const material::Material& { return phases_.heat->storage().material(body); },
-        *by_name_.at("temperature"));
+  const auto add = [this](const char* name, const char* unit, int components, auto element_values) {
+    const auto compute = [this, element_values] {
+      return element_values(
+          mesh_, kind_,
+          [this](int body) -> const material::Material& { return phases_.heat->storage().material(body); },
+          *by_name_.at("temperature"));
+    };
+    values_.push_back(
+        std::make_unique<Values>(Values{name, unit, components, Place::cell, {}, false, compute, true}));
   };
-  values_.push_back(std::make_unique<Values>(
-      Values{"heat_flux", "W/m2", mesh_.dimension, Place::cell, {}, false, compute, true}));
+  add("heat_flux", "W/m2", mesh_.dimension, element_heat_flux);
+  add("conduction_dissipation", "W/m3", 1, element_conduction_dissipation);
 }
 
 void StateFields::add_nodal_stress() {
@@ -317,6 +330,11 @@ void StateFields::update_heat(const contact::ContactNodalFields& fields, std::sp
   };
   show("contact_heat_flux", fields.heat_flux);
   show("frictional_heat_flux", fields.frictional_heat_flux);
+  const auto interface = by_name_.find("interface_temperature");
+  // The slave's alone: the master remembers none.
+  for (std::size_t k = 0; interface != by_name_.end() && k < fields.temperature.size(); ++k)
+    if (closest[k] != 0 && std::isfinite(fields.temperature[k]))
+      (*interface->second)[static_cast<std::size_t>(fields.nodes[k])] = fields.temperature[k];
 }
 
 // Updates the fields of friction. The history fields of a surface in several pairs are the largest of all
@@ -325,7 +343,6 @@ void StateFields::update_friction(const contact::ContactNodalFields& fields, std
   const std::array<const std::vector<double>*, std::size(k_remembered)> remembered = {
       &fields.slip, &fields.internal_variable, &fields.coefficient, &fields.dissipation, &fields.wear_depth};
   std::vector<double>&traction = *by_name_["friction_traction"], &status = *by_name_["contact_status"];
-  const auto interface = by_name_.find("interface_temperature");
   const auto components = static_cast<std::size_t>(phases_.mechanics->components());
   for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
     const auto i = static_cast<std::size_t>(fields.nodes[k]);
@@ -335,9 +352,6 @@ void StateFields::update_friction(const contact::ContactNodalFields& fields, std
     }
     if (closest[k] == 0) continue;
     status[i] = fields.status[k];
-    // The slave's alone: the master remembers none.
-    if (interface != by_name_.end() && std::isfinite(fields.temperature[k]))
-      (*interface->second)[i] = fields.temperature[k];
     for (std::size_t c = 0; c < components; ++c) traction[i * components + c] = fields.traction[k][c];
   }
 }

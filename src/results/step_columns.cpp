@@ -143,7 +143,8 @@ std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
   if (table.stability)
     cells.insert(cells.end(),
                  {r.stability.mechanical, r.stability.thermal, r.stability.tolerance, r.stability.entropy,
-                  r.stability.entropy + r.stability.frictional_entropy - r.energy.entropy_in});
+                  r.stability.entropy + r.stability.frictional_entropy + r.energy.inelastic_entropy -
+                      r.energy.entropy_in});
   if (table.stages) {
     cells.emplace_back(r.stage);
     cells.emplace_back(whole(r.cycle));
@@ -189,17 +190,23 @@ std::vector<Reading> GlobalHistory::all() const {
     add("plastic_dissipation", "J", sum_.plastic_dissipation);
     add("plastic_work", "J", sum_.plastic_work);
     add("hardening_energy", "J", sum_.hardening());
+    add("inelastic_entropy", "J/K", sum_.inelastic_entropy);
   }
   if (options_.stability) {
     add("lyapunov", "J", stability_.increment());
     add("lyapunov_mechanical", "J", last_.stability.mechanical);
     add("lyapunov_thermal", "J", last_.stability.thermal);
     add("entropy", "J/K", stability_.entropy);
-    add("entropy_production", "J/K", stability_.entropy + stability_.frictional_entropy - sum_.entropy_in);
+    add("entropy_production", "J/K",
+        stability_.entropy + stability_.frictional_entropy + sum_.inelastic_entropy - sum_.entropy_in);
   }
   if (options_.heat) {
     add("heat_exchanged", "J", sum_.heat_exchanged);
     add("energy_defect", "J", sum_.defect());
+  }
+  if (options_.internal_energy) {
+    add("internal_energy", "J", sum_.internal);
+    add("internal_energy_defect", "J", sum_.state_defect());
   }
   return all;
 }
@@ -226,6 +233,7 @@ void GlobalHistory::start(const coupling::StepEffort& initial, const coupling::E
   heat_of_bodies_ = heat_of_bodies;
   heat_content_ = heat_content;
   sum_ = energy;
+  sum_.internal = initial.internal_energy - sum_.internal_at_start;
   stability_ = stability;
 }
 
@@ -233,6 +241,7 @@ void GlobalHistory::add(const coupling::StepEffort& step, double heat_of_bodies)
   last_ = step;
   heat_of_bodies_ = heat_of_bodies;
   sum_ += step.energy;
+  sum_.internal = step.internal_energy - sum_.internal_at_start;
   stability_ += step.stability;
 }
 

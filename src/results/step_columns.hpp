@@ -44,8 +44,9 @@ class GlobalHistory {
     bool dynamics = false;   ///< bodies have inertia
     bool stability = false;  ///< 𝓛 is followed
     std::vector<PairColumns> pairs = {};
-    bool heat = true;     ///< is followed: the first law is audited
-    bool bodies = false;  ///< bodies leave and come: their heat is part of the balance
+    bool heat = true;              ///< is followed: the first law is audited
+    bool internal_energy = false;  ///< states have one (coupling/internal_energy.hpp)
+    bool bodies = false;           ///< bodies leave and come: their heat is part of the balance
   };
   explicit GlobalHistory(Options options) : options_(std::move(options)) {}
 

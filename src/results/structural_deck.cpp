@@ -65,7 +65,11 @@ class Writer {
     sections();
     equations();
     initial_conditions();
-    step();
+    if (d_.history.empty()) {
+      step();
+    } else {
+      for (std::size_t m = 1; m < d_.history.size(); ++m) temperature_step(m);
+    }
     return std::move(out_);
   }
 
@@ -92,9 +96,9 @@ class Writer {
   void heading() {
     line("*HEADING");
     line("{}", d_.title);
-    line(
-        "** SI units, temperatures in kelvin. Written by Solidus: residual stress of a casting as the "
-        "initial state.");
+    line("** SI units, temperatures in kelvin. Written by Solidus: {}.",
+         d_.history.empty() ? "residual stress of a casting as the initial state"
+                            : "temperatures of a casting over time as the load");
     line("** Coordinates: {}.", d_.displacement.empty() ? "nominal" : "deformed");
   }
 
@@ -219,7 +223,7 @@ class Writer {
 
   /// Slow tensile curves. Kinematic hardening is in them as isotropic, overstress is not.
   void plasticity(const material::Flow& flow) {
-    if (calculix_) {
+    if (calculix_ && d_.history.empty()) {
       line("** Elastic from here on: CalculiX takes no initial hardening to go with an initial stress.");
       return;
     }
@@ -252,8 +256,8 @@ class Writer {
 
   void initial_conditions() {
     line("*INITIAL CONDITIONS, TYPE=TEMPERATURE");
-    for (Index i = 0; i < d_.mesh.n_nodes(); ++i)
-      if (d_.active.node(i)) line("{}, {:.10g}", node(i), d_.temperature[static_cast<std::size_t>(i)]);
+    temperatures_of(d_.history.empty() ? d_.temperature : d_.history.front().temperature);
+    if (!d_.history.empty()) return;
     line("*INITIAL CONDITIONS, TYPE=STRESS");
     for (std::size_t b = 0; b < d_.mesh.blocks.size(); ++b) {
       if (!there(b)) continue;
@@ -294,11 +298,55 @@ class Writer {
     }
   }
 
+  void temperatures_of(std::span<const double> temperature) {
+    for (Index i = 0; i < d_.mesh.n_nodes(); ++i)
+      if (d_.active.node(i)) line("{}, {:.10g}", node(i), temperature[static_cast<std::size_t>(i)]);
+  }
+
+  /// Writes the step to a moment of the history. Supports of the first step stay in those that follow.
+  void temperature_step(std::size_t m) {
+    const double duration = d_.history[m].time - d_.history[m - 1].time;
+    line("** t = {:.10g} s", d_.history[m].time);
+    line("*STEP, INC=1000");
+    line("*STATIC");
+    line("{:.10g}, {:.10g}", duration, duration);
+    if (m == 1) supports();
+    line("*TEMPERATURE");
+    temperatures_of(d_.history[m].temperature);
+    outputs();
+    line("*END STEP");
+  }
+
+  void supports() {
+    std::string boundary;
+    for (Index i = 0; i < d_.mesh.n_nodes(); ++i)
+      for (std::size_t k = 0; d_.active.node(i) && k < components_; ++k)
+        if (d_.fixed[static_cast<std::size_t>(i) * components_ + k] != 0)
+          boundary += fmt::format("{}, {}, {}\n", node(i), k + 1, k + 1);
+    if (!boundary.empty()) out_ += "*BOUNDARY\n" + boundary;
+    if (d_.supports.empty()) return;
+    line(
+        "** Of a part that only contact held: these hold its rigid motions and take no force while loads "
+        "are in");
+    line("** equilibrium. Put your own supports in their place.");
+    line("*BOUNDARY");
+    for (const Index entry : d_.supports)
+      line("{}, {}, {}", node(node_of(entry)), component_of(entry), component_of(entry));
+  }
+
+  void outputs() {
+    if (calculix_) {
+      out_ += "*NODE FILE\nU\n*EL FILE\nS\n";
+    } else {
+      out_ += "*OUTPUT, FIELD, VARIABLE=PRESELECT\n";
+    }
+  }
+
   /// Writes the step: supports hold the bodies where they are, and loads continue to act.
   void step() {
     line("*STEP");
     line("*STATIC");
-    std::string boundary, loads;
+    std::string loads;
     double largest = 0;
     for (const double f : d_.force) largest = std::max(largest, std::abs(f));
     constexpr double k_rounding = 1e-12;
@@ -306,27 +354,13 @@ class Writer {
       if (!d_.active.node(i)) continue;
       for (std::size_t k = 0; k < components_; ++k) {
         const std::size_t at = static_cast<std::size_t>(i) * components_ + k;
-        if (d_.fixed[at] != 0) boundary += fmt::format("{}, {}, {}\n", node(i), k + 1, k + 1);
         if (d_.fixed[at] == 0 && std::abs(d_.force[at]) > k_rounding * largest)
           loads += fmt::format("{}, {}, {:.12e}\n", node(i), k + 1, d_.force[at]);
       }
     }
-    if (!boundary.empty()) out_ += "*BOUNDARY\n" + boundary;
-    if (!d_.supports.empty()) {
-      line(
-          "** Of a part that only contact held: these hold its rigid motions and take no force while loads "
-          "are in");
-      line("** equilibrium. Put your own supports in their place.");
-      line("*BOUNDARY");
-      for (const Index entry : d_.supports)
-        line("{}, {}, {}", node(node_of(entry)), component_of(entry), component_of(entry));
-    }
+    supports();
     if (!loads.empty()) out_ += "*CLOAD\n" + loads;
-    if (calculix_) {
-      out_ += "*NODE FILE\nU\n*EL FILE\nS\n";
-    } else {
-      out_ += "*OUTPUT, FIELD, VARIABLE=PRESELECT\n";
-    }
+    outputs();
     line("*END STEP");
   }
 

@@ -1,6 +1,6 @@
 /// The end of a run as the start of a structural analysis: an input file for CalculiX or Abaqus with mesh,
 /// sets, materials, temperatures and residual stress as initial conditions, and one static step without
-/// further loading.
+/// further loading; or its temperatures over time as the load of an analysis.
 ///
 /// The stress given is the one whose nodal forces ∫ Bᵀ σ dV are those of the run, so that it is in
 /// equilibrium there too: where the run has a constant volumetric mode (6.2), the pressure of an element is
@@ -23,6 +23,12 @@ enum class Dialect {
   abaqus     ///< stress of the elements' means, with the equivalent plastic strain and flow curves
 };
 
+/// The temperatures of a moment.
+struct TemperatureMoment {
+  double time = 0;                  ///< [s]
+  std::vector<double> temperature;  ///< [node] [K]
+};
+
 /// Everything of one process, which holds the whole mesh. SI units throughout, temperatures absolute.
 struct StructuralDeck {
   std::string title;
@@ -42,6 +48,9 @@ struct StructuralDeck {
   std::vector<std::string> body_names = {};  ///< of the element sets and materials; empty: those of the mesh
   std::vector<std::vector<Index>> constraints;  ///< degrees of freedom that move as one
   std::vector<double> force;                    ///< of loads and contact, [node][component] [N]
+  /// Two moments or more: the deck starts free of stress at the first, and has a step for each that follows,
+  /// in which temperatures go there linearly. No stress, plastic strain or force is written then.
+  std::vector<TemperatureMoment> history = {};
 };
 
 /// Throws std::invalid_argument for a shape that neither program has.

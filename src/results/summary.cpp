@@ -6,6 +6,7 @@
 #include <array>
 
 #include "algebra/parallel.hpp"
+#include "base/version.hpp"
 #include "results/json.hpp"
 #include "results/output_file.hpp"
 
@@ -108,7 +109,7 @@ std::string summary_json(const Summary& s) {
   Json profile = object(s.profile);
   profile.add("total", s.profile_total);
   Json json;
-  json.add("solidus", SOLIDUS_VERSION)
+  json.add("solidus", program_version())
       .add("case", s.case_file)
       .add("variant", s.variant)
       .add("title", s.title)

@@ -12,11 +12,6 @@
 
 namespace solidus::results {
 
-/// VTK's cell type of a shape.
-int vtk_cell_type(mesh::Shape shape);
-/// VTK's node i of a shape is Gmsh's node `vtk_node_order(shape)[i]`.
-std::span<const int> vtk_node_order(mesh::Shape shape);
-
 /// Writes the elements this process counts, with the nodes they touch. Values stay in SI, units go into VTK's
 /// UNITS_LABEL. Vectors of two components are written with a third that is zero. Beside the fields: point
 /// data `node` and cell data `element` (numbers of the input), `body` (index into Mesh::bodies), `process`,

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "base/keys.hpp"
-#include "results/vtu_arrays.hpp"
-#include "results/vtu_pieces.hpp"
+#include "mesh/vtu_arrays.hpp"
+#include "mesh/vtu_pieces.hpp"
 
 namespace solidus::results {
 
@@ -19,7 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using boost::property_tree::ptree;
+using mesh::CellParts;
+using mesh::CellTable;
 using mesh::Shape;
+using mesh::VtuFile;
 
 class Reader {
  public:
@@ -69,14 +72,14 @@ class Reader {
   void add_piece(const VtuFile& file, const ptree& piece) {
     const auto [n_points, n_cells] = piece_size(file, piece);
     const ptree& points = points_array(file, piece);
-    const ptree* field = find_array(piece, "PointData", field_);
+    const ptree* field = mesh::find_array(piece, "PointData", field_);
     if (field == nullptr)
       throw InputError(where_, fmt::format("the file has no field '{}' at its points", field_),
-                       one_of(array_names(piece, "PointData"), field_));
+                       one_of(mesh::array_names(piece, "PointData"), field_));
     if (field->get<int>("<xmlattr>.NumberOfComponents", 1) != 1)
       throw InputError(where_, fmt::format("the field '{}' of the file has several components", field_),
                        "a field of one component");
-    read_.unit = array_unit(*field);
+    read_.unit = mesh::array_unit(*field);
     const std::size_t first = read_.mesh.x.size();
     const std::vector<double> x = file.numbers(points, 3 * n_points);
     for (std::size_t i = 0; i < n_points; ++i)
@@ -97,7 +100,7 @@ class Reader {
     for (std::size_t c = 0; c < n_cells; ++c) {
       if (body_ >= 0 && bodies[c] != body_) continue;
       if (!ghosts.empty() && ghosts[c] != 0) continue;
-      const std::optional<CellParts> parts = parts_of(cells.types[c]);
+      const std::optional<CellParts> parts = mesh::parts_of(cells.types[c]);
       if (!parts)
         file.fail(fmt::format("cells of VTK's type {} are not read", cells.types[c]),
                   "triangles, quadrilaterals, tetrahedra, hexahedra, linear or quadratic, wedges, pyramids");
@@ -114,7 +117,7 @@ class Reader {
 
   static std::vector<double> cell_data(const VtuFile& file, const ptree& piece, const char* name,
                                        std::size_t n_cells) {
-    const ptree* array = find_array(piece, "CellData", name);
+    const ptree* array = mesh::find_array(piece, "CellData", name);
     return array == nullptr ? std::vector<double>{} : file.numbers(*array, n_cells);
   }
 

@@ -4,18 +4,10 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
-#include "base/errors.hpp"
-#include "mesh/mesh.hpp"
+#include "results/field_reader.hpp"
 
 namespace solidus::results {
-
-struct ReadField {
-  mesh::Mesh mesh;  ///< of this process alone, one body; nodes that parts share are there once a part
-  std::vector<double> values;  ///< [node], in the file's unit
-  std::string unit;            ///< of the values, where the file says it (UNITS_LABEL), else empty
-};
 
 /// Reads point data of one component. Numbers may be text, base64 or raw, compressed by zlib or not, of
 /// little endian. Cells of the shapes that Solidus has are taken as they are; voxels, pixels, wedges and

@@ -1,4 +1,6 @@
-/// Two insulated bodies that touch can only come to one temperature between theirs.
+/// Temperatures that no balance of heat forbids, but that cannot follow from those at the start: two
+/// insulated bodies that touch come to one temperature between theirs, and melt that is chilled gets no
+/// hotter.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,6 +96,70 @@ TEST(InsulatedBodies, OfIronAndAluminiumComeTogetherToo) {
   expect_to_come_together("other",
                           {"body.upper.material=\"grey_iron\"", "body.lower.material=\"aluminium_alsi7mg\"",
                            "contact.interface.heat.conductance=\"5000 W/m2/K\""});
+}
+
+/// Heat goes through the quadratic elements of the melt, some of it from cold to hot where nothing limits it.
+/// Friction below, which gives some watts, took the limit away everywhere.
+const std::string k_chilled = R"(title = "Chilled from above, rubbing below"
+[analysis]
+kind = "axisymmetric"
+[mesh]
+shape = "two_blocks"
+element = "tri6"
+[mesh.two_blocks]
+lower = ["60 mm", "20 mm"]
+lower_divisions = [4, 4]
+upper = ["60 mm", "36 mm"]
+upper_divisions = [3, 4]
+[time]
+end = "0.8 s"
+step = "0.2 s"
+[coupling]
+scheme = "simultaneous"
+[[body]]
+name = "upper"
+material = "low_carbon_steel"
+initial_temperature = "1550 degC"
+[[body]]
+name = "lower"
+material = "steel_mould"
+initial_temperature = "200 degC"
+[[thermal_condition]]
+name = "chill"
+group = "upper_y_max"
+kind = "temperature"
+temperature = "100 degC"
+[[mechanical_condition]]
+name = "axis_upper"
+group = "upper_x_min"
+kind = "displacement"
+ur = "0 mm"
+[[mechanical_condition]]
+name = "axis_lower"
+group = "lower_x_min"
+kind = "displacement"
+ur = "0 mm"
+[[mechanical_condition]]
+name = "table"
+group = "lower_y_min"
+kind = "displacement"
+uy = "0 mm"
+[[contact]]
+name = "interface"
+slave = "upper_bottom"
+master = "lower_top"
+[contact.heat]
+contact_law = "power"
+gap_law = "constant"
+conductance = "12 kW/m2/K"
+[contact.friction]
+coefficient = 0.2
+)";
+
+TEST(ChilledMelt, GetsNoHotterWhereItRubsOnItsMould) {
+  const auto run = k_here.run("chilled", k_chilled);
+  ASSERT_TRUE(run.finished) << run.reason;
+  EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 1551);  // 1736 degC before
 }
 
 }  // namespace

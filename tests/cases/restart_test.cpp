@@ -187,7 +187,7 @@ TEST_F(Restart, APhysicsThatCannotGoOnLeavesACheckpointAndAdvice) {
   EXPECT_EQ(outcome.code, 2);
   for (const char* phrase :
        {"could not go on", "reason: mechanics: no convergence in 1 iterations", "where: node ",
-        "tried: 11 steps", "state.h5", "mechanics.max_iterations (now 1)"})
+        "tried: 21 steps", "state.h5", "mechanics.max_iterations (now 1)"})
     EXPECT_THAT(outcome.output, HasSubstr(phrase));
   const Outcome rest = run("stuck", "--restart");  // the change that was advised
   EXPECT_EQ(rest.code, 0) << rest.output;

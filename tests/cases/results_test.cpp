@@ -72,6 +72,132 @@ TEST(SteadyRun, WritesItsSolutionAndWhatFlows) {
   EXPECT_NEAR(run.history.at("energy_defect[J]").back(), -run.history.at("heat_in[J]").back(), 1e-9);
 }
 
+/// A steel that softens when it warms, stretched far beyond its yield stress while it is cooled from the
+/// right.
+const std::string k_stretched = R"(title = "A stretched wall"
+[analysis]
+kind = "plane_strain"
+physics = "thermomechanical"
+[mesh]
+shape = "block"
+element = "quad4"
+[mesh.block]
+size = ["20 mm", "10 mm"]
+divisions = [16, 4]
+[time]
+end = "20 s"
+step = "0.25 s"
+[[body]]
+name = "wall"
+group = "block"
+material = "softening.toml"
+initial_temperature = "600 K"
+[[thermal_condition]]
+name = "cold"
+group = "x_max"
+kind = "film"
+coefficient = "2000 W/m2/K"
+ambient = "500 K"
+[[mechanical_condition]]
+name = "foot"
+group = "y_min"
+kind = "displacement"
+uy = "0 mm"
+[[mechanical_condition]]
+name = "side"
+group = "x_min"
+kind = "displacement"
+ux = "0 mm"
+[[mechanical_condition]]
+name = "pulled"
+group = "y_max"
+kind = "displacement"
+uy = { of = "time", argument_unit = "s", unit = "mm", points = [[0, 0], [20, 0.4]] }
+[mechanics]
+tolerance = 1e-10
+[output]
+every = "20 s"
+fields = ["temperature", "dissipation", "thermal_dissipation", "inelastic_entropy", "conduction_dissipation"]
+)";
+const std::string k_softening = R"(title = "A steel that softens"
+expansion_reference = "293 K"
+[density]
+value = "7800 kg/m3"
+[conductivity]
+value = "40 W/m/K"
+[specific_heat]
+value = "500 J/kg/K"
+[young_modulus]
+value = "200 GPa"
+[poisson_ratio]
+value = 0.3
+[expansion]
+value = "1.2e-5 1/K"
+[plasticity]
+flow_stress = { argument_unit = "K", unit = "MPa", points = [[300, 500], [700, 100]] }
+)";
+
+// D_mech, D_ther and D_cond are nowhere negative, and what the fields sum up to is what the columns say;
+// entropy is made at the rate of the three over the temperature.
+TEST(SecondLaw, OfTheBulkHoldsInTheFieldsAndInTheHistory) {
+  k_here.write("softening.toml", k_softening);
+  std::string text = k_stretched;
+  for (const auto& [field, unit] :
+       {std::pair{"dissipation", "W"}, std::pair{"thermal_dissipation", "W"},
+        std::pair{"conduction_dissipation", "W"}, std::pair{"inelastic_entropy", "J/K"}}) {
+    const std::string of_cells = std::string(unit) + "/m3" == "W/m3" ? "W/m3" : "J/m3/K";
+    text += "[[probe]]\nname = \"sum_" + std::string(field) + "\"\nkind = \"integral\"\nfield = \"" + field +
+            "\"\ngroup = \"block\"\nunit = \"" + unit + "\"\n";
+    text += "[[probe]]\nname = \"least_" + std::string(field) + "\"\nkind = \"minimum\"\nfield = \"" + field +
+            "\"\ngroup = \"block\"\nunit = \"" + of_cells + "\"\n";
+  }
+  const auto run = k_here.run("stretched", text);
+  ASSERT_TRUE(run.finished) << run.reason;
+  const auto& column = run.history;
+  for (const char* field : {"dissipation[W/m3]", "thermal_dissipation[W/m3]", "conduction_dissipation[W/m3]",
+                            "inelastic_entropy[J/m3/K]"})
+    for (const double least : column.at(std::string("least_") + field)) EXPECT_GE(least, 0) << field;
+  const auto& time = column.at("time[s]");
+  double rate = 0, made = 0;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    const double dt = time[i] - time[i - 1];
+    const auto gained = [&](const char* name) { return column.at(name)[i] - column.at(name)[i - 1]; };
+    const double dissipated = gained("plastic_dissipation[J]") + gained("viscous_dissipation[J]");
+    EXPECT_NEAR(column.at("sum_dissipation[W]")[i] * dt, dissipated, 1e-9 * std::abs(dissipated));
+    EXPECT_GE(gained("entropy_production[J/K]"), 0);
+    EXPECT_NEAR(column.at("sum_inelastic_entropy[J/K]")[i], column.at("inelastic_entropy[J/K]")[i],
+                1e-10 * column.at("inelastic_entropy[J/K]").back());
+    rate = column.at("sum_dissipation[W]")[i] + column.at("sum_thermal_dissipation[W]")[i] +
+           column.at("sum_conduction_dissipation[W]")[i];
+    made += dt * rate;
+  }
+  const double hottest = *std::ranges::max_element(column.at("T_max[degC]")) + 273.15,
+               coldest = *std::ranges::min_element(column.at("T_min[degC]")) + 273.15;
+  EXPECT_LT(hottest / coldest, 1.2);
+  EXPECT_GT(column.at("entropy_production[J/K]").back(), 0.99 * made / hottest);
+  EXPECT_LT(column.at("entropy_production[J/K]").back(), 1.01 * made / coldest);
+  EXPECT_GT(column.at("inelastic_entropy[J/K]").back(), 0.2 * column.at("entropy_production[J/K]").back());
+  // And the first law of two states (a specific heat at constant pressure).
+  EXPECT_NEAR(column.at("internal_energy_defect[J]").back(), 0, 1e-7 * column.at("heat_exchanged[J]").back());
+}
+
+// The case of section 6.3.1 and its variant, as its page says.
+TEST(CastIronInSand, LeavesItsRangeOfTemperaturesWithTheOpenRuleAlone) {
+  const auto closed = solidus::testing::run("cases/cast_iron_in_sand/case.toml", "results/iron_closed"),
+             open = solidus::testing::run("cases/cast_iron_in_sand/open.toml", "results/iron_open");
+  ASSERT_TRUE(closed.finished && open.finished);
+  const auto least = [](const solidus::testing::CaseRun& run) {
+    return *std::ranges::min_element(run.history.at("T_min[degC]"));
+  };
+  const auto largest = [](const solidus::testing::CaseRun& run) {
+    return *std::ranges::max_element(run.history.at("T_max[degC]"));
+  };
+  EXPECT_NEAR(least(closed), 20, 1e-6);
+  EXPECT_NEAR(largest(closed), 1000, 1e-6);
+  EXPECT_LT(least(open), -5);
+  EXPECT_GT(largest(open), 1001);
+}
+
 /// A block of 40 mm on one of 60 mm.
 const std::string k_ledge = R"(title = "A block on a ledge"
 [analysis]

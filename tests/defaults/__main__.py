@@ -136,6 +136,8 @@ def main():
         lines.append(measure(asked.program, case, physics, finer))
         print(lines[-1], flush=True)
     if asked.output:
+        lines += ["", "Next: [when a step has converged](../decisions/0017-when-a-step-has-converged.md) · "
+                      "[all of verification](README.md)"]
         asked.output.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 

@@ -13,7 +13,7 @@ import unittest
 
 from program import PROGRAM, ProgramTest, solidus
 
-VERBS = {"run", "check", "explain", "schema", "point", "mesh-info", "materials", "export", "version", "plot", "compare",
+VERBS = {"run", "check", "resolve", "explain", "schema", "point", "mesh-info", "materials", "export", "version", "plot", "compare",
          "study", "init-editor", "completion", "man", "help"}
 LONG_CASE = """
 title = "A block that cools for ever"
@@ -60,7 +60,7 @@ def on_terminal(*command, env=None):
 
 class CommandLine(ProgramTest):
     def test_help_and_version_are_where_people_look_for_them(self):
-        self.assertRegex(self.done("--version"), r"^Solidus \d+\.\d+\.\d+\n$")
+        self.assertRegex(self.done("--version"), r"^Solidus \d+\.\d+\.\d+(\+\d{8}\.[0-9a-f]{7,}(\.modified)?)?\n$")
         everything = self.done("help")
         for verb in VERBS:
             self.assertRegex(everything, rf"(?m)^  {verb} ")

@@ -5,6 +5,7 @@ import functools
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -17,7 +18,7 @@ from program import SOURCES, ProgramTest, solidus
 from solidus_plots.plots_file import read_spec
 from solidus_plots.study_file import read_study
 
-PAGES = [SOURCES / "README.md", *sorted((SOURCES / "docs/guide").glob("*.md"))]
+PAGES = [SOURCES / "README.md", *sorted((SOURCES / "docs/guide").glob("*.md")), *sorted((SOURCES / "docs/tutorials").glob("*.md"))]
 DEV = {"help"} | set(re.findall(r"^  (\w+) ", subprocess.run([SOURCES / "dev", "help"], capture_output=True, text=True,
                                                   check=True).stdout, re.M))
 # What is typed as it stands: quick, and it writes nothing but into the present folder.
@@ -172,6 +173,29 @@ class Guide(ProgramTest):
                                           text=True, env={**os.environ, "PYTHONPATH": str(SOURCES / "python")})
                     self.assertEqual(done.returncode, 0, f"{name}: {done.stderr}")
                     self.assertTrue(done.stdout.strip())
+
+    def test_the_tutorials_can_be_followed(self):
+        """Their commands one after the other, in a folder each, as they stand there; runs end after two seconds of the
+        casting, and coupled runs in space are checked alone."""
+        for page in sorted((SOURCES / "docs/tutorials").glob("*.md")):
+            folder = self.folder / page.stem
+            folder.mkdir()
+            lines = [line for block in blocks(page.read_text()) if block.language == "sh" for line in block.text.splitlines()]
+            for line in lines:
+                with self.subTest(page=page.name, line=line):
+                    words = shlex.split(line.replace("/usr/share/solidus", str(SOURCES)))
+                    if words[0] != "solidus":
+                        subprocess.run(words, cwd=folder, check=True)
+                        continue
+                    if words[1] == "run" and "bracket" in words and "--coupled" in words:
+                        words = ["solidus", "check", "bracket"]
+                    if words[1] == "run":
+                        name = words[2] if not words[2].startswith("-") else words[3]
+                        words += ["--set", "time.end=2 s"] + ([] if "-o" in words else ["-o", f"results/{name}/default"])
+                    if words[1] != "plot" and "--riser" not in words:  # slow, and tests of their own
+                        self.done(*words[1:], cwd=folder, timeout=600)
+            if page.stem != "README":
+                self.assertGreater(len(lines), 3, page.name)
 
     def test_the_table_of_check_stands_on_its_page_as_it_is_printed(self):
         page = (SOURCES / "docs/guide/findings.md").read_text()

@@ -1,7 +1,10 @@
 """An installed program, moved to another folder, finds what it brought; ./dev works from any folder."""
 
+import os
 from pathlib import Path
+import shutil
 import subprocess
+import sys
 import unittest
 
 from program import PROGRAM, SOURCES, ProgramTest
@@ -11,11 +14,12 @@ class Installed(ProgramTest):
     def test_a_prefix_holds_all_of_it_and_may_be_moved(self):
         prefix = self.folder / "prefix"
         build = Path(PROGRAM).parent
-        subprocess.run(["cmake", "--install", build, "--prefix", prefix], check=True, capture_output=True)
+        subprocess.run(["cmake", "--install", build, "--component", "program", "--prefix", prefix], check=True, capture_output=True)
         moved = prefix.rename(self.folder / "moved")
         for file in ("bin/solidus", "share/bash-completion/completions/solidus", "share/zsh/site-functions/_solidus",
                      "share/fish/vendor_completions.d/solidus.fish", "share/man/man1/solidus.1",
                      "share/solidus/schema/case.schema.json", "share/solidus/python/solidus_plots/plot_case.py",
+                     "share/solidus/python/solidus_casting/case.py",
                      "share/doc/solidus/README.md", "share/doc/solidus/docs/guide/getting_started.md",
                      "share/solidus/cases/hot_spots/case.toml"):
             self.assertGreater((moved / file).stat().st_size, 0, file)
@@ -36,7 +40,34 @@ class Installed(ProgramTest):
         drawn = said("plot", "results")
         self.assertIn("the installed one", drawn)
         self.assertTrue((self.folder / "results/plots/history_degC.png").exists())
+        # So does the Python package, without a word about where the program is.
+        environment = {name: value for name, value in os.environ.items() if name != "SOLIDUS_PROGRAM"}
+        found = subprocess.run([sys.executable, "-c", "import solidus_casting as sc; print(sc.program(), sc.version())"],
+                               env={**environment, "PYTHONPATH": str(shared / "python")}, capture_output=True, text=True, check=True)
+        self.assertEqual(Path(found.stdout.split()[-2]), (moved / "bin/solidus").resolve())
         (moved / "bin/solidus").unlink()  # it is large
+
+    def test_a_program_of_ones_own_links_the_installed_libraries(self):
+        """The example of docs/guide/install.md is built with find_package against an installed copy, and runs a case."""
+        prefix = self.folder / "prefix"
+        subprocess.run(["cmake", "--install", Path(PROGRAM).parent, "--component", "development", "--prefix", prefix], check=True,
+                       capture_output=True)
+        example = prefix / "share/doc/libsolidus-dev/examples/embed"
+        build = self.folder / "build"
+        for command in (["cmake", "-G", "Ninja", "-S", example, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}",
+                         "-DCMAKE_BUILD_TYPE=Release"], ["cmake", "--build", build]):
+            done = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
+        self.assertNotIn(str(SOURCES / "src"), (build / "build.ninja").read_text())
+        done = subprocess.run([build / "freeze", SOURCES / "cases/hot_spots", "results"], cwd=self.folder, capture_output=True,
+                              text=True, env={**os.environ, "SOLIDUS_MATERIALS": str(SOURCES / "materials")})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("finished", done.stdout)
+        self.assertTrue((self.folder / "results/summary.json").exists())
+        wrong = subprocess.run([build / "freeze", "nowhere.toml", "results"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("nowhere.toml", wrong.stderr)
+        shutil.rmtree(prefix)  # it is large
 
     def test_dev_sees_files_from_the_folder_of_the_call(self):
         self.write("mine/history.csv", "time[s],T_a[degC]\n0,20\n10,30\n")

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "../unit/contact/bodies.hpp"
+#include "contact/laws/gas_gap.hpp"
+#include "contact/laws/power_contact.hpp"
 #include "coupling_bodies.hpp"
 
 namespace solidus::verification {
@@ -59,10 +61,9 @@ inline Coupled casting(double pressure) {
   c.contact->slave = "upper_bottom";
   c.contact->master = "lower_top";
   c.contact->heat.emplace();
-  c.contact->heat->conductance = 3000;
-  c.contact->heat->gap_law = contact::HeatTransferSpec::GapLaw::gas;
-  c.contact->heat->open_conductance = 3000;
-  c.contact->heat->gas_conductivity = 0.06;
+  c.contact->heat->contact_law = contact::contact_law(contact::PowerContact{3000});
+  c.contact->heat->gap_law =
+      contact::gap_law(contact::GasGap{.conductivity = 0.06, .open_conductance = 3000});
   c.mechanical.gravity = {0, -9.81, 0};
   for (const char* side : {"lower_x_min", "upper_x_min"}) c.hold(side, 0);
   c.hold("lower_y_min", 1);

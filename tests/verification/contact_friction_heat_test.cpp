@@ -16,6 +16,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/laws/power_contact.hpp"
 #include "contact_bodies.hpp"
 #include "coupling_bodies.hpp"
 #include "csv.hpp"
@@ -34,7 +35,7 @@ constexpr double k_capacity = 7800.0 * 500.0;      // of test::elastic [J/(m³ K
 contact::ContactSpec rubbing(double conductance) {
   contact::ContactSpec s = test::interface();
   s.heat = contact::HeatTransferSpec{};
-  s.heat->conductance = conductance;
+  s.heat->contact_law = contact::contact_law(contact::PowerContact{conductance});
   s.friction = contact::FrictionSpec{};
   s.friction->coefficient.terms = {Table(0.3)};
   return s;
@@ -166,6 +167,19 @@ TEST(FrictionHeat, GoesHalfAndHalfWhereTheInterfaceResistsMoreThanTheBodies) {
   EXPECT_NEAR(lower, upper, 1e-3 * upper) << "h_1 = h_2";
 }
 
+// Without a store the sides get the heat as h_1 : h_2 (3.45), h_1 = h/s and h_2 = h/(1 − s).
+TEST(FrictionHeat, IsDividedAsTheOneSidedConductances) {
+  Coupled c = sliding(20, 160, 40, 300, 0.05);
+  c.contact = rubbing(1);
+  c.contact->heat->slave_resistance = 0.2;
+  const auto run = verification::march(c, 0.05, 5);
+  const double slave =
+      warmed(c, c.contact->slave == "lower_top" ? "lower" : "upper", run.end.heat.temperature, 300);
+  const double all =
+      warmed(c, "lower", run.end.heat.temperature, 300) + warmed(c, "upper", run.end.heat.temperature, 300);
+  EXPECT_NEAR(slave / all, 0.8, 1e-3);
+}
+
 // A coefficient that hardens, the less the hotter; heat capacity in the interface.
 contact::ContactSpec hardening(double heat_capacity) {
   contact::ContactSpec s = rubbing(2e4);
@@ -250,6 +264,130 @@ TEST(FrictionHeat, OfTemperatureDependentHardeningKeepsTheEstimateWithIsentropic
   }
   RecordProperty("steps_that_grow", grows);
   EXPECT_GE(grows, 5) << "5.13a";
+}
+
+/// μ falls with the temperature of the interface and hardens, the less the hotter; metal that expands.
+Coupled softening_run(Mapping mapping, double heat_capacity) {
+  Coupled c = hardening_run(mapping, true, heat_capacity);
+  c.materials = {test::elastic(2e11, 0.3, 1.2e-5, 40), test::elastic(2e11, 0.3, 1.2e-5, 20)};
+  for (material::Material& m : c.materials) m.expansion_reference = 600;
+  c.contact->friction->coefficient.terms = {Table({300, 900}, {0.45, 0.05}), Table({300, 900}, {0.2, 0.1})};
+  c.form = StructuralForm::energy;
+  c.ambient.reset();
+  return c;
+}
+
+struct Interface {
+  double temperature = 0, work = 0, traction = 0;  ///< means over the points: Θ_c, ζ_c, ‖T‖
+};
+Interface interface_of(const coupling::State& state) {
+  Interface mean;
+  const auto& points = state.contacts.at(0).points;
+  for (const contact::PointState& point : points) {
+    const double share = 1.0 / static_cast<double>(points.size());
+    mean.temperature += share * point.temperature;
+    mean.work += share * point.internal_variable;
+    mean.traction += share * contact::norm(point.traction);
+  }
+  return mean;
+}
+
+// What the passes agree on is the pair of equations 5.40 with the momentum and the heat of t_{n+1}.
+TEST(FrictionHeat, OfBlockIterativePassesIsThatOfTheSimultaneousSolution) {
+  for (const double capacity : {0.0, 500.0}) {
+    Coupled at_once = softening_run(Mapping::simultaneous, capacity);
+    const auto expected = verification::march(at_once, 0.1, 10);
+    const Interface right = interface_of(expected.end);
+    const Interface start =
+        interface_of(verification::march(softening_run(Mapping::simultaneous, capacity), 0.01, 1).end);
+    ASSERT_GT(std::abs(right.temperature - start.temperature), 5) << "the coefficient follows";
+    for (const Mapping passes : {Mapping::isothermal, Mapping::isentropic})
+      for (const auto sweep :
+           {coupling::IterationOptions::Sweep::gauss_seidel, coupling::IterationOptions::Sweep::jacobi}) {
+        Coupled c = softening_run(passes, capacity);
+        c.iteration.emplace();
+        c.iteration->sweep = sweep;
+        c.iteration->tolerance = 1e-10;
+        double most = 0;
+        const auto run = verification::march(c, 0.1, 10, [&](const coupling::State&, const auto& effort) {
+          most = std::max<double>(most, effort.coupling_iterations);
+        });
+        const Interface found = interface_of(run.end);
+        const std::string name = fmt::format(
+            "{}, {} passes, {}", capacity, passes == Mapping::isothermal ? "isothermal" : "isentropic",
+            sweep == coupling::IterationOptions::Sweep::jacobi ? "Jacobi" : "Gauss-Seidel");
+        RecordProperty(name, fmt::format("{:.1e} K, {:.1e} of the traction, {} iterations",
+                                         std::abs(found.temperature - right.temperature),
+                                         std::abs(found.traction / right.traction - 1), most));
+        EXPECT_NEAR(found.temperature, right.temperature, 1e-7 * right.temperature) << name;
+        EXPECT_NEAR(found.traction, right.traction, 1e-7 * right.traction) << name;
+        EXPECT_NEAR(found.work, right.work, 1e-7 * right.work) << name;
+        for (std::size_t i = 0; i < expected.end.heat.temperature.size(); ++i)
+          EXPECT_NEAR(run.end.heat.temperature[i], expected.end.heat.temperature[i], 1e-4) << name;
+        for (std::size_t n = 1; n < run.steps.size(); ++n)
+          EXPECT_LT(std::abs(run.steps[n].defect()), 1e-8 * run.steps[n].heat_exchanged) << name << n;
+      }
+  }
+}
+
+// 5.40–5.51 in the thermal phase of a split: the traction at the end of a step is μ(ζ_c, Θ_c) t_N with the
+// Θ_c of that end, in one stage and in two; kept slip leaves the μ of the step before.
+TEST(FrictionHeat, OfThermalReturnMappingsBelongsToTheTemperatureOfItsStep) {
+  const Interface right =
+      interface_of(verification::march(softening_run(Mapping::simultaneous, 500), 0.1, 10).end);
+  for (const Mapping mapping : {Mapping::isothermal, Mapping::isentropic})
+    for (const auto stepping : {heat::ThermalStepping::backward_euler, heat::ThermalStepping::sdirk2}) {
+      double off_kept = 0, error_kept = 0;
+      for (const bool anew : {false, true}) {
+        Coupled c = softening_run(mapping, 500);
+        c.stepping = stepping;
+        c.contact->friction->thermal_return_mapping = anew;
+        double off = 0, lost = 0, heat = 0;
+        const contact::FrictionLaw law(*c.contact->friction, 1.0, 500);
+        const auto run =
+            verification::march(c, 0.1, 10, [&](const coupling::State& state, const auto& effort) {
+              for (const contact::PointState& point : state.contacts.at(0).points) {
+                if (point.status != contact::PointStatus::slips) continue;
+                const double mu = law.coefficient().value(point.internal_variable, point.temperature).value;
+                off = std::max(off, std::abs(contact::norm(point.traction) / (mu * point.pressure) - 1));
+              }
+              lost += effort.energy.friction - effort.energy.frictional_heat;
+              heat += effort.energy.frictional_heat;
+            });
+        const Interface found = interface_of(run.end);
+        const double error = std::abs(found.traction / right.traction - 1);
+        RecordProperty(fmt::format("{}_{}_{}", mapping == Mapping::isothermal ? "isothermal" : "isentropic",
+                                   stepping == heat::ThermalStepping::sdirk2 ? "two_stages" : "one_stage",
+                                   anew ? "anew" : "kept"),
+                       fmt::format("off the surface {:.1e}, traction off {:.1e}, lost {:.1e} of the heat",
+                                   off, error, lost / heat));
+        ASSERT_GT(heat, 0);
+        if (anew) {
+          EXPECT_LT(off, 1e-9);
+          EXPECT_GT(off_kept, 1e-3);
+          EXPECT_LT(error, 0.5 * error_kept) << "of the simultaneous solution";
+          EXPECT_LT(std::abs(lost), 0.05 * heat) << "of first order in the step";
+        } else {
+          off_kept = off;
+          error_kept = error;
+          EXPECT_LT(std::abs(lost), 1e-9 * heat);
+        }
+        // What the nodes and the interface take up is what the thermal phase has dissipated.
+        for (std::size_t n = 1; n < run.steps.size(); ++n)
+          EXPECT_LT(std::abs(run.steps[n].defect()), 1e-8 * run.steps[n].heat_exchanged) << n;
+      }
+    }
+}
+
+// With heat first the bodies and the interface exchange heat in the first solve, where nothing moves.
+TEST(FrictionHeat, ThatAnInterfaceStoresReachesTheBodiesInBothOrders) {
+  std::vector<double> temperature;
+  for (const auto order : {coupling::PhaseOrder::mechanics_first, coupling::PhaseOrder::heat_first}) {
+    Coupled c = softening_run(Mapping::isentropic, 500);
+    c.order = order;
+    temperature.push_back(interface_of(verification::march(c, 0.1, 80).end).temperature);
+  }
+  EXPECT_NEAR(temperature[0], temperature[1], 0.1 * (temperature[0] - 600));
 }
 
 }  // namespace

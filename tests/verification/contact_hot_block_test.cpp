@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/laws/power_contact.hpp"
 #include "contact_rubbing.hpp"
 #include "coupling_bodies.hpp"
 
@@ -54,7 +55,7 @@ mesh::Mesh bodies() {
 contact::ContactSpec sliding() {
   contact::ContactSpec s = test::rubbing(test::coulomb(k_friction), k_penalty);
   s.heat = contact::HeatTransferSpec{};
-  s.heat->conductance = k_conductance;
+  s.heat->contact_law = contact::contact_law(contact::PowerContact{k_conductance});
   s.search_distance = 1e-3;
   return s;
 }

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/laws/constant_gap.hpp"
+#include "contact/laws/power_contact.hpp"
 #include "contact_bodies.hpp"
 #include "coupling/isothermal.hpp"
 #include "csv.hpp"
@@ -110,10 +112,8 @@ contact::ContactSpec through(contact::Formulation formulation) {
   s.formulation = formulation;
   if (formulation == contact::Formulation::large_sliding) s.integration = contact::IntegrationRule::gauss;
   s.heat = contact::HeatTransferSpec{};
-  s.heat->conductance = k_closed;
-  s.heat->exponent = k_exponent;
-  s.heat->hardness = k_hardness;
-  s.heat->open_conductance = k_open;
+  s.heat->contact_law = contact::contact_law(contact::PowerContact{k_closed, k_exponent, k_hardness});
+  s.heat->gap_law = contact::gap_law(contact::ConstantGap{k_open});
   return s;
 }
 

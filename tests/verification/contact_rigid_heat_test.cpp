@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "contact/laws/power_contact.hpp"
 #include "contact_bodies.hpp"
 #include "coupling_bodies.hpp"
 
@@ -30,7 +31,7 @@ contact::ContactSpec on_tool() {
   s.integration = contact::IntegrationRule::gauss;
   s.rigid_master = contact::RigidSurface{.temperature = Table(k_tool)};
   s.heat = contact::HeatTransferSpec{};
-  s.heat->conductance = k_conductance;
+  s.heat->contact_law = contact::contact_law(contact::PowerContact{k_conductance});
   return s;
 }
 

@@ -13,6 +13,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/laws/gas_gap.hpp"
+#include "contact/laws/power_contact.hpp"
+#include "contact/laws/spots_contact.hpp"
+#include "contact/laws/tabulated.hpp"
 #include "contact_bodies.hpp"
 #include "coupling/isothermal.hpp"
 #include "csv.hpp"
@@ -55,16 +59,14 @@ contact::ContactSpec through(const HeatLaw& law) {
 
 TEST(TwoHalfSpaces, ThatMeetThroughSpotsAndGasEqualiseAsTheClosedFormSays) {
   HeatLaw law;
-  law.contact_law = HeatLaw::ContactLaw::spots;
-  law.gap_law = HeatLaw::GapLaw::gas;
-  law.asperities = {.roughness = 4e-6,
-                    .slope = 0.1,
-                    .conductivity = Table(2 * k_k1 * k_k2 / (k_k1 + k_k2)),
-                    .hardness_coefficient = 6.27e9,
-                    .hardness_exponent = -0.229};
-  law.hardness = 2e9;
-  law.gas_conductivity = 0.03;
-  law.temperature_jump = 1.3e-9;
+  law.contact_law =
+      contact::contact_law(contact::SpotsContact{{.roughness = 4e-6,
+                                                  .slope = 0.1,
+                                                  .conductivity = Table(2 * k_k1 * k_k2 / (k_k1 + k_k2)),
+                                                  .hardness_coefficient = 6.27e9,
+                                                  .hardness_exponent = -0.229},
+                                                 2e9});
+  law.gap_law = contact::gap_law(contact::GasGap{.conductivity = 0.03, .temperature_jump = 1.3e-9});
   const mesh::Mesh mesh = bars(200, 200, 0);
   contact::ContactSpec spec = through(law);
   spec.penalty = 1e12;
@@ -105,9 +107,9 @@ TEST(TwoHalfSpaces, ThatMeetThroughSpotsAndGasEqualiseAsTheClosedFormSays) {
 // Table 7.9 in SI.
 HeatLaw table_7_9() {
   HeatLaw law;
-  law.conductance = 2300;
-  law.gap_law = HeatLaw::GapLaw::table;
-  law.gap_table = Table({0, 1e-5, 2e-5, 6e-5, 1e-4}, {2300, 2200, 1400, 350, 300});
+  law.contact_law = contact::contact_law(contact::PowerContact{2300});
+  law.gap_law = contact::gap_law(
+      contact::TableGap{{}, Table({0, 1e-5, 2e-5, 6e-5, 1e-4}, {2300, 2200, 1400, 350, 300})});
   return law;
 }
 

@@ -11,6 +11,7 @@
 #include "admissible_ambient.hpp"
 #include "coupling/block_iterative.hpp"
 #include "coupling/double_pass.hpp"
+#include "coupling/internal_energy.hpp"
 #include "coupling/isentropic.hpp"
 #include "coupling/isothermal.hpp"
 #include "coupling/simultaneous.hpp"
@@ -120,7 +121,7 @@ class Assembly {
     heat_options.symmetric = !pair_ || pair_->symmetric_heat();
     heat_.emplace(c.mesh, c.kind, c.materials, c.thermal, heat_options, thermal);
 
-    coupling::Phases phases;
+    coupling::Phases& phases = phases_;
     phases.heat = &*heat_;
     phases.mechanics = &*mechanics_;
     phases.structural = structural_ ? &*structural_ : nullptr;
@@ -145,6 +146,7 @@ class Assembly {
   const heat::ThermalPhase& heat() const { return *heat_; }
   const mechanics::MechanicalPhase& mechanics() const { return *mechanics_; }
   coupling::CouplingScheme& scheme() { return *scheme_; }
+  const coupling::Phases& phases() const { return phases_; }
 
   /// A step of the scheme from `old` to `trial`. Where the conditions are admissible, every quasi-static step
   /// of the isentropic split is checked not to raise 𝓛 and to make entropy.
@@ -155,7 +157,8 @@ class Assembly {
     if (falls_ && ambient_) {
       const coupling::StabilityAudit& l = effort.stability;
       EXPECT_LE(l.increment(), l.tolerance) << "step of " << dt << " s to " << time << " s";
-      EXPECT_GE(l.entropy - effort.energy.entropy_in, -l.tolerance / *ambient_)
+      EXPECT_GE(l.entropy + effort.energy.inelastic_entropy - effort.energy.entropy_in,
+                -l.tolerance / *ambient_)
           << "step of " << dt << " s to " << time << " s";
     }
     return effort;
@@ -168,6 +171,7 @@ class Assembly {
   std::optional<mechanics::MechanicalPhase> mechanics_;
   std::optional<mechanics::StructuralHeat> structural_;
   std::optional<heat::ThermalPhase> heat_;
+  coupling::Phases phases_;
   std::unique_ptr<coupling::CouplingScheme> scheme_;
   coupling::State start_;
 };

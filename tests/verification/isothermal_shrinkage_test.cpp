@@ -6,8 +6,8 @@
 ///   r│▒ −q ▒│     q = 8e7 W/m³ against ρ L = 1e9 J/m³, ΔV/V = −6 %
 ///    └──────┘     axisymmetric, or a box on three planes
 ///
-/// Mechanics works with the phases of t_n (4.81): after step n the block has the size of the heat drawn up to
-/// t_{n−1}, u(x) = ⅓ ΔV/V Q_{n−1}/(ρ L) x.
+/// In the splits mechanics works with the phases of t_n (4.81): after step n the block has the size of the
+/// heat drawn up to t_{n−1}, u(x) = ⅓ ΔV/V Q_{n−1}/(ρ L) x. The monolithic schemes end with those of t_{n+1}.
 #include <gtest/gtest.h>
 
 #include "coupling_bodies.hpp"
@@ -97,7 +97,8 @@ Result cool(const Coupled& c, bool by_latent_heat) {
     drawn += effort.energy.heat_exchanged;
     const double after = assembly.heat().mean_solid_fraction(state.heat);
     const double by_heat = -k_power * (step - 1) / k_latent;
-    const double frozen = !by_latent_heat ? by_heat : c.double_pass ? after : before;
+    const bool monolithic = c.iteration || c.mapping == Mapping::simultaneous;
+    const double frozen = !by_latent_heat ? by_heat : c.double_pass || monolithic ? after : before;
     result.size = std::max(result.size, difference(c, state, k_volume_change * frozen));
     result.defect += std::abs(effort.energy.defect());
     const std::vector<double> fractions = assembly.heat().solid_fraction(state.heat);
@@ -120,10 +121,10 @@ TEST_P(IsothermalShrinkage, IsInProportionToTheHeatDrawnWithBothRules) {
   }
 }
 
-/// Deformation and heat exchange energy: what is drawn is latent heat and heat of the contraction, and the
-/// size is that of the latent heat. Where the mechanical phase holds entropy, contraction warms; without
-/// thermal expansion that leaves the size alone. The second half of a double pass works with the phases that
-/// its thermal phase has found: its size is that of the end of the step but for the heat of that half.
+/// Deformation and heat exchange energy: the block is free of stress, so what is drawn is latent heat and
+/// nothing else, although the fraction is brought up to date before the block contracts. The second half of a
+/// double pass works with the phases that its thermal phase has found: its size is that of the end of the
+/// step but for the heat of that half.
 TEST_P(IsothermalShrinkage, FollowsTheLatentHeatInEverySchemeAndClosesTheFirstLaw) {
   struct Scheme {
     const char* name;
@@ -133,10 +134,10 @@ TEST_P(IsothermalShrinkage, FollowsTheLatentHeatInEverySchemeAndClosesTheFirstLa
   };
   for (const Scheme& scheme : {Scheme{"isothermal", Mapping::isothermal, false, false},
                                Scheme{"isentropic", Mapping::isentropic, false, false},
-                               Scheme{"simultaneous", Mapping::simultaneous, false, false},
+                               Scheme{"simultaneous", Mapping::simultaneous, false, false, 1e-8},
                                Scheme{"double pass", Mapping::isentropic, true, false, 2e-3},
-                               Scheme{"iterative", Mapping::isothermal, false, true},
-                               Scheme{"iterative, isentropic", Mapping::isentropic, false, true}})
+                               Scheme{"iterative", Mapping::isothermal, false, true, 1e-7},
+                               Scheme{"iterative, isentropic", Mapping::isentropic, false, true, 1e-7}})
     for (const auto rule : {heat::Integration::closed, heat::Integration::open}) {
       Coupled c = block(GetParam());
       c.integration = rule;
@@ -144,11 +145,10 @@ TEST_P(IsothermalShrinkage, FollowsTheLatentHeatInEverySchemeAndClosesTheFirstLa
       c.mapping = scheme.mapping;
       c.double_pass = scheme.double_pass;
       if (scheme.iterates) c.iteration.emplace();
-      if (c.mapping == Mapping::isentropic) c.materials[0].expansion = 0.0;
       const Result r = cool(c, true);
       EXPECT_LE(r.size, scheme.tolerance) << scheme.name;
       EXPECT_LE(r.defect, 1e-8) << scheme.name;
-      EXPECT_GT(r.frozen, 0.5) << scheme.name;
+      EXPECT_NEAR(r.frozen, -k_power * k_steps / k_latent, 2e-3) << scheme.name;
     }
 }
 

@@ -149,6 +149,45 @@ TEST(PlasticShearWithoutHeatFlow, WithThermalSofteningFollowsTheExponentialAtFir
   EXPECT_LT(errors.back(), 1e-2 * exact);
 }
 
+// With a Taylor–Quinney factor its share of the plastic power becomes heat whatever hardening stores; the
+// rest is stored, and the internal energy of the fields holds it.
+TEST(PlasticShearWithoutHeatFlow, WarmsByTheTaylorQuinneyShareOfThePlasticWork) {
+  const Hardening hardening{6e8, 16.93, 1e9};
+  const double xi = hardening.flow(k_strain), work = k_yield * xi + hardening.stored(xi);  // ∫ σ_y dξ
+  for (const double share : {0.0, 0.9})
+    for (const auto mapping :
+         {mechanics::Mapping::isothermal, mechanics::Mapping::isentropic, mechanics::Mapping::simultaneous})
+      for (const StructuralForm form : {StructuralForm::energy, StructuralForm::entropy}) {
+        material::Material m = material_of(hardening);
+        m.flow->heat_share = share;
+        Coupled c = sheared(Shape::quad4, AnalysisKind::plane_strain, m, form);
+        c.mapping = mapping;
+        constexpr int k_steps = 60;
+        verification::Assembly assembly(c, 1);
+        coupling::State state = assembly.start();
+        assembly.scheme().synchronise(state);
+        const double first = coupling::internal_energy(assembly.phases(), state);
+        coupling::EnergyAudit sum;
+        for (int n = 1; n <= k_steps; ++n) {
+          coupling::State trial;
+          const coupling::StepEffort effort =
+              assembly.advance(state, trial, static_cast<double>(n) / k_steps, 1.0 / k_steps);
+          EXPECT_GE(effort.least_dissipation, 0);
+          sum += effort.energy;
+          state = std::move(trial);
+        }
+        sum.internal = coupling::internal_energy(assembly.phases(), state) - first;
+        EXPECT_NEAR(sum.plastic_dissipation, share * sum.plastic_work, 1e-12 * sum.plastic_work);
+        // The energy form also heats by the work of the stress at the end of a step: half a step's rise.
+        const double warmed = state.heat.temperature[0] - k_start, exact = share * work / k_capacity;
+        EXPECT_NEAR(warmed, exact, 2e-2 * work / k_capacity) << share;
+        if (form == StructuralForm::energy) {
+          EXPECT_LT(std::abs(sum.state_defect()), 1e-9 * sum.work) << share;
+          EXPECT_LT(std::abs(sum.defect()), 1e-9 * sum.work) << share;
+        }
+      }
+}
+
 // The energy form takes the work less what is stored: the stress at the end of each elastic or hardening step
 // is half a step's rise too high.
 TEST(PlasticShearWithoutHeatFlow, InEnergyFormTendsToTheSameAtFirstOrder) {

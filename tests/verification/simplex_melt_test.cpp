@@ -6,6 +6,9 @@
 ///   ▒└────┘▒   of ρ g h Δt/η would be the element's, and there is no bound to it for a thin melt.
 #include <gtest/gtest.h>
 
+#include "material/melt.hpp"
+#include "mechanics/block_kernel.hpp"
+#include "mechanics/pores.hpp"
 #include "simplex_bodies.hpp"
 
 namespace solidus {
@@ -115,6 +118,126 @@ TEST(MeltColumn, OfQuadsAndHexesOnADistortedMeshFlows) {
            e.displacement);
     EXPECT_GT(e.pressure, 1e-3) << c.element.name;
     EXPECT_GT(e.displacement, 10) << c.element.name;
+  }
+}
+
+/// A closed box of metal with linear simplices, cooled step by step.
+struct ClosedBox {
+  Body body;
+  test::Solved solved;
+  double time = 1;
+
+  ClosedBox(const Element& element, AnalysisKind kind, double gravity, double first)
+      : body(filled(element, kind, gravity, first)), solved(body) {}
+
+  static material::Material metal() {
+    material::Material m = melt(0);
+    m.liquid_viscosity = {};
+    m.expansion = k_expansion;
+    m.casting.coherency_fraction = 0.75;
+    m.phase_changes.front().volume_change = 0;
+    return m;
+  }
+  static Body filled(const Element& element, AnalysisKind kind, double gravity, double temperature) {
+    const bool solid = kind == AnalysisKind::solid;
+    const int n = solid ? 3 : 6;
+    Body body(Lattice{.shape = element.shape,
+                      .cells = {n, 2 * n, n},
+                      .size = {k_width, k_height, k_width},
+                      .distortion = 0.15},
+              kind, metal());
+    body.initial_temperature.assign(body.mesh.x.size(), k_poured);
+    body.temperature.assign(body.mesh.x.size(), temperature);
+    element.choose(body.options);
+    for (const char* wall : {"left", "right"}) body.hold(wall, 0);
+    for (const char* wall : {"bottom", "top"}) body.hold(wall, 1);
+    if (solid)
+      for (const char* wall : {"back", "front"}) body.hold(wall, 2);
+    body.conditions.gravity = {0, -gravity, 0};
+    return body;
+  }
+  void go_to(double temperature) {
+    body.temperature.assign(body.mesh.x.size(), temperature);
+    solved.step(body, time += 1, 1.0);
+  }
+  struct Pores {
+    double mean = 0, least = 1, most = 0, upper = 0;
+  };
+  Pores pores() const {
+    const verification::Cells cells(body.mesh, body.mesh.blocks[0], body.kind);
+    std::vector<double> fraction(cells.centre.size());
+    solved.phase->blocks()[0]->get_field(mechanics::ElementField::pore_fraction, fraction);
+    Pores p;
+    double volume = 0, upper = 0;
+    for (std::size_t e = 0; e < fraction.size(); ++e) {
+      p.mean += cells.volume[e] * fraction[e];
+      volume += cells.volume[e];
+      if (cells.centre[e][1] > k_height / 2) {
+        p.upper += cells.volume[e] * fraction[e];
+        upper += cells.volume[e];
+      }
+      p.least = std::min(p.least, fraction[e]);
+      p.most = std::max(p.most, fraction[e]);
+    }
+    p.mean /= volume;
+    p.upper /= upper;
+    return p;
+  }
+
+  static constexpr double k_poured = 950, k_expansion = 1e-4;  // [K], [1/K]
+};
+
+const std::vector<Choice> k_boxes{{verification::k_tri3, AnalysisKind::plane_strain},
+                                  {verification::k_tri3, AnalysisKind::axisymmetric},
+                                  {verification::k_tet4, AnalysisKind::solid},
+                                  {verification::k_tet4_algebraic, AnalysisKind::solid}};
+
+// Melt that shrinks in a closed box: θ = −e^θ but for what the tension of the pores stretches, everywhere
+// without gravity, in the mean with it, and more above than below. Warmed again, the pores close.
+TEST(ClosedMelt, ShrinksIntoPoresThatTakeUpWhatNothingFeeds) {
+  for (const Choice& c : k_boxes)
+    for (const double gravity : {0.0, k_gravity}) {
+      ClosedBox box(c.element, c.kind, gravity, ClosedBox::k_poured);
+      EXPECT_LE(box.pores().most, gravity == 0 ? 0.0 : 1e-4);
+      for (const double temperature : {940.0, 920.0, 910.0}) {
+        box.go_to(temperature);
+        const double shrunk = 3 * ClosedBox::k_expansion * (ClosedBox::k_poured - temperature);
+        const auto p = box.pores();
+        printf("%-8s g %.2f, shrunk %.4f: pores %.6f in the mean, %.6f in the upper half, %.6f to %.6f\n",
+               c.element.name, gravity, shrunk, p.mean, p.upper, p.least, p.most);
+        EXPECT_NEAR(p.mean, shrunk, 1e-5);
+        if (gravity == 0)
+          EXPECT_LT(p.most - p.least, 1e-6);
+        else
+          EXPECT_GT(p.upper, 1.2 * p.mean);
+      }
+      box.go_to(ClosedBox::k_poured);
+      EXPECT_LT(box.pores().mean, 1e-4) << "pores of a melt close";
+    }
+}
+
+// Mush carries tension up to its strength before it opens, and what has opened stays. The solid fraction is
+// 0.75, that of coherency, at 825 K.
+TEST(ClosedMush, OpensPoresBeyondItsStrengthAndKeepsThem) {
+  const auto strength = [](double solid_fraction) {
+    return mechanics::k_pore_strength * material::mush_viscosity(ClosedBox::metal()).strength(solid_fraction);
+  };
+  for (const Choice& c : k_boxes) {
+    ClosedBox box(c.element, c.kind, 0, ClosedBox::k_poured);
+    box.go_to(825.0005);
+    const double in_melt = box.pores().mean;
+    EXPECT_NEAR(in_melt, 3 * ClosedBox::k_expansion * (ClosedBox::k_poured - 825.0005), 1e-5);
+    const double half = 0.5 * strength(0.75) / k_bulk / (3 * ClosedBox::k_expansion);  // [K]
+    box.go_to(825 - half);
+    EXPECT_NEAR(box.pores().mean, in_melt, 1e-8) << "half of its strength opens nothing";
+    box.go_to(815);
+    const double opened = box.pores().mean - in_melt, shrunk = 3 * ClosedBox::k_expansion * 10;
+    const double tension = strength(0.85) * (1 + mechanics::k_pore_strengths * opened);
+    printf("%-8s pores %.6f in the melt, %.6f opened in the mush, of %.6f; strength %.3g Pa\n",
+           c.element.name, in_melt, opened, shrunk, strength(0.85));
+    EXPECT_NEAR(opened, shrunk - tension / k_bulk, 0.01 * shrunk);
+    box.go_to(820);
+    EXPECT_NEAR(box.pores().mean, in_melt + opened, 1e-9) << "pores of mush stay";
   }
 }
 

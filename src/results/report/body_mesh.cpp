@@ -21,18 +21,18 @@ FieldFile::FieldFile(const fs::path& path) {
 }
 
 void FieldFile::add(const fs::path& path) {
-  files_.push_back(std::make_unique<results::VtuFile>(path));
-  const results::VtuFile& file = *files_.back();
+  files_.push_back(std::make_unique<mesh::VtuFile>(path));
+  const mesh::VtuFile& file = *files_.back();
   if (file.type() == "PUnstructuredGrid" && files_.size() == 1) {
-    for (const auto& [tag, child] : results::children(file, "PUnstructuredGrid"))
+    for (const auto& [tag, child] : mesh::children(file, "PUnstructuredGrid"))
       if (tag == "Piece") add(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""));
     return;
   }
   if (file.type() != "UnstructuredGrid")
     file.fail(fmt::format("the file holds a grid of the type '{}'", file.type()), "an UnstructuredGrid");
-  for (const auto& [tag, child] : results::children(file, "UnstructuredGrid"))
+  for (const auto& [tag, child] : mesh::children(file, "UnstructuredGrid"))
     if (tag == "Piece") {
-      const auto [n_points, n_cells] = results::piece_size(file, child);
+      const auto [n_points, n_cells] = mesh::piece_size(file, child);
       pieces_.push_back({&file, &child, n_points, n_cells});
     }
 }
@@ -145,11 +145,11 @@ double measure(const std::vector<Point>& x, const std::vector<int>& simplex,
 
 /// The parts of the cells of a piece, handed to `use(cell, shape, points of the piece)`.
 template <class F>
-void for_each_part(const FieldFile::Piece& piece, const results::CellTable& table, const F& use) {
-  std::map<int, std::optional<results::CellParts>> known;
+void for_each_part(const FieldFile::Piece& piece, const mesh::CellTable& table, const F& use) {
+  std::map<int, std::optional<mesh::CellParts>> known;
   for (std::size_t c = 0; c < piece.n_cells; ++c) {
     const auto [found, is_new] = known.try_emplace(table.types[c]);
-    if (is_new) found->second = results::parts_of(table.types[c]);
+    if (is_new) found->second = mesh::parts_of(table.types[c]);
     if (!found->second) piece.file->fail(fmt::format("cells of VTK's type {} are not read", table.types[c]));
     const std::size_t begin = c == 0 ? 0 : table.offsets[c - 1];
     for (const std::vector<int>& part : found->second->corners) {
@@ -168,7 +168,7 @@ void for_each_part(const FieldFile::Piece& piece, const results::CellTable& tabl
 
 std::vector<double> Bodies::numbers(const FieldFile::Piece& piece, const char* section, const char* name,
                                     std::size_t n) const {
-  const ptree* array = results::find_array(*piece.tree, section, name);
+  const ptree* array = mesh::find_array(*piece.tree, section, name);
   if (array == nullptr)
     piece.file->fail(fmt::format("the file has no data '{}'", name), "a field file that Solidus wrote");
   return piece.file->numbers(*array, n);
@@ -183,7 +183,7 @@ int Bodies::body_index(double number) const {
 Bodies::Bodies(const FieldFile& file) {
   struct Read {
     std::vector<double> node, element, body, x;
-    results::CellTable cells;
+    mesh::CellTable cells;
   };
   std::vector<Read> read;
   for (const FieldFile::Piece& piece : file.pieces()) {
@@ -191,8 +191,8 @@ Bodies::Bodies(const FieldFile& file) {
     r.node = numbers(piece, "PointData", "node", piece.n_points);
     r.element = numbers(piece, "CellData", "element", piece.n_cells);
     r.body = numbers(piece, "CellData", "body", piece.n_cells);
-    r.x = piece.file->numbers(results::points_array(*piece.file, *piece.tree), 3 * piece.n_points);
-    r.cells = results::read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
+    r.x = piece.file->numbers(mesh::points_array(*piece.file, *piece.tree), 3 * piece.n_points);
+    r.cells = mesh::read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
     for_each_part(piece, r.cells, [&](std::size_t, Shape shape, const auto&) {
       dimension_ = std::max(dimension_, mesh::dimension(shape));
     });
@@ -262,8 +262,7 @@ PieceMap Bodies::make_map(const FieldFile::Piece& piece, std::vector<double> nod
                           std::vector<double> element) const {
   PieceMap map{std::move(node), std::move(element), {}, {}};
   const std::vector<double> body = numbers(piece, "CellData", "body", piece.n_cells);
-  const results::CellTable table =
-      results::read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
+  const mesh::CellTable table = mesh::read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
   map.cells.resize(piece.n_cells);
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;  // body, point
   for_each_part(piece, table, [&](std::size_t c, Shape shape, std::vector<std::int32_t> nodes) {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mesh/shape.hpp"
-#include "results/vtu_pieces.hpp"
+#include "mesh/vtu_pieces.hpp"
 
 namespace solidus::report {
 
@@ -23,7 +23,7 @@ class FieldFile {
   explicit FieldFile(const std::filesystem::path& path);
 
   struct Piece {
-    const results::VtuFile* file;
+    const mesh::VtuFile* file;
     const boost::property_tree::ptree* tree;
     std::size_t n_points, n_cells;
   };
@@ -31,7 +31,7 @@ class FieldFile {
 
  private:
   void add(const std::filesystem::path& path);
-  std::vector<std::unique_ptr<results::VtuFile>> files_;
+  std::vector<std::unique_ptr<mesh::VtuFile>> files_;
   std::vector<Piece> pieces_;
 };
 

@@ -50,12 +50,12 @@ bool is_one_of(const std::array<std::string_view, n>& names, std::string_view na
 void add_columns(const FieldFile::Piece& piece, bool of_elements, const std::set<std::string>& contact_fields,
                  std::vector<FieldColumn>& columns) {
   const char* section = of_elements ? "CellData" : "PointData";
-  for (const std::string& name : results::array_names(*piece.tree, section)) {
+  for (const std::string& name : mesh::array_names(*piece.tree, section)) {
     if (is_one_of(k_passed_over, name)) continue;
-    const ptree& array = *results::find_array(*piece.tree, section, name);
+    const ptree& array = *mesh::find_array(*piece.tree, section, name);
     FieldColumn column;
     column.field = column.name = name;
-    column.unit = results::array_unit(array);
+    column.unit = mesh::array_unit(array);
     column.n_components = array.get<int>("<xmlattr>.NumberOfComponents", 1);
     column.of_elements = of_elements;
     const bool criterion = is_one_of(k_criteria, name);
@@ -90,7 +90,7 @@ class Reading {
     std::vector<bool> there(n, false);
     for (std::size_t p = 0; p < maps.size(); ++p) {
       const FieldFile::Piece& piece = file.pieces()[p];
-      const ptree* array = results::find_array(*piece.tree, "CellData", "vtkGhostType");
+      const ptree* array = mesh::find_array(*piece.tree, "CellData", "vtkGhostType");
       std::vector<double> ghost(piece.n_cells, 0.0);
       if (array != nullptr) ghost = piece.file->numbers(*array, piece.n_cells);
       for (std::size_t c = 0; c < piece.n_cells; ++c)
@@ -130,7 +130,7 @@ class Reading {
     const char* section = column.of_elements ? "CellData" : "PointData";
     // Components of a vector come one after the other.
     if (kept_tree_ == piece.tree && kept_name_ == column.field) return kept_;
-    const ptree* found = results::find_array(*piece.tree, section, column.field);
+    const ptree* found = mesh::find_array(*piece.tree, section, column.field);
     const auto n = static_cast<std::size_t>(column.n_components);
     if (found != nullptr && found->get<std::size_t>("<xmlattr>.NumberOfComponents", 1) != n)
       piece.file->fail(fmt::format(

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <stdexcept>
 
+#include "base/version.hpp"
 #include "results/output_file.hpp"
 #include "results/report/pack.hpp"
 #include "results/report/run_data.hpp"
@@ -49,7 +50,7 @@ ReportText report_text(const std::vector<ReportedRun>& runs, const ReportOptions
   ReportText page;
   Blocks blocks;
   Json meta;
-  meta.add("format", 1).add("solidus", SOLIDUS_VERSION).add("made", now());
+  meta.add("format", 1).add("solidus", program_version()).add("made", now());
   Json::Array all;
   const auto [head, middle, tail] = frame();
   const std::size_t room = options.most_bytes - std::min(options.most_bytes, viewer().size());

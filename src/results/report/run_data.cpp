@@ -132,9 +132,8 @@ ContactParts contact_parts(const std::vector<fs::path>& files) {
   for (const fs::path& path : files) {
     const FieldFile file(path);
     for (const FieldFile::Piece& piece : file.pieces()) {
-      for (const std::string& name : results::array_names(*piece.tree, "PointData"))
-        parts.fields.insert(name);
-      const auto* array = results::find_array(*piece.tree, "PointData", "node");
+      for (const std::string& name : mesh::array_names(*piece.tree, "PointData")) parts.fields.insert(name);
+      const auto* array = mesh::find_array(*piece.tree, "PointData", "node");
       if (array == nullptr) continue;
       for (const double number : piece.file->numbers(*array, piece.n_points))
         parts.nodes.insert(static_cast<std::int64_t>(number));

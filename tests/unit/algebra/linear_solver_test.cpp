@@ -97,6 +97,28 @@ TEST(LinearSolver, ASingularMatrixIsReportedAndTheNextOneSolved) {
   }
 }
 
+TEST(LinearSolver, RowsFarAboveTheirRightHandSideAreSolvedThoughRoundingLeavesAResidual) {
+  System system;
+  system.fill(1.0, 0.4);
+  for (Index row = 0; row < system.grid.mesh.n_owned_nodes; ++row) {
+    const auto i = static_cast<int>(system.grid.global(row));
+    const double sum = system.dense.row(i).sum();
+    if (i % 2 == 0) {
+      system.b[static_cast<std::size_t>(row)] = sum;
+      continue;
+    }
+    *system.matrix.block(system.matrix.slot(row, row)) -= sum;
+    for (Index column = 0; column < system.grid.mesh.n_nodes(); ++column)
+      if (System::coupled(i, static_cast<int>(system.grid.global(column))))
+        *system.matrix.block(system.matrix.slot(row, column)) *= 1e18;
+  }
+  system.solution.setOnes();
+  LinearSolver solver(system.grid.mesh, {.prefix = "test_", .kind = SolverKind::direct, .symmetric = false});
+  const LinearReport report = solver.solve(system.matrix, system.b, system.x);
+  EXPECT_TRUE(report.converged) << report.reason;
+  EXPECT_LT(system.error(), 1e-10);
+}
+
 TEST(LinearSolver, AFactorisationSaysWhyItFails) {
   for (bool symmetric : {true, false}) {
     System system;

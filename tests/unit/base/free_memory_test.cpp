@@ -23,14 +23,14 @@ namespace solidus {
 namespace {
 
 /// Bytes of this process in memory.
-long resident() {
+[[maybe_unused]] long resident() {
   std::ifstream file("/proc/self/statm");
   long size = 0, pages = 0;
   file >> size >> pages;
   return pages * sysconf(_SC_PAGESIZE);
 }
 
-long left_by(std::size_t bytes) {
+[[maybe_unused]] long left_by(std::size_t bytes) {
   const long before = resident();
   {
     const std::vector<char> array(bytes, 1);

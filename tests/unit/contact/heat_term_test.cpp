@@ -7,6 +7,8 @@
 
 #include "algebra/parallel.hpp"
 #include "bodies.hpp"
+#include "contact/laws/power_contact.hpp"
+#include "contact/laws/tabulated.hpp"
 #include "contact/pair.hpp"
 
 namespace solidus::contact {
@@ -26,12 +28,12 @@ ContactSpec rubbing(bool nodal, double heat_capacity, bool of_temperature) {
   s.nodal_heat = nodal;
   s.heat = HeatTransferSpec{};
   if (of_temperature) {
-    s.heat->contact_law = HeatTransferSpec::ContactLaw::table;
-    s.heat->gap_law = HeatTransferSpec::GapLaw::table;
+    s.heat->contact_law = contact_law(TableContact{});
+    s.heat->gap_law = gap_law(TableGap{});
     s.heat->families = {{300, Table({0, 1e8}, {500, 2000}), Table({0, 1e-4}, {500, 100})},
                         {900, Table({0, 1e8}, {4000, 9000}), Table({0, 1e-4}, {4000, 200})}};
   } else {
-    s.heat->conductance = 3000;
+    s.heat->contact_law = contact_law(PowerContact{3000});
   }
   s.friction = FrictionSpec{};
   s.friction->coefficient.terms = {Table(0.2), Table({300, 900}, {0.3, 0.1})};

@@ -8,30 +8,35 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "contact/laws/constant_gap.hpp"
+#include "contact/laws/gas_gap.hpp"
+#include "contact/laws/power_contact.hpp"
+#include "contact/laws/spots_contact.hpp"
+#include "contact/laws/tabulated.hpp"
 
 namespace solidus::contact {
 namespace {
 
-using GapLaw = HeatTransferSpec::GapLaw;
-
-HeatTransferSpec monograph_spec() {
-  // Table 7.9 in SI: N/(mm s °C) = 1000 W/(m² K), mm = 1e-3 m.
+HeatTransferSpec law_spec(std::shared_ptr<const ContactLaw> closed, std::shared_ptr<const GapLaw> open) {
   HeatTransferSpec s;
-  s.conductance = 2300;
-  s.gap_law = GapLaw::table;
-  s.gap_table = Table({0, 6e-5, 1e-4}, {2300, 350, 300});
+  s.contact_law = std::move(closed);
+  s.gap_law = std::move(open);
   return s;
 }
 
-HeatTransferSpec gas_spec(double exponent) {
-  HeatTransferSpec s;
-  s.conductance = 5000;
-  s.exponent = exponent;
-  s.hardness = 3e8;
-  s.gap_law = GapLaw::gas;
-  s.open_conductance = 1200;
-  s.gas_conductivity = 0.06;
-  return s;
+std::shared_ptr<const GapLaw> table_gap(std::optional<Table> table) {
+  return gap_law(TableGap{{}, std::move(table)});
+}
+
+HeatTransferSpec monograph_spec() {
+  // Table 7.9 in SI: N/(mm s °C) = 1000 W/(m² K), mm = 1e-3 m.
+  return law_spec(contact_law(PowerContact{2300}), table_gap(Table({0, 6e-5, 1e-4}, {2300, 350, 300})));
+}
+
+HeatTransferSpec gas_spec(double exponent, std::optional<double> open = 1200, double conductivity = 0.06,
+                          std::optional<double> hardness = 3e8) {
+  return law_spec(contact_law(PowerContact{5000, exponent, hardness}),
+                  gap_law(GasGap{.conductivity = conductivity, .open_conductance = open}));
 }
 
 double at(const HeatTransferLaw& law, double opening, double pressure, double temperature = 300) {
@@ -41,12 +46,9 @@ double at(const HeatTransferLaw& law, double opening, double pressure, double te
 TEST(HeatTransfer, IsContinuousWhereContactIsLost) {
   std::vector<HeatTransferSpec> laws{monograph_spec(), gas_spec(0.95), gas_spec(0.5)};
   HeatTransferSpec pressure_with_table = monograph_spec();
-  pressure_with_table.exponent = 0.95;
-  pressure_with_table.hardness = 3e8;
+  pressure_with_table.contact_law = contact_law(PowerContact{2300, 0.95, 3e8});
   laws.push_back(pressure_with_table);
-  HeatTransferSpec constant;
-  constant.conductance = 2300;
-  laws.push_back(constant);
+  laws.push_back(law_spec(contact_law(PowerContact{2300}), nullptr));
   for (const HeatTransferSpec& spec : laws) {
     const HeatTransferLaw law(spec);
     const double at_zero = at(law, 0, 0);
@@ -65,9 +67,7 @@ TEST(HeatTransfer, AcrossAGapFollowsTheTableAndStaysConstantBeyondIt) {
 }
 
 TEST(HeatTransfer, ThroughGasStartsAtTheConductanceOfAGapOfZero) {
-  HeatTransferSpec s = gas_spec(0);
-  s.open_conductance.reset();  // h_o = h_co
-  const HeatTransferLaw law(s);
+  const HeatTransferLaw law(gas_spec(0, {}));  // h_o = h_co
   EXPECT_DOUBLE_EQ(at(law, 0, 0), 5000);
   EXPECT_DOUBLE_EQ(at(law, 2e-4, 0), 0.06 / (2e-4 + 0.06 / 5000)) << "3.50";
 }
@@ -81,39 +81,31 @@ TEST(HeatTransfer, OfTheClosedInterfaceAddsSpotsToGas) {
 TEST(HeatTransfer, OfALawThatJumpsOrLacksDataIsRefused) {
   EXPECT_THROW(HeatTransferLaw{gas_spec(0)}, InputError) << "5000 when closed, 1200 at a gap of zero";
   HeatTransferSpec jump = monograph_spec();
-  jump.conductance = 2000;
+  jump.contact_law = contact_law(PowerContact{2000});
   EXPECT_THROW(HeatTransferLaw{jump}, InputError);
-  HeatTransferSpec no_hardness = gas_spec(0.95);
-  no_hardness.hardness.reset();
-  EXPECT_THROW(HeatTransferLaw{no_hardness}, InputError);
-  HeatTransferSpec no_gas = gas_spec(0.95);
-  no_gas.gas_conductivity = 0;
-  EXPECT_THROW(HeatTransferLaw{no_gas}, InputError);
+  EXPECT_THROW(HeatTransferLaw{gas_spec(0.95, 1200, 0.06, {})}, InputError) << "no hardness";
+  EXPECT_THROW(HeatTransferLaw{gas_spec(0.95, 1200, 0)}, InputError) << "no gas";
   HeatTransferSpec bright = monograph_spec();
   bright.slave_emissivity = 1.5;
   EXPECT_THROW(HeatTransferLaw{bright}, InputError);
 }
 
+SpotsContact spots() {
+  return {.asperities = {.roughness = 2e-6,
+                         .slope = 0.2,
+                         .conductivity = Table({300, 900}, {40, 25}),
+                         .hardness_coefficient = 6.27e9,
+                         .hardness_exponent = -0.229},
+          .hardness = 2.5e9};
+}
+
 HeatTransferSpec spots_spec() {
-  HeatTransferSpec s;
-  s.contact_law = HeatTransferSpec::ContactLaw::spots;
-  s.asperities.roughness = 2e-6;
-  s.asperities.slope = 0.2;
-  s.asperities.conductivity = Table({300, 900}, {40, 25});
-  s.asperities.hardness_coefficient = 6.27e9;
-  s.asperities.hardness_exponent = -0.229;
-  s.hardness = 2.5e9;
-  s.gap_law = GapLaw::gas;
-  s.gas_conductivity = 0.03;
-  s.temperature_jump = 1.3e-9;
-  return s;
+  return law_spec(contact_law(spots()), gap_law(GasGap{.conductivity = 0.03, .temperature_jump = 1.3e-9}));
 }
 
 // Tables of the gap and of the pressure at two temperatures, which meet at contact at both.
 HeatTransferSpec family_spec() {
-  HeatTransferSpec s;
-  s.contact_law = HeatTransferSpec::ContactLaw::table;
-  s.gap_law = GapLaw::table;
+  HeatTransferSpec s = law_spec(contact_law(TableContact{}), table_gap({}));
   s.families = {{400, Table({0, 1e7, 1e8}, {1000, 2000, 4000}), Table({0, 5e-5, 1e-4}, {1000, 400, 300})},
                 {800, Table({0, 2e7, 1e8}, {1600, 3000, 5000}), Table({0, 4e-5, 1e-4}, {1600, 500, 450})}};
   return s;
@@ -131,11 +123,11 @@ std::vector<HeatTransferSpec> smooth_laws() {
 }
 
 TEST(HeatTransfer, ThroughSpotsAndGasIsTheSumOfBothAndGoesOnAcrossTheGap) {
-  const HeatTransferSpec s = spots_spec();
-  const HeatTransferLaw law(s);
-  const double gas = 0.03 / (s.asperities.separation(1e7 / 2.5e9).value + 1.3e-9 * 500);
-  EXPECT_DOUBLE_EQ(at(law, -1e-9, 1e7, 500), s.asperities.spots(1e7, 500).value + gas) << "3.46";
-  const double lost = s.asperities.separation(0).value;
+  const Asperities a = spots().asperities;
+  const HeatTransferLaw law(spots_spec());
+  const double gas = 0.03 / (a.separation(1e7 / 2.5e9).value + 1.3e-9 * 500);
+  EXPECT_DOUBLE_EQ(at(law, -1e-9, 1e7, 500), a.spots(1e7, 500).value + gas) << "3.46";
+  const double lost = a.separation(0).value;
   EXPECT_DOUBLE_EQ(at(law, 0, 0, 500), 0.03 / (lost + 1.3e-9 * 500));
   EXPECT_DOUBLE_EQ(at(law, 1e-4, 0, 500), 0.03 / (1e-4 + lost + 1.3e-9 * 500)) << "3.50 with its h_o";
   EXPECT_NEAR(at(law, 1e-12, 0, 500), at(law, -1e-15, 1e-3, 500), 1e-6 * at(law, 0, 0, 500));
@@ -214,8 +206,17 @@ TEST(HeatTransfer, ThatIsSmoothHasASlopeThatDoesNotJumpFromContactToGap) {
 }
 
 TEST(HeatTransfer, ThroughBothSidesAddsTheirResistances) {
-  const OneSided sides = HeatTransferLaw::one_sided(2300);
-  EXPECT_DOUBLE_EQ(1 / sides.slave + 1 / sides.master, 1 / 2300.0);
+  HeatTransferSpec spec;
+  spec.conductance = 2300;
+  for (const double share : {0.5, 0.2}) {
+    spec.slave_resistance = share;
+    const HeatTransferLaw law(spec);
+    const OneSided sides = law.one_sided(2300);
+    EXPECT_DOUBLE_EQ(1 / sides.slave + 1 / sides.master, 1 / 2300.0);
+    EXPECT_DOUBLE_EQ(1 / sides.slave, share / 2300);
+    EXPECT_DOUBLE_EQ(law.slave_share(), sides.slave / (sides.slave + sides.master));
+    EXPECT_EQ(law.slave_share(false), 1) << "a master that takes no heat";
+  }
 }
 
 std::string refusal(const HeatTransferSpec& spec) {
@@ -229,13 +230,16 @@ std::string refusal(const HeatTransferSpec& spec) {
 
 TEST(HeatTransfer, SaysWhatALawLacks) {
   HeatTransferSpec s = spots_spec();
-  s.asperities.slope = 0;
+  SpotsContact wrong = spots();
+  wrong.asperities.slope = 0;
+  s.contact_law = contact_law(wrong);
   EXPECT_NE(refusal(s).find("slope of the asperities"), std::string::npos);
-  s = spots_spec();
-  s.hardness.reset();
+  wrong = spots();
+  wrong.hardness.reset();
+  s.contact_law = contact_law(wrong);
   EXPECT_NE(refusal(s).find("the gas between spots needs the hardness"), std::string::npos);
   s = spots_spec();
-  s.open_conductance = 1000;
+  s.gap_law = gap_law(GasGap{.conductivity = 0.03, .open_conductance = 1000});
   EXPECT_NE(refusal(s).find("follows from their roughness"), std::string::npos);
   s = family_spec();
   s.families[1].gap_table = Table({0, 1e-4}, {1500, 300});
@@ -244,20 +248,20 @@ TEST(HeatTransfer, SaysWhatALawLacks) {
   std::swap(s.families[0], s.families[1]);
   EXPECT_NE(refusal(s).find("do not increase"), std::string::npos);
   s = family_spec();
-  s.gap_table = Table(1000.0);
+  s.gap_law = table_gap(Table(1000.0));
   EXPECT_NE(refusal(s).find("given both"), std::string::npos);
   s = family_spec();
-  s.gap_law = GapLaw::constant;
+  s.gap_law = gap_law(ConstantGap{});
   EXPECT_NE(refusal(s).find("which needs gap_law"), std::string::npos);
   s = monograph_spec();
-  s.gap_table.reset();
+  s.gap_law = table_gap({});
   EXPECT_NE(refusal(s).find("needs 'gap_conductance'"), std::string::npos);
   s = monograph_spec();
-  s.gap_table = Table({0, 1e-6, 2e-6}, {2300, 100, 50});
+  s.gap_law = table_gap(Table({0, 1e-6, 2e-6}, {2300, 100, 50}));
   s.smooth = true;
   s.transition_gap = 1.5e-6;
   EXPECT_EQ(refusal(s), "") << "falls all the way";
-  s.gap_table = Table({0, 1e-6, 2e-6}, {2300, 100, 500});
+  s.gap_law = table_gap(Table({0, 1e-6, 2e-6}, {2300, 100, 500}));
   EXPECT_NE(refusal(s).find("bends too much"), std::string::npos);
 }
 

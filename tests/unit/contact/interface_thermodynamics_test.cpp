@@ -238,6 +238,44 @@ TEST(InterfaceReturnMapping, SolvesBothEquationsOfThePrintedThermalPhase) {
   EXPECT_GT(slid, 5000);
 }
 
+// What passes at the iterate's Θ_c, or at its entropy, and the balance with held slip agree on.
+TEST(InterfaceReturnMapping, IsWhatPassesThatTakeTurnsAgreeOn) {
+  Random random;
+  int slid = 0;
+  for (int i = 0; i < 600; ++i) {
+    const auto variable = static_cast<InternalVariable>(i % 3);
+    const double capacity = i % 2 == 0 ? random.decades(1000, 1e4) : 0;
+    const FrictionLaw law(hot_law(variable), k_penalty, capacity);
+    const double size = variable == InternalVariable::slip ? 0.01 : k_kilonewton_per_mm;
+    const double pressure = random.decades(1e6, 1e8), theta = random.between(350, 850), dt = 1e-2;
+    const FrictionInput in{pressure * random.between(0.1, 2), pressure, size * random.between(0, 1), theta};
+    const InterfaceSides sides{{theta + random.between(-20, 20), theta + random.between(-20, 20)},
+                               {random.decades(1e5, 1e6), random.decades(1e5, 1e6)}};
+    const InterfaceReturn at_once = interface_return_mapping(law, in, dt, sides);
+    if (at_once.friction.status != FrictionStatus::converged || !at_once.heat.balanced) continue;
+    for (const bool isentropic : {false, true}) {
+      FrictionInput pass = in;
+      FrictionResponse f;
+      double found = theta;
+      for (int n = 0; n < 60; ++n) {
+        f = isentropic ? law.isentropic(pass) : law.update(pass);
+        ASSERT_EQ(f.status, FrictionStatus::converged) << i;
+        found =
+            interface_balance({dt, capacity, theta, f.structural_entropy, f.dissipation}, sides).temperature;
+        pass.iterate = FrictionInput::Iterate{found, f.internal_variable};
+      }
+      ASSERT_NEAR(found, at_once.heat.temperature, 1e-9 * theta) << i << isentropic;
+      ASSERT_NEAR(f.traction, at_once.friction.traction, 1e-9 * pressure) << i << isentropic;
+      ASSERT_NEAR(f.dissipation, at_once.friction.dissipation, 1e-9 * pressure * std::max(f.slip, 1e-6)) << i;
+      if (capacity > 0 && isentropic) {
+        ASSERT_NEAR(f.temperature, found, 1e-9 * theta) << "the intermediate temperature is that of the end";
+      }
+    }
+    slid += !at_once.friction.sticks;
+  }
+  EXPECT_GT(slid, 300);
+}
+
 TEST(InterfaceReturnMapping, HasTheSlopesThatDifferencesShow) {
   Random random;
   int slid = 0;

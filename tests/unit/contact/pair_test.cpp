@@ -7,6 +7,9 @@
 
 #include "algebra/parallel.hpp"
 #include "bodies.hpp"
+#include "contact/laws/gas_gap.hpp"
+#include "contact/laws/power_contact.hpp"
+#include "contact/laws/tabulated.hpp"
 
 namespace solidus::contact {
 namespace {
@@ -27,9 +30,8 @@ ContactSpec spec(IntegrationRule rule = IntegrationRule::segments) {
 
 HeatTransferSpec heat_spec() {
   HeatTransferSpec h;
-  h.conductance = 2300;
-  h.gap_law = HeatTransferSpec::GapLaw::table;
-  h.gap_table = Table({0, 6e-5, 1e-4}, {2300, 350, 300});
+  h.contact_law = contact_law(PowerContact{2300});
+  h.gap_law = gap_law(TableGap{{}, Table({0, 6e-5, 1e-4}, {2300, 350, 300})});
   return h;
 }
 
@@ -241,12 +243,9 @@ double gap_tangent_defect(const mesh::Mesh& mesh, ContactPair& pair, const std::
 
 TEST(InterfaceHeat, FollowsTheGapAsFiniteDifferencesShow) {
   HeatTransferSpec pressed = heat_spec();
-  pressed.exponent = 0.95;
-  pressed.hardness = 1e9;
+  pressed.contact_law = contact_law(PowerContact{2300, 0.95, 1e9});
   HeatTransferSpec gas = heat_spec();
-  gas.gap_law = HeatTransferSpec::GapLaw::gas;
-  gas.open_conductance = gas.conductance;
-  gas.gas_conductivity = 0.06;
+  gas.gap_law = gap_law(GasGap{.conductivity = 0.06, .open_conductance = 2300});
   for (const HeatTransferSpec& law : {heat_spec(), pressed, gas})
     for (Shape shape : {Shape::quad4, Shape::hex8})
       for (bool nodal : {true, false}) {
@@ -266,8 +265,8 @@ TEST(InterfaceHeat, ByRadiationHasTheMeanOfBothDerivativesAsItsTangent) {
   s.heat = heat_spec();
   s.heat->slave_emissivity = 0.8;
   s.heat->master_emissivity = 0.6;
-  s.heat->conductance = 0;
-  s.heat->gap_law = HeatTransferSpec::GapLaw::constant;
+  s.heat->contact_law = contact_law(PowerContact{0});
+  s.heat->gap_law = gap_law(ConstantGap{});
   ContactPair pair(mesh, AnalysisKind::plane_strain, s);
   // Where both sides have one temperature the two derivatives, 4σΘ³ and −4σΘ³, are the tangent's.
   const std::vector<double> equal(mesh.x.size(), 800.0);
@@ -306,9 +305,8 @@ TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
 
 TEST(InterfaceHeat, LeavesWhatIsHotterThanAllAroundItWhateverTheShapeAndTheGaps) {
   HeatTransferSpec gas = heat_spec();
-  gas.gap_law = HeatTransferSpec::GapLaw::gas;
-  gas.open_conductance = gas.conductance;
-  gas.gas_conductivity = 1e-3;  // conductances that differ a lot along a face
+  gas.gap_law = gap_law(
+      GasGap{.conductivity = 1e-3, .open_conductance = 2300});  // conductances that differ a lot along a face
   for (Shape shape : {Shape::tri3, Shape::quad4, Shape::tri6, Shape::quad8, Shape::tet4, Shape::hex8,
                       Shape::tet10, Shape::hex20}) {
     const mesh::Mesh mesh = test::two_blocks(shape);
@@ -498,6 +496,29 @@ TEST(ContactPair, TakesSmallInitialGapsAsTouchingWhenToldTo) {
   s.touching = 2e-5;
   const ContactSums sums = ContactPair(mesh, AnalysisKind::plane_strain, s).sums({});
   EXPECT_EQ(sums.closed_points, sums.points);
+}
+
+TEST(ContactPair, RefusesASurfaceInContactWithItself) {
+  const mesh::Mesh mesh =
+      mesh::distribute(test::raw_blocks(test::standard_blocks(Shape::quad4), Shape::quad4),
+                       {"lower", "upper"}, {"lower_top", "lower_x_min", "upper_bottom"});
+  const auto refusal = [&](const std::string& master) -> std::string {
+    ContactSpec s = spec();
+    s.master = master;
+    try {
+      const ContactPair pair(mesh, AnalysisKind::plane_strain, s);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(refusal("lower_top").find("slave and master are the same surface 'lower_top'"),
+            std::string::npos);
+  const std::string corner = refusal("lower_x_min");
+  EXPECT_NE(corner.find("the surfaces 'lower_top' and 'lower_x_min' share 1 node"), std::string::npos)
+      << corner;
+  EXPECT_NE(corner.find("contact of a surface with itself is not computed"), std::string::npos);
+  EXPECT_EQ(refusal("upper_bottom"), "");
 }
 
 }  // namespace

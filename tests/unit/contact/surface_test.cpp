@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "bodies.hpp"
+#include "contact/surface_curvature.hpp"
 
 namespace solidus::contact {
 namespace {
@@ -28,6 +29,59 @@ TEST(ContactSurface, HasItsFacesWholeOnEveryProcessInOneOrder) {
   MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
   MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_DOUBLE, MPI_MIN, PETSC_COMM_WORLD);
   EXPECT_EQ(highest, lowest);
+}
+
+/// Two quarter rings or half a barrel: blocks bent about an axis, radius k_inner + height.
+constexpr double k_inner = 0.1;
+mesh::Mesh bent_blocks(Shape shape) {
+  mesh::TwoBlocks blocks = test::standard_blocks(shape);
+  blocks.lower_divisions[0] = 6;
+  blocks.upper_divisions[0] = 5;
+  mesh::RawMesh raw = test::raw_blocks(blocks, shape);
+  const auto last = static_cast<std::size_t>(mesh::dimension(shape) - 1);
+  for (Point& x : raw.x) {
+    const double angle = 0.5 * std::numbers::pi * (1 - x[0] / 0.3), radius = k_inner + x[last];
+    x = {radius * std::cos(angle), radius * std::sin(angle), last == 2 ? -x[1] : 0.0};
+  }
+  return test::distribute_blocks(raw);
+}
+
+TEST(SurfaceCurvature, OfCylindersIsOneOverTheirRadiusSeenFromBothSides) {
+  for (const Shape shape : {Shape::quad4, Shape::quad8, Shape::tri3, Shape::hex8, Shape::hex20}) {
+    const mesh::Mesh mesh = bent_blocks(shape);
+    const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+    const double radius = k_inner + 0.1;
+    for (const auto& [name, sign] : {std::pair{"lower_top", 1.0}, std::pair{"upper_bottom", -1.0}}) {
+      const ContactSurface surface(mesh, name);
+      for (const SurfaceCurvature& c : surface_curvatures(surface, kind, 0.6)) {
+        // Facets of 15 and 18 degrees, whose centres lie below the arc.
+        EXPECT_NEAR((c.first + c.second) * radius, sign, 0.04) << mesh::name(shape);
+        EXPECT_NEAR(std::min(std::abs(c.first), std::abs(c.second)), 0, 1e-9 / radius) << mesh::name(shape);
+      }
+    }
+  }
+  const mesh::Mesh plane = test::two_blocks(Shape::hex8);
+  for (const SurfaceCurvature& c :
+       surface_curvatures(ContactSurface(plane, "lower_top"), AnalysisKind::solid, 0.6)) {
+    EXPECT_EQ(c.first, 0);
+    EXPECT_EQ(c.second, 0);
+  }
+}
+
+TEST(SurfaceCurvature, MakesOfAGapThePlaneOneOfTheSameResistance) {
+  const double inner = 0.05, outer = 0.08, gap = outer - inner;
+  const SurfaceCurvature cylinder{1 / inner, 0}, hole{-1 / outer, 0}, ball{1 / inner, 1 / inner},
+      cavity{-1 / outer, -1 / outer}, plane{};
+  EXPECT_NEAR(cylinder.plane_gap(gap), inner * std::log(outer / inner), 1e-15);
+  EXPECT_NEAR(hole.plane_gap(gap), outer * std::log(outer / inner), 1e-15);
+  EXPECT_NEAR(ball.plane_gap(gap), gap * inner / outer, 1e-15);
+  EXPECT_NEAR(cavity.plane_gap(gap), gap * outer / inner, 1e-15);
+  EXPECT_EQ(plane.plane_gap(gap), gap);
+  EXPECT_EQ(cylinder.plane_gap(-1e-4), -1e-4);
+  for (const SurfaceCurvature& c : {cylinder, hole, ball, cavity, SurfaceCurvature{30, -7}}) {
+    const double h = 1e-6;
+    EXPECT_NEAR(c.plane_gap_slope(gap), (c.plane_gap(gap + h) - c.plane_gap(gap - h)) / (2 * h), 1e-7);
+  }
 }
 
 TEST(ContactSurface, LooksOutOfItsBody) {

@@ -6,6 +6,8 @@
 
 #include "algebra/parallel.hpp"
 #include "bodies.hpp"
+#include "contact/laws/gas_gap.hpp"
+#include "contact/laws/power_contact.hpp"
 #include "contact/pair.hpp"
 
 namespace solidus::contact {
@@ -154,9 +156,8 @@ TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
 TEST_P(Wet, ConductsAsClosedContactWhateverGapOpens) {
   ContactSpec s = spec(GetParam().formulation);
   s.heat = HeatTransferSpec{};
-  s.heat->conductance = 2000;
-  s.heat->gap_law = HeatTransferSpec::GapLaw::gas;
-  s.heat->gas_conductivity = 0.03;
+  s.heat->contact_law = contact_law(PowerContact{2000});
+  s.heat->gap_law = gap_law(GasGap{.conductivity = 0.03});
   OneStep run(mesh_, s);
   const auto temperature =
       test::nodal_field(mesh_, 1, [](const Point&, bool up) { return std::vector{up ? 400.0 : 900.0}; });

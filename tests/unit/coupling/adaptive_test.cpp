@@ -435,6 +435,42 @@ TEST(DisplacementError, ARateOfMeltPredictsNothingOfWhatFroze) {
   EXPECT_GT(estimate.predictor(body.moved(7, 0), body.moved(8, 0), 1, next).displacement, 0.3);
 }
 
+TEST_P(Adaptive, AStepThatIsDiscardedLeavesNoTraceInARunThatIsDrivenFromOutside) {
+  const coupling::TimeOptions o = options(0.05);
+  ASSERT_EQ(run(o), Outcome::finished);
+  const Diary whole = diary_;
+  script_ = {}, diary_ = {};
+  coupling::Simulation simulation(
+      std::make_unique<Relaxation>(script_), o,
+      coupling::ErrorEstimate(coupling::BodyNorm(mesh_, AnalysisKind::plane_strain)));
+  simulation.add(diary_);
+  simulation.begin(uniform(mesh_), &solid_fraction_of);
+  std::optional<Outcome> outcome;
+  while (!(outcome = simulation.take_step())) {
+    const std::size_t known = diary_.steps.size();
+    ASSERT_TRUE(simulation.pending());
+    EXPECT_EQ(simulation.state().time, simulation.record().time);
+    if (known % 3 == 1) {  // observers have not heard of the step: take it again, as it was
+      simulation.discard_step();
+      ASSERT_FALSE(simulation.pending());
+      EXPECT_EQ(simulation.state().time, diary_.states.back().time);
+      ASSERT_FALSE(simulation.take_step());
+      EXPECT_EQ(simulation.record().rejected, whole.steps[known].rejected + 1);
+      EXPECT_EQ(simulation.record().rejection, "repeated as asked");
+    }
+    ASSERT_EQ(diary_.steps.size(), known);
+    simulation.commit_step();
+    ASSERT_EQ(diary_.steps.size(), known + 1);
+  }
+  EXPECT_EQ(*outcome, Outcome::finished);
+  EXPECT_EQ(simulation.take_step(), Outcome::finished);  // and again
+  ASSERT_EQ(diary_.steps.size(), whole.steps.size());
+  for (std::size_t n = 0; n < diary_.states.size(); ++n) {
+    EXPECT_EQ(diary_.states[n].time, whole.states[n].time);
+    EXPECT_EQ(diary_.states[n].heat.temperature, whole.states[n].heat.temperature);
+  }
+}
+
 TEST(Simulation, AdaptiveStepsWithoutAnEstimateAreAProgrammersMistake) {
   Script script;
   coupling::TimeOptions o;

@@ -9,6 +9,8 @@
 
 #include "../contact/bodies.hpp"
 #include "../mechanics/body.hpp"
+#include "contact/laws/gas_gap.hpp"
+#include "contact/laws/power_contact.hpp"
 #include "coupled_tangent.hpp"
 #include "coupling/simultaneous.hpp"
 
@@ -58,12 +60,8 @@ inline contact::ContactSpec interface_of(const Rubbing& c) {
     s.friction->coefficient.terms = {Table(0.25)};
   s.friction->tangential_penalty = 2e12;
   contact::HeatTransferSpec h;
-  h.conductance = 3e4;
-  h.exponent = 0.95;
-  h.hardness = 1e9;
-  h.gap_law = contact::HeatTransferSpec::GapLaw::gas;
-  h.open_conductance = 2e3;
-  h.gas_conductivity = 0.05;
+  h.contact_law = contact::contact_law(contact::PowerContact{3e4, 0.95, 1e9});
+  h.gap_law = contact::gap_law(contact::GasGap{.conductivity = 0.05, .open_conductance = 2e3});
   s.heat = h;
   return s;
 }

@@ -138,6 +138,19 @@ TEST(StepControl, CutsEndAtTheSmallestStep) {
   EXPECT_FALSE(control.rejected(control.plan(0), "physics"));
 }
 
+TEST(StepControl, AStepThatDoesNotConvergeIsCutBelowTheSmallestForErrorsAndGrowsAgain) {
+  for (const bool is_adaptive : {false, true}) {
+    StepControl control(is_adaptive ? adaptive(1, 2) : step_of(1), 0, {100});
+    for (int k = 1; k <= 20; ++k) {
+      EXPECT_TRUE(control.rejected(control.plan(0), "physics"));
+      EXPECT_DOUBLE_EQ(control.plan(0).dt, std::ldexp(1.0, -k));
+    }
+    control.accepted(control.plan(0), iterations(3));
+    EXPECT_DOUBLE_EQ(control.plan(0).dt, 1.5 * std::ldexp(1.0, -20));
+    EXPECT_FALSE(control.rejected(control.plan(0), "physics"));
+  }
+}
+
 TEST(StepControl, AdaptiveStepsGrowWhenEasyAndStayBelowTheLargest) {
   StepControl control(adaptive(1, 2), 0, {100});
   EXPECT_EQ(control.plan(0).reason, "as asked");

@@ -25,7 +25,8 @@ Material random_material(Random& random) {
   c.kinematic = k_kinematic[pick(3)];
   c.liquid = k_liquid[pick(3)];
   c.viscosity = pick(3) == 0 ? 0 : decades(random, -3, 12);
-  c.exponent = pick(2) == 0 ? 1 : uniform(random, 1, 12);
+  c.exponent = pick(2) == 0 ? 1 : uniform(random, 0.3, 12);
+  if (pick(3) == 0) c.heat_share = uniform(random, 0, 1);
   c.liquid_viscosity = decades(random, 0, 13);
   Material m = varying_material(c);
   const double solidus = uniform(random, 700, 1000), width = pick(4) == 0 ? 0 : uniform(random, 1, 120);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "material/viscoplastic.hpp"
@@ -15,6 +16,7 @@ struct FlowCase {
   double viscosity = 0, exponent = 1;  ///< η of the overstress [Pa s], n
   LiquidModel liquid = LiquidModel::maxwell;
   double liquid_viscosity = 1e9;
+  std::optional<double> heat_share = {};  ///< of Taylor and Quinney
 };
 
 inline Material flow_material(const FlowCase& c) {
@@ -44,6 +46,7 @@ inline Material flow_material(const FlowCase& c) {
   f.viscosity = c.viscosity;
   f.exponent = c.exponent;
   f.drag_stress = 50e6;
+  if (c.heat_share) f.heat_share = *c.heat_share;
   return m;
 }
 
@@ -83,8 +86,9 @@ Sym<T> convert(const Sym<From>& a) {
 }
 template <class T, class From>
 Viscoplastic::State<T> convert(const Viscoplastic::State<From>& s) {
-  return {convert<T>(s.viscous_strain), convert<T>(s.plastic_strain), convert<T>(s.back_strain),
-          T(s.hardening)};
+  return {convert<T>(s.viscous_strain), convert<T>(s.plastic_strain),
+          convert<T>(s.back_strain),    T(s.hardening),
+          T(s.inelastic_entropy),       T(s.cold_work)};
 }
 
 template <class T, class From>
@@ -101,7 +105,9 @@ Viscoplastic::Properties<T> convert(const Viscoplastic::Properties<From>& p) {
            T(f.exponent),
            T(f.drag_stress),
            T(f.temperature),
-           T(f.beyond)}};
+           T(f.beyond),
+           T(f.softening),
+           T(f.heat_share)}};
 }
 
 /// ‖s − w q‖ − w √⅔ (σ_0 + K_ξ) at a state (2.106, 2.107).

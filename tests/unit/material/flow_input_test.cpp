@@ -161,6 +161,15 @@ drag_stress = "30 MPa")")
 viscosity = "1e7 Pa s")")
                            .flow;
   EXPECT_TRUE(linear.linear_rate());
+  EXPECT_FALSE(linear.heat_share);
+  const Flow steep = *with_flow(k_falling + R"(rate_dependence = "perzyna"
+viscosity = "1e7 Pa s"
+rate_exponent = 0.5
+drag_stress = "30 MPa"
+taylor_quinney = { argument_unit = "K", points = [[300, 0.9], [900, 0.7]] })")
+                          .flow;
+  EXPECT_DOUBLE_EQ(steep.exponent.value(300), 0.5);
+  EXPECT_DOUBLE_EQ(steep.heat_share->value(600), 0.8);
 }
 
 TEST(FlowInput, WithoutAViscosityTheLiquidsIsTaken) {
@@ -258,13 +267,14 @@ TEST(FlowInput, WhatDoesNotFitTogetherIsRefusedWithItsPlace) {
       {"flow_stress = \"50 MPa\"\nviscosity = \"1e7 Pa s\"", "'viscosity' does not belong"},
       {"flow_stress = \"50 MPa\"\nrate_dependence = \"perzyna\"\nviscosity = \"0 Pa s\"", "'viscosity'"},
       {"flow_stress = \"50 MPa\"\nrate_dependence = \"perzyna\"\nviscosity = \"1e7 Pa s\"\nrate_exponent = "
-       "0.5",
+       "0.05\ndrag_stress = \"1 MPa\"",
        "'rate_exponent'"},
       {"flow_stress = \"50 MPa\"\nrate_dependence = \"perzyna\"\nviscosity = \"1e7 Pa s\"\nrate_exponent = 3",
        "there is no 'drag_stress'"},
       {"flow_stress = \"50 MPa\"\nrate_dependence = \"perzyna\"\nviscosity = \"1e7 Pa s\"\nrate_exponent = "
        "3\ndrag_stress = \"0 MPa\"",
        "'drag_stress'"},
+      {"flow_stress = \"50 MPa\"\ntaylor_quinney = 1.2", "'taylor_quinney'"},
       {"isotropic_hardening = \"table\"", "has no flow curves"},
       {"isotropic_hardening = \"table\"\nflow_stress = \"50 MPa\"", "'flow_stress' does not belong"},
   };

@@ -61,7 +61,9 @@ struct Posed {
     if (isotropic == IsotropicHardening::power) flow.hardening = {reference, exponent};
     flow.kinematic_modulus = recalls ? decades(random, 3, 11) : zero_or(3, 11);
     flow.recall = recalls ? decades(random, -1, 4) : 0;
-    flow.exponent = uniform(random, 0, 1) < 0.2 ? 1.0 : decades(random, 0, std::log10(50.0));
+    flow.exponent = uniform(random, 0, 1) < 0.2
+                        ? 1.0
+                        : decades(random, std::log10(k_least_rate_exponent), std::log10(50.0));
     flow.drag_stress = decades(random, 3, 9);
     flow.temperature = 500;
 
@@ -159,14 +161,18 @@ TEST(ReturnMapping, SolvesAMillionProblemsToRounding) {
   const FlowCurves curves = bent_curves();
   Random random(21);
   double worst = 0;
-  int viscous = 0, plastic = 0;
+  int viscous = 0, plastic = 0, unsolved = 0;
   for (int i = 0; i < 1'000'000; ++i) {
     const Posed posed(random, k_isotropic[i % 5], i / 5 % 3 == 2, curves);
     const auto& p = posed.problem;
     const Yield<double> trial = yield(p, 0.0);
     if (!flows(p, trial)) continue;  // rounding of a small overstress
     const auto s = solve_power_rate(p, trial);
-    ASSERT_TRUE(s.converged) << i;
+    if (!s.converged) {  // a step is cut
+      ASSERT_LT(posed.flow.exponent, 0.2) << i;
+      ++unsolved;
+      continue;
+    }
     ASSERT_GE(s.gamma, 0) << i;
     ASSERT_GE(s.overstress, 0) << i;
     ASSERT_GE(s.inverse_stiffness, 0) << i;
@@ -180,6 +186,7 @@ TEST(ReturnMapping, SolvesAMillionProblemsToRounding) {
     ASSERT_LT(worst, 10) << i << " kind " << i % 5 << " n " << posed.flow.exponent;
   }
   EXPECT_GT(viscous, 100'000);
+  EXPECT_LE(unsolved, 1);
   EXPECT_GT(plastic, 100'000);
 }
 

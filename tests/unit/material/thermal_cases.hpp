@@ -32,6 +32,7 @@ inline Material varying_material(const FlowCase& c) {
   if (c.exponent != 1) f.exponent = falls(c.exponent, 0.7 * c.exponent + 0.3);
   f.drag_stress = falls(60e6, 20e6);
   f.flow_stress = falls(120e6, 50e6);
+  if (c.heat_share) f.heat_share = falls(*c.heat_share, 0.5 * *c.heat_share);
   return m;
 }
 

@@ -28,12 +28,21 @@ TEST(KeptLanes, PlasticFlowHasSixStrainsAndTheirEquivalent) {
 }
 
 TEST(KeptLanes, KinematicHardeningHasTheBackStrainBesides) {
-  EXPECT_EQ(viscoplastic_lanes(plastic_material(KinematicHardening::linear)), 13U);
-  EXPECT_EQ(viscoplastic_lanes(plastic_material(KinematicHardening::none)), 7U);
+  EXPECT_EQ(viscoplastic_lanes(plastic_material(KinematicHardening::linear)), 14U);
+  EXPECT_EQ(viscoplastic_lanes(plastic_material(KinematicHardening::none)), 8U);
+}
+
+// The flow stress of plastic_material() falls with temperature: its lanes above hold S^I.
+TEST(KeptLanes, ThermalSofteningHasItsEntropyAndATaylorQuinneyFactorTheColdWork) {
+  Material m = perfectly_plastic(1e8);
+  m.flow->flow_stress = Table({300, 500}, {1e8, 5e7});
+  EXPECT_EQ(viscoplastic_lanes(m), 8U);
+  m.flow->heat_share = 0.9;
+  EXPECT_EQ(viscoplastic_lanes(m), 9U);
 }
 
 TEST(KeptLanes, AMeltHasTheViscousStrainBesides) {
-  EXPECT_EQ(viscoplastic_lanes(melting(plastic_material())), 19U);
+  EXPECT_EQ(viscoplastic_lanes(melting(plastic_material())), 20U);
   EXPECT_EQ(kept_lanes(material::Viscoelastic(melting(elastic_material(2e11, 0.3, 1e-5)))).size(), 6U);
 }
 

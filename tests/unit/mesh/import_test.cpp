@@ -9,6 +9,9 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "mesh/file_format.hpp"
+#include "mesh/gmsh_mesh_file.hpp"
+#include "mesh/gmsh_reader.hpp"
 #include "sample_mesh.hpp"
 
 namespace {
@@ -103,6 +106,23 @@ void expect_two_bodies(RawMesh raw, int dimension) {
   EXPECT_LT(nodes({"part", "mould"}), nodes({"part"}) + nodes({"mould"}));
 }
 
+void expect_same(const RawMesh& a, const RawMesh& b) {
+  EXPECT_EQ(a.dimension, b.dimension);
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.input_node, b.input_node);
+  ASSERT_EQ(a.groups.size(), b.groups.size());
+  for (auto of_a = a.groups.begin(), of_b = b.groups.begin(); of_a != a.groups.end(); ++of_a, ++of_b) {
+    EXPECT_EQ(of_a->first, of_b->first);
+    EXPECT_EQ(of_a->second.dimension, of_b->second.dimension);
+    ASSERT_EQ(of_a->second.blocks.size(), of_b->second.blocks.size()) << of_a->first;
+    for (std::size_t k = 0; k < of_a->second.blocks.size(); ++k) {
+      EXPECT_EQ(of_a->second.blocks[k].shape, of_b->second.blocks[k].shape);
+      EXPECT_EQ(of_a->second.blocks[k].nodes, of_b->second.blocks[k].nodes);
+      EXPECT_EQ(of_a->second.blocks[k].input_element, of_b->second.blocks[k].input_element);
+    }
+  }
+}
+
 std::string complaint_of(const std::function<void()>& action) {
   try {
     action();
@@ -123,6 +143,59 @@ TEST_F(MeshFiles, MshOfBothVersionsReadsBackInEveryOrderTextOrBinary) {
                        ", version " + std::to_string(version) + (binary ? ", binary" : ""));
           expect_two_bodies(read_mesh(file, 0.001), dimension);
         }
+}
+
+// Solidus reads .msh by itself; Gmsh reads the same from the same file.
+TEST_F(MeshFiles, OurReaderOfMshGivesWhatGmshReads) {
+  for (const int dimension : {2, 3})
+    for (const int element_order : {1, 2})
+      for (const double version : {2.2, 4.1})
+        for (const bool binary : {false, true})
+          for (const bool named : {false, true}) {
+            const std::string file = path("same.msh");
+            write_model(file, dimension, element_order, version, named, dimension == 2 && binary, binary);
+            SCOPED_TRACE(std::to_string(dimension) + "D, order " + std::to_string(element_order) +
+                         ", version " + std::to_string(version) + (binary ? ", binary" : "") +
+                         (named ? ", named" : ""));
+            const auto ours = read_gmsh_mesh_file(file, 0.001);
+            ASSERT_TRUE(ours);
+            expect_same(*ours, read_with_gmsh({.path = file, .unit_in_metres = 0.001}, FileFormat::gmsh_mesh,
+                                              nullptr));
+          }
+}
+
+TEST_F(MeshFiles, VersionsThatOnlyGmshReadsAreLeftToIt) {
+  write_model(path("old.msh"), 2, 1, 1.0);
+  EXPECT_FALSE(read_gmsh_mesh_file(path("old.msh"), 1));
+  EXPECT_GT(read_mesh(path("old.msh"), 0.001).x.size(), 20u);
+}
+
+TEST_F(MeshFiles, GridsOfVtkAreMeshesOfTheirBodies) {
+  const std::string head =
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
+      "<Piece NumberOfPoints=\"6\" NumberOfCells=\"3\"><Points><DataArray type=\"Float64\" "
+      "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 1 0 0 1 0 2 0 0 2 1 0</DataArray></Points>"
+      "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 1 4 5 2 3 "
+      "0</DataArray>"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4 8 10</DataArray>"
+      "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">9 9 3</DataArray></Cells>";
+  const std::string data =
+      "<CellData><DataArray type=\"Int32\" Name=\"gmsh:physical\" format=\"ascii\">7 3 "
+      "9</DataArray></CellData>";
+  const std::string tail = "</Piece></UnstructuredGrid></VTKFile>";
+  RawMesh mesh = read_mesh(write("two.vtu", head + data + tail), 0.001);
+  validate_and_orient(mesh, "two.vtu");
+  EXPECT_EQ(mesh.dimension, 2);
+  EXPECT_EQ(mesh.x[4], (Point{0.002, 0, 0}));
+  EXPECT_EQ(mesh.groups.at("body_1").blocks.at(0).input_element, std::vector<GlobalIndex>{2});  // number 3
+  EXPECT_EQ(mesh.groups.at("body_2").blocks.at(0).input_element, std::vector<GlobalIndex>{1});
+  EXPECT_EQ(mesh.groups.at("surface_1").blocks.at(0).shape, Shape::line2);
+  const RawMesh whole = read_mesh(write("one.vtu", head + tail), 1);
+  EXPECT_EQ(whole.groups.at("body_1").blocks.at(0).nodes.size(), 8u);
+  std::string wedge = head + tail;
+  wedge.replace(wedge.find("9 9 3"), 5, "9 7 3");
+  EXPECT_THAT(complaint_of([&] { read_mesh(write("w.vtu", wedge), 1); }),
+              AllOf(HasSubstr("w.vtu"), HasSubstr("type 7"), HasSubstr("quad4")));
 }
 
 TEST_F(MeshFiles, AbaqusInputOfGmshReadsBackWithItsSets) {

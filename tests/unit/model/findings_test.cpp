@@ -345,4 +345,31 @@ liquidus = "613 degC"
               ::testing::Contains(HasSubstr("are its temperatures in degC?")));
 }
 
+TEST_F(FindingsTest, HardeningThatFollowsTheTemperatureOfAnInterfaceThatStoresNothingIsNamed) {
+  const std::string rubbing = deforming() + R"([coupling]
+scheme = "isentropic"
+[contact.friction]
+coefficient = [0.1, { of = "temperature", argument_unit = "degC", unit = "1", points = [[0, 0.3], [100, 0.1]] }]
+)";
+  // The tables of the contact belong behind it.
+  const std::string friction = rubbing.substr(rubbing.find("[contact.friction]"));
+  const std::string text = changed(changed(rubbing, friction, ""), "gap_law = \"constant\"\n",
+                                   "gap_law = \"constant\"\n" + friction);
+  const auto degenerates = ::testing::Contains(HasSubstr("the isentropic split holds its temperature"));
+  EXPECT_THAT(said_of(text), degenerates);
+  EXPECT_THAT(said_of(changed(text, "[contact.friction]",
+                              "[contact.interface]\nheat_capacity = \"1000 J/m2/K\"\n[contact.friction]")),
+              ::testing::Not(degenerates));
+  EXPECT_THAT(said_of(changed(text, "\"isentropic\"", "\"simultaneous\"")), ::testing::Not(degenerates));
+  EXPECT_THAT(said_of(changed(text, "[contact.friction]",
+                              "[contact.friction]\ninternal_variable = \"frictional_work\"")),
+              ::testing::Not(degenerates));
+}
+
+TEST_F(FindingsTest, AnInterfaceThatStoresHeatNeedsAWayForIt) {
+  const std::string heat = std::string(k_casting).substr(std::string(k_casting).find("[contact.heat]"));
+  EXPECT_THAT(said_of(changed(k_casting, heat, "[contact.interface]\nheat_capacity = \"1000 J/m2/K\"\n")),
+              ::testing::ElementsAre(HasSubstr("nothing conducts heat to it")));
+}
+
 }  // namespace

@@ -125,7 +125,7 @@ TEST(ModelInput, ContactTakesItsPenaltyAsANumberOrAsAFactor) {
                   "gas_conductivity = \"0.026 W/m/K\"\n[heat]\nintegration = \"open\"\n"))[0];
   EXPECT_FALSE(absolute.penalty_is_factor);
   EXPECT_DOUBLE_EQ(absolute.penalty, 5e9);
-  EXPECT_DOUBLE_EQ(absolute.heat->conductance, 2300);
+  EXPECT_DOUBLE_EQ(contact::HeatTransferLaw(*absolute.heat).at(0, 0, 300).value, 2300);
   EXPECT_FALSE(absolute.nodal_heat);
 }
 

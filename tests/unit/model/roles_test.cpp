@@ -129,7 +129,7 @@ TEST(Interfaces, BecomeContactsBetweenTheFacesThatTouch) {
   ASSERT_EQ(spec.contacts.size(), 1U);
   EXPECT_EQ(spec.contacts[0].name, "part_mould");
   EXPECT_EQ(spec.contacts[0].law, "aluminium_in_sand");
-  EXPECT_DOUBLE_EQ(spec.contacts[0].heat->conductance, 1000);
+  EXPECT_DOUBLE_EQ(contact::HeatTransferLaw(*spec.contacts[0].heat).at(0, 0, 300).value, 1000);
   EXPECT_TRUE(mesh.surfaces.contains("part_to_mould"));
   EXPECT_TRUE(mesh.surfaces.at("mould_to_part").replicated);
   EXPECT_TRUE(mesh.surfaces.contains("part_free"));  // its top and the axis

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "coupling/schemes/simultaneous.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "model/mechanics_input.hpp"
 #include "small_case.hpp"
@@ -16,22 +17,36 @@ CaseSpec read(const std::string& coupling, const std::string& more = "") {
   return test::bar_case("[coupling]\n" + coupling + "\n" + more);
 }
 
+std::string error(const std::string& coupling) {
+  try {
+    read(coupling);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+const coupling::SimultaneousOptions& options(const CaseSpec& spec) {
+  using Kind = coupling::SchemeKindOf<coupling::SimultaneousKeys>;
+  return dynamic_cast<const Kind&>(*spec.coupling.scheme).data;
+}
+
 TEST(SimultaneousKeys, AreReadWithTheirDefaults) {
   const CaseSpec spec = read("scheme = \"simultaneous\"");
   EXPECT_TRUE(spec.simultaneous());
   EXPECT_FALSE(spec.isentropic());
-  EXPECT_EQ(spec.coupling.solver, algebra::CoupledSolverKind::automatic);
-  EXPECT_EQ(spec.coupling.integration, CouplingSpec::Integration::backward_euler);
+  EXPECT_EQ(options(spec).solver, algebra::CoupledSolverKind::automatic);
+  EXPECT_EQ(options(spec).integration, coupling::SimultaneousOptions::Integration::backward_euler);
   EXPECT_EQ(mechanics_options(spec).mapping, mechanics::Mapping::simultaneous);
   EXPECT_EQ(refusal(spec), "");
-  EXPECT_EQ(read("scheme = \"simultaneous\"\nsolver = \"field_split\"").coupling.solver,
+  EXPECT_EQ(options(read("scheme = \"simultaneous\"\nsolver = \"field_split\"")).solver,
             algebra::CoupledSolverKind::field_split);
 }
 
 TEST(SimultaneousKeys, OfItsSolverAndIntegrationAreRefusedWithOtherSchemes) {
-  EXPECT_THAT(refusal(read("integration = \"sdirk2\"")), HasSubstr("those of the simultaneous scheme"));
-  EXPECT_THAT(refusal(read("scheme = \"isothermal\"\nsolver = \"direct\"")),
-              HasSubstr("those of the simultaneous scheme"));
+  EXPECT_THAT(error("integration = \"sdirk2\""), HasSubstr("it needs scheme = simultaneous"));
+  EXPECT_THAT(error("scheme = \"isothermal\"\nsolver = \"direct\""),
+              HasSubstr("'solver' does not belong to [coupling] with scheme = \"isothermal\""));
 }
 
 TEST(SimultaneousKeys, ThatContradictEachOtherAreRefused) {

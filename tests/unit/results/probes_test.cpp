@@ -130,14 +130,20 @@ TEST_F(Block, MeanAndIntegralOfAFieldOfElementsWeighByVolume) {
                     }
                   return centres;
                 }});
-  const auto asked = [](Statistic statistic, const char* unit) {
-    return std::vector<Probe>{GroupProbe{{{"x", unit}, "x", 0, {}}, "block", statistic}};
+  const auto asked = [](Statistic statistic, const char* unit, const char* group = "block") {
+    return std::vector<Probe>{GroupProbe{{{"x", unit}, "x", 0, {}}, group, statistic}};
   };
   const auto value_of = [&](AnalysisKind kind, const std::vector<Probe>& probes) {
     return Probes(mesh, kind, probes, of_cells).values(of_cells)[0];
   };
   EXPECT_NEAR(value_of(AnalysisKind::plane_strain, asked(Statistic::mean, "m")), 2, 1e-12);
   EXPECT_NEAR(value_of(AnalysisKind::plane_strain, asked(Statistic::integral, "m m3")), 4, 1e-12);
+  // On a side the elements behind its faces: two corners of theirs on it, the third a cell of 0.25 m inside.
+  const double behind = 3 - 0.25 / 3;
+  for (const Statistic statistic : {Statistic::mean, Statistic::minimum, Statistic::maximum})
+    EXPECT_NEAR(value_of(AnalysisKind::plane_strain, asked(statistic, "m", "x_max")), behind, 1e-12);
+  EXPECT_NEAR(value_of(AnalysisKind::axisymmetric, asked(Statistic::integral, "m m2", "x_max")),
+              2 * std::numbers::pi * 3 * behind, 1e-10);
   // ∫ r² dr/∫ r dr, but for what elements of 0.25 m average out
   EXPECT_NEAR(value_of(AnalysisKind::axisymmetric, asked(Statistic::mean, "m")), 26. / 12, 2e-3);
 }

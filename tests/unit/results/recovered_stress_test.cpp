@@ -122,5 +122,20 @@ TEST(HeatFlux, IsThatOfFouriersLawWithTheConductivityOfThePlace) {
   }
 }
 
+TEST(ConductionDissipation, IsConductivityTimesTheSquareOfTheGradientOverTheTemperature) {
+  const mesh::Mesh mesh = block(Shape::quad4, {200, 1}, {1, 0.1});
+  material::Material m;
+  m.conductivity = 25.0;
+  std::vector<double> temperature;
+  for (const Point& x : mesh.x) temperature.push_back(300 + 300 * x[0]);
+  const std::vector<double> dissipation = element_conduction_dissipation(
+      mesh, AnalysisKind::plane_strain, [&](int) -> const material::Material& { return m; }, temperature);
+  const std::vector<double> centre = at_cells(mesh, [](const Point& x, std::size_t) { return x[0]; });
+  for (std::size_t c = 0; c < dissipation.size(); ++c) {
+    const double exact = 25 * 300 * 300 / (300 + 300 * centre[6 * c]);
+    EXPECT_NEAR(dissipation[c], exact, 1e-5 * exact);
+  }
+}
+
 }  // namespace
 }  // namespace solidus::results

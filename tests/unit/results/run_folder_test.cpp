@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 
@@ -11,7 +12,10 @@
 #include "mesh/shapes.hpp"
 #include "results/csv.hpp"
 #include "results/field_output.hpp"
+#include "results/hdf5_file.hpp"
 #include "results/output_error.hpp"
+#include "results/temperature_history.hpp"
+#include "results/vtkhdf.hpp"
 #include "sample.hpp"
 #include "vtu_reader.hpp"
 
@@ -190,6 +194,78 @@ TEST_F(Distributed, EveryElementIsWrittenByOneProcess) {
     std::sort(elements.begin(), elements.end());
     EXPECT_EQ(elements.size(), 24U);
     EXPECT_EQ(std::adjacent_find(elements.begin(), elements.end()), elements.end()) << "none twice";
+  });
+}
+
+/// All numbers of a table of an HDF5 file.
+std::vector<double> table(hid_t file, const std::string& name) {
+  const Hdf5Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (set < 0) return {};
+  const Hdf5Handle space(H5Dget_space(set), H5Sclose);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  return values;
+}
+
+// The steps are addressed as VTK's description of the format says: rows from the step's offset on.
+TEST_F(Distributed, OneFileOfVtkHdfHoldsAllMoments) {
+  const RunFolder run(folder.path, "");
+  FieldOutput output(run, mesh);
+  output.write(0, fields);
+  for (double& t : temperature) t += 5;
+  output.write(2.5, fields);
+  test::on_first([&] {
+    const fs::path path = folder.path / "fields.vtkhdf";
+    const VtkHdfReport report = write_vtkhdf(run.collection(), path);
+    EXPECT_EQ(report.times, 2U);
+    EXPECT_EQ(report.cells, 24U);
+    const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    ASSERT_GE(hid_t(file), 0);
+    EXPECT_EQ(table(file, "VTKHDF/Steps/Values"), (std::vector<double>{0, 2.5}));
+    EXPECT_EQ(table(file, "VTKHDF/Steps/PointOffsets"), (std::vector<double>{0, 0}));
+    const std::vector<double> x = table(file, "VTKHDF/Points"),
+                              t = table(file, "VTKHDF/PointData/temperature"),
+                              offsets = table(file, "VTKHDF/Steps/PointDataOffsets/temperature");
+    const std::size_t n = x.size() / 3;
+    EXPECT_EQ(report.points, n);
+    ASSERT_EQ(t.size(), 2 * n);
+    EXPECT_EQ(offsets, (std::vector<double>{0, static_cast<double>(n)}));
+    for (std::size_t i = 0; i < n; ++i) {
+      EXPECT_EQ(t[i], 300 + 10 * x[3 * i] + x[3 * i + 1]);
+      EXPECT_EQ(t[n + i], t[i] + 5);
+    }
+    // Every corner is a point of the element's own process: the box of each cell is that of the mesh.
+    const std::vector<double> corners = table(file, "VTKHDF/Connectivity"),
+                              ends = table(file, "VTKHDF/Offsets");
+    ASSERT_EQ(ends.size(), 25U);
+    EXPECT_EQ(ends.back(), static_cast<double>(corners.size()));
+    double area = 0;
+    for (std::size_t c = 0; c < 24; ++c) {
+      std::array<double, 2> low{1e9, 1e9}, high{-1e9, -1e9};
+      for (auto k = static_cast<std::size_t>(ends[c]); k < static_cast<std::size_t>(ends[c + 1]); ++k)
+        for (std::size_t i = 0; i < 2; ++i) {
+          const double at = x[3 * static_cast<std::size_t>(corners[k]) + i];
+          low[i] = std::min(low[i], at), high[i] = std::max(high[i], at);
+        }
+      area += (high[0] - low[0]) * (high[1] - low[1]);
+    }
+    EXPECT_NEAR(area, 3 * 2, 1e-12);
+    std::vector<double> elements = table(file, "VTKHDF/CellData/element");
+    std::sort(elements.begin(), elements.end());
+    EXPECT_EQ(std::adjacent_find(elements.begin(), elements.end()), elements.end());
+    EXPECT_EQ(table(file, "VTKHDF/CellData/vtkGhostType").size(), 48U);
+
+    if (size == 1) {
+      const algebra::ActiveSet active(mesh, {});
+      const std::vector<TemperatureMoment> history = read_temperature_history(run.collection(), mesh, active);
+      ASSERT_EQ(history.size(), 2U);
+      EXPECT_EQ(history[1].time, 2.5);
+      EXPECT_EQ(history[1].temperature, temperature);
+    }
+
+    fs::remove(run.fields() / (size == 1 ? "fields_00001.vtu" : "fields_00001_p0.vtu"));
+    EXPECT_THROW(write_vtkhdf(run.collection(), folder.path / "none.vtkhdf"), InputError);
+    EXPECT_FALSE(fs::exists(folder.path / "none.vtkhdf"));
   });
 }
 

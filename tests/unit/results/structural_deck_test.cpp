@@ -196,6 +196,22 @@ TEST(StructuralDeck, GivesAbaqusMeansAndTheStateOfHardening) {
   EXPECT_EQ(lines_of(deck, "*INITIAL CONDITIONS, TYPE=HARDENING").size(), 4u);
 }
 
+TEST(StructuralDeck, ATemperatureHistoryIsAStepForEachMoment) {
+  const Sample sample(Shape::hex8);
+  StructuralDeck deck = sample.deck(false);
+  for (const double t : {0.0, 10.0, 25.0})
+    deck.history.push_back({t, std::vector<double>(sample.mesh.x.size(), 900 - 10 * t)});
+  for (const Dialect dialect : {Dialect::calculix, Dialect::abaqus}) {
+    const std::string text = structural_deck(deck, dialect);
+    for (const char* part :
+         {"*PLASTIC", "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n", "\n1, 900\n",
+          "*STEP, INC=1000\n*STATIC\n10, 10\n*BOUNDARY\n1, 1, 1\n*TEMPERATURE\n", "\n1, 800\n",
+          "** t = 25 s\n*STEP, INC=1000\n*STATIC\n15, 15\n*TEMPERATURE\n", "\n1, 650\n"})
+      EXPECT_NE(text.find(part), std::string::npos) << part;
+    for (const char* part : {"TYPE=STRESS", "*CLOAD"}) EXPECT_EQ(text.find(part), std::string::npos) << part;
+  }
+}
+
 TEST(StructuralDeck, HasDeformedCoordinatesWhereAsked) {
   if (!serial()) return;
   const Sample sample(Shape::quad4);

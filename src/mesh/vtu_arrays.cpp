@@ -1,4 +1,4 @@
-#include "results/vtu_arrays.hpp"
+#include "mesh/vtu_arrays.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -15,7 +15,7 @@
 #include "base/errors.hpp"
 #include "base/input_file.hpp"
 
-namespace solidus::results {
+namespace solidus::mesh {
 
 namespace {
 
@@ -204,4 +204,4 @@ std::vector<double> VtuFile::numbers(const pt::ptree& array, std::size_t n) cons
   fail(fmt::format("numbers of the type '{}' are not read", type));
 }
 
-}  // namespace solidus::results
+}  // namespace solidus::mesh

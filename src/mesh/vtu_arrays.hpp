@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace solidus::results {
+namespace solidus::mesh {
 
 /// The XML of a file, and its data section that need not be XML.
 class VtuFile {
@@ -34,4 +34,4 @@ class VtuFile {
   std::string_view appended_;  ///< of content_
 };
 
-}  // namespace solidus::results
+}  // namespace solidus::mesh

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "mesh/shape.hpp"
-#include "results/vtu_arrays.hpp"
+#include "mesh/vtu_arrays.hpp"
 
-namespace solidus::results {
+namespace solidus::mesh {
 
 /// A cell of a file as shapes of ours: each by the file's corners in our order.
 struct CellParts {
-  mesh::Shape shape;
+  Shape shape;
   std::vector<std::vector<int>> corners;
 };
 /// Shapes that Solidus has are taken as they are; voxels, pixels, wedges and pyramids as hexahedra,
@@ -49,4 +49,4 @@ struct PieceSize {
 };
 PieceSize piece_size(const VtuFile& file, const boost::property_tree::ptree& piece);
 
-}  // namespace solidus::results
+}  // namespace solidus::mesh

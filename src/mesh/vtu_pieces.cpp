@@ -1,15 +1,14 @@
-#include "results/vtu_pieces.hpp"
+#include "mesh/vtu_pieces.hpp"
 
 #include <fmt/format.h>
 
 #include <span>
 
-#include "results/vtu.hpp"
+#include "mesh/vtk_cells.hpp"
 
-namespace solidus::results {
+namespace solidus::mesh {
 
 using boost::property_tree::ptree;
-using mesh::Shape;
 
 namespace {
 
@@ -23,7 +22,7 @@ std::optional<CellParts> parts_of(int type) {
   for (const Shape shape : {Shape::point1, Shape::line2, Shape::line3, Shape::tri3, Shape::tri6, Shape::quad4,
                             Shape::quad8, Shape::tet4, Shape::tet10, Shape::hex8, Shape::hex20}) {
     if (vtk_cell_type(shape) != type) continue;
-    CellParts parts{shape, {std::vector<int>(static_cast<std::size_t>(mesh::node_count(shape)))}};
+    CellParts parts{shape, {std::vector<int>(static_cast<std::size_t>(node_count(shape)))}};
     const std::span<const int> order = vtk_node_order(shape);
     for (std::size_t i = 0; i < order.size(); ++i)
       parts.corners[0][static_cast<std::size_t>(order[i])] = static_cast<int>(i);
@@ -115,4 +114,4 @@ PieceSize piece_size(const VtuFile& file, const ptree& piece) {
   return size;
 }
 
-}  // namespace solidus::results
+}  // namespace solidus::mesh

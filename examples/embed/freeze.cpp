@@ -1,0 +1,27 @@
+// Runs the first two seconds of a case from a program of one's own, and says how it ended.
+//   freeze CASE FOLDER
+#include <model/run.hpp>
+#include <petscsys.h>
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs("usage: freeze CASE FOLDER\n", stderr);
+    return 1;
+  }
+  int n_for_petsc = 1;  // none of ours
+  if (PetscInitialize(&n_for_petsc, &argv, nullptr, nullptr) != 0) return 3;
+  int code = 0;
+  try {
+    solidus::model::Case c = solidus::model::load_case(argv[1], {"time.end=\"2 s\""});
+    const solidus::model::RunResult result = run_case(c, {.folder = argv[2]});
+    std::printf("%s: %s\n", c.spec.title.c_str(), result.finished ? "finished" : result.reason.c_str());
+  } catch (const std::exception& error) {  // a place in the user's files, what was found and what is allowed
+    std::fprintf(stderr, "%s\n", error.what());
+    code = 1;
+  }
+  PetscFinalize();
+  return code;
+}

@@ -1,0 +1,315 @@
+"""A case: what is cast, in which mould, for how long. Reads, changes, checks and writes case files."""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import itertools
+import re
+import tempfile
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import schema as schemas, verbs
+from .errors import InputError
+from .sections import Document, Section, plain
+from .toml_text import document_text, key_text, value_text
+
+if TYPE_CHECKING:
+    from .results import Results
+
+
+class Case(Section):
+    """A case of Solidus.
+
+    Keys are attributes with completion, ``case.time.step``, and items by path, ``case["body.casting.material"]``; both can be
+    assigned. An unknown key or a value of the wrong kind raises :class:`InputError` at once; units, groups of the mesh and
+    what several keys say together are checked by the program's own readers in :meth:`check` and before a run.
+
+    Parameters
+    ----------
+    document:
+        Keys and sections as in a case file; none: an empty case to be filled.
+    folder:
+        The folder which relative paths in it (meshes, materials) are seen from; the present one by default.
+
+    Examples
+    --------
+    >>> case = Case.load("cases/hot_spots")
+    >>> case.time.step = "1 s"
+    >>> case.body.casting.initial_temperature = "700 degC"
+    """
+
+    def __init__(self, document: Mapping[str, Any] | None = None, *, folder: str | Path | None = None) -> None:
+        own: Document = {}
+        super().__init__(self, schemas.case_schema(), "", lambda _: own)
+        self._set(file=None, folder=Path(folder or Path.cwd()).absolute(), loaded=None, cache=None)
+        for key, value in (document or {}).items():
+            self[key] = value
+
+    def _set(self, **fields: Any) -> None:
+        for name, value in fields.items():
+            object.__setattr__(self, f"_{name}", value)
+
+    @classmethod
+    def load(cls, path: str | Path) -> "Case":
+        """Reads a case file, or the ``case.toml`` of a folder. Raises :class:`InputError`."""
+        file = Path(path).absolute()
+        if file.is_dir():
+            file = file / "case.toml"
+        try:
+            document = tomllib.loads(file.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            verbs.call("resolve", file)  # says what is wrong as the program does
+            raise InputError(str(error), file=file) from error
+        case = cls(folder=file.parent)
+        case.given().update(document)
+        case._set(file=file, loaded=copy.deepcopy(document))
+        return case
+
+    @property
+    def file(self) -> Path | None:
+        """The file that the case was read from or saved to, if there is one."""
+        return self._file
+
+    @property
+    def folder(self) -> Path:
+        """The folder which relative paths are seen from."""
+        return self._folder
+
+    def copy(self, changes: Mapping[str, Any] | None = None) -> "Case":
+        """A case of its own with some keys changed: ``case.copy({"time.step": "1 s"})``."""
+        other = Case(folder=self._folder)
+        other.given().update(copy.deepcopy(self.given()))
+        other._set(file=self._file, loaded=copy.deepcopy(self._loaded))
+        for path, value in (changes or {}).items():
+            other[path] = value
+        return other
+
+    def __copy__(self) -> "Case":
+        return self.copy()
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> "Case":
+        return self.copy()
+
+    def to_dict(self) -> Document:
+        """What the case gives, as plain dictionaries, lists, texts and numbers."""
+        return plain(self)
+
+    def to_toml(self) -> str:
+        """What the case gives, as the text of a case file. Comments of the file it came from are not kept."""
+        return document_text(self.to_dict())
+
+    def save(self, path: str | Path) -> Path:
+        """Writes the case to a file, or as ``case.toml`` into a folder, and returns the file.
+
+        In another folder than before, relative paths of meshes and materials become absolute.
+        """
+        file = Path(path).absolute()
+        if file.is_dir() or not file.suffix:
+            file.mkdir(parents=True, exist_ok=True)
+            file = file / "case.toml"
+        moved = file.parent.resolve() != self._folder.resolve()
+        document = _with_absolute_paths(self.to_dict(), self._folder) if moved else self.to_dict()
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(document_text(document), encoding="utf-8")
+        self.given().clear()
+        self.given().update(document)
+        self._set(file=file, folder=file.parent, loaded=copy.deepcopy(document))
+        return file
+
+    def explain(self, key: str = "") -> str:
+        """What a key means, its unit, default and range; without a key, all of them."""
+        return verbs.cached("explain", *([key] if key else []))
+
+    def resolved(self) -> Document:
+        """The whole case as the program understands it: includes laid over each other, defaults filled in, paths absolute.
+
+        Raises :class:`InputError`. The mesh is not read; :meth:`check` reads it.
+        """
+        if self._cache is None:
+            with self.as_arguments() as arguments:
+                self._set(cache=tomllib.loads(verbs.call("resolve", *arguments)))
+        return copy.deepcopy(self._cache)
+
+    def check(self, *, physics: str | None = None) -> str:
+        """Everything but solving: keys, materials, mesh, groups, probes. Returns what the program understood the case to be.
+
+        Raises :class:`InputError` for the first thing wrong, with its place, what was found and what is allowed.
+        """
+        with self.as_arguments() as arguments:
+            return verbs.call("check", *arguments, *physics_option(physics))
+
+    def run(self, output: str | Path | None = None, **options: Any) -> "Results":
+        """Runs the case as a child process; see :func:`solidus_casting.run`."""
+        from .child import run
+
+        return run(self, output, **options)
+
+    @contextlib.contextmanager
+    def as_arguments(self) -> Iterator[list[str]]:
+        """The words with which a verb of the program is given this case.
+
+        Where the case is a file with some keys changed these are its name and ``--set``, so that errors name the file and
+        its lines; else a file with the whole case, which exists as long as the context.
+        """
+        changes = self._assignments()
+        if changes is not None:
+            words = [str(self._file)]
+            for change in changes:
+                words += ["--set", change]
+            yield words
+            return
+        with tempfile.TemporaryDirectory(prefix="solidus_case_") as folder:
+            file = Path(folder) / "case.toml"
+            text = document_text(_with_absolute_paths(self.to_dict(), self._folder))
+            file.write_text(text, encoding="utf-8")
+            _written[str(file)] = text
+            while len(_written) > _MOST_WRITTEN:
+                _written.pop(next(iter(_written)))
+            try:
+                yield [str(file)]
+            except InputError as error:
+                if error.file != file:
+                    raise
+                key = _key_at(text, error.line or 0)
+                raise InputError(error.found, error.allowed, key=key) from error
+
+    def _assignments(self) -> list[str] | None:
+        """What changed since the case was read, as ``path=value``; nothing where that cannot be said so."""
+        if self._file is None or self._loaded is None or not self._file.exists():
+            return None
+        found: list[str] = []
+        return found if _differences(self._loaded, self.given(), "", found) else None
+
+    # Called by sections
+
+    def _changed(self) -> None:
+        self._set(cache=None)
+
+    def _resolved_or_nothing(self, path: str) -> Any:
+        try:
+            return self._resolved_value(path)
+        except KeyError:
+            return None
+
+    def _resolved_value(self, path: str) -> Any:
+        try:
+            place: Any = self.resolved()
+        except InputError as error:
+            raise KeyError(f"'{path}' is not given, and its default is not known before the case is in order: {error}") from error
+        for part in path.split("."):
+            if isinstance(place, list):
+                place = next((entry for number, entry in enumerate(place, 1)
+                              if entry.get("name", str(number)) == part), {})
+            elif part in place:
+                place = place[part]
+            else:
+                raise KeyError(f"'{path}' is not given and has no default")
+        return place
+
+
+# Cases that were handed to the program in a file of their own, for messages that name its lines: a simulation gives them when
+# the file has gone.
+_written: dict[str, str] = {}
+_MOST_WRITTEN = 16
+
+
+def with_keys(message: str) -> str:
+    """A message that names keys of the case, where the program named lines of a file that the user never saw."""
+    def key(match: re.Match[str]) -> str:
+        text = _written.get(match[1])
+        return (_key_at(text, int(match[2])) or "the case") if text else match[0]
+
+    return re.sub(r"(/\S*?/solidus_case_\w+/case\.toml):(\d+)(?::\d+)?", key, message)
+
+
+def physics_option(physics: str | None) -> list[str]:
+    """The option for what is computed in place of what the case says: ``"heat"`` or ``"thermomechanical"``."""
+    options = {None: [], "heat": ["--heat-only"], "thermomechanical": ["--coupled"]}
+    if physics not in options:
+        raise InputError(f"there is no physics {physics!r}", "'heat' or 'thermomechanical'", key="physics")
+    return options[physics]
+
+
+def _differences(old: Document, new: Document, path: str, found: list[str]) -> bool:
+    """Adds what differs to `found`; false where assignments cannot express it."""
+    if old.keys() - new.keys():
+        return False
+    for key, value in new.items():
+        here = f"{path}.{key}" if path else key
+        before = old.get(key)
+        if before == value and type(before) is type(value):
+            continue
+        if key == "include" or key_text(key) != key:
+            return False
+        if isinstance(value, dict) and isinstance(before, dict):
+            if not _differences(before, value, here, found):
+                return False
+        elif _are_sections(value) or _are_sections(before):
+            if not (_are_sections(value) and _are_sections(before) and _names(value) == _names(before)):
+                return False
+            for entry, other in zip(before, value):
+                if not _differences(entry, other, f"{here}.{entry['name']}", found):
+                    return False
+        else:
+            found.append(f"{here}={value_text(value)}")
+    return True
+
+
+def _are_sections(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(entry, dict) for entry in value)
+
+
+def _names(entries: list[Document]) -> list[str] | None:
+    """The names of sections where each has one that --set can write, and no two the same."""
+    names = [str(entry.get("name", "")) for entry in entries]
+    good = len(set(names)) == len(names) and all(name and key_text(name) == name for name in names)
+    return names if good else [f"{id(entries)}"]
+
+
+def _with_absolute_paths(document: Document, folder: Path) -> Document:
+    """The same case, to be read from anywhere: the paths that the program resolves, seen from `folder`."""
+    document = copy.deepcopy(document)
+
+    def absolute(path: Any) -> Any:
+        return str((folder / path).resolve()) if isinstance(path, str) else path
+
+    include = document.get("include")
+    if include:
+        document["include"] = [absolute(path) for path in include] if isinstance(include, list) else absolute(include)
+    if "file" in document.get("mesh", {}):
+        document["mesh"]["file"] = absolute(document["mesh"]["file"])
+    for section in [*document.get("thermal_condition", []), *document.get("body", [])]:
+        for value in section.values():
+            if isinstance(value, dict) and "file" in value:
+                value["file"] = absolute(value["file"])
+    for body in document.get("body", []):
+        material = body.get("material")
+        if isinstance(material, str) and (material.endswith(".toml") or "/" in material):
+            body["material"] = absolute(material)
+    return document
+
+
+def _key_at(text: str, line: int) -> str | None:
+    """The path of the key that stands on a line of a written case."""
+    lines = text.splitlines()
+    section: list[str] = []
+    counts: dict[str, int] = {}
+    key = ""
+    for number, content in enumerate(lines, 1):
+        if content.startswith("["):
+            header, key = content.strip("[]"), ""
+            section = [header]
+            if content.startswith("[["):
+                counts[header] = counts.get(header, 0) + 1
+                own = itertools.takewhile(lambda below: not below.startswith("["), lines[number:])
+                names = [below.partition(" = ")[2].strip('"') for below in own if below.startswith("name = ")]
+                section.append(names[0] if names else str(counts[header]))
+        else:
+            key = content.partition(" = ")[0]
+        if number == line:
+            return ".".join([*section, key] if key else section) or None
+    return None

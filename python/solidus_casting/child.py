@@ -1,0 +1,228 @@
+"""Runs a case with the program as a child process."""
+
+from __future__ import annotations
+
+import csv
+import logging
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, Any
+
+from . import verbs
+from .case import Case, physics_option, with_keys
+from .errors import RunInterrupted
+
+logger = logging.getLogger("solidus_casting")
+
+_POLL = 0.1  # seconds between looks at the tables of a run
+
+
+@dataclass(frozen=True)
+class Progress:
+    """A step that a run has committed.
+
+    Attributes
+    ----------
+    time, end, step:
+        Where the run stands, where it ends (``None`` where the case does not say), and the size of the step [s].
+    number:
+        Of the step, from one.
+    row:
+        The whole row of ``steps.csv``, by header.
+    """
+
+    time: float
+    step: float
+    number: int
+    end: float | None = None
+    row: dict[str, str] = field(default_factory=dict, repr=False)
+
+    @property
+    def fraction(self) -> float | None:
+        """How much of the time is done, from 0 to 1."""
+        return None if not self.end else min(1.0, self.time / self.end)
+
+
+def run(case: Case | str | Path, output: str | Path | None = None, *, restart: bool = False, processes: int = 1,
+        physics: str | None = None, progress: Callable[[Progress], Any] | None = None,
+        options: tuple[str, ...] | list[str] = (), in_process: bool = False) -> Any:
+    """Runs a case and returns its :class:`Results`: with the program ``solidus`` as a child process, or in this one.
+
+    Parameters
+    ----------
+    case:
+        A :class:`Case`, a case file or a folder with a ``case.toml``.
+    output:
+        Folder of the results; by default that of the program, ``results/CASE/VARIANT``, where the case is a file. A case
+        that was made in Python and is in no file needs one.
+    restart:
+        Go on from the checkpoint in that folder.
+    processes:
+        More than one: under ``mpirun``.
+    physics:
+        ``"heat"`` or ``"thermomechanical"``, in place of what the case says.
+    progress:
+        Called with a :class:`Progress` after every step. An exception from it stops the run and is passed on.
+    options:
+        Options of PETSc.
+    in_process:
+        Run in this process, by :class:`Simulation`; `output` is needed then, and `processes` and `options` go to
+        :func:`initialize` and ``mpirun``.
+
+    Raises
+    ------
+    InputError
+        What the case has wrong.
+    RunStopped
+        The physics could not go on; ``error.results`` holds what was computed.
+    RunInterrupted
+        A ``KeyboardInterrupt``: Ctrl-C, behind a whole step. A second Ctrl-C ends the run at once.
+    """
+    if not isinstance(case, Case):
+        case = Case.load(case)
+    if in_process:
+        from .simulation import Simulation
+
+        if output is None or processes != 1 or options:
+            raise ValueError("a run in this process needs a folder for its results, and has the processes and options of "
+                             "solidus_casting.initialize()")
+        with Simulation(case, output, restart=restart, physics=physics) as simulation:
+            return simulation.run(progress=progress)
+    if output is None and case.file is None:
+        raise ValueError("where to? a case that is in no file needs a folder for its results: run(case, 'results/trial')")
+    if case.given().get("output", {}).get("folder") is None and output is None and case._assignments() is None:
+        raise ValueError("a case with sections added or removed needs a folder for its results: run(case, 'results/trial')")
+    with case.as_arguments() as arguments, tempfile.NamedTemporaryFile("r", prefix="solidus_note_") as note:
+        command = [str(verbs.program()), "run", *arguments, "--no-progress", *physics_option(physics)]
+        command += ["-o", str(Path(output).absolute())] if output is not None else []
+        command += ["--restart"] if restart else []
+        command += ["--", *options] if options else []
+        if processes > 1:
+            command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--oversubscribe", *command]
+        return _Child(command, case, None if output is None else Path(output).absolute(), note, processes > 1,
+                      progress).wait()
+
+
+class _Child:
+    def __init__(self, command: list[str], case: Case, folder: Path | None, note: IO[str], parallel: bool,
+                 progress: Callable[[Progress], Any] | None) -> None:
+        self._folder, self._note, self._parallel, self._progress = folder, note, parallel, progress
+        self._messages: list[str] = []
+        self._end = _end_time(case) if progress else None
+        self._rows = _Rows(folder / "steps.csv") if progress and folder else None
+        if progress and folder is None:
+            raise ValueError("progress needs the folder of the results: run(case, 'results/trial', progress=...)")
+        self._process = subprocess.Popen(
+            command, env=verbs.environment({"SOLIDUS_RESULTS_NOTE": note.name}), stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+        self._readers = [threading.Thread(target=self._read, args=(stream, messages), daemon=True)
+                         for stream, messages in ((self._process.stdout, False), (self._process.stderr, True))]
+        for reader in self._readers:
+            reader.start()
+
+    def _read(self, stream: IO[str], messages: bool) -> None:
+        with stream:
+            for line in stream:
+                line = line.rstrip("\n")
+                if messages:
+                    self._messages.append(line)
+                if line.startswith("warning:"):
+                    logger.warning(with_keys(line.removeprefix("warning:").strip()))
+                elif line.strip() and not line.startswith("solidus:"):
+                    logger.info(with_keys(line))
+
+    def wait(self) -> Any:
+        from .results import Results
+
+        asked = False
+        try:
+            while True:
+                try:
+                    self._watch()
+                    break
+                except KeyboardInterrupt:
+                    if asked:
+                        self._process.kill()
+                        break
+                    asked = True
+                    self._ask_to_stop()
+        except BaseException:  # of the caller's own function
+            self._ask_to_stop()
+            self._process.wait()
+            raise
+        code = self._process.wait()
+        for reader in self._readers:
+            reader.join(timeout=5)
+        folder = self._folder or Path(self._note.read().strip() or ".")
+        results = Results(folder) if (folder / "steps.csv").exists() else None
+        errors = "\n".join(self._messages)
+        if asked or code == 130:
+            raise RunInterrupted(verbs.error_text(errors), results)
+        if code != 0:
+            verbs.raise_for(code, errors, results)
+        return results if results is not None else Results(folder)
+
+    def _watch(self) -> None:
+        """Returns when the process has ended and its last rows were told of."""
+        while self._process.poll() is None:
+            self._tell()
+            time.sleep(_POLL)
+        self._tell()
+
+    def _tell(self) -> None:
+        for row in self._rows.new() if self._rows else ():
+            self._progress(Progress(float(row["time[s]"]), float(row["dt[s]"]), int(float(row["step[1]"])), self._end, row))
+
+    def _ask_to_stop(self) -> None:
+        # mpirun ends its processes within a second of an interrupt, but hands SIGUSR1 on.
+        self._process.send_signal(signal.SIGUSR1 if self._parallel else signal.SIGINT)
+
+
+class _Rows:
+    """Rows that a table grows by; of a table that begins anew, those of the new one."""
+
+    def __init__(self, file: Path) -> None:
+        self._file, self._known = file, self._identity(file)
+        self._position = file.stat().st_size if file.exists() else 0
+        self._header: list[str] | None = None
+
+    @staticmethod
+    def _identity(file: Path) -> Any:
+        return file.stat().st_ino if file.exists() else None
+
+    def new(self) -> list[dict[str, str]]:
+        if not self._file.exists():
+            return []
+        size = self._file.stat().st_size
+        if self._identity(self._file) != self._known or size < self._position:
+            self._known, self._position, self._header = self._identity(self._file), 0, None
+        if size == self._position:
+            return []
+        with self._file.open(newline="") as table:
+            if self._header is None:
+                header = table.readline()
+                if not header.endswith("\n"):
+                    return []
+                self._header = next(csv.reader([header]))
+                self._position = max(self._position, len(header.encode()))
+            table.seek(self._position)
+            text = table.read()
+        whole = text[:text.rfind("\n") + 1]
+        self._position += len(whole.encode())
+        return [dict(zip(self._header, row)) for row in csv.reader(whole.splitlines())]
+
+
+def _end_time(case: Case) -> float | None:
+    """The end of the run [s]; nothing where its unit is not a plain one."""
+    end = case.given().get("time", {}).get("end") or case.resolved().get("time", {}).get("end")
+    if not isinstance(end, str):
+        return None
+    number, _, unit = end.partition(" ")
+    factor = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0, "hour": 3600.0, "hours": 3600.0}.get(unit.strip())
+    return None if factor is None else float(number) * factor

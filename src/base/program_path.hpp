@@ -1,0 +1,16 @@
+/// The program that this library belongs to: its own file, unless a host program (an interpreter) has
+/// another.
+#pragma once
+
+#include <filesystem>
+
+namespace solidus {
+
+/// Returns the full path of the program `solidus`, which its data are found from and which reads meshes in
+/// processes of its own. By default the program of this process.
+std::filesystem::path program_path();
+
+/// Names the program for a process that is not the program itself. Call it before anything else.
+void set_program_path(std::filesystem::path program);
+
+}  // namespace solidus

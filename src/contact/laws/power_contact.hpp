@@ -1,0 +1,75 @@
+/// Contact conduction by a power of the pressure (monograph 3.49 beside the gas):
+///
+///   h = h_open(0, Θ_g) + h_co (t_N/H_e)^ε   for ε > 0
+///   h = h_co                                for ε = 0
+///
+/// Symbols: t_N contact pressure [Pa], h_co [W/(m² K)] from body to body, H_e Vickers hardness [Pa], ε a
+/// number.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "contact/laws/contact_law.hpp"
+
+namespace solidus::contact {
+
+/// The key of the hardness, which several laws have.
+template <class Law>
+void hardness_key(Section<Law>& s) {
+  s.quantity("hardness", &Law::hardness, "Pa")
+      .positive()
+      .doc("Hardness H_e of 3.49, needed with an exponent; of 3.48, needed with spots and gas.");
+}
+
+struct PowerContact {
+  static constexpr std::string_view name = "power",
+                                    doc =
+                                        "the conductance, or with an exponent h_open(0) + conductance (p / "
+                                        "hardness)^exponent (3.49)";
+  double conductance = 0;            ///< h_co [W/(m² K)]
+  double exponent = 0;               ///< ε
+  std::optional<double> hardness{};  ///< H_e [Pa], needed when the exponent is not zero
+
+  static void keys(Section<PowerContact>& s) {
+    s.quantity("conductance", &PowerContact::conductance, "W/m2/K")
+        .positive()
+        .doc(
+            "h_co, from body to body: where the bodies touch, and where the gap law starts at a gap of "
+            "zero.");
+    s.key("exponent", &PowerContact::exponent)
+        .initially(0.0)
+        .range(0, 2)
+        .doc(
+            "Exponent of h = h_open(0) + h_co (p / hardness)^exponent where the bodies touch (3.49); zero: "
+            "h_co.");
+    hardness_key(s);
+  }
+
+  bool beside_gas() const { return exponent > 0; }
+  std::optional<double> without_pressure() const { return conductance; }
+  LawConductance at(double pressure, double) const {
+    if (exponent == 0) return {conductance, 0, 0, 0};
+    if (!(pressure > 0)) return {};
+    const double h = conductance * std::pow(pressure / *hardness, exponent);
+    return {h, exponent * h / pressure, 0, 0};
+  }
+
+  std::optional<Objection> objection() const {
+    if (!(conductance >= 0)) return Objection{"the conductance of an interface is negative", "zero or more"};
+    if (!(exponent >= 0)) return Objection{"the exponent of contact conduction is negative", "zero or more"};
+    if (exponent > 0 && !(hardness && *hardness > 0))
+      return Objection{"pressure-dependent conduction (exponent above zero) needs the hardness",
+                       "a hardness above zero"};
+    return std::nullopt;
+  }
+  std::vector<Remark> remarks(std::string_view contact) const {
+    if (conductance >= 20 && conductance <= 1e6) return {};
+    return {{conductance > 1e8,
+             fmt::format("the contact '{}' conducts {:g} W/m2/K where it is closed", contact, conductance),
+             "usual are 100 to 50000 W/m2/K between casting and mould"}};
+  }
+};
+
+}  // namespace solidus::contact

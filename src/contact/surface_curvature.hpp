@@ -1,0 +1,41 @@
+/// Curvature of a contact surface, and the plane gap that resists heat as a gap along a curved face does.
+///
+/// Heat that crosses a gap of the width g goes along the normals, which spread where the face is convex: at
+/// the distance s from the face the area is a(s) = (1 + κ_1 s)(1 + κ_2 s) of that on the face. With one
+/// conductivity in the gap its resistance per area of the face is that of a plane gap of the width
+///
+///   g' = ∫_0^g ds/a(s) = [ln(1 + κ_1 g) − ln(1 + κ_2 g)]/(κ_1 − κ_2)
+///
+/// which for concentric cylinders is r_1 ln(r_2/r_1) and for spheres r_1 (r_2 − r_1)/r_2, whichever of the
+/// two faces it is counted from. κ_1, κ_2 principal curvatures, positive where the face is convex (seen from
+/// the gap) [1/m].
+#pragma once
+
+#include <vector>
+
+#include "base/types.hpp"
+#include "contact/surface.hpp"
+
+namespace solidus::contact {
+
+struct SurfaceCurvature {
+  double first = 0, second = 0;  ///< κ_1, κ_2 [1/m]
+
+  /// a(s): the area at a distance from the face over that on it; at least k_least_area.
+  double area(double distance) const;
+  /// g' [m]; a gap that is closed or penetrated stays as it is.
+  double plane_gap(double gap) const;
+  /// dg'/dg = 1/a(g).
+  double plane_gap_slope(double gap) const { return gap > 0 ? 1 / area(gap) : 1; }
+
+  /// Normals of a concave face meet where 1 + κ s = 0; no gap reaches nearer to that place than this.
+  static constexpr double k_least_area = 0.05;
+};
+
+/// The curvatures of every face in the reference configuration, from the normals at the centres of the faces
+/// that share a node with it and stand at less than `feature_angle` to it [rad]. Zero where they are those of
+/// a plane.
+std::vector<SurfaceCurvature> surface_curvatures(const ContactSurface& surface, AnalysisKind kind,
+                                                 double feature_angle);
+
+}  // namespace solidus::contact

@@ -1,0 +1,38 @@
+/// The coupling schemes that every program has, in the order of the reference page.
+#include "coupling/schemes/block_iterative.hpp"
+#include "coupling/schemes/double_pass.hpp"
+#include "coupling/schemes/isentropic.hpp"
+#include "coupling/schemes/isothermal.hpp"
+#include "coupling/schemes/simultaneous.hpp"
+
+namespace solidus::coupling {
+
+Kinds<SchemeKind>& schemes() {
+  static Kinds<SchemeKind> kinds = [] {
+    Kinds<SchemeKind> all("coupling scheme");
+    all.add(kind_of<SchemeKind, SchemeKindOf<IsentropicScheme>>());
+    all.add(kind_of<SchemeKind, SchemeKindOf<IsothermalScheme>>());
+    all.add(kind_of<SchemeKind, SchemeKindOf<DoublePassScheme>>());
+    all.add(kind_of<SchemeKind, SchemeKindOf<BlockIterativeScheme>>());
+    all.add(kind_of<SchemeKind, SchemeKindOf<SimultaneousKeys>>());
+    return all;
+  }();
+  return kinds;
+}
+
+std::shared_ptr<const SchemeKind> default_scheme() {
+  static const std::shared_ptr<const SchemeKind> kind = scheme_kind(IsentropicScheme{});
+  return kind;
+}
+
+std::unique_ptr<CouplingScheme> single_phase(const Phases& phases) {
+  return std::make_unique<IsothermalSplit>(phases);
+}
+
+std::optional<Objection> against_entropy(const SchemeContext& c) {
+  if (c.heating) return std::nullopt;
+  return Objection{"the isentropic split holds entropy, which structural_heating = \"none\" loses",
+                   "structural_heating \"entropy\" or \"energy\", or scheme = \"isothermal\""};
+}
+
+}  // namespace solidus::coupling

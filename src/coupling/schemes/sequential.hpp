@@ -1,0 +1,49 @@
+/// What the isentropic and the isothermal split tell of themselves alike: both solve the phases in turn, in
+/// an order (sequential_split.hpp).
+#pragma once
+
+#include "coupling/add_scheme.hpp"
+#include "coupling/phase_order.hpp"
+
+namespace solidus::coupling {
+
+struct SequentialScheme {
+  std::optional<PhaseOrder> order;  ///< absent: order_in() chooses
+
+  /// As the case says, or heat first unless friction between bodies that do not melt, inertia or a printed
+  /// form of structural heat forbids it.
+  PhaseOrder order_in(const SchemeContext& c) const {
+    if (order) return *order;
+    return (c.rubs && !c.melts) || c.as_printed || c.printed_form() || c.inertia ? PhaseOrder::mechanics_first
+                                                                                 : PhaseOrder::heat_first;
+  }
+  bool lags_a_step(const SchemeContext& c) const {
+    return !c.inertia && order_in(c) == PhaseOrder::mechanics_first;
+  }
+  std::optional<Objection> objection(const SchemeContext& c) const {
+    if (order == PhaseOrder::heat_first && c.printed_form())
+      return Objection{"printed forms of structural heat count from a mechanical phase that comes first",
+                       "order = \"mechanics_first\", or structural_heating \"energy\" or \"entropy\""};
+    return std::nullopt;
+  }
+
+ protected:
+  template <class Scheme>
+  static void declare(Section<Scheme>& s) {
+    s.choice(
+         "order", static_cast<std::optional<PhaseOrder> Scheme::*>(&SequentialScheme::order),
+         {{"automatic", std::nullopt,
+           "heat_first; mechanics_first with friction where nothing melts, whose heat is then conducted in "
+           "the step that makes it, with inertia and with printed forms of structural heat"},
+          {"heat_first", PhaseOrder::heat_first,
+           "displacements and stresses belong to the temperatures of the step's end; what deformation and "
+           "friction warm is conducted in the next step"},
+          {"mechanics_first", PhaseOrder::mechanics_first,
+           "as printed (4.40 - 4.54): displacements and stresses belong to the temperatures of the step's "
+           "start"}})
+        .initially("automatic")
+        .doc("Which phase of the isentropic and of the isothermal split comes first in a step.");
+  }
+};
+
+}  // namespace solidus::coupling

@@ -1,0 +1,141 @@
+/// Conditions of a heat system: surfaces, prescribed temperatures and sources: how the power in a body is
+/// shared out over its nodes.
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "base/errors.hpp"
+#include "heat/heat_system.hpp"
+#include "mesh/block_geometry.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+template <class Map>
+const typename Map::mapped_type& find(const Map& groups, const std::string& name, const char* what) {
+  const auto found = groups.find(name);
+  if (found != groups.end()) return found->second;
+  std::string allowed;
+  for (const auto& group : groups) allowed += (allowed.empty() ? "" : ", ") + group.first;
+  throw InputError({}, std::string("no ") + what + " '" + name + "' in the mesh", allowed);
+}
+
+}  // namespace
+
+void HeatSystem::add_conditions(const Conditions& conditions) {
+  const auto add_surface = [&](const auto& condition) {
+    surfaces_.emplace_back(mesh_, kind_,
+                           active_.part(mesh_, find(mesh_.surfaces, condition.surface, "surface")),
+                           condition.name, SurfaceLaw(condition), closed_);
+  };
+  for (const Flux& flux : conditions.fluxes) add_surface(flux);
+  for (const Film& film : conditions.films) add_surface(film);
+  for (const Radiation& radiation : conditions.radiations) add_surface(radiation);
+  add_sources(conditions.sources);
+  add_prescribed(conditions.temperatures);
+  surface_power_.resize(surfaces_.size());
+  source_power_.resize(sources_.size());
+  placed_ =
+      std::any_of(surfaces_.begin(), surfaces_.end(), [](const SurfaceHeat& s) { return s.placed(); }) ||
+      std::any_of(sources_.begin(), sources_.end(), [](const Volume& v) { return v.placed(); }) ||
+      std::any_of(prescribed_.begin(), prescribed_.end(),
+                  [](const Prescribed& p) { return !p.value.uniform(); });
+}
+
+// Spread over the nodes as their heat is stored, so that a uniform source warms them alike.
+void HeatSystem::add_sources(const std::vector<Source>& sources) {
+  for (const Source& source : sources) {
+    std::map<std::string, int> bodies;
+    for (std::size_t i = 0; i < mesh_.bodies.size(); ++i) bodies[mesh_.bodies[i].name] = static_cast<int>(i);
+    const int body = find(bodies, source.body, "body");
+    Volume volume{.name = source.name, .power = source.power, .factor = source.factor};
+    if (volume.placed() && at_nodes_[static_cast<std::size_t>(body)] == 0)
+      add_gauss_shares(body, volume);
+    else
+      add_nodal_shares(body, volume);
+    volume.heat.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
+    sources_.push_back(std::move(volume));
+  }
+}
+
+void HeatSystem::add_prescribed(const std::vector<PrescribedTemperature>& conditions) {
+  std::vector<int> holder(mesh_.x.size(), -1);  // the later condition in the list holds
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    for (Index node : find(mesh_.node_sets, conditions[i].node_set, "group"))
+      holder[static_cast<std::size_t>(node)] = static_cast<int>(i);
+  for (const PrescribedTemperature& c : conditions) prescribed_.push_back({c.name, c.value, {}, {}, {}});
+  fixed_.assign(mesh_.x.size(), 0);
+  for (std::size_t node = 0; node < holder.size(); ++node) {
+    if (!active_.node(static_cast<Index>(node))) {
+      fixed_[node] = 1;
+      continue;
+    }
+    if (holder[node] < 0) continue;
+    fixed_[node] = 1;
+    Prescribed& p = prescribed_[static_cast<std::size_t>(holder[node])];
+    p.nodes.push_back(static_cast<Index>(node));
+    if (!p.value.uniform()) p.x.push_back(mesh_.x[node]);
+  }
+  for (Prescribed& p : prescribed_) p.now.resize(p.nodes.size());
+}
+
+void HeatSystem::add_nodal_shares(int body, Volume& volume) const {
+  std::vector<double> weight(static_cast<std::size_t>(mesh_.n_owned_nodes), 0.0);
+  for (const mesh::Block& block : mesh_.blocks) {
+    if (block.body != body || !active_.body(body)) continue;
+    const PackVector<Lane> weights = at_nodes_[static_cast<std::size_t>(body)] != 0
+                                         ? mesh::nodal_weights(mesh_, block, kind_)
+                                         : mesh::basis_integrals(mesh_, block, kind_);
+    const int n = mesh::node_count(block.shape);
+    for (Index e = 0; e < block.size(); ++e)
+      for (int a = 0; a < n; ++a) {
+        const Index node = block.element(e)[a];
+        if (node < mesh_.n_owned_nodes)
+          weight[static_cast<std::size_t>(node)] +=
+              weights[static_cast<std::size_t>(e / k_lanes * n + a)][e % k_lanes];
+      }
+  }
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    if (weight[i] == 0) continue;
+    volume.shares.push_back(
+        {static_cast<Index>(i), static_cast<Index>(volume.placed() ? volume.x.size() : 0), weight[i]});
+    if (volume.placed()) volume.x.push_back(mesh_.x[i]);
+  }
+}
+
+/// Σ_q N_i(x_q) R(x_q) w_q over the elements around the owned nodes.
+void HeatSystem::add_gauss_shares(int body, Volume& volume) const {
+  for (const mesh::Block& block : mesh_.blocks) {
+    if (block.body != body || !active_.body(body)) continue;
+    const mesh::BlockGeometry g(mesh_, block, kind_,
+                                mesh::gauss_rule(block.shape, 2 * mesh::order(block.shape) + 1));
+    for (Index e = 0; e < block.size(); ++e)
+      for (int q = 0; q < g.n_points; ++q) {
+        const double weight = g.weight_at(e / k_lanes, q)[e % k_lanes];
+        const auto point = static_cast<Index>(volume.x.size());
+        Position& x = volume.x.emplace_back();
+        for (int a = 0; a < g.n_nodes; ++a) {
+          const Index node = block.element(e)[a];
+          const double n = g.values[static_cast<std::size_t>(q * g.n_nodes + a)];
+          for (std::size_t i = 0; i < 3; ++i) x[i] += n * mesh_.x[static_cast<std::size_t>(node)][i];
+          if (node < mesh_.n_owned_nodes) volume.shares.push_back({node, point, n * weight});
+        }
+      }
+  }
+}
+
+void HeatSystem::Volume::set_time(double time) {
+  const std::size_t n_points = placed() ? x.size() : 1;
+  now.resize(n_points);
+  factor_now.resize(n_points);
+  power.values(x, time, now);
+  factor.values(x, time, factor_now);
+  std::fill(heat.begin(), heat.end(), 0.0);
+  for (const Share& share : shares) {
+    const auto point = static_cast<std::size_t>(share.point);
+    heat[static_cast<std::size_t>(share.node)] += now[point] * factor_now[point] * share.weight;
+  }
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,96 @@
+/// Shrinkage pores of the metal in mixed elements: volume that the casting has and its metal has not.
+///
+/// Metal that freezes where nothing feeds it is drawn into tension. Liquid metal carries none to speak of: at
+/// a tension p_c a pore opens. In mush the network of dendrites has to give way as well, with k_pore_strength
+/// times its strength, σ(f_S) (material/melt.hpp). In mixed elements, where p is the mean stress (positive in
+/// tension) and div u − e_v the volume that the metal does not fill, the pore fraction is
+///
+///   θ(p) = ⟨p − p_c⟩/M                      below coherency,
+///   θ(p) = θ_n + ⟨p − p_c − σ(f_S)⟩/M_σ      in mush,  M_σ = k_pore_strengths σ(f_S),
+///   θ = θ_n                                 in solid metal,
+///
+/// p_c being pore_tension of the material and k_least_pore_share M at least, with f_S of t_n, and r_p = ∫ N
+/// (div u − e_v − θ) dV − S p. The law of the metal sees e_v alone. Below coherency θ is a function of p
+/// without memory, the derivative of the convex ⟨p − p_c⟩²/2M: pores that are pressed or fed close, and their
+/// work is stored and not lost. In mush a pore grows or stays, and its work, p Δθ ≥ 0, is lost. Both are
+/// counted with the work of the sub-scales.
+///
+/// M is the modulus 2Ĝ of the melt, some heads of metal: a pool opens its pores in its upper part first,
+/// where its pressure is least.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "base/common_packs.hpp"
+#include "base/simd.hpp"
+#include "base/types.hpp"
+#include "material/material.hpp"
+#include "material/melt.hpp"
+
+namespace solidus::mechanics {
+
+/// Strengths of the mush at k_mush_rate that a pore in it has to overcome: walls that hold a mush strain it
+/// by some 1e-3/s, which is no reason for a pore.
+inline constexpr double k_pore_strength = 5;
+/// M_σ in such strengths: pores of 1e-2 in a step cost a tenth of them.
+inline constexpr double k_pore_strengths = 10;
+/// p_c is at least this share of M, which a strain increment of as much costs in a melt: without it the
+/// viscosity of the numerical melt alone would open pores.
+inline constexpr double k_least_pore_share = 0.02;
+
+/// The pores of a block with one point an element, eight elements at a time. None in a material that does not
+/// melt, nor in one whose card gives the viscosity of its melt: pores would be of that viscosity.
+class Pores {
+ public:
+  Pores(const material::Material& material, Index n_batches);
+
+  /// @param solid_fraction  at t_n
+  /// @param melt_modulus    StepStart::melt_modulus(), M [Pa]
+  /// @param before          θ_n
+  void begin_step(Index batch, const Lane& solid_fraction, double melt_modulus, const Lane& before) {
+    if (held_.empty()) return;
+    const LaneMask melt = solid_fraction < Lane(mush_.coherency);
+    const LaneMask solid = solid_fraction >= Lane(1.0);
+    const Lane strength = Lane(k_pore_strength) * mush_.strength(select(solid, Lane(0.0), solid_fraction));
+    const Lane modulus(melt_modulus);
+    const Lane softness = Lane(1.0) / select(melt, modulus, max(modulus, Lane(k_pore_strengths) * strength));
+    softness_[at(batch)] = select(solid, Lane(0.0), softness);
+    threshold_[at(batch)] =
+        Lane(std::max(tension_, k_least_pore_share * melt_modulus)) + select(melt, Lane(0.0), strength);
+    held_[at(batch)] = select(melt, Lane(0.0), before);
+  }
+  /// θ at a mean stress [Pa].
+  Lane fraction(Index batch, const Lane& pressure) const {
+    if (held_.empty()) return Lane(0.0);
+    return held_[at(batch)] + softness_[at(batch)] * max(pressure - threshold_[at(batch)], Lane(0.0));
+  }
+  /// dθ/dp [1/Pa].
+  Lane compliance(Index batch, const Lane& pressure) const {
+    if (held_.empty()) return Lane(0.0);
+    return select(pressure > threshold_[at(batch)], softness_[at(batch)], Lane(0.0));
+  }
+  /// Keeps θ at the end of a step for get() and returns it.
+  Lane finish(Index batch, const Lane& pressure) {
+    if (held_.empty()) return Lane(0.0);
+    return now_[at(batch)] = fraction(batch, pressure);
+  }
+
+  /// BlockKernel::keep_fields() and get_field().
+  void keep() { kept_ = now_; }
+  void get(Index n_elements, std::span<double> out) const;
+
+  std::size_t bytes() const;
+
+ private:
+  static std::size_t at(Index batch) { return static_cast<std::size_t>(batch); }
+
+  double tension_;
+  material::MushViscosity mush_;
+  PackVector<Lane> softness_, threshold_,
+      held_;  ///< 1/M, p_c with the strength, and θ_n of what was coherent
+  PackVector<Lane> now_, kept_;
+};
+
+}  // namespace solidus::mechanics

@@ -1,0 +1,30 @@
+// Stands in a build without Gmsh for all that needs it.
+#include "base/errors.hpp"
+#include "mesh/casting_geometry.hpp"
+#include "mesh/gmsh_reader.hpp"
+
+namespace solidus::mesh {
+
+void require_gmsh(const std::string& path) {
+  throw InputError({path}, "this file needs Gmsh, and this program was built without it (SOLIDUS_GMSH=OFF)",
+                   "a mesh: .msh (version 2.2 or 4.1), Abaqus .inp or .vtu; or a build with Gmsh");
+}
+
+RawMesh read_with_gmsh(const MeshSource& source, FileFormat, const CastingGeometry*) {
+  require_gmsh(source.path);
+  return {};
+}
+
+std::string gmsh_version() {
+  return "not in this build";
+}
+
+int n_meshing_attempts() {
+  return 0;
+}
+
+std::string meshing_attempt(int) {
+  return "without Gmsh";
+}
+
+}  // namespace solidus::mesh

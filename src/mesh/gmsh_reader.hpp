@@ -1,0 +1,24 @@
+/// The part of the readers that needs Gmsh. A build without Gmsh (-DSOLIDUS_GMSH=OFF) has gmsh_absent.cpp in
+/// the place of gmsh_reader.cpp, geometry_groups.cpp and casting_mesh.cpp.
+#pragma once
+
+#include <string>
+
+#include "mesh/casting_geometry.hpp"
+#include "mesh/file_format.hpp"
+#include "mesh/raw_mesh.hpp"
+
+namespace solidus::mesh {
+
+/// Reads a mesh of a format that Solidus does not read by itself, or meshes a geometry, in this process.
+/// @param casting  makes mould and riser around the parts of a file of CAD; may be null
+/// Throws InputError; without Gmsh always.
+RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const CastingGeometry* casting);
+
+/// Throws InputError that names the file where this program was built without Gmsh.
+void require_gmsh(const std::string& path);
+
+/// "4.8.4", or "not in this build".
+std::string gmsh_version();
+
+}  // namespace solidus::mesh

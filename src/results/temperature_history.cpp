@@ -1,0 +1,70 @@
+#include "results/temperature_history.hpp"
+
+#include <limits>
+#include <string>
+#include <unordered_map>
+
+#include "base/errors.hpp"
+#include "mesh/vtu_pieces.hpp"
+#include "results/pvd.hpp"
+
+namespace solidus::results {
+
+namespace {
+
+namespace fs = std::filesystem;
+using boost::property_tree::ptree;
+using LocalNodes = std::unordered_map<GlobalIndex, Index>;  ///< by the input's number
+
+void read_file(const fs::path& path, const LocalNodes& local, std::vector<double>& temperature) {
+  const mesh::VtuFile file(path);
+  if (file.type() == "PUnstructuredGrid") {
+    for (const auto& [tag, child] : children(file, "PUnstructuredGrid"))
+      if (tag == "Piece")
+        read_file(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""), local, temperature);
+    return;
+  }
+  for (const auto& [tag, piece] : children(file, "UnstructuredGrid")) {
+    if (tag != "Piece") continue;
+    const ptree *numbers = mesh::find_array(piece, "PointData", "node"),
+                *values = mesh::find_array(piece, "PointData", "temperature");
+    if (numbers == nullptr || values == nullptr)
+      file.fail("the file has no temperatures of numbered nodes",
+                "fields that hold the temperature: output.fields = [] or with \"temperature\"");
+    const std::size_t n = piece_size(file, piece).points;
+    const std::vector<double> node = file.numbers(*numbers, n), value = file.numbers(*values, n);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const auto found = local.find(static_cast<GlobalIndex>(node[i])); found != local.end())
+        temperature[static_cast<std::size_t>(found->second)] = value[i];
+  }
+}
+
+}  // namespace
+
+std::vector<TemperatureMoment> read_temperature_history(const fs::path& collection, const mesh::Mesh& mesh,
+                                                        const algebra::ActiveSet& active) {
+  if (!fs::exists(collection))
+    throw InputError({collection.string()}, "the run has left no fields", "[output] with `every` or `times`");
+  LocalNodes local;
+  for (Index i = 0; i < mesh.n_nodes(); ++i)
+    if (active.node(i)) local.emplace(mesh.input_node[static_cast<std::size_t>(i)], i);
+  std::vector<TemperatureMoment> history;
+  const PvdCollection all(collection, std::numeric_limits<double>::infinity());
+  for (const PvdCollection::Entry& entry : all.entries()) {
+    if (entry.part != 0) continue;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    TemperatureMoment moment{entry.time, std::vector<double>(mesh.x.size(), unknown)};
+    const fs::path path = collection.parent_path() / entry.file;
+    read_file(path, local, moment.temperature);
+    for (const auto& [number, node] : local)
+      if (!(moment.temperature[static_cast<std::size_t>(node)] > 0))
+        throw InputError({path.string()}, "the file has no temperature of node " + std::to_string(number));
+    history.push_back(std::move(moment));
+  }
+  if (history.size() < 2)
+    throw InputError({collection.string()}, "the run has left the fields of fewer than two times",
+                     "[output] with `every` or `times`");
+  return history;
+}
+
+}  // namespace solidus::results
