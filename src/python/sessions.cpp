@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/errors.hpp"
+#include "mesh/vtk_cells.hpp"
 #include "model/assembly.hpp"
 #include "model/run.hpp"
 #include "python/bindings.hpp"
@@ -123,9 +124,9 @@ class Driver {
     std::vector<std::int32_t> body;
     std::vector<std::uint8_t> types;
     for_cells([&](const mesh::Block& block, Index e, std::size_t) {
-      for (const int a : results::vtk_node_order(block.shape)) connectivity.push_back(block.element(e)[a]);
+      for (const int a : mesh::vtk_node_order(block.shape)) connectivity.push_back(block.element(e)[a]);
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-      types.push_back(static_cast<std::uint8_t>(results::vtk_cell_type(block.shape)));
+      types.push_back(static_cast<std::uint8_t>(mesh::vtk_cell_type(block.shape)));
       body.push_back(block.body);
       element.push_back(block.input_element[static_cast<std::size_t>(e)]);
     });

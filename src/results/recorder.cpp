@@ -35,8 +35,8 @@ GlobalHistory::Options global_columns(const coupling::Phases& phases, const Reco
                                  .dynamics = dynamic(phases),
                                  .stability = phases.audits_stability(),
                                  .heat = phases.heat != nullptr,
-                                 .bodies = options.shots,
-                                 .internal_energy = follows_internal_energy(phases, options)};
+                                 .internal_energy = follows_internal_energy(phases, options),
+                                 .bodies = options.shots};
   if (phases.mechanics != nullptr)
     for (const contact::ContactPair* pair : phases.contacts)
       columns.pairs.push_back({pair->spec().name, pair->spec().friction.has_value(),

@@ -141,8 +141,7 @@ TEST(ConcentricCylinders, ConductThroughAWideGapAsTheClosedForm) {
       spec.slave = from_outside ? "upper_bottom" : "lower_top";
       spec.master = from_outside ? "lower_top" : "upper_bottom";
       spec.search_distance = 0.05;
-      spec.heat->gap_law = HeatLaw::GapLaw::gas;
-      spec.heat->gas_conductivity = k_gas;
+      spec.heat->gap_law = contact::gap_law(contact::GasGap{.conductivity = k_gas});
       contact::ContactPair pair(mesh, c.kind, spec, std::vector<double>{70e9, 210e9});
       const Steady found = steady(mesh, c.kind, pair);
       const double resistance =

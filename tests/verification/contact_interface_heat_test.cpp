@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include "contact/laws/power_contact.hpp"
 #include "contact_bodies.hpp"
 #include "coupling_bodies.hpp"
 
@@ -35,7 +36,7 @@ Coupled blocks() {
   c.start = {k_cold, k_cold};
   c.contact = test::interface();
   c.contact->heat.emplace();
-  c.contact->heat->conductance = k_conductance;
+  c.contact->heat->contact_law = contact::contact_law(contact::PowerContact{k_conductance});
   c.contact->heat->slave_resistance = k_slave_resistance;
   c.contact->interface_heat_capacity = k_capacity;
   for (const char* body : {"lower", "upper"}) {

@@ -3,6 +3,8 @@
 /// the last state, each computed from the fields of its moment.
 #include <gtest/gtest.h>
 
+#include "contact/laws/constant_gap.hpp"
+#include "contact/laws/power_contact.hpp"
 #include "casting_bodies.hpp"
 
 namespace solidus {
@@ -101,8 +103,8 @@ TEST(EnergyForm, ClosesTheFirstLawForAnyStepInBothSplits) {
 /// A casting that shrinks by 4 % while it freezes, with tables that bend within its temperatures.
 Coupled bending_casting() {
   Coupled c = casting(5e6);
-  c.contact->heat->conductance = 2e4;
-  c.contact->heat->open_conductance = 2e4;
+  c.contact->heat->contact_law = contact::contact_law(contact::PowerContact{2e4});
+  c.contact->heat->gap_law = contact::gap_law(contact::ConstantGap{2e4});
   material::Material& melt = c.materials[1];
   melt.phase_changes[0].volume_change = -0.04;
   melt.young_modulus = Table({273, 750, 850, 932}, {69e9, 50e9, 30e9, 26e9});

@@ -207,7 +207,7 @@ TEST(HeatTransfer, ThatIsSmoothHasASlopeThatDoesNotJumpFromContactToGap) {
 
 TEST(HeatTransfer, ThroughBothSidesAddsTheirResistances) {
   HeatTransferSpec spec;
-  spec.conductance = 2300;
+  spec.contact_law = contact_law(PowerContact{2300});
   for (const double share : {0.5, 0.2}) {
     spec.slave_resistance = share;
     const HeatTransferLaw law(spec);
