@@ -16,10 +16,10 @@ namespace solidus::contact {
 struct GasGap {
   static constexpr std::string_view name = "gas",
                                     doc = "conduction through gas, k / (gap + k / open_conductance) (3.50)";
-  double conductivity = 0;                 ///< k_a [W/(m K)]
-  double temperature_jump = 0;             ///< c_g [m/K], between rough surfaces only
+  double conductivity = 0;                   ///< k_a [W/(m K)]
+  double temperature_jump = 0;               ///< c_g [m/K], between rough surfaces only
   std::optional<double> open_conductance{};  ///< h_o, between smooth surfaces only; absent: that of contact
-  bool rough = false;                      ///< set by begin()
+  bool rough = false;                        ///< set by begin()
 
   static void keys(Section<GasGap>& s) {
     s.quantity("gas_conductivity", &GasGap::conductivity, "W/m/K")

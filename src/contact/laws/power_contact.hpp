@@ -28,8 +28,8 @@ struct PowerContact {
                                     doc =
                                         "the conductance, or with an exponent h_open(0) + conductance (p / "
                                         "hardness)^exponent (3.49)";
-  double conductance = 0;          ///< h_co [W/(m² K)]
-  double exponent = 0;             ///< ε
+  double conductance = 0;            ///< h_co [W/(m² K)]
+  double exponent = 0;               ///< ε
   std::optional<double> hardness{};  ///< H_e [Pa], needed when the exponent is not zero
 
   static void keys(Section<PowerContact>& s) {

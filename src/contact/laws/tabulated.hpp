@@ -13,7 +13,7 @@ namespace solidus::contact {
 /// The part that both laws share.
 struct Tabulated {
   std::optional<Table> table{};  ///< for all temperatures; absent: those of [[contact.heat.at]]
-  TableFamily family;          ///< set by take()
+  TableFamily family;            ///< set by take()
 
   bool of_temperature() const { return family.of_temperature(); }
   std::vector<double> temperatures() const { return family.temperatures(); }
