@@ -102,7 +102,6 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
   a.phases.mechanics = a.mechanics.get();
   a.coherency = std::make_unique<coupling::Coherency>(a.mesh, a.materials, a.mechanics->active());
   if (a.coherency->melts()) a.phases.coherency = a.coherency.get();
-  a.initial.mechanics = a.mechanics->initial_state();
 }
 
 void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly& a) {
@@ -241,6 +240,7 @@ void build(const CaseSpec& spec, Assembly& a) {
           *a.mechanics, structural_form(spec), spec.heat.integration == heat::Integration::closed);
       a.phases.structural = a.structural.get();
     }
+    a.initial.mechanics = a.mechanics->initial_state();  // with what structural heat keeps at the points
   }
   if (spec.has_heat()) build_heat(spec, start, a);
   if (spec.coupled())

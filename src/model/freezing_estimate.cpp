@@ -238,6 +238,9 @@ double reach(const FreezingProblem& problem, double time) {
 
 FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
   constexpr double k_growth = 1.05, k_longest = 3e9;  // a century [s]
+  // Hundreds are usual. Where contact under pressure conducts otherwise than a gap of zero, the skin may go
+  // to and fro between both without end.
+  constexpr int k_most_steps = 5000;
   FreezingEstimate estimate;
   Line line(problem);
   const material::Material& metal = *problem.metal;
@@ -246,7 +249,11 @@ FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
       metal.conductivity.value(solidus) / (metal.density * metal.specific_heat.value(solidus));
   double time = 0, dt = 1e-3 * line.radius() * line.radius() / diffusivity;
   Drops sum;
-  while (!line.frozen()) {
+  for (int n = 0; !line.frozen(); ++n) {
+    if (n == k_most_steps) {
+      estimate.gave_up = true;
+      return estimate;
+    }
     if (time > k_longest || !(dt > 1e-12)) {
       estimate.rest = line.hottest();
       return estimate;

@@ -68,6 +68,7 @@ struct FreezingEstimate {
   double mould_reach = 0;      ///< √(α t) of the mould with the largest share [m]; zero: no mould
   /// Temperature that everything comes to where it never freezes [K].
   double rest = 0;
+  bool gave_up = false;  ///< the estimate found no end: nothing of it holds
 };
 
 /// Takes some milliseconds. No MPI.

@@ -284,6 +284,8 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
   const double drop = against_mould ? start - coldest : std::max(1.0, start - k_zero_celsius - 20);
   pour.conductance /= pour.cooled_area * drop;
   pour.freezing = estimate_freezing(problem);
+  if (pour.freezing.gave_up)
+    pour.no_estimate = "it comes to no end: the conductance jumps where the gap opens";
 }
 
 }  // namespace

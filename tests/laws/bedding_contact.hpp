@@ -1,6 +1,6 @@
 /// Contact that beds in under pressure and conducts less when hot, a law that the sources do not have:
 ///
-///   h = h_1 + (h_2 − h_1) t_N/(t_N + p_0) 300 K/Θ_g
+///   h = h_1 + (h_2 − h_1) t_N/(t_N + p_0) (1 − (Θ_g − 300 K)/5000 K)
 ///
 /// Symbols: t_N pressure, p_0 [Pa], h_1, h_2 [W/(m² K)], Θ_g temperature [K]. Validity: t_N >= 0.
 #pragma once
@@ -21,7 +21,7 @@ struct BeddingContact {
   static constexpr bool beside_gas = false;
   template <class T>
   T conductance(const T& p, const T& temperature) const {
-    return T(loose) + T(bedded - loose) * (p / (p + T(pressure))) * (T(300.0) / temperature);
+    return T(loose) + T(bedded - loose) * (p / (p + T(pressure))) * (T(1.06) - temperature * T(2e-4));
   }
 };
 

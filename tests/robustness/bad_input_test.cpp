@@ -321,10 +321,10 @@ std::vector<BadInput> material_files() {
                    {"own.toml:8", "'hardening_modulus' is missing"}),
       bad_material("key_of_another_hardening", k_plastic_material + "saturation_rate = 10\n",
                    {"own.toml:10:19", "'saturation_rate' does not belong", "saturation"}),
-      bad_material("rate_exponent_below_one",
+      bad_material("rate_exponent_too_small",
                    k_plastic_material + "rate_dependence = \"perzyna\"\nviscosity = \"1e9 Pa "
-                                        "s\"\nrate_exponent = 0.5\n",
-                   {"own.toml:12:17", "'rate_exponent'", "at least 1"}),
+                                        "s\"\nrate_exponent = 0.05\n",
+                   {"own.toml:12:17", "'rate_exponent'", "at least 0.1"}),
       bad_material("flow_curve_that_softens",
                    changed(k_plastic_material, "flow_stress", "isotropic_hardening = \"table\" # ") +
                        "[[plasticity.flow_curve]]\ntemperature = \"20 degC\"\nstress = { unit = \"MPa\", "

@@ -21,7 +21,8 @@
 ///                                                           // absent: ∂μ/∂z is monotone in z, between its
 ///                                                           ends
 ///
-/// Validity: z >= 0; μ(0, Θ) > 0 does not rise with temperature (3.60).
+/// Validity: finite for z >= 0 and Θ >= 0 (zero where a point has met nothing yet); μ(0, Θ) > 0 does not rise
+/// with temperature (3.60).
 #pragma once
 
 #include <algorithm>

@@ -19,7 +19,7 @@
 ///   Separation separation(double pressure) const;    // of the mean planes of rough surfaces
 ///   std::optional<Objection> objection(bool gas_between) const;  // gas_between: separation() will be asked
 ///
-/// Validity: h >= 0 and finite for t_N >= 0.
+/// Validity: h >= 0 and finite for t_N >= 0 and Θ_g >= 0.
 #pragma once
 
 #include "base/kinds.hpp"

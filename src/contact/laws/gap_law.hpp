@@ -13,7 +13,7 @@
 ///   static constexpr bool fills_roughness = true;  // its gas is between the asperities of rough surfaces
 ///   too std::optional<Objection> begin(const ContactSide& side);  // once, before all else
 ///
-/// Validity: h >= 0 and finite for g >= 0; h(0) meets the closed interface without pressure.
+/// Validity: h >= 0 and finite for g >= 0 and Θ_g >= 0; h(0) meets the closed interface without pressure.
 #pragma once
 
 #include "base/kinds.hpp"
