@@ -33,10 +33,12 @@ void PhaseIterate::hold(mechanics::MechanicalPass& pass) const {
   pass.plateau_share = plateau_share_;
 }
 
-void PhaseIterate::advance(std::span<const double> temperature, std::vector<double> plateau_share) {
+void PhaseIterate::advance(std::span<const double> temperature, std::vector<double> plateau_share,
+                           double share) {
   if (!any_) return;
-  temperature_.assign(temperature.begin(), temperature.end());
-  plateau_share_ = std::move(plateau_share);
+  const auto go = [share](double from, double to) { return share == 1 ? to : from + share * (to - from); };
+  std::ranges::transform(temperature_, temperature, temperature_.begin(), go);
+  std::ranges::transform(plateau_share_, plateau_share, plateau_share_.begin(), go);
 }
 
 double PhaseIterate::difference(std::span<const double> temperature,

@@ -23,7 +23,8 @@ class PhaseIterate {
   void hold(mechanics::MechanicalPass& pass) const;
   /// Goes on to an iterate. Where nothing that deforms changes its phase this is nothing.
   /// @param temperature, plateau_share  [K], [1], [local node], ghosts up to date
-  void advance(std::span<const double> temperature, std::vector<double> plateau_share);
+  /// @param share  of the way from the fractions that are held to those of the iterate
+  void advance(std::span<const double> temperature, std::vector<double> plateau_share, double share = 1);
   /// How far an iterate is from the fractions that are held: the largest difference of temperatures as a part
   /// of what the step has changed, or of plateau shares. Zero where nothing changes its phase. Collective.
   double difference(std::span<const double> temperature, std::span<const double> plateau_share) const;

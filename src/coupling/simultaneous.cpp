@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -20,7 +21,10 @@ namespace {
 constexpr int k_revisions = 5;  ///< of the limits of conduction, each with a further solution of both fields
 /// Solutions with fractions of phase changes that follow the temperatures: at most, and the difference
 /// between two at which they have settled, as a part of what the step changes.
-constexpr int k_fraction_turns = 30;
+constexpr int k_fraction_turns = 40;
+/// After so many turns they go half of the way, after as many again a quarter, and so on: a step that freezes
+/// much may go round between two sets of fractions.
+constexpr int k_whole_turns = 8;
 constexpr double k_settled = 1e-9;
 /// The difference that may be left where the residuals with the new fractions are within the tolerances.
 constexpr double k_balanced = 1e-3;
@@ -178,11 +182,9 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     if (fractions == nullptr || !fractions->any()) break;
     std::vector<double> share = newton_->thermal().plateau_share();
     if (settled(*fractions, share, fraction_turns)) break;
-    if (++fraction_turns > k_fraction_turns)
-      throw StepRejected(
-          "both fields: the fractions of phase changes do not settle at the temperatures that "
-          "they lead to");
-    fractions->advance(newton_->thermal().temperature(), std::move(share));
+    if (++fraction_turns > k_fraction_turns) break;  // those of the last turn are held through the step
+    fractions->advance(newton_->thermal().temperature(), std::move(share),
+                       std::ldexp(1.0, -fraction_turns / k_whole_turns));
     fractions->hold(pass);
   }
   const mechanics::MechanicalWork work =

@@ -245,13 +245,13 @@ void check_friction_heat(const CaseSpec& spec, const ContactSpec& c) {
                      "a section [contact.heat], or physics = \"mechanics\"");
 }
 
-/// Checks that an interface that stores heat has friction: the stored heat affects the heat of friction
-/// alone.
+/// Checks that an interface that stores heat gets any.
 void check_interface(const CaseSpec& spec, const ContactSpec& c) {
-  if (c.interface.heat_capacity == 0 || (c.friction && spec.coupled())) return;
+  if (c.interface.heat_capacity == 0 || (c.heat && spec.has_heat())) return;
   throw InputError(
-      c.where, fmt::format("the interface of the contact '{}' stores heat, but friction makes none", c.name),
-      "[contact.friction] with physics = \"thermomechanical\", or no [contact.interface]");
+      c.where,
+      fmt::format("the interface of the contact '{}' stores heat, but nothing conducts heat to it", c.name),
+      "a section [contact.heat] beside it in a case with heat, or no [contact.interface]");
 }
 
 void check_contacts(const CaseSpec& spec) {

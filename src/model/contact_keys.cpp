@@ -156,7 +156,7 @@ Section<ContactSpec> contact_keys() {
       .positive()
       .doc(
           "Penalty = factor x Young's modulus / height of the elements, of the stiffer of the two surfaces. "
-          "Without it and `penalty` the factor is 100, with multipliers or inertia 10; next to a melt the "
+          "Without it and `penalty` the factor is 10; next to a melt the "
           "penalty is then at most that with "
           "which the `atmosphere` moves a liquid skin by 0.1 % of the body's free contraction.");
   s.key("stabilisation", &C::stabilisation)

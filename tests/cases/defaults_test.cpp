@@ -178,13 +178,12 @@ gap_law = "gas"
 gas_conductivity = "0.03 W/m/K"
 )";
 
-// And that of a stiff penalty: what the interface gives way by is a hundredth of a layer of elements.
 TEST(Defaults, TheForceBetweenBarsWhoseGapClosesIsThatOfATightTolerance) {
   const CaseFolder folder("defaults_bars");
   const CaseRun usual = folder.run("usual", k_bars),
                 tight = folder.run("tight", k_bars,
                                    {"mechanics.tolerance=1e-10", "mechanics.displacement_tolerance=1e-7",
-                                    "heat.tolerance=1e-11", "contact.interface.penalty_factor=1e4"});
+                                    "heat.tolerance=1e-11"});
   ASSERT_TRUE(usual.finished && tight.finished) << usual.reason << tight.reason;
   const auto &found = usual.history.at("contact_force[N]"), &exact = tight.history.at("contact_force[N]");
   ASSERT_EQ(found.size(), exact.size());

@@ -3,9 +3,9 @@
 /// the last state, each computed from the fields of its moment.
 #include <gtest/gtest.h>
 
+#include "casting_bodies.hpp"
 #include "contact/laws/constant_gap.hpp"
 #include "contact/laws/power_contact.hpp"
-#include "casting_bodies.hpp"
 
 namespace solidus {
 namespace {
@@ -70,20 +70,21 @@ TEST(EntropyForm, LosesLittleAndMoreInLongSteps) {
   std::vector<CoupledRun> runs;
   for (int n : {8, 16, 32}) runs.push_back(run(casting(0), StructuralForm::entropy, n));
   runs.push_back(run(casting(0), StructuralForm::energy, 8));
-  std::vector<double> sums(runs.size(), 0.0);
+  std::vector<double> sums(runs.size(), 0.0), largest(runs.size(), 0.0);
   out << "0,0,0,0,0,0\n";
   for (std::size_t row = 0; row < 8; ++row) {
     out << 2 * (row + 1) << ",0";
     for (std::size_t r = 0; r < runs.size(); ++r) {
       const std::size_t steps = runs[r].steps.size() / 8;
       for (std::size_t i = 0; i < steps; ++i) sums[r] += runs[r].steps[row * steps + i].defect();
+      largest[r] = std::max(largest[r], std::abs(sums[r]));
       out << "," << sums[r] / runs[r].exchanged();
     }
     out << "\n";
   }
-  EXPECT_LT(std::abs(sums[0]), 5e-4 * runs[0].exchanged());
-  EXPECT_LT(std::abs(sums[1]), std::abs(sums[0]));
-  EXPECT_LT(std::abs(sums[2]), std::abs(sums[1]));
+  EXPECT_LT(largest[0], 5e-4 * runs[0].exchanged());
+  EXPECT_LT(largest[1], largest[0]);
+  EXPECT_LT(largest[2], largest[1]);
 }
 
 // Bound of the defect for the criteria of the phases: 1e-12 of the heat, 1e-11 of the forces.

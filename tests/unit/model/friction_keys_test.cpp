@@ -123,7 +123,7 @@ TEST(ContactKeys, ThatWouldChangeNothingAreRefused) {
   EXPECT_THAT(contact_error("smoothing = true\n"), HasSubstr("smoothing"));
   EXPECT_THAT(contact_error("penetration_tolerance = 1e-8\n"), HasSubstr("penetration_tolerance"));
   EXPECT_THAT(contact_error("[contact.interface]\nheat_capacity = \"500 J/m2/K\"\n"),
-              HasSubstr("the interface of the contact 'c' stores heat, but friction makes none"));
+              HasSubstr("the interface of the contact 'c' stores heat, but nothing conducts heat to it"));
 }
 
 }  // namespace
