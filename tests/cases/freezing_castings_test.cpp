@@ -286,7 +286,8 @@ TEST_P(FreezingCasting, ReachesRoomTemperatureAndClosesTheFirstLaw) {
   for (const double n : r.steps.at("mechanics_iterations[1]")) iterations += n;
   for (const double n : r.steps.at("rejected[1]")) rejected += n;
   const auto steps = static_cast<double>(r.steps.at("time[s]").size());
-  EXPECT_LT(iterations, 10 * steps);
+  // The simultaneous scheme solves anew where fractions of phase changes move.
+  EXPECT_LT(iterations, (std::string_view(c.scheme) == "simultaneous" ? 12 : 8) * steps);
   EXPECT_LE(rejected, 18);  // where contact opens and the flow of heat jumps
 
   constexpr double k_weight = 2685 * 9.81;  // [N/m³]

@@ -197,6 +197,7 @@ TEST(StructuralDeck, GivesAbaqusMeansAndTheStateOfHardening) {
 }
 
 TEST(StructuralDeck, ATemperatureHistoryIsAStepForEachMoment) {
+  if (!serial()) return;
   const Sample sample(Shape::hex8);
   StructuralDeck deck = sample.deck(false);
   for (const double t : {0.0, 10.0, 25.0})
