@@ -37,7 +37,8 @@ struct StepStart {
   double stress_share = 1;  ///< of t_{n+1} in the mean
   StressAtWork work = StressAtWork::end;
   PhaseFields phases{};  ///< of the block's body at t_n
-  /// The melt whose viscosity the program chooses; null, or a modulus of zero: the material has its viscosity.
+  /// The melt whose viscosity the program chooses; null, or a modulus of zero: the material has its
+  /// viscosity.
   const material::MeltModulus* melt = nullptr;
 
   double melt_modulus() const { return melt != nullptr ? melt->modulus : 0.0; }

@@ -238,19 +238,18 @@ std::vector<double> MechanicalPhase::start(const MechanicalState& old, const Mec
 void MechanicalPhase::hold_deformation(const MechanicalState& state, std::span<const double> temperature,
                                        std::span<const double> plateau_share) {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    blocks_[b]->hold_deformation(
-        {.temperature = temperature,
-         .pass_temperature = temperature,
-         .initial_temperature = initial_temperature_,
-         .old_displacement = state.displacement,
-         .held_displacement = state.displacement,
-         .held_history = &state.history[b],
-         .old_history = &state.history[b],
-         .start_history = &state.history[b],
-         .dt = 1,
-         .effective_dt = 1,
-         .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
-         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
+    blocks_[b]->hold_deformation({.temperature = temperature,
+                                  .pass_temperature = temperature,
+                                  .initial_temperature = initial_temperature_,
+                                  .old_displacement = state.displacement,
+                                  .held_displacement = state.displacement,
+                                  .held_history = &state.history[b],
+                                  .old_history = &state.history[b],
+                                  .start_history = &state.history[b],
+                                  .dt = 1,
+                                  .effective_dt = 1,
+                                  .phases = nodal_phases_.evaluate(b, temperature, plateau_share),
+                                  .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
 }
 
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,

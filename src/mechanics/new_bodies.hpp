@@ -17,7 +17,8 @@ std::vector<char> nodes_of_bodies(const mesh::Mesh& mesh, const std::vector<char
 /// @param bodies  [body of the mesh]
 void renew_history(const MechanicalPhase& phase, const std::vector<char>& bodies, MechanicalState& state);
 
-/// Tells the kernels, which are new where bodies have come back, how the thermal phase spreads heat over nodes.
+/// Tells the kernels, which are new where bodies have come back, how the thermal phase spreads heat over
+/// nodes.
 /// @param closed  it stores heat by the closed rule; bodies with isothermal changes do anyway
 void spread_heat_as_stored(const MechanicalPhase& phase, bool closed);
 

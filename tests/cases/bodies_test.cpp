@@ -480,7 +480,8 @@ TEST_F(Bodies, ThatLeaveAsMeltShortenNoStep) {
   ASSERT_TRUE(r.finished) << r.reason;
   EXPECT_THAT(r.steps.at("rejected[1]"), ::testing::Each(0.0));
   EXPECT_THAT(solidus::logging::warnings(), ::testing::Not(::testing::Contains(HasSubstr("steps down"))));
-  EXPECT_EQ(at(r.history, "solid_fraction[1]", 0.4), 0);  // of the melt that is poured; the other half is solid
+  EXPECT_EQ(at(r.history, "solid_fraction[1]", 0.4),
+            0);  // of the melt that is poured; the other half is solid
   EXPECT_EQ(at(r.history, "solid_fraction[1]", 2.4), 1);
   const std::size_t in_pour = static_cast<std::size_t>(std::count_if(
       r.steps.at("time[s]").begin(), r.steps.at("time[s]").end(), [](double t) { return t <= 0.4; }));

@@ -159,7 +159,8 @@ coefficient = 0.2
 TEST(ChilledMelt, GetsNoHotterWhereItRubsOnItsMould) {
   const auto run = k_here.run("chilled", k_chilled);
   ASSERT_TRUE(run.finished) << run.reason;
-  EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 1553);  // poured at 1550; 1736 degC before
+  EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")),
+            1553);  // poured at 1550; 1736 degC before
 }
 
 }  // namespace

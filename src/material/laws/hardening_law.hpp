@@ -36,7 +36,8 @@ struct HardeningStress {
   T cancelled{0.0};  ///< a term far above K_ξ that cancels in it, for what rounding leaves [Pa]
 };
 
-/// The terms that hardening adds to the entropy, from K(ξ, Θ) at fixed ξ, every table a line over temperature.
+/// The terms that hardening adds to the entropy, from K(ξ, Θ) at fixed ξ, every table a line over
+/// temperature.
 template <class T>
 struct HardeningSlopes {
   T entropy, entropy_theta;       ///< −K_Θ, −K_ΘΘ
