@@ -1,5 +1,5 @@
-/// What a linear solver holds of PETSc, and our own preconditioners in it; for the files of linear_solver.hpp
-/// alone.
+/// The PETSc objects of a linear solver and our own preconditioners in it; included by the files of
+/// linear_solver.hpp alone.
 #pragma once
 
 #include <memory>

@@ -20,7 +20,7 @@ std::shared_ptr<const CoefficientLaw> law_of(const FrictionCoefficientSpec& spec
   return std::make_shared<CurveCoefficient>(spec.curves);
 }
 
-/// What a formula has to keep to at some temperatures; data are checked at all their points.
+/// Checks a formula at some temperatures; data are checked at all their points.
 std::optional<Objection> against_start(const CoefficientLaw& law) {
   double before = 0, at = 0;
   for (const double theta : {300.0, 600.0, 900.0, 1200.0, 1500.0, 1800.0}) {

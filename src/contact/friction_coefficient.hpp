@@ -98,7 +98,7 @@ class FrictionCoefficient {
   double unit_ = 1, per_unit_ = 1;
 };
 
-/// What FrictionCoefficient refuses: μ_0 that rises with temperature, and a coefficient that is not positive.
+/// The objections of FrictionCoefficient: μ_0 rises with temperature, and a coefficient is not positive.
 Objection hardens_with_temperature(double from, double at, double to, double then);
 std::optional<Objection> not_positive(double coefficient);
 

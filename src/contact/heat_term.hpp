@@ -177,7 +177,7 @@ class HeatTerm : public algebra::Contribution {
   std::array<double, 2> flux_by_conductance(const AtPoint& at) const;
   /// ∂h_i/∂h of the one-sided conductances.
   std::array<double, 2> side_shares() const;
-  /// What friction makes of heat over the phase, as it is found at the end of its last stage [J/m²].
+  /// Heat of friction over the phase, found at the end of its last stage [J/m²].
   double dissipated(const AtPoint& at) const;
   /// @param per_h  scratch
   void add_point_tangent(const AtPoint& at, std::span<const double> x, std::span<double> k,

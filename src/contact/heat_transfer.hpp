@@ -10,9 +10,9 @@
 /// large grey parallel surfaces that face each other (view factor 1: the gap is small against them), σ_r the
 /// Stefan–Boltzmann constant.
 ///
-/// What is beside a closed law is h_o(0), or, where the surfaces are rough and the law of the gap means their
-/// gas too, h_o(Y(t_N)), Y the distance of their mean planes. Such a gap begins where that ends: h_o(g +
-/// Y(0)).
+/// Beside a closed law the gap conducts h_o(0), or, where the surfaces are rough and the law of the gap holds
+/// for the gas between them too, h_o(Y(t_N)), Y the distance of their mean planes. Such a gap begins where
+/// that ends: h_o(g + Y(0)).
 ///
 /// Continuity where contact is lost, at t_N = 0 and g = 0: a closed law that conducts beside the gap's
 /// vanishes with the pressure. One that is all of the conductance must meet the law of the gap: a law that

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/log.hpp"
 #include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
@@ -146,6 +147,14 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   return effort;
 }
 
+void SimultaneousScheme::warn_of_held_fractions(double time) {
+  if (std::exchange(warned_, true)) return;
+  logging::warn(
+      "t = {:g} s: the fractions of phase changes go round between two sets in this step; those of the last "
+      "of {} solutions are held, as a split holds those of its start. Shorter steps settle them",
+      time, k_fraction_turns);
+}
+
 bool SimultaneousScheme::settled(const PhaseIterate& fractions, std::span<const double> plateau_share,
                                  int turn) {
   const double left = fractions.difference(newton_->thermal().temperature(), plateau_share);
@@ -182,7 +191,10 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     if (fractions == nullptr || !fractions->any()) break;
     std::vector<double> share = newton_->thermal().plateau_share();
     if (settled(*fractions, share, fraction_turns)) break;
-    if (++fraction_turns > k_fraction_turns) break;  // those of the last turn are held through the step
+    if (++fraction_turns > k_fraction_turns) {
+      warn_of_held_fractions(pass.time);
+      break;
+    }
     fractions->advance(newton_->thermal().temperature(), std::move(share),
                        std::ldexp(1.0, -fraction_turns / k_whole_turns));
     fractions->hold(pass);

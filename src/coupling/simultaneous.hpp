@@ -53,6 +53,8 @@ class SimultaneousScheme final : public CouplingScheme {
   StepEffort stage(const mechanics::MechanicalState& old, const std::vector<contact::ContactState>& contacts,
                    std::span<const double> coherency, mechanics::MechanicalPass pass, State& trial,
                    PhaseIterate* fractions = nullptr);
+  /// Says once in a run that a step holds fractions that its temperatures do not lead to.
+  void warn_of_held_fractions(double time);
   /// Whether the solution found agrees with the fractions that it was found with.
   bool settled(const PhaseIterate& fractions, std::span<const double> plateau_share, int turn);
   void drop_carried();
@@ -61,6 +63,7 @@ class SimultaneousScheme final : public CouplingScheme {
   SimultaneousOptions options_;
   std::optional<CoupledNewton> newton_;  ///< refers to the phases' matrices
   CoupledReport report_;
+  bool warned_ = false;  ///< of fractions that are held
 };
 
 }  // namespace solidus::coupling

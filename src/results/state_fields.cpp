@@ -187,6 +187,8 @@ void StateFields::add_elements() {
     if (field.plastic && !phases_.mechanics->plastic()) continue;
     const bool isentropic = phases_.mechanics->mapping() == mechanics::Mapping::isentropic;
     if (field.which == ElementField::intermediate_temperature && !isentropic) continue;
+    if (field.which == ElementField::pore_fraction && phases_.coherency == nullptr)
+      continue;  // nothing melts
     const auto compute = [phase = phases_.mechanics, which = field.which] {
       return phase->element_field(which);
     };

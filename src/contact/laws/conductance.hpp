@@ -1,5 +1,5 @@
-/// What laws of the closed interface (laws/contact_law.hpp) and of the gap (laws/gap_law.hpp) share: a
-/// conductance h(x, Θ_g) with its derivatives, x the pressure [Pa] or the gap [m].
+/// A conductance h(x, Θ_g) with its derivatives, x the pressure [Pa] or the gap [m]: the common part of the
+/// laws of the closed interface (laws/contact_law.hpp) and of the gap (laws/gap_law.hpp).
 ///
 /// A law is a struct with `name`, `doc`, `keys` and one of
 ///
