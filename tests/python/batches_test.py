@@ -76,6 +76,11 @@ class Batches(unittest.TestCase):
             self.assertIsNone(batches.agreement(one, both))
             self.assertEqual(batches.agreement(both, both), (set(), set()))
 
+    def test_a_namespace_that_hides_another_parts_the_sources(self):
+        hides = "namespace solidus::testing {\nint run();\n}\n"
+        self.assertEqual(len(self.grouped(hides, unnamed("class Any : public testing::Test {};"))), 2)
+        self.assertEqual(len(self.grouped(hides, unnamed("class Any : public ::testing::Test {};"))), 1)
+
     def test_comments_texts_and_bodies_declare_nothing(self):
         text = unnamed('/* int a; */ const char* k = R"(int b;)"; // int c;\nint f() { int d = \'{\'; return d; }\n'
                        "struct S { S() : x{1} { y = 2; } int x, y; };")
