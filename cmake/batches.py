@@ -87,7 +87,11 @@ class Source:
                 self.used.add(token)
                 if after in ("(", "<"):
                     self.called.add(token)
-        self.read(tokens)
+        try:
+            self.read(tokens)
+        except ValueError as error:
+            print(error, file=sys.stderr)
+            self.plain = False  # it stays alone
         self.mentioned = self.used | self.fixed
         self.headers = {}  # names that headers beside the source declare -> those headers
         self.follow(path, set())
