@@ -55,8 +55,9 @@ Section<Casting> casting_keys() {
       .positive()
       .doc(
           "Secondary arm spacing after a local solidification time of one second: c in c (t_f/1 s)^n. "
-          "Without "
-          "it there are no secondary_arm_spacing and dimensionless_niyama.");
+          "Without it there are no secondary_arm_spacing and dimensionless_niyama, and melt flows through "
+          "mush "
+          "as with 50 um.");
   s.key("arm_spacing_exponent", &Casting::arm_spacing_exponent)
       .initially(0.333)
       .range(0, 1)
@@ -64,8 +65,10 @@ Section<Casting> casting_keys() {
   s.quantity("melt_viscosity", &Casting::melt_viscosity, "Pa s")
       .positive()
       .doc(
-          "Newtonian shear viscosity of the melt at the liquidus, for dimensionless_niyama; not "
-          "twice_shear_viscosity, which is a numerical choice.");
+          "Newtonian shear viscosity of the melt at the liquidus, for dimensionless_niyama and for the flow "
+          "of "
+          "melt that feeds mush (2 mPa s without it); not twice_shear_viscosity, which is a numerical "
+          "choice.");
   s.quantity("critical_pressure_drop", &Casting::critical_pressure_drop, "Pa")
       .initially("101325 Pa")
       .positive()

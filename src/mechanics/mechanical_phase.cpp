@@ -188,16 +188,15 @@ void MechanicalPhase::create_pressure() {
   if (options_.solver == algebra::SolverKind::jacobi || options_.solver == algebra::SolverKind::incomplete)
     throw InputError({}, "this solver of mechanics cannot find the pressure of mixed triangles or tetrahedra",
                      "\"automatic\", \"direct\" or \"multigrid\", or simplices = \"displacement\"");
+  const bool orthogonal = options_.stabilisation == Stabilisation::orthogonal;
+  if (!orthogonal && inertia_) throw std::invalid_argument("algebraic sub-scales are for quasi-statics");
   std::vector<std::array<double, 3>> body_force;
-  if (options_.stabilisation == Stabilisation::algebraic) {
-    if (inertia_) throw std::invalid_argument("algebraic sub-scales are for quasi-statics");
-    for (const material::Material& material : materials_) {
-      body_force.push_back(loads_->conditions().gravity);
-      for (double& f : body_force.back()) f *= material.density;
-    }
+  for (const material::Material& material : materials_) {
+    body_force.push_back(loads_->conditions().gravity);
+    for (double& f : body_force.back()) f *= material.density;
   }
   if (!fields) fields = pressure_fields(mesh_, materials_, blocks_);
-  pressure_ = std::make_unique<NodalPressure>(mesh_, std::move(*fields), blocks_, std::move(body_force));
+  pressure_ = std::make_unique<NodalPressure>(mesh_, std::move(*fields), blocks_, orthogonal, body_force);
   fields_.push_back(pressure_->fields());
 }
 

@@ -14,7 +14,8 @@ inline constexpr double k_volume_tolerance = 1e-11;
 inline constexpr int k_max_volumes = 30;
 /// Largest volumetric strain of one step of that iteration: beyond it no law holds.
 inline constexpr double k_largest_volume_step = 0.05;
-/// Behind the law's state at a point: e_v, the pore fraction, and in axisymmetry p_a − p̄ of its nodes.
+/// Behind the law's state at a point: e_v, the pore fraction, in axisymmetry p_a − p̄ of its nodes, and where
+/// melt flows between dendrites its q (liquid_flow.hpp).
 template <int n_nodes, AnalysisKind kind>
 inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 2 + n_nodes : 2;
 
@@ -39,13 +40,14 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   MixedBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material,
              Stabilisation stabilisation)
       : Base(mesh, block, material),
-        Nodes(mesh, block, Base::geometry_, stabilisation),
+        Nodes(mesh, block, Base::geometry_, material, stabilisation),
         pores_(material, n_batches()) {
     const auto n = static_cast<std::size_t>(n_batches());
     volume_.resize(n, Lane(0.0));
     old_volume_.resize(n, Lane(0.0));
     old_divergence_.resize(n, Lane(0.0));
     if constexpr (adiabatic) tangent_.resize(n);
+    if (this->flow_.flows()) n_kept_ += dim;
   }
 
   double prepare(const StepStart& start) override {
@@ -61,6 +63,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Lane bulk = this->set_properties(start, batch, 0, held);
       pores_.begin_step(batch, this->phase_at(start, batch, 0).solid_fraction, start.melt_modulus(),
                         kept_pores(*start.old_history, batch));
+      if (this->flow_.flows())
+        this->flow_.begin_step(batch, this->phase_at(start, batch, 0).solid_fraction, start.dt,
+                               kept_flow(*start.old_history, batch));
       Lane stiffness = bulk;
       if constexpr (adiabatic) {
         tangent_[i] = volume_tangent(this->update(batch, 0, held));
@@ -143,8 +148,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
                                              point.response, trial, average, tally);
       keep_volume(trial, batch, point.volume);
       trial.values[at(batch) * n_kept_ + n_state_ + 1] = pores_.finish(batch, mean_pressure);
-      // The work of the pressure on the difference of the volumes is taken up by the sub-scales and the
-      // pores.
+      keep_flow(trial, batch);
+      // The work of the pressure on the difference of the volumes is taken up by the sub-scales, the
+      // pores and the flow of melt.
       const Nodal now = this->volume_change(b, batch, displacement),
                   before = this->volume_change(b, batch, old_displacement);
       const Nodal variation = variation_at_work(batch, trial);
@@ -284,6 +290,11 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   Lane kept_pores(const BlockHistory& history, Index batch) const {
     return history.values[at(batch) * n_kept_ + n_state_ + 1];
   }
+  std::array<Lane, dim> kept_flow(const BlockHistory& history, Index batch) const {
+    std::array<Lane, dim> q;
+    std::copy_n(history.values.begin() + static_cast<std::ptrdiff_t>(flow_place(batch)), dim, q.begin());
+    return q;
+  }
   /// The law at ∇u and the mean pressure of the element.
   MixedPoint answer(Index batch, const Sym<Lane>& gradient, const Lane& pressure) {
     const bool found = find_volume(batch, gradient, pressure);
@@ -297,6 +308,15 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
  private:
+  std::size_t flow_place(Index batch) const {
+    return at(batch) * n_kept_ + n_state_ + k_mixed_extra<n_nodes, kind>;
+  }
+  void keep_flow(BlockHistory& history, Index batch) const {
+    if (!this->flow_.flows()) return;
+    const Nodal p = this->gather_pressure(this->field_.pressure, batch);
+    const auto q = this->liquid_flow(this->pressure_gradient(p, batch), batch);
+    std::copy(q.begin(), q.end(), history.values.begin() + static_cast<std::ptrdiff_t>(flow_place(batch)));
+  }
   void keep_volume(BlockHistory& history, Index batch, const Lane& volume) const {
     history.values[at(batch) * n_kept_ + n_state_] = volume;
   }

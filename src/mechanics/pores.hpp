@@ -5,15 +5,15 @@
 /// times its strength, σ(f_S) (material/melt.hpp). In mixed elements, where p is the mean stress (positive in
 /// tension) and div u − e_v the volume that the metal does not fill, the pore fraction is
 ///
-///   θ(p) = ⟨p − p_c⟩/M                      below coherency,
-///   θ(p) = θ_n + ⟨p − p_c − σ(f_S)⟩/M_σ      in mush,  M_σ = k_pore_strengths σ(f_S),
-///   θ = θ_n                                 in solid metal,
+///   θ(p) = (1 − θ_n) ⟨p − p_c⟩/M                      below coherency,
+///   θ(p) = θ_n + (1 − θ_n) ⟨p − p_c − σ(f_S)⟩/M_σ      in mush,  M_σ = k_pore_strengths σ(f_S),
+///   θ = θ_n                                           in solid metal,
 ///
 /// p_c being pore_tension of the material and k_least_pore_share M at least, with f_S of t_n, and r_p = ∫ N
-/// (div u − e_v − θ) dV − S p. The law of the metal sees e_v alone. Below coherency θ is a function of p
-/// without memory, the derivative of the convex ⟨p − p_c⟩²/2M: pores that are pressed or fed close, and their
-/// work is stored and not lost. In mush a pore grows or stays, and its work, p Δθ ≥ 0, is lost. Both are
-/// counted with the work of the sub-scales.
+/// (div u − e_v − θ) dV − S p. The law of the metal sees e_v alone. Below coherency pores that are pressed or
+/// fed close; in mush a pore grows or stays. The metal that is left, 1 − θ_n, is what a pore can still open
+/// in: an element that has run empty opens no more, and its neighbours take over. The work of pores is
+/// counted with that of the sub-scales.
 ///
 /// M is the modulus 2Ĝ of the melt, some heads of metal: a pool opens its pores in its upper part first,
 /// where its pressure is least.
@@ -36,6 +36,10 @@ namespace solidus::mechanics {
 inline constexpr double k_pore_strength = 5;
 /// M_σ in such strengths: pores of 1e-2 in a step cost a tenth of them.
 inline constexpr double k_pore_strengths = 10;
+/// Pores of an element whose stiffness rises no more.
+inline constexpr double k_most_pores = 0.98;
+/// M as a share of the modulus of the melt: two heads of metal.
+inline constexpr double k_pore_share = 0.2;
 /// p_c is at least this share of M, which a strain increment of as much costs in a melt: without it the
 /// viscosity of the numerical melt alone would open pores.
 inline constexpr double k_least_pore_share = 0.02;
@@ -54,8 +58,9 @@ class Pores {
     const LaneMask melt = solid_fraction < Lane(mush_.coherency);
     const LaneMask solid = solid_fraction >= Lane(1.0);
     const Lane strength = Lane(k_pore_strength) * mush_.strength(select(solid, Lane(0.0), solid_fraction));
-    const Lane modulus(melt_modulus);
-    const Lane softness = Lane(1.0) / select(melt, modulus, max(modulus, Lane(k_pore_strengths) * strength));
+    const Lane modulus(k_pore_share * melt_modulus);
+    const Lane metal = Lane(1.0) - min(before, Lane(k_most_pores));
+    const Lane softness = metal / select(melt, modulus, max(modulus, Lane(k_pore_strengths) * strength));
     softness_[at(batch)] = select(solid, Lane(0.0), softness);
     threshold_[at(batch)] =
         Lane(std::max(tension_, k_least_pore_share * melt_modulus)) + select(melt, Lane(0.0), strength);

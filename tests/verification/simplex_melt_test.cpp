@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "material/melt.hpp"
+#include "material/permeability.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/pores.hpp"
 #include "simplex_bodies.hpp"
@@ -238,6 +239,44 @@ TEST(ClosedMush, OpensPoresBeyondItsStrengthAndKeepsThem) {
     EXPECT_NEAR(opened, shrunk - tension / k_bulk, 0.01 * shrunk);
     box.go_to(820);
     EXPECT_NEAR(box.pores().mean, in_melt + opened, 1e-9) << "pores of mush stay";
+  }
+}
+
+// A closed column of mush that shrinks at the rate ė below melt, and is too stiff to follow: what feeds it
+// flows down through it, q̇ = ė y at the height y, and lowers the pressure by ė y²/(2 K/μ) on its way. All
+// pores are those of the melt.
+TEST(ClosedMush, IsFedByMeltThatFlowsBetweenItsDendrites) {
+  constexpr double k_mush = 810, k_melt = 900, k_from = 0.8 * k_height, k_cooling = 0.5;  // [K], [m], [K/s]
+  for (const Choice& c : k_boxes) {
+    if (c.kind == AnalysisKind::axisymmetric) continue;
+    ClosedBox box(c.element, c.kind, 0, ClosedBox::k_poured);
+    const auto cool_to = [&](double mush) {
+      for (std::size_t i = 0; i < box.body.mesh.x.size(); ++i)
+        box.body.temperature[i] = box.body.mesh.x[i][1] > k_from - 1e-9 ? k_melt : mush;
+      box.solved.step(box.body, box.time += 1, 1.0);
+    };
+    for (const double mush : {k_mush + 1, k_mush + k_cooling, double{k_mush}}) cool_to(mush);
+    const double at_start = box.pores().mean;
+    cool_to(k_mush - k_cooling);
+    const verification::Cells cells(box.body.mesh, box.body.mesh.blocks[0], c.kind);
+    const std::vector<double> pressure = test::element_fields(*box.solved.phase)[0].pressure;
+    const double rate = 3 * ClosedBox::k_expansion * k_cooling,
+                 mobility = material::Permeability(box.body.materials[0].casting)
+                                .mobility(box.body.materials[0].solid_fraction(k_mush));
+    const double scale = rate * k_from * k_from / (2 * mobility);
+    double least = 1e300, largest = -1e300;
+    for (std::size_t e = 0; e < pressure.size(); ++e) {
+      const double y = cells.centre[e][1];
+      if (y > 0.6 * k_height) continue;
+      const double constant = (pressure[e] - rate * y * y / (2 * mobility)) / scale;
+      least = std::min(least, constant);
+      largest = std::max(largest, constant);
+    }
+    const double opened = box.pores().mean - at_start, in_upper = box.pores().upper;
+    printf("%-8s drop of pressure %.4g Pa, off by %.1f %%; opened %.3e, upper half %.3e, mean %.3e\n",
+           c.element.name, scale, 50 * (largest - least), opened, in_upper, box.pores().mean);
+    EXPECT_LT(0.5 * (largest - least), 0.06) << c.element.name;
+    EXPECT_GT(in_upper, 1.99 * box.pores().mean) << c.element.name;
   }
 }
 
