@@ -47,7 +47,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     old_volume_.resize(n, Lane(0.0));
     old_divergence_.resize(n, Lane(0.0));
     if constexpr (adiabatic) tangent_.resize(n);
-    if (this->flow_.flows()) n_kept_ += dim;
+    if (this->flow_.flows()) {
+      n_kept_ += dim;
+      compaction_.resize(n, Lane(0.0));
+    }
   }
 
   double prepare(const StepStart& start) override {
@@ -63,9 +66,11 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Lane bulk = this->set_properties(start, batch, 0, held);
       pores_.begin_step(batch, this->phase_at(start, batch, 0).solid_fraction, start.melt_modulus(),
                         kept_pores(*start.old_history, batch));
-      if (this->flow_.flows())
-        this->flow_.begin_step(batch, this->phase_at(start, batch, 0).solid_fraction, start.dt,
-                               kept_flow(*start.old_history, batch));
+      if (this->flow_.flows()) {
+        const Lane fraction = this->phase_at(start, batch, 0).solid_fraction;
+        this->flow_.begin_step(batch, fraction, start.dt, kept_flow(*start.old_history, batch));
+        compaction_[i] = start.new_stress == nullptr ? start.compaction_stiffness(fraction) : Lane(0.0);
+      }
       Lane stiffness = bulk;
       if constexpr (adiabatic) {
         tangent_[i] = volume_tangent(this->update(batch, 0, held));
@@ -92,7 +97,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Lane mean_pressure = mean(p, batch), pores = pores_.fraction(batch, mean_pressure);
       const MixedPoint point = answer(batch, gradient, mean_pressure);
       Vectors f{};
-      b.add_force(weight(batch) * dev(point.response.stress), f);
+      Sym<Lane> effective = dev(point.response.stress);
+      const Lane skeleton = skeleton_stress(batch, trace(gradient));
+      for (int k = 0; k < 3; ++k) effective[k] += skeleton;
+      b.add_force(weight(batch) * effective, f);
       this->add_pressure_force(b, batch, p, f);
       Nodal defect = this->volume_change(b, batch, displacement), change;
       const Lane changed =
@@ -122,7 +130,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       Matrix symmetric;
       std::optional<Matrix> skew;
       if (!this->law_.symmetric()) skew.emplace();
-      add_isotropic(b, Lane(0.0), w * response.twice_shear, symmetric);
+      add_isotropic(b, w * compaction(batch), w * response.twice_shear, symmetric);
       if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, 0, response, w, symmetric, skew);
       if constexpr (adiabatic) {
         VolumeTangent& t = tangent_[at(batch)];
@@ -155,7 +163,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
                   before = this->volume_change(b, batch, old_displacement);
       const Nodal variation = variation_at_work(batch, trial);
       const Lane pressure = Lane(1.0 / 3.0) * trace(at_work);
-      Lane left_over = weight(batch) * pressure * (old_volume - point.volume);
+      Lane left_over = weight(batch) * (pressure * (old_volume - point.volume) +
+                                        skeleton_stress(batch, trace(gradient)) *
+                                            (trace(gradient) - old_divergence_[at(batch)]));
       for (std::size_t a = 0; a < n_nodes; ++a) left_over += (pressure + variation[a]) * (now[a] - before[a]);
       tally.stabilisation_work += this->counted(batch) * left_over;
       this->keep(batch, average);
@@ -212,7 +222,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
 
   std::size_t bytes() const override {
     return Base::bytes() + this->bytes_of_nodes() +
-           (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity()) * sizeof(Lane) +
+           (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity() +
+            compaction_.capacity()) *
+               sizeof(Lane) +
            tangent_.capacity() * sizeof(VolumeTangent) + pores_.bytes() +
            kept_variation_.capacity() * sizeof(Nodal);
   }
@@ -308,6 +320,12 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
  private:
+  /// ζ/Δt of the network of dendrites [Pa] (liquid_flow.hpp).
+  Lane compaction(Index batch) const { return compaction_.empty() ? Lane(0.0) : compaction_[at(batch)]; }
+  /// Its mean stress ζ div u̇ [Pa], beside the pressure of the melt.
+  Lane skeleton_stress(Index batch, const Lane& divergence) const {
+    return compaction(batch) * (divergence - old_divergence_[at(batch)]);
+  }
   std::size_t flow_place(Index batch) const {
     return at(batch) * n_kept_ + n_state_ + k_mixed_extra<n_nodes, kind>;
   }
@@ -379,6 +397,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   PackVector<Lane> volume_;          ///< e_v of the last update, [batch]
   PackVector<Lane> old_volume_;      ///< e_v at t_n, [batch]
   PackVector<Lane> old_divergence_;  ///< div u at t_n, [batch]
+  PackVector<Lane> compaction_;      ///< [batch]; empty where no melt flows
   Pores pores_;
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
   PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where it is not requested
