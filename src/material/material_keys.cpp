@@ -72,7 +72,9 @@ Section<Casting> casting_keys() {
   s.quantity("critical_pressure_drop", &Casting::critical_pressure_drop, "Pa")
       .initially("101325 Pa")
       .positive()
-      .doc("The drop of the melt's pressure at which pores form, for dimensionless_niyama.");
+      .doc(
+          "The drop of the melt's pressure at which pores form: in dimensionless_niyama, and in mush "
+          "(pore_fraction).");
   s.key("source", &Casting::source).initially("").doc("Where the data come from.");
   return s;
 }

@@ -98,8 +98,8 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const MixedPoint point = answer(batch, gradient, mean_pressure);
       Vectors f{};
       Sym<Lane> effective = dev(point.response.stress);
-      const Lane skeleton = skeleton_stress(batch, trace(gradient));
-      for (int k = 0; k < 3; ++k) effective[k] += skeleton;
+      const Lane compacting = compaction_stress(batch, trace(gradient));
+      for (int k = 0; k < 3; ++k) effective[k] += compacting;
       b.add_force(weight(batch) * effective, f);
       this->add_pressure_force(b, batch, p, f);
       Nodal defect = this->volume_change(b, batch, displacement), change;
@@ -157,14 +157,14 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       keep_volume(trial, batch, point.volume);
       trial.values[at(batch) * n_kept_ + n_state_ + 1] = pores_.finish(batch, mean_pressure);
       keep_flow(trial, batch);
-      // The work of the pressure on the difference of the volumes is taken up by the sub-scales, the
-      // pores and the flow of melt.
+      // The work of the pressure on the difference of the volumes is taken up by the sub-scales, the pores
+      // and the flow of melt; that of compaction by its viscosity.
       const Nodal now = this->volume_change(b, batch, displacement),
                   before = this->volume_change(b, batch, old_displacement);
       const Nodal variation = variation_at_work(batch, trial);
       const Lane pressure = Lane(1.0 / 3.0) * trace(at_work);
       Lane left_over = weight(batch) * (pressure * (old_volume - point.volume) +
-                                        skeleton_stress(batch, trace(gradient)) *
+                                        compaction_stress(batch, trace(gradient)) *
                                             (trace(gradient) - old_divergence_[at(batch)]));
       for (std::size_t a = 0; a < n_nodes; ++a) left_over += (pressure + variation[a]) * (now[a] - before[a]);
       tally.stabilisation_work += this->counted(batch) * left_over;
@@ -320,10 +320,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
  private:
-  /// ζ/Δt of the network of dendrites [Pa] (liquid_flow.hpp).
+  /// ζ/Δt of melt and mush [Pa] (liquid_flow.hpp).
   Lane compaction(Index batch) const { return compaction_.empty() ? Lane(0.0) : compaction_[at(batch)]; }
   /// Its mean stress ζ div u̇ [Pa], beside the pressure of the melt.
-  Lane skeleton_stress(Index batch, const Lane& divergence) const {
+  Lane compaction_stress(Index batch, const Lane& divergence) const {
     return compaction(batch) * (divergence - old_divergence_[at(batch)]);
   }
   std::size_t flow_place(Index batch) const {

@@ -31,8 +31,8 @@
 
 namespace solidus::mechanics {
 
-/// M_m in pressure drops: pores of 1e-2 in a step cost a tenth of one.
-inline constexpr double k_pore_drops = 10;
+/// M_m in pressure drops: pores of 1e-2 in a step cost another one.
+inline constexpr double k_pore_drops = 100;
 /// Pores of an element whose stiffness rises no more.
 inline constexpr double k_most_pores = 0.98;
 /// M as a share of the modulus of the melt: two heads of metal.
