@@ -22,7 +22,7 @@ namespace {
 constexpr int k_revisions = 5;  ///< of the limits of conduction, each with a further solution of both fields
 /// Solutions with fractions of phase changes that follow the temperatures: at most, and the difference
 /// between two at which they have settled, as a part of what the step changes.
-constexpr int k_fraction_turns = 40;
+constexpr int k_fraction_turns = 24;
 /// After so many turns they go half of the way, after as many again a quarter, and so on: a step that freezes
 /// much may go round between two sets of fractions.
 constexpr int k_whole_turns = 8;
