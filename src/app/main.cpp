@@ -12,10 +12,10 @@
 #include <optional>
 #include <thread>
 
+#include "app/built_version.hpp"
 #include "app/command_tree.hpp"
 #include "app/completion.hpp"
 #include "app/manual_page.hpp"
-#include "app/program_version.hpp"
 #include "app/python_tools.hpp"
 #include "app/python_verbs.hpp"
 #include "app/signals.hpp"
@@ -333,7 +333,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (const std::optional<int> code = mesh::serve_as_reader(argc, argv)) return *code;
-  set_program_version(SOLIDUS_PROGRAM_VERSION);
+  set_program_version(built_version());
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
   // A downstream reader that has ended is no failure: output to it is lost.
