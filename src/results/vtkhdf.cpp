@@ -36,12 +36,12 @@ class Moment {
   const std::vector<Piece>& pieces() const { return pieces_; }
 
  private:
-  void add(const fs::path& path) {
+  /// @param part  the file stands in a list of parts, and is none itself
+  void add(const fs::path& path, bool part = false) {
     files_.push_back(std::make_unique<mesh::VtuFile>(path));
     const mesh::VtuFile& file = *files_.back();
-    if (file.type() == "PUnstructuredGrid") {
-      for (const auto& [tag, child] : children(file, "PUnstructuredGrid"))
-        if (tag == "Piece") add(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""));
+    if (file.type() == "PUnstructuredGrid" && !part) {
+      for (const fs::path& each : grid_files(file, path)) add(each, true);
       return;
     }
     for (const auto& [tag, child] : children(file, "UnstructuredGrid"))
@@ -196,13 +196,15 @@ std::vector<std::uint8_t> hidden_cells(const Moment& moment) {
     const ptree* array = mesh::find_array(*piece.tree, "CellData", k_hidden);
     const std::vector<double> values = array == nullptr ? std::vector<double>(piece.n_cells, 0.0)
                                                         : piece.file->numbers(*array, piece.n_cells);
-    for (const double value : values) all.push_back(static_cast<std::uint8_t>(value));
+    for (const double value : values) all.push_back(static_cast<std::uint8_t>(mesh::whole_number(value)));
   }
   return all;
 }
 
 std::vector<std::int64_t> whole(const std::vector<double>& numbers) {
-  return {numbers.begin(), numbers.end()};
+  std::vector<std::int64_t> all;
+  for (const double number : numbers) all.push_back(mesh::whole_number(number));
+  return all;
 }
 
 std::string path_of(const Column& column) {
