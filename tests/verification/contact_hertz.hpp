@@ -45,8 +45,8 @@ inline mesh::Mesh hertz_mesh(const HertzCase& c) {
   // The block's lines stand between those of the cap; beside a rigid plane it has nothing to do.
   const bool idle = c.bodies == HertzCase::Bodies::round_on_rigid;
   const int m = c.n - c.n / 8;
-  const std::vector<int> block = idle ? std::vector{2, 2} : std::vector{m, c.n};
-  mesh::RawMesh raw = raw_blocks({{w, w}, {w, w}, block, {c.n, c.n}, 0}, c.shape);
+  const std::vector<int> divisions = idle ? std::vector{2, 2} : std::vector{m, c.n};
+  mesh::RawMesh raw = raw_blocks({{w, w}, {w, w}, divisions, {c.n, c.n}, 0}, c.shape);
   std::vector<char> upper(raw.x.size(), 0);
   for (const mesh::RawBlock& block : raw.groups["upper"].blocks)
     for (Index node : block.nodes) upper[static_cast<std::size_t>(node)] = 1;

@@ -149,7 +149,7 @@ TEST(Hertz, KeepsItsEllipseWithStiffPenaltiesAtMeansAroundNodes) {
                              mortar ? "mortar" : "segments", factor, e.pressure, e.deviation);
         SCOPED_TRACE(fmt::format("{} {} {}", line, mortar, factor));
         if (mortar) {
-          EXPECT_LT(e.deviation, 0.05);
+          EXPECT_LT(e.deviation, 0.1);
           EXPECT_NEAR(e.pressure, 0, 0.02);
         } else if (factor == 100) {
           EXPECT_GT(e.deviation, 0.1);
