@@ -141,7 +141,7 @@ algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState
   if (matrix_.set_zero()) solver_->reset();
   thermal_->assemble(iteration);
   const mechanics::NodalPressure* const pressure = mechanics_.pressure();
-  const mechanics::CoupledIterate at{.form = phases_.structural->form(),
+  const mechanics::CoupledIterate at{.form = phases_.structural != nullptr ? std::optional(phases_.structural->form()) : std::nullopt,
                                      .old_u = old.displacement,
                                      .u = x.first(mechanics_.n_displacements()),
                                      .temperature = thermal_->temperature(),

@@ -256,7 +256,7 @@ void build(const CaseSpec& spec, Assembly& a) {
   a.phases.temperature = nodal_temperature(spec, start, a.mesh);
   if (spec.has_mechanics()) {
     build_mechanics(spec, a.phases.temperature, a);
-    if (spec.has_heat() && spec.coupling.structural_heating != CouplingSpec::StructuralHeating::none) {
+    if (spec.exchanges_heat()) {
       a.structural = std::make_unique<mechanics::StructuralHeat>(
           *a.mechanics, structural_form(spec), spec.heat.integration == heat::Integration::closed);
       a.phases.structural = a.structural.get();
