@@ -4,8 +4,9 @@ import { spawn, spawnSync } from "node:child_process";
 import { request } from "node:http";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { inflateSync } from "node:zlib";
 import { Browser } from "./browser.mjs";
+import { checkInFirefox } from "./firefox_test.mjs";
+import { colourful, pixels } from "./picture.mjs";
 
 const program = resolve(process.argv[2]), folder = resolve(process.argv[3]);
 let passed = 0, failed = 0;
@@ -74,29 +75,6 @@ unit = "degC"
 every = "40 s"
 `;
 const TITLE = "A <b>block</b> </script><script>document.title='taken'</script><img src=x onerror=alert(1)> & \"more\"";
-
-/** RGB of the pixels of a PNG of 8 bits without interlace, as Chromium writes it. */
-function pixels(png) {
-  let at = 8, width = 0, height = 0, channels = 3;
-  const data = [];
-  while (at < png.length) {
-    const n = png.readUInt32BE(at), type = png.toString("latin1", at + 4, at + 8), body = png.subarray(at + 8, at + 8 + n);
-    if (type === "IHDR") [width, height, channels] = [body.readUInt32BE(0), body.readUInt32BE(4), body[9] === 6 ? 4 : 3];
-    if (type === "IDAT") data.push(body);
-    at += n + 12;
-  }
-  const raw = inflateSync(Buffer.concat(data)), row = width * channels, out = Buffer.alloc(row * height);
-  for (let y = 0; y < height; ++y)
-    for (let i = 0; i < row; ++i) {
-      const filter = raw[y * (row + 1)], byte = raw[y * (row + 1) + 1 + i];
-      const left = i >= channels ? out[y * row + i - channels] : 0, up = y > 0 ? out[(y - 1) * row + i] : 0;
-      const corner = i >= channels && y > 0 ? out[(y - 1) * row + i - channels] : 0;
-      const p = left + up - corner, pa = Math.abs(p - left), pb = Math.abs(p - up), pc = Math.abs(p - corner);
-      const guess = [0, left, up, (left + up) >> 1, pa <= pb && pa <= pc ? left : pb <= pc ? up : corner][filter];
-      out[y * row + i] = (byte + guess) & 255;
-    }
-  return { width, height, rgb: (x, y) => [...out.subarray(channels * (y * width + x), channels * (y * width + x) + 3)] };
-}
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
@@ -169,19 +147,6 @@ try {
   const box = await page.run("(() => { const r = document.querySelector('.stage').getBoundingClientRect(); return { x: r.left, y: r.top, width: r.width, height: r.height, scale: 1 }; })()");
   const shot = async () => pixels(await page.screenshot({ clip: box }));
   const middle = [Math.round(box.width / 2), Math.round(box.height * 0.44)];
-  const colourful = (picture) => {
-    const seen = new Set();
-    let n = 0;
-    for (let y = 20; y < picture.height * 0.75; y += 4)
-      for (let x = 20; x < picture.width - 20; x += 4) {
-        const [r, g, b] = picture.rgb(x, y);
-        if (Math.max(r, g, b) - Math.min(r, g, b) > 40) {
-          ++n;
-          seen.add(`${r >> 4},${g >> 4},${b >> 4}`);
-        }
-      }
-    return { n, colours: seen.size };
-  };
   const first = await shot(), looked = colourful(first);
   check("the picture is not blank and shows many colours of the scale", looked.n > 500 && looked.colours > 12, looked);
   await page.run(`${bench}.look([1, 0, 0])`);
@@ -336,5 +301,6 @@ try {
 } finally {
   await browser.close();
 }
+await checkInFirefox(check, folder);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed === 0 ? 0 : 1);
