@@ -73,6 +73,7 @@ export class Firefox {
     await this.script("Services.console.reset();");
     await this.send("Marionette:SetContext", { value: "content" });
     await this.send("WebDriver:Navigate", { url });
+    await this.run('new Promise((done) => { const look = () => (performance.getEntriesByName("built").length ? done() : setTimeout(look, 10)); look(); })');
     await this.settle();
   }
   settle() {

@@ -116,7 +116,43 @@ every = "4 s"
 writeFileSync(join(folder, "elastic.toml"), METAL.slice(0, METAL.indexOf("[[phase_change]]")));
 writeFileSync(join(folder, "ring.toml"), axisymmetric);
 
-for (const [name, ...set] of [["block"], ["ring"]]) {
+const box = `title = "A closed box of melt"
+[analysis]
+kind = "solid"
+physics = "thermomechanical"
+[mesh]
+shape = "block"
+element = "tet4"
+[mesh.block]
+size = ["30 mm", "30 mm", "30 mm"]
+divisions = [3, 3, 3]
+[time]
+end = "40 s"
+step = "5 s"
+[[body]]
+name = "casting"
+group = "block"
+material = "aluminium_alsi7mg"
+initial_temperature = "650 degC"
+[output]
+every = "20 s"
+` + ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"].map((side) => `[[thermal_condition]]
+name = "${side}"
+group = "${side}"
+kind = "film"
+coefficient = "1500 W/m2/K"
+ambient = "20 degC"
+[[mechanical_condition]]
+name = "held_${side}"
+group = "${side}"
+kind = "displacement"
+ux = "0 mm"
+uy = "0 mm"
+uz = "0 mm"
+`).join("");
+writeFileSync(join(folder, "pores.toml"), box);
+
+for (const [name, ...set] of [["block"], ["ring"], ["pores"]]) {
   const run = solidus("run", `${name}.toml`, "-o", name, "--no-progress", ...set);
   if (run.code !== 0) console.log(run.text);
   check(`the run '${name}' ends well`, run.code === 0, run.text.slice(-400));
@@ -124,8 +160,11 @@ for (const [name, ...set] of [["block"], ["ring"]]) {
 const second = solidus("run", "block.toml", "-o", "warmer", "--no-progress", "--set", "thermal_condition.wall.coefficient=\"800 W/m2/K\"");
 check("a second block runs", second.code === 0, second.text.slice(-400));
 
+const wheels = solidus("run", "--heat-only", resolve("cases/wheel_in_die"), "-o", "shots", "--no-progress", "--set", "cycle.shots.repeat=2");
+check("two shots into a die run", wheels.code === 0, wheels.text.slice(-400));
+
 // The command.
-for (const [args, page] of [[["block"], "block/report.html"], [["ring"], "ring/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
+for (const [args, page] of [[["pores"], "pores/report.html"], [["shots"], "shots/report.html"], [["block"], "block/report.html"], [["ring"], "ring/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
   const made = solidus("report", ...args);
   check(`report ${args.join(" ")} says where the page is`, made.code === 0 && made.text.includes(page), made.text);
 }
@@ -247,6 +286,33 @@ try {
   await ring.run(`(() => { ${bench}.setField('displacement'); })()`);
   await ring.settle();
   check("without a word on the console", ring.messages.length === 0, ring.messages);
+
+  // Pores: a card that flies to the densest, a field in shares of the volume.
+  const pores = await browser.page(1000, 800);
+  await pores.go(`file://${join(folder, "pores/report.html")}`);
+  const found = JSON.parse(readFileSync(join(folder, "pores/summary.json"))).answers.pores;
+  const card = "[...document.querySelectorAll('button.figure')].find((b) => b.textContent.startsWith('Pores'))";
+  const shown = await pores.run(`${card}?.querySelector('b').textContent ?? ''`);
+  check("a card says how much of the casting is pores", shown.endsWith("%") && Math.abs(parseFloat(shown) - 100 * found.share_of_casting) < 1e-3 * parseFloat(shown), [shown, found]);
+  await pores.run(`(() => { ${card}.click(); return new Promise((r) => setTimeout(r, 900)); })()`);
+  check("and flies to the densest", (await pores.run(`${bench}.camera.target.toArray()`)).every((x, i) => Math.abs(x - found["at[m]"][i]) < 1e-6));
+  await pores.run("[...document.querySelectorAll('.presets button')].find((b) => b.textContent === 'Pores').click()");
+  await pores.settle();
+  check("the pores are a field, as a share of the volume", (await pores.run(`[${bench}.field.id, ${bench}.field.unit.text, ${bench}.choice.only.on].join()`)) === "pore_fraction,%,true");
+  check("without a word on the console there", pores.messages.length === 0, pores.messages);
+
+  // Shots: a row each, and a click that goes to the end of one.
+  const shots = await browser.page(1000, 800);
+  await shots.go(`file://${join(folder, "shots/report.html")}`);
+  const answers = JSON.parse(readFileSync(join(folder, "shots/summary.json"))).answers.shots;
+  const cells = await shots.run("[...document.querySelectorAll('#shots tbody tr')].map((r) => [...r.children].map((c) => c.textContent))");
+  check("every shot has its row", cells.length === 2 && answers.length === 2 && cells[1][0] === "2", cells);
+  check("with the time to solidify of the summary", Math.abs(parseFloat(cells[0][3]) - answers[0]["time_to_solidify[s]"]) < 2 || cells[0][3].includes("min"), [cells[0], answers[0]]);
+  check("two charts are over the shots", (await shots.run("[...document.querySelectorAll('#shots figcaption')].length")) === 2);
+  await shots.run("document.querySelector('#shots tbody tr button').click()");
+  await shots.settle();
+  check("a click goes to the end of a shot", Math.abs((await shots.run(`${bench}.choice.time`)) - answers[0]["end[s]"]) < 1, answers[0]);
+  check("and no word on the console there", shots.messages.length === 0, shots.messages);
 
   // Two runs side by side, on a telephone.
   const two = await browser.page(390, 800, { mobile: true });
