@@ -47,6 +47,33 @@ class Installed(ProgramTest):
         self.assertEqual(Path(found.stdout.split()[-2]), (moved / "bin/solidus").resolve())
         (moved / "bin/solidus").unlink()  # it is large
 
+    def test_a_package_for_debian_holds_the_program_and_names_what_it_needs(self):
+        """`cpack` as ./dev package calls it, of this build; its contents work where they are unpacked."""
+        for tool in ("dpkg-deb", "dpkg-shlibdeps", "file"):
+            if shutil.which(tool) is None:
+                self.skipTest(f"{tool} is not there")
+        done = subprocess.run(["cpack", "--config", Path(PROGRAM).parent / "CPackConfig.cmake", "-B", self.folder / "packages",
+                               "-D", "CPACK_COMPONENTS_ALL=program", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none"],
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
+        package, = (self.folder / "packages").glob("solidus_*_amd64.deb")
+        needed = subprocess.run(["dpkg-deb", "-f", package, "Depends"], check=True, capture_output=True, text=True).stdout
+        for library in ("libpetsc-real3", "libopenmpi3", "libhdf5-openmpi-103", "libopenblas0-serial | libopenblas0", "libmetis5"):
+            self.assertIn(library, needed)
+        unpacked = self.folder / "unpacked"
+        subprocess.run(["dpkg-deb", "-x", package, unpacked], check=True)
+        shutil.rmtree(self.folder / "packages")  # it is large
+        said = subprocess.run([unpacked / "usr/bin/solidus", "--version"], check=True, capture_output=True, text=True).stdout
+        self.assertRegex(said, r"solidus \d+\.\d+\.\d+")
+        # Python finds the package without being told where.
+        site = unpacked / "usr/lib/python3/dist-packages"
+        code = f"import site; site.addsitedir({str(site)!r}); import solidus_casting as sc; print(sc.__file__, sc.program())"
+        environment = {name: value for name, value in os.environ.items() if name not in ("SOLIDUS_PROGRAM", "PYTHONPATH")}
+        where = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True, env=environment).stdout.split()
+        self.assertEqual([Path(path).resolve() for path in where],
+                         [unpacked / "usr/share/solidus/python/solidus_casting/__init__.py", unpacked / "usr/bin/solidus"])
+        shutil.rmtree(unpacked)
+
     def test_a_program_of_ones_own_links_the_installed_libraries(self):
         """The example of docs/guide/install.md is built with find_package against an installed copy, and runs a case."""
         prefix = self.folder / "prefix"
