@@ -58,10 +58,10 @@ function figures(): Figure[] {
   };
   return [
     { label: "Freezes last", ...of("solidified_at", "max", (v) => duration(v)) },
-    { label: "Longest local freezing", ...of("local_solidification_time", "max", (v) => duration(v)) },
+    { label: "Longest freezing", ...of("local_solidification_time", "max", (v) => duration(v)) },
     { label: "Least Niyama", ...of("niyama", "min", (v, u) => withUnit(v, u)) },
     { label: "Porosity (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
-    { label: "Pores, share of the casting", text: (r) => {
+    { label: "Pores, in all", text: (r) => {
       const pores = r.summary.answers?.pores;
       return pores && withUnit(pores.share_of_casting, unitOf("pore_fraction", "1"));
     }, place: (r) => {
@@ -69,8 +69,8 @@ function figures(): Figure[] {
       return pores && { at: pores["at[m]"], label: `densest, ${withUnit(pores["value[1]"], unitOf("pore_fraction", "1"))}` };
     } },
     { label: "Pools closed off", text: (r) => (typeof r.summary.criteria?.closed_off_pools === "number" ? String(r.summary.criteria.closed_off_pools) : undefined) },
-    { label: "Von Mises, largest at end", ...largest("von_mises") },
-    { label: "Plastic strain, largest", ...largest("equivalent_plastic_strain") },
+    { label: "Von Mises at end", ...largest("von_mises") },
+    { label: "Plastic strain", ...largest("equivalent_plastic_strain") },
     { label: "At the end", text: (r) => {
       const low = final(r, "T_min[degC]"), high = final(r, "T_max[degC]");
       return low !== undefined && high !== undefined ? (Math.abs(high - low) < 0.5 ? `${short(Math.round(high))} °C` : `${+low.toFixed(1)} … ${+high.toFixed(1)} °C`.replace(/-/g, "−")) : undefined;
