@@ -223,6 +223,9 @@ ExitCode parse_and_run(int argc, char** argv) {
       ->add_option("--vtkhdf", exported.vtkhdf,
                    "One file with the fields of all times, for ParaView 5.12 or newer")
       ->type_name("FILE");
+  export_verb
+      ->add_option("--med", exported.med, "One file with the fields of all times, for Salome and code_aster")
+      ->type_name("FILE");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
   export_verb->add_flag("--temperature-history", exported.temperature_history,
                         "With --calculix or --abaqus: the temperatures of all times as the load, no stress");

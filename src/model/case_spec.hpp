@@ -357,6 +357,7 @@ struct OutputSpec {
   std::optional<int> checkpoint_every;  ///< steps
   std::optional<std::string> folder;
   bool stage_ends = true;  ///< outputs at the end of every stage
+  bool vtkhdf = false;     ///< fields.vtkhdf too, when the run ends or stops
 };
 
 /// Settings of the criteria that are evaluated on a freezing casting (model/criteria_input.hpp).

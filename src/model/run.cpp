@@ -100,6 +100,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.probes = probes(spec);
   r.profiles = profiles(spec);
   r.fields = spec.output.fields;
+  r.vtkhdf = spec.output.vtkhdf;
   r.stages = !spec.stages.empty();
   r.shots = has_shots(a);
   r.steady = spec.time.steady;

@@ -299,7 +299,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
         "There is no summary.json: the run goes on, or it was killed. The page shows how far it came.");
   out.add("materials", run.materials);
   Json tables;
-  for (const char* name : {"history", "steps", "pools"}) {
+  for (const char* name : {"history", "steps", "pools", "shots"}) {
     const std::string file = std::string(name) + ".csv";
     if (!there(file.c_str())) continue;
     const Table table = read_table(folder / file, k_most_rows);
