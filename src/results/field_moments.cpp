@@ -24,12 +24,11 @@ std::size_t FieldMoment::n_cells() const {
   return n;
 }
 
-void FieldMoment::add(const fs::path& path) {
+void FieldMoment::add(const fs::path& path, bool part) {
   files_.push_back(std::make_unique<mesh::VtuFile>(path));
   const mesh::VtuFile& file = *files_.back();
-  if (file.type() == "PUnstructuredGrid") {
-    for (const auto& [tag, child] : children(file, "PUnstructuredGrid"))
-      if (tag == "Piece") add(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""));
+  if (file.type() == "PUnstructuredGrid" && !part) {
+    for (const fs::path& each : grid_files(file, path)) add(each, true);
     return;
   }
   for (const auto& [tag, child] : children(file, "UnstructuredGrid"))
@@ -78,7 +77,7 @@ std::vector<std::uint8_t> hidden_cells(const FieldMoment& moment) {
     const ptree* array = mesh::find_array(*piece.tree, "CellData", k_hidden_cells);
     const std::vector<double> values = array == nullptr ? std::vector<double>(piece.n_cells, 0.0)
                                                         : piece.file->numbers(*array, piece.n_cells);
-    for (const double value : values) all.push_back(static_cast<std::uint8_t>(value));
+    for (const double value : values) all.push_back(static_cast<std::uint8_t>(mesh::whole_number(value)));
   }
   return all;
 }

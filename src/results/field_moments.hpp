@@ -29,7 +29,8 @@ class FieldMoment {
   std::size_t n_cells() const;
 
  private:
-  void add(const std::filesystem::path& path);
+  /// @param part  the file stands in a list of parts, and is none itself
+  void add(const std::filesystem::path& path, bool part = false);
 
   std::vector<std::unique_ptr<mesh::VtuFile>> files_;
   std::vector<Piece> pieces_;

@@ -17,54 +17,6 @@ namespace solidus::results {
 namespace {
 
 namespace fs = std::filesystem;
-<<<<<<< HEAD
-using boost::property_tree::ptree;
-
-/// A .vtu, or the parts that a .pvtu lists.
-class Moment {
- public:
-  explicit Moment(const fs::path& path) { add(path); }
-
-  struct Piece {
-    const mesh::VtuFile* file;
-    const ptree* tree;
-    std::size_t n_points, n_cells;
-  };
-  const std::vector<Piece>& pieces() const { return pieces_; }
-
- private:
-  /// @param part  the file stands in a list of parts, and is none itself
-  void add(const fs::path& path, bool part = false) {
-    files_.push_back(std::make_unique<mesh::VtuFile>(path));
-    const mesh::VtuFile& file = *files_.back();
-    if (file.type() == "PUnstructuredGrid" && !part) {
-      for (const fs::path& each : grid_files(file, path)) add(each, true);
-      return;
-    }
-    for (const auto& [tag, child] : children(file, "UnstructuredGrid"))
-      if (tag == "Piece") {
-        const auto [n_points, n_cells] = piece_size(file, child);
-        pieces_.push_back({&file, &child, n_points, n_cells});
-      }
-  }
-  std::vector<std::unique_ptr<mesh::VtuFile>> files_;
-  std::vector<Piece> pieces_;
-};
-
-/// An array of the grid's points or cells.
-struct Column {
-  const char* section;  ///< "PointData" or "CellData"
-  std::string name, unit;
-  std::size_t components = 1;
-};
-
-// Numbers of the input and the processes, the same at every moment.
-bool is_of_mesh(const std::string& name) {
-  return name == "node" || name == "element" || name == "body" || name == "process";
-}
-constexpr const char* k_hidden = "vtkGhostType";
-=======
->>>>>>> 6c303a4db75c9afe7068f37115ac10ab7d3c677c
 
 /// The file that is written: groups, attributes, and tables that grow by rows.
 class Writer {
@@ -160,49 +112,6 @@ class Writer {
   Hdf5Handle file_;
 };
 
-<<<<<<< HEAD
-std::vector<Column> columns_of(const Moment::Piece& piece) {
-  std::vector<Column> columns;
-  for (const char* section : {"PointData", "CellData"})
-    for (const std::string& name : mesh::array_names(*piece.tree, section)) {
-      if (name == k_hidden) continue;
-      const ptree& array = *mesh::find_array(*piece.tree, section, name);
-      columns.push_back({section, name, mesh::array_unit(array),
-                         array.get<std::size_t>("<xmlattr>.NumberOfComponents", 1)});
-    }
-  return columns;
-}
-
-std::size_t entities(const Moment::Piece& piece, const Column& column) {
-  return column.section == std::string_view("PointData") ? piece.n_points : piece.n_cells;
-}
-
-std::vector<double> values_of(const Moment& moment, const Column& column) {
-  std::vector<double> all;
-  for (const Moment::Piece& piece : moment.pieces()) {
-    const ptree* array = mesh::find_array(*piece.tree, column.section, column.name);
-    if (array == nullptr || array->get<std::size_t>("<xmlattr>.NumberOfComponents", 1) != column.components)
-      piece.file->fail(fmt::format("the file has no array '{}' as the first of the run has", column.name));
-    const std::vector<double> values =
-        piece.file->numbers(*array, entities(piece, column) * column.components);
-    all.insert(all.end(), values.begin(), values.end());
-  }
-  return all;
-}
-
-std::vector<std::uint8_t> hidden_cells(const Moment& moment) {
-  std::vector<std::uint8_t> all;
-  for (const Moment::Piece& piece : moment.pieces()) {
-    const ptree* array = mesh::find_array(*piece.tree, "CellData", k_hidden);
-    const std::vector<double> values = array == nullptr ? std::vector<double>(piece.n_cells, 0.0)
-                                                        : piece.file->numbers(*array, piece.n_cells);
-    for (const double value : values) all.push_back(static_cast<std::uint8_t>(mesh::whole_number(value)));
-  }
-  return all;
-}
-
-=======
->>>>>>> 6c303a4db75c9afe7068f37115ac10ab7d3c677c
 std::vector<std::int64_t> whole(const std::vector<double>& numbers) {
   std::vector<std::int64_t> all;
   for (const double number : numbers) all.push_back(mesh::whole_number(number));
