@@ -15,6 +15,15 @@ if(TARGET solidus_python)
   install(TARGETS solidus_python LIBRARY DESTINATION ${shared}/python/solidus_casting COMPONENT program)
 endif()
 
+# Debian's Python looks for packages in /usr/lib/python3/dist-packages: there a file names the folder that has ours. In another prefix no
+# Python would read it.
+file(WRITE ${PROJECT_BINARY_DIR}/made/solidus.pth "../../../share/solidus/python\n")
+install(CODE "
+  if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
+    file(INSTALL \"${PROJECT_BINARY_DIR}/made/solidus.pth\" DESTINATION \"\$ENV{DESTDIR}/usr/lib/python3/dist-packages\")
+  endif()
+" COMPONENT program)
+
 # The program that was just installed writes them, from its own declarations.
 install(CODE "
   set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")

@@ -23,3 +23,4 @@ set_target_properties(solidus_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT
 target_link_options(solidus_python PRIVATE -Wl,--exclude-libs,ALL)
 # The bindings hold no loops that count: half the time of compiling.
 target_compile_options(solidus_python PRIVATE $<$<CONFIG:Release>:-O1>)
+solidus_batch(solidus_python)

@@ -2,7 +2,7 @@
 # commit, X.Y.Z+20261122.4b0355f, and with ".modified" where sources were changed since. An archive that git made (git archive) has
 # both in cmake/commit.txt; one without them has the project's version alone.
 #
-# Included by CMakeLists.txt it makes the header app/program_version.hpp, which only the program's main file includes, anew with each
+# Included by CMakeLists.txt it makes the header app/program_version.hpp, which only src/app/built_version.cpp includes, anew with each
 # build; run as a script (-DSOURCES=… -DBASE=… -DHEADER=…) it writes the header where the version has changed.
 function(solidus_git output)
   execute_process(COMMAND git -C "${SOURCES}" ${ARGN} OUTPUT_VARIABLE text ERROR_QUIET RESULT_VARIABLE failed
@@ -59,5 +59,5 @@ add_custom_target(solidus_program_version BYPRODUCTS ${version_header} VERBATIM
                   COMMAND ${CMAKE_COMMAND} -DSOURCES=${PROJECT_SOURCE_DIR} -DBASE=${PROJECT_VERSION} -DHEADER=${version_header}
                           -P ${CMAKE_CURRENT_LIST_FILE})
 add_dependencies(solidus solidus_program_version)
-set_source_files_properties(src/app/main.cpp PROPERTIES INCLUDE_DIRECTORIES ${PROJECT_BINARY_DIR}/made
+set_source_files_properties(src/app/built_version.cpp PROPERTIES INCLUDE_DIRECTORIES ${PROJECT_BINARY_DIR}/made
                             OBJECT_DEPENDS ${version_header})

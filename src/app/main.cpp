@@ -12,10 +12,10 @@
 #include <optional>
 #include <thread>
 
+#include "app/built_version.hpp"
 #include "app/command_tree.hpp"
 #include "app/completion.hpp"
 #include "app/manual_page.hpp"
-#include "app/program_version.hpp"
 #include "app/python_tools.hpp"
 #include "app/python_verbs.hpp"
 #include "app/signals.hpp"
@@ -223,6 +223,9 @@ ExitCode parse_and_run(int argc, char** argv) {
       ->add_option("--vtkhdf", exported.vtkhdf,
                    "One file with the fields of all times, for ParaView 5.12 or newer")
       ->type_name("FILE");
+  export_verb
+      ->add_option("--med", exported.med, "One file with the fields of all times, for Salome and code_aster")
+      ->type_name("FILE");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
   export_verb->add_flag("--temperature-history", exported.temperature_history,
                         "With --calculix or --abaqus: the temperatures of all times as the load, no stress");
@@ -333,7 +336,7 @@ ExitCode parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (const std::optional<int> code = mesh::serve_as_reader(argc, argv)) return *code;
-  set_program_version(SOLIDUS_PROGRAM_VERSION);
+  set_program_version(built_version());
   const auto runs = [](const char* argument) { return std::string_view(argument) == "run"; };
   const bool run_wanted = std::any_of(argv + 1, argv + argc, runs);
   // A downstream reader that has ended is no failure: output to it is lost.

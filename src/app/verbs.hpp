@@ -66,11 +66,11 @@ ExitCode solidification_path(const SolidificationArguments& arguments);
 /// A case as the command line changes it. Throws InputError.
 model::Case load_case(const CaseArguments& arguments);
 struct ExportArguments {
-  std::string folder;                    ///< of a run
-  std::string calculix, abaqus, vtkhdf;  ///< file to write, exactly one of them
-  bool deformed = false;                 ///< coordinates with the displacement
-  bool temperature_history = false;      ///< the temperatures of all times as a load
-  bool trust_script = false;             ///< as of CaseArguments
+  std::string folder;                         ///< of a run
+  std::string calculix, abaqus, vtkhdf, med;  ///< file to write, exactly one of them
+  bool deformed = false;                      ///< coordinates with the displacement
+  bool temperature_history = false;           ///< the temperatures of all times as a load
+  bool trust_script = false;                  ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);
 struct NewArguments {

@@ -96,10 +96,9 @@ std::string ContactPair::worst_penetration() const {
   char text[160] = {};
   if (winner.rank == worst.rank && !penetration.empty()) {
     const mesh::Point& x = mesh_.x[node];
-    const auto end =
-        fmt::format_to_n(text, sizeof text - 1, "node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m",
-                         mesh_.input_node[node], x[0], x[1], x[2], penetration[node]);
-    *end.out = '\0';
+    fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m", mesh_.input_node[node], x[0],
+                x[1], x[2], penetration[node])
+        .copy(text, sizeof text - 1);
   }
   MPI_Bcast(text, sizeof text, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
   return text;

@@ -64,10 +64,9 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
   if (winner.rank == worst.rank && !r.empty()) {
     const std::size_t node = entry / static_cast<std::size_t>(components_);
     const mesh::Point& p = mesh_.x[node];
-    const auto end = fmt::format_to_n(text, sizeof text - 1,
-                                      "node {} at ({:.6g}, {:.6g}, {:.6g}) m: unbalanced force {:.4g} N",
-                                      mesh_.input_node[node], p[0], p[1], p[2], r[entry]);
-    *end.out = '\0';
+    fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: unbalanced force {:.4g} N", mesh_.input_node[node],
+                p[0], p[1], p[2], r[entry])
+        .copy(text, sizeof text - 1);
   }
   MPI_Bcast(text, sizeof text, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
   return text;

@@ -1,3 +1,6 @@
+/// The viscoplastic law in the kernels of the splits and in those of the simultaneous scheme, which are
+/// derived from them: in one file, so that what they share is compiled once.
+#include "mechanics/coupled_shapes.hpp"
 #include "mechanics/solid_blocks.hpp"
 
 namespace solidus::mechanics {
@@ -6,6 +9,14 @@ template <>
 std::unique_ptr<BlockKernel> make_block<material::Viscoplastic, AnalysisKind::solid>(
     const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material, bool b_bar) {
   return make_solid_block<material::Viscoplastic>(mesh, block, material, b_bar);
+}
+
+template <>
+std::unique_ptr<BlockKernel> make_coupled_block<AnalysisKind::solid>(const mesh::Mesh& mesh,
+                                                                     const mesh::Block& block,
+                                                                     const material::Material& material,
+                                                                     bool b_bar) {
+  return make_coupled_solid_block(mesh, block, material, b_bar);
 }
 
 }  // namespace solidus::mechanics

@@ -412,8 +412,9 @@ void check_case(const CaseSpec& spec) {
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
     throw InputError(spec.time.where, "more than a million outputs are asked for",
                      "a longer `every` in [output]");
-  if (spec.time.steady && spec.has_mechanics())
-    throw InputError(spec.time.where, "a steady analysis solves for heat alone", "physics = \"heat\"");
+  if (spec.time.steady && spec.dynamics)
+    throw InputError(spec.dynamics->where, "inertia in a steady analysis, in which nothing moves",
+                     "no [dynamics], or steady = false");
 }
 
 }  // namespace solidus::model

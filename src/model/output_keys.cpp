@@ -97,6 +97,12 @@ Section<OutputSpec> output_keys() {
       .initially(Value::list())
       .choices(field_names(false))
       .doc("The fields to write; empty: all there are.");
+  s.key("vtkhdf", &OutputSpec::vtkhdf)
+      .initially(false)
+      .doc(
+          "All fields of the run in one file fields.vtkhdf too, for ParaView 5.12 or newer; written when the "
+          "run "
+          "ends or stops.");
   s.key("checkpoint_every", &OutputSpec::checkpoint_every)
       .at_least(1)
       .doc(

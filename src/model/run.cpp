@@ -15,9 +15,9 @@
 #include "base/log.hpp"
 #include "base/profile.hpp"
 #include "base/units.hpp"
-#include "coupling/contact_work.hpp"
 #include "coupling/shot_map.hpp"
 #include "coupling/simulation.hpp"
+#include "coupling/steady.hpp"
 #include "model/advice.hpp"
 #include "model/assembly.hpp"
 #include "model/audit_watch.hpp"
@@ -100,6 +100,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.probes = probes(spec);
   r.profiles = profiles(spec);
   r.fields = spec.output.fields;
+  r.vtkhdf = spec.output.vtkhdf;
   r.stages = !spec.stages.empty();
   r.shots = has_shots(a);
   r.steady = spec.time.steady;
@@ -131,19 +132,7 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* reco
   if (recorder != nullptr) recorder->begin(a.initial);
   record = {};
   try {
-    const double start = MPI_Wtime();
-    const heat::PhaseReport report = a.heat->solve_steady(a.initial.heat, steady.heat, 0);
-    record.heat = {report.newton.iterations, report.newton.linear_iterations,
-                   report.newton.residuals.empty() ? 0.0 : report.newton.residuals.back(),
-                   MPI_Wtime() - start};
-    // Joules are those of one second.
-    for (const heat::ConditionHeat& condition : report.balance.conditions)
-      record.energy.heat_in += condition.heat;
-    record.energy.entropy_in = report.balance.entropy_in;
-    record.energy.heat_exchanged = report.balance.exchanged;
-    coupling::commit_contact_heat(a.phases, steady.heat.temperature, report.balance.contributions,
-                                  record.energy);
-    coupling::summarise(a.phases, steady, record);
+    static_cast<coupling::StepEffort&>(record) = coupling::solve_steady(a.phases, a.initial, steady);
   } catch (const StepRejected& rejected) {
     const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};
     if (recorder != nullptr) recorder->stopped(stop, a.initial);

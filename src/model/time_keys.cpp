@@ -7,7 +7,10 @@ Section<TimeSpec> time_keys() {
   Section<TimeSpec> s("time", "The time that is simulated and the size of its steps.");
   s.key("steady", &TimeSpec::steady)
       .initially(false)
-      .doc("Solve for the final equilibrium at once, without time.");
+      .doc(
+          "Solve for the final equilibrium at once, without time: the temperatures at which nothing warms or "
+          "cools any more and, in mechanics, the deformation that goes with them and with the gaps, from the "
+          "unstressed bodies of the start. Conditions are those of t = 0; [coupling] says nothing here.");
   s.quantity("end", &TimeSpec::end, "s")
       .positive()
       .doc("The run goes from zero to this time; required unless steady or in stages, which make the end.");

@@ -78,7 +78,7 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::St
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   for (const Record& record : state.records) {
-    for (const Column& column : record.columns) {
+    for (const criteria::Column& column : record.columns) {
       const auto width = static_cast<std::size_t>(column.components);
       for (const Part& part : parts(mesh, record, column))
         out.rows<double>(part.values, column.components,
@@ -97,7 +97,7 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::St
 
 void take_criteria(TableReader& in, const mesh::Mesh& mesh, criteria::State& state) {
   for (Record& record : state.records) {
-    for (Column& column : record.columns)
+    for (criteria::Column& column : record.columns)
       for (const Part& part : parts(mesh, record, column)) take_part(in, part, column);
     for (criteria::Table& table : record.tables) {
       table.values.clear();

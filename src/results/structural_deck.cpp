@@ -78,7 +78,7 @@ class Writer {
 
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+    out_ += fmt::format(format, std::forward<Args>(args)...);
     out_ += '\n';
   }
   GlobalIndex node(Index local) const { return d_.mesh.input_node[static_cast<std::size_t>(local)]; }

@@ -3,7 +3,7 @@
 import csv
 import unittest
 
-from program import ProgramTest
+from program import ProgramTest, solidus
 
 # A plate with a riser on it, a chill of the same metal beside it; the plate cools at its lower edge. The bodies share
 # their nodes.
@@ -74,6 +74,25 @@ class Summary(ProgramTest):
         self.assertIn(f"{100 * riser['solid_fraction']:.1f} % solid 60 s after pouring; the melt is hottest", text)
         self.assertGreater(riser["hottest_melt"]["at[m]"][1], 0.02)  # in the riser, away from what cools
         self.assertNotIn("freezes last", text)
+
+    def test_all_fields_are_gathered_in_one_file_where_the_case_asks_for_it(self):
+        hdf5 = b"\x89HDF\r\n"
+        self.run_case(20, "top", "--set", "output.vtkhdf=true", "--set", "output.every=10 s")
+        gathered = (self.folder / "out/fields.vtkhdf").read_bytes()
+        self.assertTrue(gathered.startswith(hdf5))
+        said = self.done("export", "out", "--vtkhdf", "later.vtkhdf")
+        self.assertIn(" fields at 3 times, ", said)
+        self.assertEqual((self.folder / "later.vtkhdf").read_bytes(), gathered)
+        result = solidus("export", "out", "--med", "later.med", cwd=self.folder)
+        if "without the MED library" in result.stderr:
+            self.assertEqual(result.returncode, 1)
+        else:
+            self.assertEqual(result.stdout.split(":")[1], said.split(":")[1])
+            self.assertTrue((self.folder / "later.med").read_bytes().startswith(hdf5))
+        both = solidus("export", "out", "--med", "a.med", "--vtkhdf", "b.vtkhdf", cwd=self.folder)
+        self.assertEqual((both.returncode, (self.folder / "b.vtkhdf").exists()), (1, False))
+        self.run_case(20)  # a new run takes the old file away
+        self.assertFalse((self.folder / "out/fields.vtkhdf").exists())
 
     def test_a_chill_of_the_same_metal_is_no_casting(self):
         text, answers = self.run_case(20)

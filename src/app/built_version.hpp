@@ -1,0 +1,9 @@
+#pragma once
+
+namespace solidus::app {
+
+/// The version that this program was built from (cmake/version.cmake). Its file alone is compiled anew with
+/// every commit.
+const char* built_version();
+
+}  // namespace solidus::app
