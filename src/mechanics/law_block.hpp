@@ -88,10 +88,17 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         if constexpr (IsotropicTangent<Response>) {
           add_isotropic(b, w * response.bulk, w * response.twice_shear, symmetric);
         } else {
-          Sym4<Lane> c = response.tangent;
-          for (auto& row : c.c)
-            for (auto& entry : row) entry *= w;
+          const Lane half = Lane(0.5) * w;
+          const Sym4<Lane>& full = response.tangent;
+          Sym4<Lane> c, turned;  // symmetric and skew part
+          for (int i = 0; i < 6; ++i)
+            for (int j = 0; j < 6; ++j) {
+              const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
+              c[i][column] = half * (full[i][column] + full[j][row]);
+              turned[i][column] = half * (full[i][column] - full[j][row]);
+            }
           add_general(b, c, symmetric);
+          if (skew) add_general(b, turned, *skew);
         }
         if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, q, response, w, symmetric, skew);
         if constexpr (AdiabaticTangent<Response>)
