@@ -99,31 +99,14 @@ bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const 
   call.complaint = failure;
   if (!library_->integrate(call)) return false;
 
-  double sum = 0;  // not a number if one of them is none
   for (int i = 0; i < 6; ++i) {
     set(r.stress[i], lane, call.stress[i]);
-    sum += 0 * call.stress[i];
-    for (std::size_t j = 0; j < 6; ++j) {
-      set(r.tangent[i][j], lane, call.tangent[i][j]);
-      sum += 0 * call.tangent[i][j];
-    }
+    for (std::size_t j = 0; j < 6; ++j) set(r.tangent[i][j], lane, call.tangent[i][j]);
   }
-  for (std::size_t i = 0; i < n_internal_; ++i) {
-    set(now[k_internal + i], lane, internal_[i] - initial_[i]);
-    sum += 0 * internal_[i];
-  }
-  for (std::size_t i = 0; i < k_external_energies; ++i) {
-    set(now[k_energies + i], lane, energies[i]);
-    sum += 0 * energies[i];
-  }
-  if (told_) {
-    const double told = library_->dissipated(call);
-    set(dissipated, lane, told);
-    sum += 0 * told;
-  }
-  if (std::isfinite(sum)) return true;
-  if (failure != nullptr) *failure = "the answer of the library holds values that are not finite";
-  return false;
+  for (std::size_t i = 0; i < n_internal_; ++i) set(now[k_internal + i], lane, internal_[i] - initial_[i]);
+  for (std::size_t i = 0; i < k_external_energies; ++i) set(now[k_energies + i], lane, energies[i]);
+  if (told_) set(dissipated, lane, library_->dissipated(call));
+  return true;
 }
 
 template <class T>
@@ -145,6 +128,19 @@ ExternalLaw::Response<T> ExternalLaw::update(const Properties<T>& p, const T* ol
     if (holds(solid, lane) && !integrate(p, old, now, of_law, dt, lane, r, dissipated,
                                          failures == nullptr ? nullptr : failures + lane))
       r.status = Status::cut_the_step;
+  // Zero, or not a number where one of the values is not finite.
+  T check = zero * dissipated, check_of_tangent = zero;
+  for (int i = 0; i < 6; ++i) {
+    check += zero * r.stress[i];
+    for (std::size_t j = 0; j < 6; ++j) check_of_tangent += zero * r.tangent[i][j];
+  }
+  for (std::size_t i = k_energies; i < size(); ++i) check += zero * now[i];
+  const auto finite = check + check_of_tangent == zero;
+  if (any(!finite)) {
+    r.status = Status::cut_the_step;
+    for (int lane = 0; failures != nullptr && lane < k_points<T>; ++lane)
+      if (!holds(finite, lane)) failures[lane] = "the answer of the library holds values that are not finite";
+  }
 
   // The balance of the inelastic work, with the moduli of the material file.
   Sym<T> inelastic = of_law - (one / twice_shear) * dev(r.stress);

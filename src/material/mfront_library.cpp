@@ -179,13 +179,18 @@ class MfrontLibrary final : public ExternalLibrary {
       strain[i] = factor * c.strain[k];
       old_stress[i] = stress[i] = factor * c.old_stress[k];
     }
-    old_state_.assign(c.old_internal, c.old_internal + names_.size());
-    if (c.fresh && elastic_strain_ >= 0) std::copy_n(old_strain, 6, old_state_.begin() + elastic_strain_);
-    std::copy(old_state_.begin(), old_state_.end(), c.internal);
+    const double* old_state = c.old_internal;
+    if (c.fresh && elastic_strain_ >= 0) {
+      old_state_.assign(c.old_internal, c.old_internal + names_.size());
+      std::copy_n(old_strain, 6, old_state_.begin() + elastic_strain_);
+      old_state = old_state_.data();
+    }
+    std::copy_n(old_state, names_.size(), c.internal);
     std::copy_n(c.old_energies, k_external_energies, c.energies);
     old_external_[0] = c.old_temperature;
     new_external_[0] = c.temperature;
-    char message[513] = {};
+    char message[513];
+    message[0] = 0;
     constexpr double density = 0;
     stiffness[0] = k_consistent_tangent;
     DataView view{message,
@@ -193,8 +198,8 @@ class MfrontLibrary final : public ExternalLibrary {
                   stiffness,
                   &longer,
                   &sound,
-                  {old_strain, old_stress, &density, properties_.data(), old_state_.data(),
-                   &c.old_energies[0], &c.old_energies[1], old_external_.data()},
+                  {old_strain, old_stress, &density, properties_.data(), old_state, &c.old_energies[0],
+                   &c.old_energies[1], old_external_.data()},
                   {strain, stress, &density, properties_.data(), c.internal, &c.energies[0], &c.energies[1],
                    new_external_.data()}};
     const int status = entry_(&view);

@@ -65,7 +65,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       Vectors f{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
-        const auto response = this->update(batch, q, b.strain(displacement));
+        const auto response = this->update_and_keep(batch, q, b.strain(displacement));
         b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
         if (response.status != material::Status::converged) this->invalidate(f);
       }
@@ -84,7 +84,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Lane w = geometry_.weight_at(batch, q);
-        const auto response = this->update(batch, q, b.strain(displacement));
+        const auto response = this->answer_at(batch, q, b.strain(displacement));
         if constexpr (IsotropicTangent<Response>) {
           add_isotropic(b, w * response.bulk, w * response.twice_shear, symmetric);
         } else {

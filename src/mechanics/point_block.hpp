@@ -147,7 +147,7 @@ class PointBlock : public BlockKernel {
   std::size_t bytes() const override {
     return geometry_.bytes() + points_.bytes() + properties_.bytes() + slots_.bytes() + averages_.bytes() +
            directions_.bytes() + (kept_averages_ ? kept_averages_->bytes() : 0) +
-           kept_stress_.capacity() * sizeof(Sym<Lane>);
+           kept_stress_.capacity() * sizeof(Sym<Lane>) + answers_.capacity() * sizeof(Answer);
   }
 
  protected:
@@ -197,7 +197,33 @@ class PointBlock : public BlockKernel {
     return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_dt_);
   }
 
+  /// The same for a law that is not to be asked twice: keeps the answer for answer_at().
+  Response update_and_keep(Index batch, int point, const Sym<Lane>& strain) {
+    Response response = update(batch, point, strain);
+    if constexpr (KeepsStateInPlace<Law>) {
+      if (answers_.empty()) {
+        answers_.resize(properties_.size());
+        for (Answer& answer : answers_) answer.strain[0] = Lane(std::numeric_limits<double>::quiet_NaN());
+      }
+      answers_[index(batch, point)] = {strain, response};
+    }
+    return response;
+  }
+  /// Stress and tangent, of the answer that is kept where it is that of this strain.
+  Response answer_at(Index batch, int point, const Sym<Lane>& strain) const {
+    if constexpr (KeepsStateInPlace<Law>) {
+      if (!answers_.empty()) {
+        const Answer& answer = answers_[index(batch, point)];
+        LaneMask same = answer.strain[0] == strain[0];
+        for (int i = 1; i < 6; ++i) same = same & (answer.strain[i] == strain[i]);
+        if (!any(!same)) return answer.response;
+      }
+    }
+    return update(batch, point, strain);
+  }
+
   void begin_step(const StepStart& start) {
+    answers_.clear();
     old_history_ = start.old_history;
     start_history_ = start.start_history;
     dt_ = start.dt;
@@ -531,6 +557,11 @@ class PointBlock : public BlockKernel {
   double stress_share_ = 1;
   double dt_ = 0, effective_dt_ = 0;
   StressAtWork work_ = StressAtWork::end;
+  struct Answer {
+    Sym<Lane> strain;
+    Response response;  ///< its state is not read
+  };
+  PackVector<Answer> answers_;         ///< of the last forces in this step, [batch][point]; empty: none
   PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where it is not requested
 };
 

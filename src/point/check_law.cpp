@@ -63,7 +63,7 @@ bool same(const Answer& a, const Answer& b) {
 
 /// A figure with the time at which it is largest.
 struct Worst {
-  double value = 0, time = 0;
+  double value = -1, time = 0;  ///< negative: none
 
   void take(double figure, double at) {
     if (!(figure <= value)) value = figure, time = at;
