@@ -13,7 +13,8 @@ Section<ExternalData> external_keys() {
   using E = ExternalData;
   Section<E> s("external",
                "The law of the solid from a shared object, instead of [plasticity] "
-               "(docs/guide/external_laws.md). It runs with --trust-laws alone.");
+               "(docs/guide/external_laws.md). It runs with --trust-laws alone. It answers from the "
+               "coherency_fraction of [casting] on; what is more liquid is the Maxwell element.");
   s.key("library", &E::library).doc("The shared object, relative to this file.");
   s.choice("interface", &E::interface,
            {{"mfront", ExternalInterface::mfront, "the generic interface of MFront, version 1"},
@@ -82,6 +83,7 @@ void add_external(Material& material, ExternalData data) {
   if (data.behaviour.empty() && !umat)
     throw InputError(data.where, "the library of [external] may hold several behaviours",
                      "behaviour = \"its name\"");
+  data.coherency_fraction = material.casting.coherency_fraction;
   if (data.behaviour.empty()) data.behaviour = "umat_";
   if (umat && !data.state_variables)
     throw InputError(data.where, "nobody but its author knows how many state variables a UMAT has",

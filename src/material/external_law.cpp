@@ -114,7 +114,7 @@ ExternalLaw::Response<T> ExternalLaw::update(const Properties<T>& p, const T* ol
                                              const Sym<T>& strain, double dt, std::string* failures) const {
   const T zero(0.0), one(1.0), third(1.0 / 3.0);
   const T bulk = p.elastic.bulk, twice_shear = T(2.0) * p.elastic.shear;
-  const auto solid = p.elastic.solid_fraction >= one;
+  const auto solid = p.elastic.solid_fraction >= T(data_.coherency_fraction);
   const Sym<T> old_inelastic = tensor_at(old, k_inelastic);
   Sym<T> viscous = tensor_at(old, k_viscous);
   const T growth = third * p.elastic.thermal_strain;

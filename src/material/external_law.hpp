@@ -12,9 +12,9 @@
 ///   σ : Δε^in = D Δt + Δe^cw
 ///
 /// so that elastic energy, heat of deformation and the first law are those of the laws of the program
-/// (structural_partials.hpp), whatever the library does inside. Where a point is not solid (f_S < 1) the
-/// Maxwell element (viscoelastic.hpp) takes its place; what had flowed then counts as viscous strain and the
-/// library starts from its initial state when the point is solid again.
+/// (structural_partials.hpp), whatever the library does inside. Below coherency, f_S < coherency_fraction of
+/// [casting], the Maxwell element (viscoelastic.hpp) takes its place; what had flowed then counts as viscous
+/// strain, and the library starts from its initial state when the solid is coherent again.
 ///
 /// Symbols: z the library's state variables, D dissipation [W/m³], e^cw energy of inelastic work that is
 /// stored [J/m³], ε^v viscous strain of the melt. Validity: infinitesimal strain; isotropic moduli.
@@ -53,6 +53,7 @@ struct ExternalData {
   bool unsymmetric = false;
   ExternalDissipation dissipation = ExternalDissipation::automatic;
   double heat_share = 0;
+  double coherency_fraction = 1;  ///< of the material: f_S from which the library answers
   SourceLocation where;
 
   std::string path() const;  ///< of the library: absolute or as found from the working folder

@@ -191,8 +191,8 @@ Material make_material(std::string name, const MaterialData& data) {
     m.notes.push_back(
         {"twice_shear_viscosity", "not given: chosen by the program for the body and the step", 0, 0});
   if (data.plasticity) add_flow(m, *data.plasticity);
-  if (data.external) add_external(m, *data.external);
   add_casting(m, data);
+  if (data.external) add_external(m, *data.external);
   check_liquid_model(m, data);
   check_heat_of_expansion(m, data);
   return m;
