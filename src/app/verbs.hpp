@@ -35,6 +35,8 @@ ExitCode resolve(const CaseArguments& arguments);
 /// A material point through a history of strain, stress and temperature.
 /// @param arguments path: a point file, or a folder with a point.toml
 ExitCode run_point(const CaseArguments& arguments);
+/// The laws of a point file, checked along its histories (point/check_law.hpp); exit code 1 where one fails.
+ExitCode check_point_laws(const CaseArguments& arguments);
 /// The files whose keys are declared.
 enum class FileKind { case_file, material_file, point_file };
 /// @param key a path such as "time.step"; empty: all keys

@@ -1,4 +1,5 @@
 /// The keys of a material file.
+#include "material/external_keys.hpp"
 #include "material/laws/fraction_law.hpp"
 #include "material/library.hpp"
 
@@ -146,6 +147,7 @@ Section<MaterialData> material_keys() {
       .doc("How what is not yet solid answers shear; f_S is the solid fraction.");
   s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
   s.section("plasticity", &MaterialData::plasticity, flow_section());
+  s.section("external", &MaterialData::external, external_section());
   s.section("casting", &MaterialData::casting, casting_keys());
   s.place(&MaterialData::where);
   return s;

@@ -6,6 +6,7 @@
 
 #include "algebra/multigrid.hpp"
 #include "base/errors.hpp"
+#include "material/external_law.hpp"
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
@@ -87,7 +88,7 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
       blocks_.push_back(std::make_unique<AbsentBlock>(mesh_, block, kind_, material));
       continue;
     }
-    plastic_ = plastic_ || material.flow.has_value();
+    plastic_ = plastic_ || material.flow.has_value() || external_law(material) != nullptr;
     blocks_.push_back(make_kernel(mesh_, block, kind_, material, options_));
   }
 }
