@@ -148,6 +148,8 @@ struct MeshSpec {
 struct TimeSpec {
   bool steady = false;
   std::optional<double> end, step;  ///< [s]; required unless steady
+  enum class Until { end, solid };
+  Until until = Until::end;
   bool adaptive = false;
   std::optional<double> min_step, max_step;  ///< [s]
   double growth = 0, cut = 0;
@@ -356,7 +358,9 @@ struct OutputSpec {
   std::vector<std::string> fields;
   std::optional<int> checkpoint_every;  ///< steps
   std::optional<std::string> folder;
-  bool stage_ends = true;  ///< outputs at the end of every stage
+  bool stage_ends = true;                                  ///< outputs at the end of every stage
+  std::string length_unit, temperature_unit, stress_unit;  ///< of the printed answers
+  SourceLocation where;
 };
 
 /// Settings of the criteria that are evaluated on a freezing casting (model/criteria_input.hpp).

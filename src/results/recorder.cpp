@@ -284,7 +284,8 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
     if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();
   }
   write_summary_file(outcome, state);
-  if (progress_ && s.answers) *options_.progress << text(*s.answers, s.criteria) << std::flush;
+  if (progress_ && s.answers)
+    *options_.progress << text(*s.answers, s.criteria, options_.units) << std::flush;
 }
 
 std::vector<double> Recorder::history_row(const coupling::State& state) {
