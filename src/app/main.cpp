@@ -245,7 +245,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   add_trust_laws(*export_verb, trust_laws);
   NewArguments fresh;
   CLI::App* new_verb = program.add_subcommand("new", "Make a case that runs from the geometry of a casting");
-  new_verb->add_option("PART", fresh.geometry, "A STEP, BREP or IGES file")->required();
+  new_verb->add_option("PART", fresh.geometry, "A STEP, BREP, IGES or STL file, or a mesh")->required();
   new_verb->add_option("--alloy", fresh.alloy, "What is cast: a material of the library, or a file")
       ->required();
   new_verb->add_option("--process", fresh.process, "sand, shell, gravity_die or high_pressure; default sand");

@@ -148,6 +148,8 @@ struct MeshSpec {
 struct TimeSpec {
   bool steady = false;
   std::optional<double> end, step;  ///< [s]; required unless steady
+  enum class Until { end, solid };
+  Until until = Until::end;
   bool adaptive = false;
   std::optional<double> min_step, max_step;  ///< [s]
   double growth = 0, cut = 0;
@@ -358,6 +360,8 @@ struct OutputSpec {
   std::optional<std::string> folder;
   bool stage_ends = true;  ///< outputs at the end of every stage
   bool vtkhdf = false;     ///< fields.vtkhdf too, when the run ends or stops
+  std::string length_unit, temperature_unit, stress_unit;  ///< of the printed answers
+  SourceLocation where;
 };
 
 /// Settings of the criteria that are evaluated on a freezing casting (model/criteria_input.hpp).

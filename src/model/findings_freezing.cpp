@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "model/findings.hpp"
 #include "model/mechanics_input.hpp"
+#include "model/roles.hpp"
 
 namespace solidus::model {
 
@@ -48,6 +49,13 @@ double time_there(const CaseSpec& spec, const Assembly& a, std::size_t body) {
     there = now;
   }
   return *spec.time.end - pour;
+}
+
+/// Over all processes the same.
+void nothing_to_wait_for(const CaseSpec& spec, const std::vector<Pour>& pours, Findings& findings) {
+  if (spec.time.until == TimeSpec::Until::solid && pours.empty())
+    findings.push_back({true, spec.time.where, "the run lasts until all is solid, but nothing is poured",
+                        "until = \"end\", or a body that starts above its solidus"});
 }
 
 void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
@@ -164,6 +172,8 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::PhaseChange* freezing = a.materials[b].solidification();
     if (freezing == nullptr || a.start[b].high >= freezing->fraction.solidus()) continue;
+    const Role role = role_of(spec.bodies[b], a.materials[b]);
+    if (role != Role::casting && role != Role::riser) continue;  // the case says that it is a chill
     findings.push_back(
         {false, spec.bodies[b].where,
          fmt::format(
@@ -231,6 +241,7 @@ void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasure
     length_of_run(spec, a, pour, findings);
   }
   rounds_without_a_shot(spec, a, m, findings);
+  nothing_to_wait_for(spec, m.pours, findings);
   cold_castings(spec, a, m, findings);
   feeders(spec, a, m, findings);
 }

@@ -110,6 +110,16 @@ Section<OutputSpec> output_keys() {
           "written and where a run stops.");
   s.key("folder", &OutputSpec::folder)
       .doc("Results folder; `-o` goes before it, without both results/CASE/VARIANT.");
+  s.key("length_unit", &OutputSpec::length_unit)
+      .initially("mm")
+      .doc("Unit of places, gaps and distortion in the answers at the end of a run: \"mm\", \"inch\".");
+  s.key("temperature_unit", &OutputSpec::temperature_unit)
+      .initially("degC")
+      .doc("Unit of temperatures there: \"degC\", \"degF\", \"K\".");
+  s.key("stress_unit", &OutputSpec::stress_unit)
+      .initially("MPa")
+      .doc("Unit of stresses there: \"MPa\", \"ksi\".");
+  s.place(&OutputSpec::where);
   return s;
 }
 

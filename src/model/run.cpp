@@ -107,6 +107,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.progress = options.progress;
   r.profile = options.profile;
   r.castings = cast_bodies(spec, a.materials, a.start);
+  r.units = {spec.output.length_unit, spec.output.temperature_unit, spec.output.stress_unit};
   r.progress_options.end = spec.time.end.value_or(0);
   r.progress_options.heat = spec.has_heat();
   r.progress_options.mechanics = spec.has_mechanics();
@@ -286,8 +287,16 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
                      fmt::format("the run has found its periodic state already, to {:.3g} K in shot {}",
                                  found.continuation.shots.change, found.state.shot),
                      "a smaller 'periodic' in the cycle");
+  constexpr double k_solid = 1 - 1e-12;
+  const bool solid = spec.time.until == TimeSpec::Until::solid && a.heat &&
+                     a.heat->mean_solid_fraction(found.state.heat) >= k_solid;
+  if (solid && results::is_finished(options.folder))
+    throw InputError(
+        spec.time.where,
+        fmt::format("the run has ended at t = {:g} s: all that was poured is solid", found.state.time),
+        "time.until = \"end\" to go on until time.end");
   // A run that was killed behind its last checkpoint has but its summary to write.
-  const bool reached = found.state.time == *spec.time.end || periodic;
+  const bool reached = found.state.time == *spec.time.end || periodic || solid;
   if (reached && !results::is_finished(options.folder)) {
     logging::info("the run has reached t = {:g} s already; its results are completed", found.state.time);
     return found;

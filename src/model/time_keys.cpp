@@ -14,6 +14,13 @@ Section<TimeSpec> time_keys() {
   s.quantity("end", &TimeSpec::end, "s")
       .positive()
       .doc("The run goes from zero to this time; required unless steady or in stages, which make the end.");
+  s.choice("until", &TimeSpec::until,
+           {{"end", TimeSpec::Until::end, "the run goes on to `end`"},
+            {"solid", TimeSpec::Until::solid,
+             "it ends with the first step after which everything that can melt is solid, at `end` at the "
+             "latest"}})
+      .initially("end")
+      .doc("What ends the run; without stages.");
   s.quantity("step", &TimeSpec::step, "s")
       .positive()
       .doc(

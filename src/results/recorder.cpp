@@ -288,7 +288,8 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
   if (options_.vtkhdf && output_.written() > 0)
     on_first_process([&] { write_vtkhdf(folder_.collection(), folder_.root() / "fields.vtkhdf"); });
   write_summary_file(outcome, state);
-  if (progress_ && s.answers) *options_.progress << text(*s.answers, s.criteria) << std::flush;
+  if (progress_ && s.answers)
+    *options_.progress << text(*s.answers, s.criteria, options_.units) << std::flush;
 }
 
 std::vector<double> Recorder::history_row(const coupling::State& state) {

@@ -38,6 +38,7 @@ struct RecorderOptions {
   bool profile = false;  ///< print where the wall time went
   /// What is poured: the solid fraction that is shown is of these bodies; empty: of all that can melt.
   std::vector<CastBody> castings;
+  DisplayUnits units;                       ///< of the printed answers
   Fingerprint fingerprint;                  ///< of the case, for checkpoints
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
   Summary summary;                          ///< known before the run: names, mesh, seconds of setting up

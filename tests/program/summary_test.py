@@ -115,6 +115,40 @@ class Summary(ProgramTest):
         self.assertIn(f"froze {froze['riser'] - froze['plate']:.4g} s before the part: it could not feed to the end",
                       text)
 
+    def test_a_run_until_all_is_solid_ends_when_it_is_and_goes_on_only_where_asked(self):
+        until = ("--set", 'time.until="solid"')
+        text, answers = self.run_case(4000, "top", *until)
+        last = max(body["last_melt_froze"]["value[s]"] for body in answers["castings"].values())
+        ended = answers["time[s]"]
+        self.assertTrue(last <= ended < last + 5, (last, ended))  # a step of five seconds
+        self.assertEqual({body["solid_fraction"] for body in answers["castings"].values()}, {1})
+        collection = (self.folder / "out/fields.pvd").read_text()
+        self.assertIn(f'timestep="{ended:g}"', collection)
+        again = solidus("run", ".", "-o", "out", "--no-progress", "--restart", *until, cwd=self.folder)
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("all that was poured is solid", again.stderr)
+        self.done("run", ".", "-o", "out", "--no-progress", "--restart", "--set", f'time.end="{ended + 10} s"')
+        self.assertEqual(self.summary(self.folder / "out")["answers"]["time[s]"], ended + 10)
+
+    def test_a_run_until_all_is_solid_needs_something_that_is_poured(self):
+        self.write("plate.geo", GEOMETRY)
+        self.write("case.toml", CASE.format(end=10, feeders="top").replace("700 degC", "20 degC"))
+        result = solidus("check", ".", "--set", 'time.until="solid"', "--set", "criteria.feeders=[]", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("the run lasts until all is solid, but nothing is poured", result.stderr)
+        result = solidus("check", ".", "--set", 'time.until="solid"', "--set", "time.steady=true", cwd=self.folder)
+        self.assertIn("means nothing in a steady analysis", result.stderr)
+
+    def test_places_and_temperatures_are_printed_in_the_units_of_the_user(self):
+        units = ("--set", 'output.length_unit="inch"', "--set", 'output.temperature_unit="degF"')
+        text, answers = self.run_case(60, "top", *units)
+        riser = answers["castings"]["riser"]["hottest_melt"]
+        fahrenheit = 1.8 * (riser["value[K]"] - 273.15) + 32
+        x, y, _ = (metres / 0.0254 for metres in riser["at[m]"])
+        self.assertIn(f"the melt is hottest, {fahrenheit:.4g} degF, at ({x:.4g}, {y:.4g}, 0) inch", text)
+        result = solidus("check", ".", "--set", 'output.length_unit="degC"', cwd=self.folder)
+        self.assertIn("'degC' is no unit for length_unit", result.stderr)
+
     def test_the_profile_of_the_solver_is_printed_where_it_is_asked_for(self):
         text, _ = self.run_case(10)
         self.assertNotIn("start of the program", text)
