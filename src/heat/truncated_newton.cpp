@@ -18,9 +18,6 @@ constexpr double k_plateau_stiffness =
     1e13;                           ///< times the diagonal: δ = 0 to rounding, without a change of structure
 constexpr double k_relaxed = 1e-3;  ///< share of a node's own residual after a sweep
 constexpr double k_negligible = 1e-1;   ///< share of the tolerance that nodes which are not relaxed may have
-constexpr double k_concentrated = 1;    ///< |F_i| over its mean from which on a node is swept again
-constexpr int k_local_rounds = 6;       ///< of these sweeps, there and back
-constexpr double k_local_share = 0.3;   ///< of that |F_i| below which they leave a node as it is
 constexpr int k_relaxations = 60;       ///< evaluations of a node's curve in one visit
 constexpr double k_accept_rise = 0.5;   ///< the full step stands if E rises behind it by at most this share
 constexpr double k_accept_slope = 0.1;  ///< a shortened step ends where the slope of E is this share
@@ -376,9 +373,9 @@ void TruncatedNewton::relax_nodes(bool all) {
 /// larger afterwards, A tells too little of it: such sweeps are then left out for the rest of the step.
 double TruncatedNewton::relax_locally() {
   const profile::Part part("sweeps");
-  LocalSweeps local(system_.matrix(), r_, system_.fixed(), k_concentrated);
-  negligible_ = k_local_share * local.threshold();
-  local.run(k_local_rounds, r_, [this](std::size_t i, double residual) {
+  LocalSweeps local(system_.matrix(), r_, system_.fixed());
+  negligible_ = 0;
+  local.run([this](std::size_t i, double residual) {
     const double heat = heat_[i], change = relax(i, residual);
     return NodeChange{change, (heat_[i] - heat) / dt_};
   });
