@@ -141,11 +141,12 @@ algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState
   if (matrix_.set_zero()) solver_->reset();
   thermal_->assemble(iteration);
   const mechanics::NodalPressure* const pressure = mechanics_.pressure();
-  const mechanics::CoupledIterate at{.form = phases_.structural != nullptr ? std::optional(phases_.structural->form()) : std::nullopt,
-                                     .old_u = old.displacement,
-                                     .u = x.first(mechanics_.n_displacements()),
-                                     .temperature = thermal_->temperature(),
-                                     .pressure_unit = pressure != nullptr ? pressure->unit() : 1};
+  const mechanics::CoupledIterate at{
+      .form = phases_.structural != nullptr ? std::optional(phases_.structural->form()) : std::nullopt,
+      .old_u = old.displacement,
+      .u = x.first(mechanics_.n_displacements()),
+      .temperature = thermal_->temperature(),
+      .pressure_unit = pressure != nullptr ? pressure->unit() : 1};
   for (mechanics::CoupledKernel* kernel : kernels_) kernel->add_coupling(at, matrix_);
   for (const contact::ContactPair* pair : phases_.contacts)
     pair->add_coupling(thermal_->temperature(), matrix_);

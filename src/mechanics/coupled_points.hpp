@@ -69,7 +69,7 @@ class CoupledPoints : public Block, public CoupledKernel {
  protected:
   /// Derivatives at a point: of the stress and of the heat per time [W/m³].
   struct Rates {
-    Sym<Lane> stress;       ///< σ_Θ [Pa/K]
+    Sym<Lane> stress;            ///< σ_Θ [Pa/K]
     Sym<Lane> heat_strain{};     ///< h_ε
     Lane heat_temperature{0.0};  ///< h_Θ
   };

@@ -412,11 +412,10 @@ struct CaseSpec {
   }
   /// Both fields by one iteration.
   bool simultaneous() const {
-    return coupled() && !time.steady &&
-           coupling.scheme->traits().mapping == mechanics::Mapping::simultaneous;
+    return coupled() && !time.steady && coupling.scheme->traits().mapping == mechanics::Mapping::simultaneous;
   }
-  /// Heat and mechanics with a mechanical phase that holds entropy. Where they exchange no heat the entropy is
-  /// a function of temperature alone, and to hold it is to hold the temperature.
+  /// Heat and mechanics with a mechanical phase that holds entropy. Where they exchange no heat the entropy
+  /// is a function of temperature alone, and to hold it is to hold the temperature.
   bool isentropic() const {
     return exchanges_heat() && coupling.scheme->traits().mapping == mechanics::Mapping::isentropic;
   }

@@ -129,32 +129,36 @@ TEST(Hertz, HoldsForAllPlaneElementsAndWithTheAugmentedLagrangian) {
 
 // On meshes that do not match the points of segments ask for more than the faces can follow, the more the
 // stiffer the penalty; means around the slave's nodes do not.
-TEST(Hertz, KeepsItsEllipseWithStiffPenaltiesAtMeansAroundNodes) {
+TEST(Hertz, HasPressuresThatDoNotDependOnThePenaltyAtMeansAroundNodes) {
   auto table = verification::table("contact_hertz_penalty", "kind,rule,penalty[E/h],p0,deviation");
   using contact::IntegrationRule;
-  for (const auto kind : {AnalysisKind::plane_strain, AnalysisKind::axisymmetric})
-    for (const auto rule : {IntegrationRule::segments, IntegrationRule::mortar})
-      for (const double factor : {10.0, 100.0, 1000.0}) {
-        const bool mortar = rule == IntegrationRule::mortar;
-        if (!mortar && factor > 100) continue;
-        Hertz hertz({.kind = kind,
-                     .formulation = Formulation::small_sliding,
-                     .n = 32,
-                     .stiffness = 0.4 * factor,
-                     .rule = rule});
-        hertz.run->step(1);
-        const Errors e = errors(hertz);
-        const bool line = kind == AnalysisKind::plane_strain;
-        table << fmt::format("{},{},{},{:.2e},{:.2e}\n", line ? "line" : "point",
-                             mortar ? "mortar" : "segments", factor, e.pressure, e.deviation);
-        SCOPED_TRACE(fmt::format("{} {} {}", line, mortar, factor));
-        if (mortar) {
-          EXPECT_LT(e.deviation, 0.1);
-          EXPECT_NEAR(e.pressure, 0, 0.02);
-        } else if (factor == 100) {
-          EXPECT_GT(e.deviation, 0.1);
-        }
-      }
+  const auto measured = [&](AnalysisKind kind, IntegrationRule rule, double factor) {
+    Hertz hertz({.kind = kind,
+                 .formulation = Formulation::small_sliding,
+                 .n = 32,
+                 .stiffness = 0.4 * factor,
+                 .rule = rule});
+    hertz.run->step(1);
+    const Errors e = errors(hertz);
+    table << fmt::format("{},{},{},{:.2e},{:.2e}\n", kind == AnalysisKind::plane_strain ? "line" : "point",
+                         rule == IntegrationRule::mortar ? "mortar" : "segments", factor, e.pressure,
+                         e.deviation);
+    return e;
+  };
+  for (const auto kind : {AnalysisKind::plane_strain, AnalysisKind::axisymmetric}) {
+    const Errors segments = measured(kind, IntegrationRule::segments, 100),
+                 soft = measured(kind, IntegrationRule::mortar, 10);
+    if (kind == AnalysisKind::plane_strain) {
+      EXPECT_GT(segments.deviation, 0.1);
+      EXPECT_LT(soft.deviation, 0.1);
+    }
+    EXPECT_NEAR(soft.pressure, 0, 0.01);
+    for (const double factor : {100.0, 1000.0}) {
+      const Errors stiff = measured(kind, IntegrationRule::mortar, factor);
+      EXPECT_NEAR(stiff.pressure, soft.pressure, 0.005);
+      EXPECT_NEAR(stiff.deviation, soft.deviation, 0.03);
+    }
+  }
 }
 
 // The mesh on which the augmented Lagrangian once took 60 turns and more: 48 triangles under half the

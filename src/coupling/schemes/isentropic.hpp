@@ -2,7 +2,6 @@
 #pragma once
 
 #include "coupling/isentropic.hpp"
-#include "coupling/isothermal.hpp"
 #include "coupling/schemes/sequential.hpp"
 
 namespace solidus::coupling {
@@ -16,7 +15,6 @@ struct IsentropicScheme : SequentialScheme {
 
   SchemeTraits traits() const { return {.mapping = mechanics::Mapping::isentropic, .leaves_stepping = true}; }
   std::unique_ptr<CouplingScheme> make(const Phases& phases, const SchemeContext& c) const {
-    if (!c.heating) return std::make_unique<IsothermalSplit>(phases, order_in(c));
     return std::make_unique<IsentropicSplit>(phases, order_in(c));
   }
 };
