@@ -16,13 +16,9 @@ if(TARGET solidus_python)
 endif()
 
 # Debian's Python looks for packages in /usr/lib/python3/dist-packages: there a file names the folder that has ours. In another prefix no
-# Python would read it.
+# Python reads it.
 file(WRITE ${PROJECT_BINARY_DIR}/made/solidus.pth "../../../share/solidus/python\n")
-install(CODE "
-  if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
-    file(INSTALL \"${PROJECT_BINARY_DIR}/made/solidus.pth\" DESTINATION \"\$ENV{DESTDIR}/usr/lib/python3/dist-packages\")
-  endif()
-" COMPONENT program)
+install(FILES ${PROJECT_BINARY_DIR}/made/solidus.pth DESTINATION lib/python3/dist-packages COMPONENT program)
 
 # The program that was just installed writes them, from its own declarations.
 install(CODE "
