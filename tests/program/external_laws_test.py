@@ -137,22 +137,22 @@ class ExternalLaws(ProgramTest):
         history = table(files[0])
         liquid = [abs(s) for s, f in zip(history["stress_xx[MPa]"], history["solid_fraction[1]"]) if f == 0]
         self.assertLess(max(liquid), 0.1 * max(history["von_mises[MPa]"]))
-        jumps = [abs(b - a) for a, b in zip(history["stress_xx[MPa]"], history["stress_xx[MPa]"][1:])]
-        self.assertLess(max(jumps), 0.2 * max(abs(s) for s in history["stress_xx[MPa]"]))
-        self.assertGreater(history["equivalent_plastic[1]"][-1], 0)
+        for stress, temperature, plastic in zip(history["von_mises[MPa]"], history["temperature[degC]"], history["equivalent_plastic_strain[1]"]):
+            self.assertLess(stress, 1.001 * (250 * (1 - 8e-4 * (temperature - 20)) + 2000 * plastic))
+        self.assertGreater(history["equivalent_plastic_strain[1]"][-1], 0)
 
     def test_an_adiabatic_point_becomes_warm_by_the_share_of_plastic_work(self):
         self.compile_umat()
         self.write("share.toml", 'like = "steel_umat.toml"\n[external]\ndissipation = "share"\ntaylor_quinney = 0.5\n')
         self.write("own.toml", 'like = "steel.toml"\n[plasticity.taylor_quinney]\nvalue = 0.5\nsource = "example"\n')
         self.write("adiabatic.toml", 'material = "own.toml"\ntemperature = "20 degC"\nthermal = "adiabatic"\n[[segment]]\nstrain = 0.1\n'
-                   'strain_rate = "1 1/s"\nsteps = 100\n[[curve]]\nname = "own"\n[[curve]]\nname = "library"\nmaterial = "share.toml"\n')
+                   'strain_rate = "1 1/s"\nsteps = 100\n[[segment]]\nstress = "0 MPa"\nduration = "1 s"\nsteps = 10\n[[curve]]\nname = "own"\n[[curve]]\nname = "library"\nmaterial = "share.toml"\n')
         self.done("point", "adiabatic.toml", "--trust-laws", "-o", "warm")
         for name in "own", "library":
             history = table(self.folder / f"warm/{name}.csv")
             warming = history["temperature[degC]"][-1] - history["temperature[degC]"][0]
             heat = 7800 * 600 * warming  # [J/m3]
-            self.assertAlmostEqual(heat / (500 * history["work[kJ/m3]"][-1]), 1, delta=0.05, msg=name)
+            self.assertAlmostEqual(heat / (500 * history["work[kJ/m3]"][-1]), 1, delta=0.02, msg=name)
 
     def test_nothing_is_loaded_unless_the_user_says_so(self):
         for arguments in ["point", "point.toml"], ["check", "bar.toml"], ["run", "bar.toml"]:
