@@ -25,6 +25,7 @@ NOT_A_NAME = set("alignas auto const constexpr consteval constinit decltype expl
                  "thread_local typedef typename using void volatile bool char short int long float double signed "
                  "unsigned struct class enum union concept namespace public private protected".split())
 TESTS = ("TEST", "TEST_F", "TEST_P", "TYPED_TEST", "INSTANTIATE_TEST_SUITE_P")
+LIBRARIES = {"testing", "std", "fmt", "Eigen"}  # whose names a namespace of the project may hide
 FOUND_BY_ARGUMENT = {"PrintTo", "begin", "end", "swap"}  # headers find these by their name
 
 
@@ -64,6 +65,7 @@ class Source:
     called:     those that a parenthesis or a template's arguments follow
     fixed:      names that must stay as they are: those of members, of other namespaces and of tests
     opened:     namespaces besides the project's that it opens to all of the file (`using namespace`)
+    spaces:     namespaces called as a library's that it and headers beside it are in
     """
 
     def __init__(self, path):
@@ -72,7 +74,7 @@ class Source:
             text = file.read()
         self.lines = text.count("\n")
         self.includes = INCLUDE.findall(text)
-        self.own, self.functions, self.opened = {}, set(), set()
+        self.own, self.functions, self.opened, self.spaces = {}, set(), set(), set()
         self.fixed = set(FOUND_BY_ARGUMENT)
         text = COMMENT_OR_TEXT.sub(lambda match: " " if match[0][0] == "/" else '""', text)
         self.plain = set(DIRECTIVE.findall(text)) <= {"include"}
@@ -85,7 +87,11 @@ class Source:
                 self.used.add(token)
                 if after in ("(", "<"):
                     self.called.add(token)
-        self.read(tokens)
+        try:
+            self.read(tokens)
+        except ValueError as error:
+            print(error, file=sys.stderr)
+            self.plain = False  # it stays alone
         self.mentioned = self.used | self.fixed
         self.headers = {}  # names that headers beside the source declare -> those headers
         self.follow(path, set())
@@ -97,6 +103,7 @@ class Source:
             if header[0] == '"' and beside not in seen and os.path.exists(beside):
                 seen.add(beside)
                 self.mentioned |= Header.of(beside).mentioned
+                self.spaces |= Header.of(beside).spaces
                 for name in Header.of(beside).own:
                     self.headers.setdefault(name, set()).add(beside)
                 self.follow(beside, seen)
@@ -108,6 +115,7 @@ class Source:
             depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(token, 0)
             if depth == 0 and token == "{" and "namespace" in words[:2]:
                 scopes.append(words[-1] == "namespace")
+                self.spaces.update(LIBRARIES.intersection(words))
                 start = i + 1
             elif depth == 0 and token == "}" and not words:
                 if not scopes:
@@ -167,9 +175,11 @@ class Source:
         return name in self.own and name not in self.fixed
 
     def sees_more(self, other):
-        """Whether headers of the other one declare a name anew that this one has from its own."""
-        return any(name in self.mentioned and not other.headers.get(name, found) <= found
-                   for name, found in self.headers.items())
+        """Whether the other one brings a namespace by whose name this one means a library's (solidus::testing), or its
+        headers declare a name anew that this one has from its own."""
+        return bool((other.spaces - self.spaces) & self.used) or any(
+            name in self.mentioned and not other.headers.get(name, found) <= found
+            for name, found in self.headers.items())
 
 
 class Header(Source):

@@ -1,5 +1,7 @@
 """Sources that are compiled as one file (cmake/batches.py) must mean what they mean alone."""
 
+import contextlib
+import io
 import os
 import sys
 import tempfile
@@ -57,6 +59,9 @@ class Batches(unittest.TestCase):
     def test_sources_with_macros_or_conditions_stay_alone(self):
         self.assertEqual(len(self.grouped("#define SIZE 3\n", unnamed("int n = 0;"))), 2)
         self.assertEqual(len(self.grouped("#if 0\n#endif\n", unnamed("int n = 0;"))), 2)
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.assertEqual(len(self.grouped("int f() {}\n}\n", unnamed("int n = 0;"))), 2)
+        self.assertIn("braces are not understood", said.getvalue())
 
     def test_headers_that_declare_the_same_name_part_the_sources(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -75,6 +80,11 @@ class Batches(unittest.TestCase):
             self.assertIsNone(batches.agreement(other, one))
             self.assertIsNone(batches.agreement(one, both))
             self.assertEqual(batches.agreement(both, both), (set(), set()))
+
+    def test_a_namespace_that_hides_another_parts_the_sources(self):
+        hides = "namespace solidus::testing {\nint run();\n}\n"
+        self.assertEqual(len(self.grouped(hides, unnamed("class Any : public testing::Test {};"))), 2)
+        self.assertEqual(len(self.grouped(hides, unnamed("class Any : public ::testing::Test {};"))), 1)
 
     def test_comments_texts_and_bodies_declare_nothing(self):
         text = unnamed('/* int a; */ const char* k = R"(int b;)"; // int c;\nint f() { int d = \'{\'; return d; }\n'
