@@ -15,6 +15,11 @@ if(TARGET solidus_python)
   install(TARGETS solidus_python LIBRARY DESTINATION ${shared}/python/solidus_casting COMPONENT program)
 endif()
 
+# Debian's Python looks for packages in /usr/lib/python3/dist-packages: there a file names the folder that has ours. In another prefix no
+# Python reads it.
+file(WRITE ${PROJECT_BINARY_DIR}/made/solidus.pth "../../../share/solidus/python\n")
+install(FILES ${PROJECT_BINARY_DIR}/made/solidus.pth DESTINATION lib/python3/dist-packages COMPONENT program)
+
 # The program that was just installed writes them, from its own declarations.
 install(CODE "
   set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")

@@ -32,4 +32,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "petsc-dev, libopenmpi-dev, libmeti
 if(SOLIDUS_GMSH)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libgmsh-dev")
 endif()
+if(SOLIDUS_MED)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libmedc-dev")
+endif()
 include(CPack)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures 7.11b to 7.16 of the monograph and the tables of docs/verification/sheet_sliding.md.
+"""Figures 7.10 to 7.16 of the monograph and the tables of docs/verification/sheet_sliding.md.
 
 usage: figures.py [--results DIR] [--images DIR]      reads the results of all variants (README.md runs them)
 
@@ -11,6 +11,7 @@ import argparse
 import csv
 from pathlib import Path
 import sys
+import tomllib
 
 import numpy as np
 
@@ -21,6 +22,7 @@ sys.path.insert(0, str(ROOT / "python"))
 from solidus_plots import style  # noqa: E402
 from solidus_plots.history import read_table  # noqa: E402
 from solidus_plots.style import plt  # noqa: E402
+from solidus_plots.vtu import read_collection, read_fields  # noqa: E402
 
 FORCES = (3920, 2940, 1960, 980)
 STEELS = {"ga": (0.178, -0.666e-2), "eg": (0.157, -0.315e-1, 0.104e-1, -0.821e-3, 0.289e-4, -0.410e-6)}
@@ -90,6 +92,41 @@ def draw_laws(images):
     return style.save(figure, images, "sheet_sliding_laws", vector=False)
 
 
+def draw_hardening(images):
+    """Of the cards: saturation from the yield stress, sigma_0 + (sigma_inf - sigma_0) (1 - exp(-delta xi))."""
+    figure, axes = panel("Hardening of the sheets (figure 7.11a; its rate is chosen)", "Equivalent plastic strain [%]", "Flow stress [N/mm²]")
+    xi = np.linspace(0, 0.3, 301)
+    for index, steel in enumerate(STEELS):
+        card = tomllib.loads((HERE / f"materials/{steel}.toml").read_text())["plasticity"]
+        first, last = (float(card[key]["value"].split()[0]) for key in ("flow_stress", "saturation_stress"))
+        rate = card["saturation_rate"]["value"]
+        axes.plot(100 * xi, last + (first - last) * np.exp(-rate * xi), label=steel.upper(), **style.line_style(index))
+    axes.set_ylim(bottom=0)
+    axes.margins(x=0)
+    axes.legend(loc="lower right")
+    return style.save(figure, images, "sheet_sliding_7_11a", vector=False)
+
+
+CYCLE = ((0, "(a) before the press"), (15, "(b) it slides, half way"), (25, "(c) the end of the stroke, still pressed"),
+         (31, "(d) lifted, on its way back"))
+
+
+def draw_cycle(folder, images):
+    """The mesh where the bodies are, in the first pass."""
+    figure, panels = plt.subplots(len(CYCLE), 1, figsize=(6.4, 5.2), sharex=True, sharey=True, layout="constrained")
+    times, files = read_collection(folder / "fields.pvd")
+    for axes, (time, title) in zip(panels, CYCLE):
+        grid = read_fields(files[int(np.argmin(np.abs(times - time)))])
+        points = 1000 * (grid.points + grid.point_data["displacement"])[:, :2]
+        for line in grid.edges()[0]:
+            axes.plot(*points[line].T, color="black", linewidth=0.3)
+        axes.set_title(title, loc="left", fontsize=9)
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+    figure.suptitle("Mesh and cycle (figure 7.10)", x=0.01, ha="left", fontsize=10)
+    return style.save(figure, images, "sheet_sliding_7_10", vector=False)
+
+
 def draw_forces(run, closed, strip, images, name, title):
     figure, axes = panel(title, "Passes", "Tangential force [N]")
     stroke = run.way.max()
@@ -155,7 +192,9 @@ def main():
     plt.rcParams["savefig.dpi"] = 100
     options.images.mkdir(parents=True, exist_ok=True)
     closed, strip, runs = reference("closed_form"), reference("strip"), read_runs(options.results)
-    files = draw_laws(options.images)
+    files = draw_laws(options.images) + draw_hardening(options.images)
+    if (options.results / "ga_3920/fields.pvd").exists():
+        files += draw_cycle(options.results / "ga_3920", options.images)
     for steel, first in (("ga", 12), ("eg", 14)):
         for index, force in enumerate(FORCES):
             key = steel, "a", force

@@ -57,6 +57,9 @@ class Simulation:
         ``"heat"`` or ``"thermomechanical"``, in place of what the case says.
     trust_script:
         Run a ``.geo`` script whatever it says.
+    trust_laws:
+        Load laws of materials from shared objects, here and in all later simulations of the process: their code runs as
+        a program of their author.
 
     On several processes (:func:`initialize`) all of them make every call, and fields are those of the process's own part.
 
@@ -69,7 +72,7 @@ class Simulation:
     """
 
     def __init__(self, case: Case | str | Path, output: str | Path | None = None, *, restart: bool = False,
-                 physics: str | None = None, trust_script: bool = False) -> None:
+                 physics: str | None = None, trust_script: bool = False, trust_laws: bool = False) -> None:
         if not isinstance(case, Case):
             case = Case.load(case)
         if physics not in (None, "heat", "thermomechanical"):
@@ -78,7 +81,8 @@ class Simulation:
         module = core()
         with case.as_arguments() as arguments:
             self._session = module.Session(arguments[0], arguments[2::2], physics,
-                                           "" if self._folder is None else str(self._folder), restart, trust_script)
+                                           "" if self._folder is None else str(self._folder), restart, trust_script,
+                                           trust_laws)
         closed_at_exit(self)
         self._moves = 0  # fields of an earlier moment are gone
         self._moment: Moment | None = None

@@ -110,6 +110,8 @@ def plan(run, times, summary, history, results, wishes):
         if "shrinkage_porosity" in written and (grid.point_data["shrinkage_porosity"] > 0).any():
             add("shrinkage_porosity", title="Estimate of shrinkage porosity", unit="%",
                 timeless=True)
+    if "pore_fraction" in written and grid.cell_data["pore_fraction"][mask].any():
+        add("pore_fraction", title="Shrinkage that nothing fed (pores)", quantity="Pores", unit="%")
     if "gap" in written and "displacement" in written and (grid.point_data["gap"] > 0).any():
         add("gap", title="Gap between casting and mould", unit="mm", skin_alone=True, contours=0)
     if "distortion" in written and np.any(grid.point_data["distortion"]):

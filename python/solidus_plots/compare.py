@@ -241,6 +241,8 @@ def draw_fields(one, other, grid, difference_grid, folder):
     run = Moments(np.array([grid.time]), [None], one.bodies)
     run._grids[0] = difference_grid
     cast = automatic.castings(run, one.summary, grid)
+    if not run.body_mask(grid, cast).any():  # castings that have left the die: what is still there
+        cast = [body for body in run.bodies if run.body_mask(grid, [body]).any()]
     mask = run.body_mask(grid, cast)
     kind = automatic.read_case(one.folder).get("analysis", {}).get("kind", "solid")
     case = overview.Case(f"{other.name} less {one.name}", bool(np.isin(grid.cell_types, VOLUME).any()),

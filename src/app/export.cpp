@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "app/verbs.hpp"
 #include "base/errors.hpp"
+#include "results/med.hpp"
+#include "results/report/report.hpp"
 #include "results/vtkhdf.hpp"
 
 namespace solidus::app {
@@ -25,20 +29,29 @@ ExitCode export_fields(const ExportArguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
   if (!std::filesystem::exists(folder / "fields.pvd"))
     throw InputError({arguments.folder}, "the folder has no fields.pvd", "the folder of a run's results");
-  const results::VtkHdfReport report = results::write_vtkhdf(folder / "fields.pvd", arguments.vtkhdf);
-  print(fmt::format("{}: {} fields at {} times, {} points and {} cells\n", arguments.vtkhdf, report.fields,
-                    report.times, report.points, report.cells));
+  const std::string& file = arguments.vtkhdf.empty() ? arguments.med : arguments.vtkhdf;
+  const auto say = [&](const auto& report) {
+    print(fmt::format("{}: {} fields at {} times, {} points and {} cells\n", file, report.fields,
+                      report.times, report.points, report.cells));
+  };
+  if (!arguments.vtkhdf.empty()) {
+    say(results::write_vtkhdf(folder / "fields.pvd", file));
+    return k_done;
+  }
+  std::vector<std::string> bodies;
+  for (const report::BodyMaterial& body : report::body_materials(folder)) bodies.push_back(body.body);
+  say(results::write_med(folder / "fields.pvd", bodies, file));
   return k_done;
 }
 
 }  // namespace
 
 ExitCode export_state(const ExportArguments& arguments) {
-  const auto formats = {&arguments.abaqus, &arguments.calculix, &arguments.vtkhdf};
+  const auto formats = {&arguments.abaqus, &arguments.calculix, &arguments.vtkhdf, &arguments.med};
   if (std::count_if(formats.begin(), formats.end(), [](const auto* file) { return !file->empty(); }) != 1)
     throw InputError({}, "export needs one format and the file to write",
-                     "--calculix FILE, --abaqus FILE or --vtkhdf FILE");
-  if (!arguments.vtkhdf.empty()) return export_fields(arguments);
+                     "--calculix FILE, --abaqus FILE, --vtkhdf FILE or --med FILE");
+  if (!arguments.vtkhdf.empty() || !arguments.med.empty()) return export_fields(arguments);
   const bool abaqus = !arguments.abaqus.empty();
   model::ExportOptions options;
   options.folder = arguments.folder;

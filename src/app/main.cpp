@@ -29,6 +29,7 @@
 #include "base/profile.hpp"
 #include "base/terminal.hpp"
 #include "base/version.hpp"
+#include "material/external_law.hpp"
 #include "material/library.hpp"
 #include "mesh/reader_process.hpp"
 #include "model/case_keys.hpp"
@@ -86,6 +87,11 @@ void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
 void add_trust(CLI::App& verb, bool& trust) {
   verb.add_flag("--trust-geo", trust,
                 "Run .geo scripts whatever they say: they can start programs and write files as you can");
+}
+
+void add_trust_laws(CLI::App& verb, bool& trust) {
+  verb.add_flag("--trust-laws", trust,
+                "Load laws of materials from shared objects: their code runs as a program of their author");
 }
 
 CLI::App* add_material_import(CLI::App& materials, MaterialImportArguments& arguments) {
@@ -173,6 +179,9 @@ ExitCode parse_and_run(int argc, char** argv) {
   }
   add_trust(*run_verb, arguments.trust_script);
   add_trust(*check_verb, arguments.trust_script);
+  bool trust_laws = false, check_law = false;
+  add_trust_laws(*run_verb, trust_laws);
+  add_trust_laws(*check_verb, trust_laws);
   CLI::App* explain_verb = program.add_subcommand("explain", "Explain a key of the case file, or list all");
   explain_verb->add_option("KEY", key, "For example time.step");
   explain_verb->add_flag("--manual", manual, "The reference manual of all keys, in Markdown");
@@ -192,6 +201,9 @@ ExitCode parse_and_run(int argc, char** argv) {
   point_verb
       ->add_option("-o,--output", arguments.output, "Folder of the results; default results/FOLDER/FILE")
       ->type_name("FOLDER");
+  add_trust_laws(*point_verb, trust_laws);
+  point_verb->add_flag("--check-law", check_law,
+                       "Check the law along the history instead: tangent, energy, isotropy, repetition");
   CLI::App* mesh_verb = program.add_subcommand("mesh-info", "Report groups, sizes and quality of a mesh");
   mesh_verb->add_option("CASE", arguments.path, "A mesh file, or a case")->required();
   mesh_verb->add_option("--set", arguments.set, "Change a key of the case")
@@ -223,13 +235,17 @@ ExitCode parse_and_run(int argc, char** argv) {
       ->add_option("--vtkhdf", exported.vtkhdf,
                    "One file with the fields of all times, for ParaView 5.12 or newer")
       ->type_name("FILE");
+  export_verb
+      ->add_option("--med", exported.med, "One file with the fields of all times, for Salome and code_aster")
+      ->type_name("FILE");
   export_verb->add_flag("--deformed", exported.deformed, "Deformed instead of nominal coordinates");
   export_verb->add_flag("--temperature-history", exported.temperature_history,
                         "With --calculix or --abaqus: the temperatures of all times as the load, no stress");
   add_trust(*export_verb, exported.trust_script);
+  add_trust_laws(*export_verb, trust_laws);
   NewArguments fresh;
   CLI::App* new_verb = program.add_subcommand("new", "Make a case that runs from the geometry of a casting");
-  new_verb->add_option("PART", fresh.geometry, "A STEP, BREP or IGES file")->required();
+  new_verb->add_option("PART", fresh.geometry, "A STEP, BREP, IGES or STL file, or a mesh")->required();
   new_verb->add_option("--alloy", fresh.alloy, "What is cast: a material of the library, or a file")
       ->required();
   new_verb->add_option("--process", fresh.process, "sand, shell, gravity_die or high_pressure; default sand");
@@ -292,13 +308,14 @@ ExitCode parse_and_run(int argc, char** argv) {
     throw InputError({}, error.what(), "`solidus --help` shows verbs and options");
   }
   set_log_level(level);
+  if (trust_laws) material::trust_external_laws();
   const FileKind file = of_material ? FileKind::material_file
                         : of_point  ? FileKind::point_file
                                     : FileKind::case_file;
   if (*run_verb) return run(arguments);
   if (*check_verb) return check(arguments);
   if (*resolve_verb) return resolve(arguments);
-  if (*point_verb) return run_point(arguments);
+  if (*point_verb) return check_law ? check_point_laws(arguments) : run_point(arguments);
   if (*explain_verb) return explain(file, key, manual);
   if (*schema_verb) return schema(file);
   if (*mesh_verb) return mesh_info(arguments, unit);

@@ -12,9 +12,11 @@
 #include "app/verbs.hpp"
 #include "base/types.hpp"
 #include "base/version.hpp"
+#include "material/external_law.hpp"
 #include "material/library.hpp"
 #include "model/case_materials.hpp"
 #include "model/overrides.hpp"
+#include "point/check_law.hpp"
 #include "point/point_case.hpp"
 #include "results/csv.hpp"
 #include "results/json.hpp"
@@ -174,19 +176,31 @@ void write_curve(const Curve& curve, const point::History& history, const fs::pa
   summary.curves.emplace_back(std::move(entry));
 }
 
-}  // namespace
-
-ExitCode run_point(const CaseArguments& arguments) {
+/// Reads the point file, and loads the laws from outside of its materials.
+PointCase load_point_case(const CaseArguments& arguments, const fs::path& file) {
   int processes = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &processes);
   if (processes > 1) throw InputError({}, "a point runs on one process", "solidus point without mpirun");
-  fs::path file = arguments.path;
-  if (fs::is_directory(file)) file /= "point.toml";
   Value document = load_document(file);
   for (const std::string& assignment : arguments.set) model::apply_override(document, assignment);
   const auto library = model::material_folders();
-  const PointCase point_case = point::make_point_case(std::move(document), library);
+  PointCase point_case = point::make_point_case(std::move(document), library);
+  for (Curve& curve : point_case.curves)
+    if (const material::ExternalLaw* law = external_law(curve.material))
+      set_external_law(curve.material, material::load_external_law(curve.material, *law));
+  return point_case;
+}
 
+fs::path point_file(const CaseArguments& arguments) {
+  const fs::path file = arguments.path;
+  return fs::is_directory(file) ? file / "point.toml" : file;
+}
+
+}  // namespace
+
+ExitCode run_point(const CaseArguments& arguments) {
+  const fs::path file = point_file(arguments);
+  const PointCase point_case = load_point_case(arguments, file);
   const fs::path folder = arguments.output.empty() ? results_root() / results::default_run_folder(file)
                                                    : fs::path(arguments.output);
   std::vector<point::History> histories;  // all of them before anything is written
@@ -212,6 +226,23 @@ ExitCode run_point(const CaseArguments& arguments) {
   if (summary.failures.empty()) return k_done;
   std::fputs(("solidus: " + summary.failures).c_str(), stderr);
   return k_cannot_continue;
+}
+
+ExitCode check_point_laws(const CaseArguments& arguments) {
+  const fs::path file = point_file(arguments);
+  const PointCase point_case = load_point_case(arguments, file);
+  bool passed = true;
+  std::string text;
+  for (const Curve& curve : point_case.curves) {
+    text += fmt::format("{}: the law of '{}'\n", curve.name, curve.material.name);
+    for (const point::LawCheck& check : point::check_law(curve.material, curve.program)) {
+      passed = passed && check.passed;
+      text +=
+          fmt::format("  {:<6} {:<12} {}\n", check.passed ? "passed" : "FAILED", check.name, check.finding);
+    }
+  }
+  print(text);
+  return passed ? k_done : k_bad_input;
 }
 
 }  // namespace solidus::app

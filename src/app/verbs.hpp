@@ -35,6 +35,8 @@ ExitCode resolve(const CaseArguments& arguments);
 /// A material point through a history of strain, stress and temperature.
 /// @param arguments path: a point file, or a folder with a point.toml
 ExitCode run_point(const CaseArguments& arguments);
+/// The laws of a point file, checked along its histories (point/check_law.hpp); exit code 1 where one fails.
+ExitCode check_point_laws(const CaseArguments& arguments);
 /// The files whose keys are declared.
 enum class FileKind { case_file, material_file, point_file };
 /// @param key a path such as "time.step"; empty: all keys
@@ -66,11 +68,11 @@ ExitCode solidification_path(const SolidificationArguments& arguments);
 /// A case as the command line changes it. Throws InputError.
 model::Case load_case(const CaseArguments& arguments);
 struct ExportArguments {
-  std::string folder;                    ///< of a run
-  std::string calculix, abaqus, vtkhdf;  ///< file to write, exactly one of them
-  bool deformed = false;                 ///< coordinates with the displacement
-  bool temperature_history = false;      ///< the temperatures of all times as a load
-  bool trust_script = false;             ///< as of CaseArguments
+  std::string folder;                         ///< of a run
+  std::string calculix, abaqus, vtkhdf, med;  ///< file to write, exactly one of them
+  bool deformed = false;                      ///< coordinates with the displacement
+  bool temperature_history = false;           ///< the temperatures of all times as a load
+  bool trust_script = false;                  ///< as of CaseArguments
 };
 ExitCode export_state(const ExportArguments& arguments);
 struct NewArguments {

@@ -1,5 +1,6 @@
 #include "contact/fixed_kinematics.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace solidus::contact {
@@ -7,6 +8,13 @@ namespace solidus::contact {
 namespace {
 
 constexpr Tensor k_identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr double k_whole = 1;
+
+std::size_t most_nodes(const ContactPoints& points) {
+  int most = 0;
+  for (const Pairing& pairing : points.pairings) most = std::max(most, pairing.n_nodes());
+  return static_cast<std::size_t>(most);
+}
 
 }  // namespace
 
@@ -14,8 +22,8 @@ FixedKinematics::FixedKinematics(ContactPoints points, int components)
     : points_(std::move(points)),
       components_(components),
       relative_(points_.weight.size()),
-      penetration_rate_(2 * k_max_face_nodes),
-      slip_rate_(2 * k_max_face_nodes) {
+      penetration_rate_(most_nodes(points_)),
+      slip_rate_(most_nodes(points_)) {
   pairing_.reserve(points_.weight.size());
   for (std::size_t k = 0; k < points_.pairings.size(); ++k)
     pairing_.insert(pairing_.end(), static_cast<std::size_t>(points_.pairings[k].n_points),
@@ -28,12 +36,13 @@ FixedKinematics::Particle FixedKinematics::particle(Index point) const {
   const auto n_slave = static_cast<std::size_t>(pairing.n_slave);
   const std::size_t shape = pairing.first_shape + static_cast<std::size_t>(point - pairing.first_point) *
                                                       static_cast<std::size_t>(pairing.n_nodes());
+  const bool of_a_node = pairing.n_shown == 1;
   return {points_.number[p],
           pairing.counted,
           points_.position[p],
           points_.weight[p],
-          std::span(points_.nodes).subspan(pairing.first_node, n_slave),
-          std::span(points_.shape).subspan(shape, n_slave)};
+          std::span(points_.nodes).subspan(pairing.first_node, of_a_node ? 1 : n_slave),
+          of_a_node ? std::span(&k_whole, 1) : std::span(points_.shape).subspan(shape, n_slave)};
 }
 
 void FixedKinematics::place(std::span<const double> u, Points) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "algebra/parallel.hpp"
+#include "contact/nodal_means.hpp"
 #include "contact/point_list.hpp"
 #include "contact/slave_rule.hpp"
 #include "mesh/quadrature.hpp"
@@ -31,6 +32,7 @@ class Builder {
         slave_(slave),
         master_(master),
         options_(options),
+        everything_(options.rule == IntegrationRule::mortar),
         search_(reference_faces(master)) {}
 
   ContactPoints build() {
@@ -64,13 +66,14 @@ class Builder {
     points_.slave_measure += measure_of(face, kind_);
     const auto slave_nodes = slave_.nodes(f);
     const std::vector<Index> candidates = candidates_of(face);
-    const bool mine =
-        owns_any(slave_nodes) || std::any_of(candidates.begin(), candidates.end(),
-                                             [&](Index m) { return owns_any(master_.nodes(m)); });
+    const bool mine = everything_ || owns_any(slave_nodes) ||
+                      std::any_of(candidates.begin(), candidates.end(),
+                                  [&](Index m) { return owns_any(master_.nodes(m)); });
     if (!mine) return;
     found_.clear();
     switch (options_.rule) {
       case IntegrationRule::segments:
+      case IntegrationRule::mortar:
         (face.dimension() == 1 ? cut_line : cut_face)(face, search_, candidates, options_.search_distance,
                                                       found_);
         break;
@@ -101,7 +104,7 @@ class Builder {
   void store(Index slave_face, const Face& face, std::size_t place, std::span<const PairedPoint> found) {
     const Index master_face = found.front().master_face;
     const auto s = slave_.nodes(slave_face), m = master_.nodes(master_face);
-    if (!owns_any(s) && !owns_any(m)) return;
+    if (!everything_ && !owns_any(s) && !owns_any(m)) return;
     Pairing p;
     p.slave_face = slave_face;
     p.master_face = master_face;
@@ -124,7 +127,8 @@ class Builder {
       const Point x = face.at(point.slave_xi), n = face.normal(point.slave_xi);
       // The other rules' measures hold the circumference already.
       const double w =
-          point.measure * (options_.rule == IntegrationRule::segments ? circumference(kind_, x) : 1.0);
+          point.measure *
+          (options_.rule == IntegrationRule::segments || everything_ ? circumference(kind_, x) : 1.0);
       points_.number.push_back(slave_face * k_points_of_a_face + static_cast<GlobalIndex>(place++));
       points_.weight.push_back(w);
       points_.normal.push_back(n);
@@ -140,6 +144,7 @@ class Builder {
   const ContactSurface& slave_;
   const ContactSurface& master_;
   IntegrationOptions options_;
+  bool everything_;  ///< the points that this process does not need itself, too
   FaceSearch search_;
   ContactPoints points_;
   std::vector<PairedPoint> found_;
@@ -155,7 +160,8 @@ std::size_t ContactPoints::bytes() const {
 
 ContactPoints integrate(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
                         const ContactSurface& master, const IntegrationOptions& options) {
-  return Builder(mesh, kind, slave, master, options).build();
+  ContactPoints points = Builder(mesh, kind, slave, master, options).build();
+  return options.rule == IntegrationRule::mortar ? means_around_nodes(mesh, slave, points) : points;
 }
 
 }  // namespace solidus::contact

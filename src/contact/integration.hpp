@@ -25,7 +25,8 @@ inline constexpr GlobalIndex k_points_of_a_face = 1 << 20;
 enum class IntegrationRule {
   segments,  ///< slave faces cut where master faces begin and end, Gauss points in each piece (default)
   nodal,     ///< at the slave's nodes with the weights ∫ N_a dA
-  gauss      ///< Gauss points of the slave's faces, whatever the master
+  gauss,     ///< Gauss points of the slave's faces, whatever the master
+  mortar     ///< means of `segments` around the slave's nodes (nodal_means.hpp)
 };
 
 struct IntegrationOptions {
@@ -41,6 +42,7 @@ struct Pairing {
   std::size_t first_node = 0;     ///< in ContactPoints::nodes: slave's nodes, then the master's
   Index first_point = 0, n_points = 0;
   std::size_t first_shape = 0;  ///< in ContactPoints::shape
+  int n_shown = 0;              ///< nodes of the slave that show its values; zero: all
   bool counted = false;         ///< this process counts it in sums
   int n_nodes() const { return n_slave + n_master; }
 };

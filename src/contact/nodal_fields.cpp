@@ -54,11 +54,11 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
   NodalAverage<k_kept> kept(n);
   for (Index p = 0; p < kinematics_->n_points(); ++p) {
     const PointState& state = now_.points[static_cast<std::size_t>(p)];
+    const ContactKinematics::Particle particle = kinematics_->particle(p);
     if (law_.friction || has_temperature()) {
       const double mu =
           law_.friction ? law_.friction->coefficient().value(state.internal_variable, state.temperature).value
                         : 0.0;
-      const ContactKinematics::Particle particle = kinematics_->particle(p);
       for (std::size_t b = 0; b < particle.nodes.size(); ++b)
         kept.add(particle.nodes[b], particle.weight * particle.share[b],
                  {state.slip, state.internal_variable, mu, state.dissipation, state.wear_depth,
@@ -68,15 +68,16 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     if (!motion.partnered) continue;
     const Point traction = times(motion.push, state.traction);
     const SurfaceHeat& q = heat[static_cast<std::size_t>(p)];
-    for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
-      const std::size_t side = b < static_cast<std::size_t>(motion.n_slave) ? 0 : 1;
-      if (const auto node = static_cast<std::size_t>(motion.nodes[b]); node < n)
-        paired_area[node] += motion.weight * (side == 0 ? motion.share[b] : -motion.share[b]);
+    const auto meet = [&](Index node, double share, std::size_t side) {
+      if (const auto i = static_cast<std::size_t>(node); i < n) paired_area[i] += motion.weight * share;
       met.add(
-          motion.nodes[b], motion.weight * motion.share[b] * motion.share[b],
+          node, motion.weight * share * share,
           {-state.penetration, state.pressure, conductance[static_cast<std::size_t>(p)], q.total[side],
            q.by_friction[side], static_cast<double>(state.status), traction[0], traction[1], traction[2]});
-    }
+    };
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b) meet(particle.nodes[b], particle.share[b], 0);
+    for (auto b = static_cast<std::size_t>(motion.n_slave); b < motion.nodes.size(); ++b)
+      meet(motion.nodes[b], -motion.share[b], 1);
   }
   ContactNodalFields fields;
   fields.nodes = surface_nodes_;

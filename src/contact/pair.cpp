@@ -183,6 +183,10 @@ void ContactPair::make_kinematics(AnalysisKind kind, const ContactSurface& slave
   if (master == nullptr && !slides)
     throw InputError(spec_.where, fmt::format("contact '{}': a rigid surface with small sliding", spec_.name),
                      "formulation = \"large_sliding\"");
+  if (slides && spec_.integration == IntegrationRule::mortar)
+    throw InputError(spec_.where,
+                     fmt::format("contact '{}': integration = \"mortar\" with large sliding", spec_.name),
+                     "formulation = \"small_sliding\", or integration = \"gauss\" or \"nodal\"");
   touching_ = spec_.touching.value_or(1e-6 * slave.mean_face_size());
   const double reach = spec_.search_distance.value_or(0.1 * slave.extent());
   if (!slides) {

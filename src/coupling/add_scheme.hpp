@@ -17,8 +17,6 @@ class SchemeKindOf final : public SchemeKind {
   SchemeTraits traits() const override { return data.traits(); }
   std::optional<Objection> objection(const SchemeContext& c) const override {
     const SchemeTraits t = data.traits();
-    if (t.mapping == mechanics::Mapping::isentropic)
-      if (const std::optional<Objection> wrong = against_entropy(c)) return wrong;
     if (c.printed_form() && !t.printed_forms)
       return Objection{
           std::string("structural_heating = \"") +

@@ -56,6 +56,10 @@ void book_interface(EnergyAudit& audit, bool mechanical) {
   audit.numerical += sums.stored + sums.hardening - sums.energy;
 }
 
+void keep_heat_alone(EnergyAudit& energy) {
+  energy.work = energy.contact = energy.kinetic = energy.numerical = energy.friction = 0;
+}
+
 void add(const contact::InterfaceSums& next, contact::InterfaceSums& sum, double factor) {
   for (double contact::InterfaceSums::*part :
        {&contact::InterfaceSums::dissipated, &contact::InterfaceSums::stored,

@@ -42,6 +42,9 @@ class ContactWork {
 /// @param mechanical  false where deformation and heat exchange nothing: then friction's heat alone
 void book_interface(EnergyAudit& energy, bool mechanical);
 
+/// Leaves the heat of the bodies alone in the first law: deformation exchanges nothing with it.
+void keep_heat_alone(EnergyAudit& energy);
+
 /// Commits the temperatures of the interfaces after a thermal pass, and books into the audit what they
 /// dissipate and store, and the heat, with its entropy, from rigid masters of given temperature. Adds to
 /// energy.interface. Collective.

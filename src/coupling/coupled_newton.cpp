@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "algebra/parallel.hpp"
 #include "base/errors.hpp"
 #include "coupling/coupled_saddle_solver.hpp"
 #include "mechanics/nodal_pressure.hpp"
@@ -21,6 +22,35 @@ constexpr std::size_t k_remembered = 5;  ///< residuals that a step may rise to
 constexpr int k_halvings = 8;
 constexpr double k_loosest = 1e-2;  ///< forcing term: assembly costs as much as ten linear iterations
 constexpr double k_far_off = 1e6;   ///< a residual that rises so much even after halving ends the iteration
+/// Share of the mesh's diagonal that a node goes at most in an iteration. A body that rested on contact
+/// alone, which the step before has opened, has next to no stiffness toward its mould: its step is metres
+/// long, and surfaces that search for their partners (large sliding) would not find each other again.
+constexpr double k_longest_way = 0.05;
+
+/// The diagonal of the mesh's bounding box [m]. Collective.
+double diagonal(const mesh::Mesh& mesh) {
+  double squares = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (const mesh::Point& x : mesh.x) low = std::min(low, x[i]), high = std::max(high, x[i]);
+    const double size = algebra::global_max(high) - algebra::global_min(low);
+    squares += size * size;
+  }
+  return std::sqrt(squares);
+}
+
+/// The longest way of a node [m]. Collective.
+/// @param step  [local node][component]
+double longest(std::span<const double> step, int components) {
+  const auto n = static_cast<std::size_t>(components);
+  double squares = 0;
+  for (std::size_t i = 0; i + n <= step.size(); i += n) {
+    double of_node = 0;
+    for (std::size_t c = 0; c < n; ++c) of_node += step[i + c] * step[i + c];
+    squares = std::max(squares, of_node);
+  }
+  return std::sqrt(algebra::global_max(squares));
+}
 
 }  // namespace
 
@@ -111,11 +141,12 @@ algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState
   if (matrix_.set_zero()) solver_->reset();
   thermal_->assemble(iteration);
   const mechanics::NodalPressure* const pressure = mechanics_.pressure();
-  const mechanics::CoupledIterate at{.form = phases_.structural->form(),
-                                     .old_u = old.displacement,
-                                     .u = x.first(mechanics_.n_displacements()),
-                                     .temperature = thermal_->temperature(),
-                                     .pressure_unit = pressure != nullptr ? pressure->unit() : 1};
+  const mechanics::CoupledIterate at{
+      .form = phases_.structural != nullptr ? std::optional(phases_.structural->form()) : std::nullopt,
+      .old_u = old.displacement,
+      .u = x.first(mechanics_.n_displacements()),
+      .temperature = thermal_->temperature(),
+      .pressure_unit = pressure != nullptr ? pressure->unit() : 1};
   for (mechanics::CoupledKernel* kernel : kernels_) kernel->add_coupling(at, matrix_);
   for (const contact::ContactPair* pair : phases_.contacts)
     pair->add_coupling(thermal_->temperature(), matrix_);
@@ -257,7 +288,10 @@ double CoupledNewton::move(const mechanics::MechanicalState& old, const mechanic
   for (std::size_t i = n > k_remembered ? n - k_remembered : 0; i < n; ++i)
     highest = std::max(highest, report.residuals[i].size());
   const bool full = report.iterations <= k_full_steps;
-  double alpha = 1, best = 1, least = std::numeric_limits<double>::infinity();
+  const double way = longest(std::span(step_u_).first(mechanics_.n_displacements()), mechanics_.components());
+  double alpha = 1;
+  if (const double most = k_longest_way * diagonal(mechanics_.mesh()); way > most) alpha = most / way;
+  double best = alpha, least = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= k_halvings; ++k, alpha *= 0.5) {
     const double size = evaluate_at(alpha, old, pass, x).size();
     if (std::isfinite(size) && (full || size <= highest || balanced())) return alpha;

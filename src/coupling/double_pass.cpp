@@ -1,20 +1,45 @@
 #include "coupling/double_pass.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
+#include "base/errors.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
+#include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
 
 namespace solidus::coupling {
 
+namespace {
+
+/// Turns of an isothermal pass: at most, and the share of the first change of temperature that may be left,
+/// which is an error of the step's error. A change that does not fall to the second share in all turns says
+/// that the coupling is too strong.
+constexpr int k_turns = 12;
+constexpr double k_settled = 1e-4, k_falls = 0.1;
+
+}  // namespace
+
 DoublePass::DoublePass(Phases phases) : phases_(std::move(phases)) {
-  if (phases_.heat == nullptr || phases_.mechanics == nullptr || phases_.structural == nullptr)
-    throw std::invalid_argument("the double pass needs both phases and structural heat");
-  if (phases_.mechanics->mapping() != mechanics::Mapping::isentropic)
-    throw std::invalid_argument("the mechanical phase was built for another split");
-  if (phases_.mechanics->dynamic()) throw std::invalid_argument("the double pass has no inertia");
+  if (phases_.heat == nullptr || phases_.mechanics == nullptr)
+    throw std::invalid_argument("the double pass needs both phases");
+  using mechanics::Mapping;
+  const Mapping mapping = phases_.mechanics->mapping();
+  if (mapping == Mapping::simultaneous)
+    throw std::invalid_argument("the mechanical phase was built for another scheme");
+  if (mapping == Mapping::isentropic && phases_.structural == nullptr)
+    throw std::invalid_argument("isentropic passes need structural heat");
+  using Form = mechanics::StructuralForm;
+  if (phases_.structural != nullptr && phases_.structural->form() != Form::energy &&
+      phases_.structural->form() != Form::entropy)
+    throw std::invalid_argument("the double pass has the energy and the entropy form only");
+}
+
+bool DoublePass::repeats() const {
+  return phases_.mechanics->mapping() == mechanics::Mapping::isothermal && phases_.structural != nullptr;
 }
 
 void DoublePass::synchronise(const State& state) {
@@ -37,24 +62,52 @@ StepEffort DoublePass::advance(const State& old, State& trial, double time, doub
   return effort;
 }
 
+void DoublePass::mechanical_half(const State& start, State& end, mechanics::MechanicalPass pass,
+                                 const std::function<void(State& led)>& answer, StepEffort& effort) const {
+  mechanical_pass(phases_, start, end, pass, effort);
+  if (!repeats()) return;
+  std::vector<double> held(pass.iterate_temperature.begin(), pass.iterate_temperature.end());
+  if (held.empty()) held.assign(pass.temperature.begin(), pass.temperature.end());
+  double first = 0, change = 0;
+  for (int turn = 1; turn <= k_turns; ++turn) {
+    State led;
+    answer(led);
+    change = largest_difference(led.heat.temperature, held);
+    if (turn == 1) first = change;
+    if (!(change > k_settled * first)) return;
+    held = std::move(led.heat.temperature);
+    pass.iterate_temperature = held;
+    pass.iterate = &end.mechanics;
+    const std::vector<contact::ContactState> contacts = end.contacts;
+    mechanical_pass(phases_, start, end, pass, effort, contacts);
+  }
+  if (change <= k_falls * first) return;
+  throw StepRejected(fmt::format("coupling: isothermal passes do not settle: the change of temperature went "
+                                 "from {:.3g} K to {:.3g} K in {} turns",
+                                 first, change, k_turns),
+                     "the coupling is too strong for passes that hold the temperature");
+}
+
 StepEffort DoublePass::first_half(const State& old, State& half, double time, double dt) {
   StepEffort effort;
   const double middle = time - 0.5 * dt;
+  const bool moves = phases_.mechanics->dynamic();
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, old.heat);
   phases_.mechanics->hold_deformation(old.mechanics, old.heat.temperature, share);
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   State predicted;
   thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
-  mechanical_pass(phases_, old, half,
-                  {.time = middle,
-                   .dt = 0.5 * dt,
-                   .temperature = old.heat.temperature,
-                   .plateau_share = share,
-                   .iterate_temperature = predicted.heat.temperature,
-                   .work = mechanics::StressAtWork::end_kept},
-                  effort);
-  contact.add();
+  mechanical_half(
+      old, half,
+      {.time = middle,
+       .dt = 0.5 * dt,
+       .temperature = old.heat.temperature,
+       .plateau_share = share,
+       .iterate_temperature = predicted.heat.temperature,
+       .work = moves ? mechanics::StressAtWork::end : mechanics::StressAtWork::end_kept},
+      [&](State& led) { thermal_pass(phases_, old, led, {.time = middle, .dt = 0.5 * dt}, effort); }, effort);
+  contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
   for (contact::ContactPair* pair : phases_.contacts) pair->predict_heat();
   // The deformation of the whole step acts at once before it: temperatures that leave their range by it come
@@ -62,26 +115,30 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   thermal_pass(phases_, old, half,
                {.time = time, .dt = dt, .stepping = heat::ThermalStepping::sdirk2, .within_range = false},
                effort);
-  book_interface(effort.energy, true);
+  book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, half, effort);
   return effort;
 }
 
 StepEffort DoublePass::second_half(const State& half, State& trial, double time, double dt) {
   StepEffort effort;
+  const bool moves = phases_.mechanics->dynamic();
+  const heat::ThermalPass adiabatic{.time = time, .dt = dt, .adiabatic = true};
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, half.heat);
-  mechanical_pass(phases_, half, trial,
-                  {.time = time,
-                   .dt = 0.5 * dt,
-                   .temperature = half.heat.temperature,
-                   .plateau_share = share,
-                   .work = mechanics::StressAtWork::kept},
-                  effort);
-  contact.add(0);  // of the pressure in the middle, as that of the stress
+  mechanical_half(
+      half, trial,
+      {.time = time,
+       .dt = 0.5 * dt,
+       .temperature = half.heat.temperature,
+       .plateau_share = share,
+       .work = moves ? mechanics::StressAtWork::end : mechanics::StressAtWork::kept},
+      [&](State& led) { thermal_pass(phases_, half, led, adiabatic, effort); }, effort);
+  // In quasi-statics the work of the pressure in the middle, as that of the stress.
+  contact.add(moves ? phases_.mechanics->work_share() : 0);
   contact.book(effort.energy);
-  thermal_pass(phases_, half, trial, {.time = time, .dt = dt, .adiabatic = true}, effort);
-  book_interface(effort.energy, true);
+  thermal_pass(phases_, half, trial, adiabatic, effort);
+  book_interface(effort.energy, phases_.structural != nullptr);
   effort.energy.heat_exchanged = 0;  // what deformation and heat exchange within a point
   effort.stability = stability_audit(phases_, half, trial, effort);
   return effort;

@@ -1,7 +1,8 @@
-/// The double-pass product formula (Strang 1969; monograph 4.21) on the isentropic split: half a mechanical
-/// phase, a thermal phase, half a mechanical phase. Second order where everything is smooth.
+/// The double-pass product formula (Strang 1969; monograph 4.21) on the isentropic or the isothermal split:
+/// half a mechanical phase, a thermal phase, half a mechanical phase. Second order where everything is
+/// smooth.
 ///
-///   0  Θ^p        thermal phase over Δt/2 at (ε_n, z_n): what the entropy in the middle will be
+///   0  Θ^p        thermal phase over Δt/2 at (ε_n, z_n)
 ///   1  ε_½, z_½   equilibrium at t_n + Δt/2, from z_n:  S^E(ε_½, z_½, Θ̄) = S^E(ε_n, z_n, Θ^p)
 ///   2  Θ*         thermal phase over Δt at (ε_½, z_½), SDIRK2, storing
 ///                 E(ε_½, Θ*) − E(ε_n, Θ_n) − σ_½ : (ε_½ − ε_n)
@@ -14,7 +15,17 @@
 /// brings the adiabatic change of temperature to the nodes. Friction heats step 2 by twice what step 1 has
 /// dissipated, and step 4 by the difference of step 3 to that. Both halves work with σ_½, which is in
 /// equilibrium: a midpoint rule, so the first law closes in the energy form.
+///
+/// Isothermal passes hold a temperature in steps 1 and 3 and do not know what their own deformation does to
+/// it. Each of them is therefore repeated at the temperature that its deformation leads to, by a thermal
+/// phase over Δt/2 in step 1 and by step 4 in step 3, until that settles; one iteration gains a factor of the
+/// coupling number. Where deformation exchanges no heat one turn is all.
+///
+/// With inertia each half is a step of the integrator over Δt/2, whose means over its ends make the forces of
+/// a half of second order, and each half works with the stress of its own (docs/theory/dynamics.md).
 #pragma once
+
+#include <functional>
 
 #include "coupling/phases.hpp"
 #include "coupling/scheme.hpp"
@@ -23,8 +34,9 @@ namespace solidus::coupling {
 
 class DoublePass final : public CouplingScheme {
  public:
-  /// The phases must outlive the scheme. Throws std::invalid_argument unless both are there, quasi-static,
-  /// isentropic, and exchange heat.
+  /// The phases must outlive the scheme. Throws std::invalid_argument unless both are there, the mechanical
+  /// one isothermal or isentropic, and what structural heat they exchange is in the energy or the entropy
+  /// form; an isentropic one needs it.
   explicit DoublePass(Phases phases);
 
   void synchronise(const State& state) override;
@@ -35,6 +47,12 @@ class DoublePass final : public CouplingScheme {
   /// Steps 0 to 2, from t_n; and 3, 4.
   StepEffort first_half(const State& old, State& half, double time, double dt);
   StepEffort second_half(const State& half, State& trial, double time, double dt);
+  /// Step 1 or 3. `pass` begins at the temperature that is held first.
+  /// @param answer  finds the temperatures to which the deformation that was found last leads
+  void mechanical_half(const State& start, State& end, mechanics::MechanicalPass pass,
+                       const std::function<void(State& led)>& answer, StepEffort& effort) const;
+  /// Whether a mechanical pass is repeated at the temperature that it leads to.
+  bool repeats() const;
 
   Phases phases_;
 };

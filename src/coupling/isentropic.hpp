@@ -18,12 +18,16 @@ namespace solidus::coupling {
 
 class IsentropicSplit final : public SequentialSplit {
  public:
-  /// The phases must outlive the scheme. Throws std::invalid_argument unless both phases are there and
-  /// exchange heat: entropy that is held and never accounted for would be lost.
-  explicit IsentropicSplit(Phases phases, PhaseOrder order = PhaseOrder::mechanics_first)
-      : SequentialSplit(std::move(phases), mechanics::Mapping::isentropic, order) {
-    if (this->phases().heat == nullptr || this->phases().structural == nullptr)
-      throw std::invalid_argument("the isentropic split needs both phases and structural heat");
+  /// The phases must outlive the scheme. Where deformation exchanges no heat, entropy is a function of the
+  /// temperature alone: the mechanical phase is the isothermal one then. Throws std::invalid_argument unless
+  /// both phases are there.
+  explicit IsentropicSplit(const Phases& phases, PhaseOrder order = PhaseOrder::mechanics_first)
+      : SequentialSplit(
+            phases,
+            phases.structural != nullptr ? mechanics::Mapping::isentropic : mechanics::Mapping::isothermal,
+            order) {
+    if (phases.heat == nullptr || phases.mechanics == nullptr)
+      throw std::invalid_argument("the isentropic split needs both phases");
   }
 };
 

@@ -88,9 +88,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   if (phases.structural != nullptr) {
     effort.energy.structural = phases.structural->change(trial.heat.temperature).energy;
   } else {
-    // Deformation exchanges nothing with heat: the first law is that of the thermal phase alone.
-    effort.energy.work = effort.energy.contact = effort.energy.kinetic = effort.energy.numerical = 0;
-    effort.energy.friction = 0;
+    keep_heat_alone(effort.energy);
   }
   effort.energy.interface = {};
   commit_contact_heat(phases, trial.heat.temperature, report.balance.contributions, effort.energy);

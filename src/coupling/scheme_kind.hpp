@@ -56,7 +56,8 @@ struct SchemeContext {
 };
 
 struct SchemeTraits {
-  /// What its mechanical phase holds; `simultaneous`: both fields are solved at once.
+  /// What its mechanical phase holds; `simultaneous`: both fields are solved at once. Without structural heat
+  /// an isentropic phase is made isothermal (CaseSpec::isentropic).
   mechanics::Mapping mapping = mechanics::Mapping::isentropic;
   bool leaves_stepping = false;  ///< the thermal phase may integrate a step by two stages of its own
   bool printed_forms = false;    ///< it has the forms `literal` and `temperature` of structural heat
@@ -87,9 +88,6 @@ Kinds<SchemeKind>& schemes();
 std::shared_ptr<const SchemeKind> default_scheme();
 /// That of mechanics or heat alone.
 std::unique_ptr<CouplingScheme> single_phase(const Phases& phases);
-
-/// Why a mechanical phase that holds entropy cannot go with this case.
-std::optional<Objection> against_entropy(const SchemeContext& c);
 
 }  // namespace coupling
 }  // namespace solidus

@@ -29,10 +29,4 @@ std::unique_ptr<CouplingScheme> single_phase(const Phases& phases) {
   return std::make_unique<IsothermalSplit>(phases);
 }
 
-std::optional<Objection> against_entropy(const SchemeContext& c) {
-  if (c.heating) return std::nullopt;
-  return Objection{"the isentropic split holds entropy, which structural_heating = \"none\" loses",
-                   "structural_heating \"entropy\" or \"energy\", or scheme = \"isothermal\""};
-}
-
 }  // namespace solidus::coupling

@@ -17,6 +17,9 @@ namespace {
 // Output times this close to the end of a stage, as a share of its step, are that end.
 constexpr double k_same_time = 1e-9;
 
+// Solid by volume, but for the rounding of its sum.
+constexpr double k_solid = 1 - 1e-12;
+
 /// A state whose change cannot be measured is none to go on from. The same on every process.
 void require_numbers(const StepMeasure& measure) {
   if (std::isfinite(measure.temperature_error + measure.displacement_error + measure.solid_fraction_change))
@@ -150,6 +153,10 @@ void Simulation::begin_bodies(Progress& p, bool anew, bool changed_before) {
   p.committed.criteria = criteria_->initial({0, p.committed.heat, p.committed.mechanics});
 }
 
+bool Simulation::solid(const Progress& p) const {
+  return options_.until_solid && p.record.number > 0 && p.solid_fraction >= k_solid;
+}
+
 bool Simulation::periodic(const Progress& p) const {
   const Stage& stage = options_.stages[p.stage];
   return shot_map_ != nullptr && stage.ends_shot && p.committed.time == stage.end &&
@@ -219,7 +226,7 @@ void Simulation::end_at_once(Progress& p, const StageStart& stage_start) {
 std::optional<Outcome> Simulation::take_step() {
   Progress& p = *progress_;
   while (!p.ended) {
-    if (p.control->finished(p.committed.time)) {
+    if (p.control->finished(p.committed.time) || solid(p)) {
       if (p.stage + 1 < options_.stages.size() && !periodic(p)) {
         ++p.stage;
         enter_stage(p, {});
@@ -341,7 +348,8 @@ Simulation::Try Simulation::try_step(Progress& p) {
   record.reason = step.reason;
   record.temperature_error = measure.temperature_error;
   record.displacement_error = measure.displacement_error;
-  record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time);
+  record.output = std::binary_search(p.outputs.begin(), p.outputs.end(), step.time) ||
+                  (options_.until_solid && record.solid_fraction >= k_solid);
   record.energy.bodies = p.carried;
   p.pending = {step, measure, std::move(record)};
   return Try::taken;

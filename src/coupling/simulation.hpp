@@ -34,6 +34,8 @@ struct Stage {
 
 struct TimeOptions {
   double end = 0;  ///< [s]
+  /// The run ends with the first step after which all that can melt is solid, which is an output.
+  bool until_solid = false;
   StepOptions step;
   std::vector<Stage> stages;  ///< one after the other, instead of end and step; empty: one without a name
   std::vector<double> output_times;  ///< met exactly; a checkpoint is due at each of them
@@ -117,6 +119,8 @@ class Simulation {
   void end_at_once(Progress& p, const StageStart& stage_start);
   void begin_bodies(Progress& p, bool anew, bool changed_before);
   void end_shot(Progress& p);
+  /// Whether a run that lasts until all is solid has come to its end.
+  bool solid(const Progress& p) const;
   /// Whether a run stands at the end of a shot that left the die as it found it.
   bool periodic(const Progress& p) const;
   Outcome stopped(const Stop& why, Progress& p, Outcome outcome);

@@ -22,7 +22,7 @@ namespace {
 constexpr int k_revisions = 5;  ///< of the limits of conduction, each with a further solution of both fields
 /// Solutions with fractions of phase changes that follow the temperatures: at most, and the difference
 /// between two at which they have settled, as a part of what the step changes.
-constexpr int k_fraction_turns = 40;
+constexpr int k_fraction_turns = 24;
 /// After so many turns they go half of the way, after as many again a quarter, and so on: a step that freezes
 /// much may go round between two sets of fractions.
 constexpr int k_whole_turns = 8;
@@ -31,12 +31,13 @@ constexpr double k_settled = 1e-9;
 constexpr double k_balanced = 1e-3;
 
 const Phases& checked(const Phases& phases, const SimultaneousOptions& options) {
-  if (phases.heat == nullptr || phases.mechanics == nullptr || phases.structural == nullptr)
-    throw std::invalid_argument("the simultaneous scheme needs both phases and structural heat");
+  if (phases.heat == nullptr || phases.mechanics == nullptr)
+    throw std::invalid_argument("the simultaneous scheme needs both phases");
   if (phases.mechanics->mapping() != mechanics::Mapping::simultaneous)
     throw std::invalid_argument("the mechanical phase was built for a split");
-  const mechanics::StructuralForm form = phases.structural->form();
-  if (form != mechanics::StructuralForm::energy && form != mechanics::StructuralForm::entropy)
+  using Form = mechanics::StructuralForm;
+  if (phases.structural != nullptr && phases.structural->form() != Form::energy &&
+      phases.structural->form() != Form::entropy)
     throw std::invalid_argument("the simultaneous scheme has the energy and the entropy form only");
   const bool one_stage = phases.mechanics->dynamic() || phases.mechanics->options().integration !=
                                                             mechanics::TimeIntegration::backward_euler;
@@ -74,7 +75,7 @@ void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried)
 
 SimultaneousScheme::SimultaneousScheme(Phases phases, SimultaneousOptions options)
     : phases_(checked(phases, options)), options_(options), newton_(std::in_place, phases_, options.solver) {
-  phases_.structural->leave_tangent();
+  if (phases_.structural != nullptr) phases_.structural->leave_tangent();
 }
 
 void SimultaneousScheme::synchronise(const State& state) {
@@ -97,10 +98,14 @@ StepEffort SimultaneousScheme::advance(const State& old, State& trial, double ti
   StepEffort effort = options_.integration == SimultaneousOptions::Integration::sdirk2
                           ? two_stages(old, trial, time, dt, contact)
                           : backward_euler(old, trial, time, dt);
-  contact.add(phases_.mechanics->work_share());
-  contact.book(effort.energy);
-  book_interface(effort.energy, true);
-  effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
+  if (phases_.structural != nullptr) {
+    contact.add(phases_.mechanics->work_share());
+    contact.book(effort.energy);
+    effort.energy.structural = phases_.structural->change(trial.heat.temperature).energy;
+  } else {
+    keep_heat_alone(effort.energy);
+  }
+  book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, trial, effort, Booking::mechanical);
   summarise(phases_, trial, effort);
   return effort;

@@ -31,9 +31,9 @@ struct SimultaneousOptions {
 
 class SimultaneousScheme final : public CouplingScheme {
  public:
-  /// The phases must outlive the scheme. Throws std::invalid_argument unless both are there and exchange
-  /// heat in the energy or the entropy form, the mechanical one built for Mapping::simultaneous and, with two
-  /// stages, quasi-static with backward Euler.
+  /// The phases must outlive the scheme. Throws std::invalid_argument unless both are there, the mechanical
+  /// one built for Mapping::simultaneous and, with two stages, quasi-static with backward Euler, and what
+  /// structural heat they exchange is in the energy or the entropy form.
   SimultaneousScheme(Phases phases, SimultaneousOptions options = {});
 
   void synchronise(const State& state) override;

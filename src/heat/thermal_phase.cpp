@@ -410,7 +410,9 @@ PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalStat
     return report;
   }
   const ThermalState from = stage_start(old, before, stage);
-  if (stage.carried != 0 && pass.iterate == nullptr) start_from(from.enthalpy, next);
+  // H* itself lies so far ahead at a front that the iteration begins half way to it.
+  if (stage.carried != 0 && pass.iterate == nullptr)
+    start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
   const TemperatureRange range = limit_conduction(before, old);
   report.newton = truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, range,
                                            pass.newton_steps);

@@ -6,6 +6,7 @@
 #include "algebra/forcing.hpp"
 #include "algebra/parallel.hpp"
 #include "base/profile.hpp"
+#include "heat/local_sweeps.hpp"
 #include "heat/plateau_watch.hpp"
 
 namespace solidus::heat {
@@ -349,7 +350,7 @@ double TruncatedNewton::minimise(double start, double longest, double (Truncated
   return alpha;
 }
 
-/// Both sweeps, with A at the temperatures of now, and F there. What A holds by derivatives only (films and
+/// The sweeps, with A at the temperatures of now, and F there. What A holds by derivatives only (films and
 /// radiation where conductivities vary, nodes of several materials) has bent under the sweeps: a step that
 /// starts from the residuals of the linear A points elsewhere, and no length of it brings F down.
 /// @param all  every node, however small its residual is
@@ -361,9 +362,24 @@ void TruncatedNewton::relax_nodes(bool all) {
         all ? 0 : k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
     sweep(Order::forward);
     sweep(Order::backward);
-    ghosts_.update(temperature_, 1);
   }
+  const double swept = linear_ ? relax_locally() : HUGE_VAL;
+  ghosts_.update(temperature_, 1);
   evaluate();
+  if (norm_ > swept) linear_ = false;
+}
+
+/// Sweeps on over the nodes where F is concentrated; returns Σ|F_i| before that. Where F is found to be
+/// larger afterwards, A tells too little of it: such sweeps are then left out for the rest of the step.
+double TruncatedNewton::relax_locally() {
+  const profile::Part part("sweeps");
+  LocalSweeps local(system_.matrix(), r_, system_.fixed());
+  negligible_ = 0;
+  local.run([this](std::size_t i, double residual) {
+    const double heat = heat_[i], change = relax(i, residual);
+    return NodeChange{change, (heat_[i] - heat) / dt_};
+  });
+  return local.sum();
 }
 
 /// Looks at the limits of conduction at the temperatures reached. Returns whether the iteration has to go on
@@ -391,6 +407,7 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
   dt_ = dt;
   conductance_ = 0;
   revisions_ = idle_ = 0;
+  linear_ = true;
   PlateauWatch watch(mesh_, storage_, system_.matrix());
   watch.passed_in_depth(heat_, temperature_);
   bool by_chords = false;

@@ -10,8 +10,10 @@
 ///
 /// One iteration is
 ///   1. a nonlinear sweep of Gauss and Seidel's method over the nodes, there and back: each node takes the
-///      H_i that balances its own equation, so it may come to lie on a plateau, or leave it. F is evaluated
-///      anew; where it is small enough now, the iteration ends;
+///      H_i that balances its own equation, so it may come to lie on a plateau, or leave it. It is swept on
+///      over the nodes where F is concentrated then, those at the front (local_sweeps.hpp): they find out
+///      among themselves which of them freeze. F is evaluated anew; where it is small enough now, the
+///      iteration ends;
 ///   2. a step of Newton's method (D + A) δ = −F, D_i = 1/(Δt dv_i/dH_i), for the nodes that do not lie on a
 ///      plateau: the others are held (truncated). The linear solver goes as far as the step is good for;
 ///   3. a line search for the least E along δ, which cuts off what is wrong with the step of a node that
@@ -79,6 +81,7 @@ class TruncatedNewton {
   bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
   void assemble();
   void relax_nodes(bool all);
+  double relax_locally();
   void sweep(Order order);
   double relax(std::size_t i, double residual);
   /// Adds to F the effect of the change of v since then.
@@ -115,6 +118,7 @@ class TruncatedNewton {
   std::vector<double> from_heat_, from_temperature_,
       from_;  ///< H, Θ and v where the search begins, [owned node]
   double norm_ = 0, moved_ = 0, round_off_ = 0, conductance_ = 0;
+  bool linear_ = true;     ///< whether sweeps with A have brought F down, in this solve
   int idle_ = 0;           ///< revisions that have found nothing new
   int revisions_ = 0;      ///< of the limits of conduction, in this step
   double negligible_ = 0;  ///< |F_i| for which no node is relaxed

@@ -8,6 +8,7 @@
 
 #include "base/document.hpp"
 #include "material/elasticity.hpp"
+#include "material/external_keys.hpp"
 #include "material/laws/fraction_law.hpp"
 
 namespace solidus::material {
@@ -48,6 +49,9 @@ void inherit(Value& own, const Value& base, const SectionInfo& keys) {
   const Value given = own;  // the kinds that the file itself has chosen
   for (const auto& entry : base.entries()) {
     const Key* key = keys.find(entry.key);
+    if ((entry.key == "plasticity" && given.find("external") != nullptr) ||
+        (entry.key == "external" && given.find("plasticity") != nullptr))
+      continue;  // one of them is the law of the solid
     Value* mine = own.find(entry.key);
     if (mine == nullptr) {
       if (key == nullptr || belongs(*key, given)) own.set(entry.key, entry.value);
@@ -188,6 +192,7 @@ Material make_material(std::string name, const MaterialData& data) {
         {"twice_shear_viscosity", "not given: chosen by the program for the body and the step", 0, 0});
   if (data.plasticity) add_flow(m, *data.plasticity);
   add_casting(m, data);
+  if (data.external) add_external(m, *data.external);
   check_liquid_model(m, data);
   check_heat_of_expansion(m, data);
   return m;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/keys.hpp"
+#include "material/external_law.hpp"
 #include "material/flow_keys.hpp"
 #include "material/material.hpp"
 
@@ -43,6 +44,7 @@ struct MaterialData {
   double expansion_reference = 0;  ///< [K]
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::optional<FlowData> plasticity;
+  std::optional<ExternalData> external;
   Casting casting;
   SourceLocation where;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "material/external_law.hpp"
+
 namespace solidus::material {
 
 const PhaseChange* Material::solidification() const {
@@ -32,6 +34,13 @@ double Material::solid_fraction(double temperature) const {
 bool Material::chooses_viscosity() const {
   return liquid_model == LiquidModel::maxwell && solidification() != nullptr &&
          !(liquid_viscosity.max_value() > 0);
+}
+
+const ExternalLaw* external_law(const Material& material) {
+  return material.external.get();
+}
+void set_external_law(Material& material, std::shared_ptr<const ExternalLaw> law) {
+  material.external = std::move(law);
 }
 
 }  // namespace solidus::material

@@ -1,6 +1,7 @@
 /// A material: every property a table over absolute temperature, with its source and validity.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "material/phase_change.hpp"
 
 namespace solidus::material {
+
+class ExternalLaw;  // external_law.hpp
 
 /// Source and range of validity of a property; used to warn when a run leaves the range.
 struct PropertyNote {
@@ -43,7 +46,9 @@ struct Material {
   Table liquid_viscosity;
   LiquidModel liquid_model = LiquidModel::maxwell;
   std::optional<Flow> flow;  ///< absent: the solid is elastic
-  Casting casting;           ///< for criteria; no law uses it
+  /// The law of the solid from a shared object, instead of `flow`; null: the laws of the program.
+  std::shared_ptr<const ExternalLaw> external;
+  Casting casting;  ///< for criteria; no law uses it
 
   std::vector<PropertyNote> notes;
 

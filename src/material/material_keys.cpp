@@ -1,4 +1,5 @@
 /// The keys of a material file.
+#include "material/external_keys.hpp"
 #include "material/laws/fraction_law.hpp"
 #include "material/library.hpp"
 
@@ -55,8 +56,9 @@ Section<Casting> casting_keys() {
       .positive()
       .doc(
           "Secondary arm spacing after a local solidification time of one second: c in c (t_f/1 s)^n. "
-          "Without "
-          "it there are no secondary_arm_spacing and dimensionless_niyama.");
+          "Without it there are no secondary_arm_spacing and dimensionless_niyama, and melt flows through "
+          "mush "
+          "as with 50 um.");
   s.key("arm_spacing_exponent", &Casting::arm_spacing_exponent)
       .initially(0.333)
       .range(0, 1)
@@ -64,12 +66,16 @@ Section<Casting> casting_keys() {
   s.quantity("melt_viscosity", &Casting::melt_viscosity, "Pa s")
       .positive()
       .doc(
-          "Newtonian shear viscosity of the melt at the liquidus, for dimensionless_niyama; not "
-          "twice_shear_viscosity, which is a numerical choice.");
+          "Newtonian shear viscosity of the melt at the liquidus, for dimensionless_niyama and for the flow "
+          "of "
+          "melt that feeds mush (2 mPa s without it); not twice_shear_viscosity, which is a numerical "
+          "choice.");
   s.quantity("critical_pressure_drop", &Casting::critical_pressure_drop, "Pa")
       .initially("101325 Pa")
       .positive()
-      .doc("The drop of the melt's pressure at which pores form, for dimensionless_niyama.");
+      .doc(
+          "The drop of the melt's pressure at which pores form: in dimensionless_niyama, and in mush "
+          "(pore_fraction).");
   s.key("source", &Casting::source).initially("").doc("Where the data come from.");
   return s;
 }
@@ -141,6 +147,7 @@ Section<MaterialData> material_keys() {
       .doc("How what is not yet solid answers shear; f_S is the solid fraction.");
   s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
   s.section("plasticity", &MaterialData::plasticity, flow_section());
+  s.section("external", &MaterialData::external, external_section());
   s.section("casting", &MaterialData::casting, casting_keys());
   s.place(&MaterialData::where);
   return s;

@@ -1,5 +1,7 @@
 #include "mechanics/block_kernel.hpp"
 
+#include "base/errors.hpp"
+#include "material/external_law.hpp"
 #include "mechanics/block_makers.hpp"
 #include "mechanics/coupled_kernel.hpp"
 #include "mechanics/mixed_kernel.hpp"
@@ -23,11 +25,21 @@ std::unique_ptr<BlockKernel> make_block_of_law(const mesh::Mesh& mesh, const mes
   return make_block<Law, AnalysisKind::solid>(mesh, block, material, b_bar);
 }
 
+/// Throws for what no law from outside can do; the model says it before, with the place in the case.
+void refuse_external(const material::Material& material, const std::string& what,
+                     const std::string& allowed) {
+  if (external_law(material) != nullptr)
+    throw InputError({}, "the law from outside of '" + material.name + "' cannot serve " + what, allowed);
+}
+
 }  // namespace
 
 std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, bool b_bar) {
+  if (mapping != Mapping::isothermal)
+    refuse_external(material, "a phase that holds more than its temperature",
+                    "coupling.scheme = \"isothermal\"");
   if (mapping == Mapping::simultaneous) {
     switch (kind) {
       case AnalysisKind::plane_strain:
@@ -40,6 +52,8 @@ std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mes
   }
   if (mapping == Mapping::isentropic)
     return make_block_of_law<material::Isentropic>(mesh, block, kind, material, b_bar);
+  if (external_law(material) != nullptr)
+    return make_block_of_law<ExternalBlockLaw>(mesh, block, kind, material, b_bar);
   // The Maxwell element alone has a shorter history and an isotropic tangent.
   if (!material.flow && material.liquid_model == material::LiquidModel::maxwell)
     return make_block_of_law<material::Viscoelastic>(mesh, block, kind, material, b_bar);
@@ -49,6 +63,9 @@ std::unique_ptr<BlockKernel> make_block_kernel(const mesh::Mesh& mesh, const mes
 std::unique_ptr<BlockKernel> make_mixed_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
                                                AnalysisKind kind, const material::Material& material,
                                                Mapping mapping, Stabilisation stabilisation) {
+  refuse_external(material, "mixed elements",
+                  "hexahedra, quadrilaterals or elements of second order; mechanics.simplices = "
+                  "\"displacement\" locks where the solid flows");
   switch (kind) {
     case AnalysisKind::plane_strain:
       return make_mixed_block<AnalysisKind::plane_strain>(mesh, block, material, mapping, stabilisation);

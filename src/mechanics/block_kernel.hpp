@@ -46,6 +46,12 @@ struct StepStart {
   Lane melt_viscosity(const Lane& solid_fraction) const {
     return melt->mush.at(solid_fraction, Lane(melt->modulus * effective_dt));
   }
+  /// ζ/Δt, what such melt or mush resists compaction with; zero in solid metal [Pa].
+  Lane compaction_stiffness(const Lane& solid_fraction) const {
+    const LaneMask solid = solid_fraction >= Lane(1.0);
+    const Lane viscosity = melt_viscosity(select(solid, Lane(0.0), solid_fraction));
+    return select(solid, Lane(0.0), viscosity / Lane(effective_dt));
+  }
 };
 
 /// Sums over the counted elements of a block.

@@ -10,6 +10,8 @@
 
 namespace solidus::mechanics {
 
+class ExternalBlockLaw;  // external_block_law.hpp
+
 /// Throws std::invalid_argument for a shape that the kind does not have.
 template <class Law, AnalysisKind kind>
 std::unique_ptr<BlockKernel> make_block(const mesh::Mesh& mesh, const mesh::Block& block,
@@ -29,6 +31,12 @@ template <>
 Maker make_block<material::Viscoplastic, AnalysisKind::axisymmetric>;
 template <>
 Maker make_block<material::Viscoplastic, AnalysisKind::solid>;
+template <>
+Maker make_block<ExternalBlockLaw, AnalysisKind::plane_strain>;
+template <>
+Maker make_block<ExternalBlockLaw, AnalysisKind::axisymmetric>;
+template <>
+Maker make_block<ExternalBlockLaw, AnalysisKind::solid>;
 template <>
 Maker make_block<material::Isentropic, AnalysisKind::plane_strain>;
 template <>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "algebra/coupled_matrix.hpp"
@@ -12,7 +13,7 @@ namespace solidus::mechanics {
 
 /// Iterate at which the tangent is evaluated; fields are [local node][component].
 struct CoupledIterate {
-  StructuralForm form;                  ///< of structural heat: energy or entropy
+  std::optional<StructuralForm> form;   ///< of structural heat: energy or entropy; absent: there is none
   std::span<const double> old_u;        ///< from which the strain increment counts
   std::span<const double> u;            ///< displacement
   std::span<const double> temperature;  ///< Θ [K]

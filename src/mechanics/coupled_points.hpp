@@ -69,18 +69,21 @@ class CoupledPoints : public Block, public CoupledKernel {
  protected:
   /// Derivatives at a point: of the stress and of the heat per time [W/m³].
   struct Rates {
-    Sym<Lane> stress;       ///< σ_Θ [Pa/K]
-    Sym<Lane> heat_strain;  ///< h_ε
-    Lane heat_temperature;  ///< h_Θ
+    Sym<Lane> stress;            ///< σ_Θ [Pa/K]
+    Sym<Lane> heat_strain{};     ///< h_ε
+    Lane heat_temperature{0.0};  ///< h_Θ
   };
 
   /// @param strain, increment  that the law sees, and since the start of the step
-  Rates rates(StructuralForm form, Index batch, int q, Lane theta, const Sym<Lane>& strain,
+  Rates rates(std::optional<StructuralForm> form, Index batch, int q, Lane theta, const Sym<Lane>& strain,
               const Sym<Lane>& increment) const {
     const auto start = this->start_state(batch, q);
     const auto p = jets(batch, q, theta);
     const auto r = this->update(batch, q, strain);
     const material::Variation<Lane> update(this->law_, p, start, strain, this->effective_dt_, r);
+    Rates d;
+    d.stress = update.stress();
+    if (!form) return d;
     const auto& at = this->points_.at(batch, q);
     const auto partials = material::structural_partials<Lane>(
         this->law_.material(),
@@ -88,8 +91,6 @@ class CoupledPoints : public Block, public CoupledKernel {
         at.now.strain_trace, at.now.elastic_squared, p.elastic.solid_fraction.v >= Lane(1.0),
         at.now.hardening, at.now.back_squared);
     const Lane rate(1.0 / this->dt_);
-    Rates d;
-    d.stress = update.stress();
     if (form == StructuralForm::energy) {
       auto energy = update.along(partials.internal_energy);
       if (this->law_.material().flow && this->law_.material().flow->heat_share) {

@@ -100,7 +100,7 @@ void add_product(const typename ElementMatrix<n_nodes, dim>::Vectors& v,
         }
 }
 
-/// K_ab += B̄_aᵀ C B̄_b for a symmetric C, already times the weight of the point.
+/// K_ab += B̄_aᵀ C B̄_b for a symmetric C, or a skew one and a skew K, already times the weight of the point.
 template <int n_nodes, AnalysisKind kind, bool b_bar>
 void add_general(const Kinematics<n_nodes, kind, b_bar>& b, const Sym4<Lane>& c,
                  ElementMatrix<n_nodes, Kinematics<n_nodes, kind, b_bar>::dim>& k) {

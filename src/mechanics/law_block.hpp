@@ -65,7 +65,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       Vectors f{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
-        const auto response = this->update(batch, q, b.strain(displacement));
+        const auto response = this->update_and_keep(batch, q, b.strain(displacement));
         b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
         if (response.status != material::Status::converged) this->invalidate(f);
       }
@@ -84,14 +84,21 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Lane w = geometry_.weight_at(batch, q);
-        const auto response = this->update(batch, q, b.strain(displacement));
+        const auto response = this->answer_at(batch, q, b.strain(displacement));
         if constexpr (IsotropicTangent<Response>) {
           add_isotropic(b, w * response.bulk, w * response.twice_shear, symmetric);
         } else {
-          Sym4<Lane> c = response.tangent;
-          for (auto& row : c.c)
-            for (auto& entry : row) entry *= w;
+          const Lane half = Lane(0.5) * w;
+          const Sym4<Lane>& full = response.tangent;
+          Sym4<Lane> c, turned;  // symmetric and skew part
+          for (int i = 0; i < 6; ++i)
+            for (int j = 0; j < 6; ++j) {
+              const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
+              c[i][column] = half * (full[i][column] + full[j][row]);
+              turned[i][column] = half * (full[i][column] - full[j][row]);
+            }
           add_general(b, c, symmetric);
+          if (skew) add_general(b, turned, *skew);
         }
         if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, q, response, w, symmetric, skew);
         if constexpr (AdiabaticTangent<Response>)

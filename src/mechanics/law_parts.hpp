@@ -78,6 +78,12 @@ Sym<T> inelastic_strain(const material::Viscoplastic::State<T>& state) {
   return state.viscous_strain + state.plastic_strain;
 }
 
+/// Returns the part of tr ε that is not elastic: flow and viscosity keep the volume.
+template <class State>
+Lane inelastic_volume(const State&) {
+  return Lane(0.0);
+}
+
 /// Returns the variables of the energy stored by hardening besides temperature: ξ and ζ:ζ.
 template <class T>
 std::array<T, 2> hardening_of(const material::Viscoelastic::State<T>&) {

@@ -6,6 +6,7 @@
 
 #include "algebra/multigrid.hpp"
 #include "base/errors.hpp"
+#include "material/external_law.hpp"
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
@@ -87,7 +88,7 @@ void MechanicalPhase::create_blocks(const std::vector<material::Material>& mater
       blocks_.push_back(std::make_unique<AbsentBlock>(mesh_, block, kind_, material));
       continue;
     }
-    plastic_ = plastic_ || material.flow.has_value();
+    plastic_ = plastic_ || material.flow.has_value() || external_law(material) != nullptr;
     blocks_.push_back(make_kernel(mesh_, block, kind_, material, options_));
   }
 }
@@ -188,16 +189,15 @@ void MechanicalPhase::create_pressure() {
   if (options_.solver == algebra::SolverKind::jacobi || options_.solver == algebra::SolverKind::incomplete)
     throw InputError({}, "this solver of mechanics cannot find the pressure of mixed triangles or tetrahedra",
                      "\"automatic\", \"direct\" or \"multigrid\", or simplices = \"displacement\"");
+  const bool orthogonal = options_.stabilisation == Stabilisation::orthogonal;
+  if (!orthogonal && inertia_) throw std::invalid_argument("algebraic sub-scales are for quasi-statics");
   std::vector<std::array<double, 3>> body_force;
-  if (options_.stabilisation == Stabilisation::algebraic) {
-    if (inertia_) throw std::invalid_argument("algebraic sub-scales are for quasi-statics");
-    for (const material::Material& material : materials_) {
-      body_force.push_back(loads_->conditions().gravity);
-      for (double& f : body_force.back()) f *= material.density;
-    }
+  for (const material::Material& material : materials_) {
+    body_force.push_back(loads_->conditions().gravity);
+    for (double& f : body_force.back()) f *= material.density;
   }
   if (!fields) fields = pressure_fields(mesh_, materials_, blocks_);
-  pressure_ = std::make_unique<NodalPressure>(mesh_, std::move(*fields), blocks_, std::move(body_force));
+  pressure_ = std::make_unique<NodalPressure>(mesh_, std::move(*fields), blocks_, orthogonal, body_force);
   fields_.push_back(pressure_->fields());
 }
 

@@ -14,7 +14,8 @@ inline constexpr double k_volume_tolerance = 1e-11;
 inline constexpr int k_max_volumes = 30;
 /// Largest volumetric strain of one step of that iteration: beyond it no law holds.
 inline constexpr double k_largest_volume_step = 0.05;
-/// Behind the law's state at a point: e_v, the pore fraction, and in axisymmetry p_a − p̄ of its nodes.
+/// Behind the law's state at a point: e_v, the pore fraction, in axisymmetry p_a − p̄ of its nodes, and where
+/// melt flows between dendrites its q (liquid_flow.hpp).
 template <int n_nodes, AnalysisKind kind>
 inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 2 + n_nodes : 2;
 
@@ -39,13 +40,17 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   MixedBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material,
              Stabilisation stabilisation)
       : Base(mesh, block, material),
-        Nodes(mesh, block, Base::geometry_, stabilisation),
+        Nodes(mesh, block, Base::geometry_, material, stabilisation),
         pores_(material, n_batches()) {
     const auto n = static_cast<std::size_t>(n_batches());
     volume_.resize(n, Lane(0.0));
     old_volume_.resize(n, Lane(0.0));
     old_divergence_.resize(n, Lane(0.0));
     if constexpr (adiabatic) tangent_.resize(n);
+    if (this->flow_.flows()) {
+      n_kept_ += dim;
+      compaction_.resize(n, Lane(0.0));
+    }
   }
 
   double prepare(const StepStart& start) override {
@@ -61,6 +66,11 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Lane bulk = this->set_properties(start, batch, 0, held);
       pores_.begin_step(batch, this->phase_at(start, batch, 0).solid_fraction, start.melt_modulus(),
                         kept_pores(*start.old_history, batch));
+      if (this->flow_.flows()) {
+        const Lane fraction = this->phase_at(start, batch, 0).solid_fraction;
+        this->flow_.begin_step(batch, fraction, start.dt, kept_flow(*start.old_history, batch));
+        compaction_[i] = start.new_stress == nullptr ? start.compaction_stiffness(fraction) : Lane(0.0);
+      }
       Lane stiffness = bulk;
       if constexpr (adiabatic) {
         tangent_[i] = volume_tangent(this->update(batch, 0, held));
@@ -87,7 +97,10 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       const Lane mean_pressure = mean(p, batch), pores = pores_.fraction(batch, mean_pressure);
       const MixedPoint point = answer(batch, gradient, mean_pressure);
       Vectors f{};
-      b.add_force(weight(batch) * dev(point.response.stress), f);
+      Sym<Lane> effective = dev(point.response.stress);
+      const Lane compacting = compaction_stress(batch, trace(gradient));
+      for (int k = 0; k < 3; ++k) effective[k] += compacting;
+      b.add_force(weight(batch) * effective, f);
       this->add_pressure_force(b, batch, p, f);
       Nodal defect = this->volume_change(b, batch, displacement), change;
       const Lane changed =
@@ -117,7 +130,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       Matrix symmetric;
       std::optional<Matrix> skew;
       if (!this->law_.symmetric()) skew.emplace();
-      add_isotropic(b, Lane(0.0), w * response.twice_shear, symmetric);
+      add_isotropic(b, w * compaction(batch), w * response.twice_shear, symmetric);
       if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, 0, response, w, symmetric, skew);
       if constexpr (adiabatic) {
         VolumeTangent& t = tangent_[at(batch)];
@@ -143,13 +156,16 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
                                              point.response, trial, average, tally);
       keep_volume(trial, batch, point.volume);
       trial.values[at(batch) * n_kept_ + n_state_ + 1] = pores_.finish(batch, mean_pressure);
-      // The work of the pressure on the difference of the volumes is taken up by the sub-scales and the
-      // pores.
+      keep_flow(trial, batch);
+      // The work of the pressure on the difference of the volumes is taken up by the sub-scales, the pores
+      // and the flow of melt; that of compaction by its viscosity.
       const Nodal now = this->volume_change(b, batch, displacement),
                   before = this->volume_change(b, batch, old_displacement);
       const Nodal variation = variation_at_work(batch, trial);
       const Lane pressure = Lane(1.0 / 3.0) * trace(at_work);
-      Lane left_over = weight(batch) * pressure * (old_volume - point.volume);
+      Lane left_over = weight(batch) * (pressure * (old_volume - point.volume) +
+                                        compaction_stress(batch, trace(gradient)) *
+                                            (trace(gradient) - old_divergence_[at(batch)]));
       for (std::size_t a = 0; a < n_nodes; ++a) left_over += (pressure + variation[a]) * (now[a] - before[a]);
       tally.stabilisation_work += this->counted(batch) * left_over;
       this->keep(batch, average);
@@ -206,7 +222,9 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
 
   std::size_t bytes() const override {
     return Base::bytes() + this->bytes_of_nodes() +
-           (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity()) * sizeof(Lane) +
+           (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity() +
+            compaction_.capacity()) *
+               sizeof(Lane) +
            tangent_.capacity() * sizeof(VolumeTangent) + pores_.bytes() +
            kept_variation_.capacity() * sizeof(Nodal);
   }
@@ -284,6 +302,11 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   Lane kept_pores(const BlockHistory& history, Index batch) const {
     return history.values[at(batch) * n_kept_ + n_state_ + 1];
   }
+  std::array<Lane, dim> kept_flow(const BlockHistory& history, Index batch) const {
+    std::array<Lane, dim> q;
+    std::copy_n(history.values.begin() + static_cast<std::ptrdiff_t>(flow_place(batch)), dim, q.begin());
+    return q;
+  }
   /// The law at ∇u and the mean pressure of the element.
   MixedPoint answer(Index batch, const Sym<Lane>& gradient, const Lane& pressure) {
     const bool found = find_volume(batch, gradient, pressure);
@@ -297,6 +320,21 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
  private:
+  /// ζ/Δt of melt and mush [Pa] (liquid_flow.hpp).
+  Lane compaction(Index batch) const { return compaction_.empty() ? Lane(0.0) : compaction_[at(batch)]; }
+  /// Its mean stress ζ div u̇ [Pa], beside the pressure of the melt.
+  Lane compaction_stress(Index batch, const Lane& divergence) const {
+    return compaction(batch) * (divergence - old_divergence_[at(batch)]);
+  }
+  std::size_t flow_place(Index batch) const {
+    return at(batch) * n_kept_ + n_state_ + k_mixed_extra<n_nodes, kind>;
+  }
+  void keep_flow(BlockHistory& history, Index batch) const {
+    if (!this->flow_.flows()) return;
+    const Nodal p = this->gather_pressure(this->field_.pressure, batch);
+    const auto q = this->liquid_flow(this->pressure_gradient(p, batch), batch);
+    std::copy(q.begin(), q.end(), history.values.begin() + static_cast<std::ptrdiff_t>(flow_place(batch)));
+  }
   void keep_volume(BlockHistory& history, Index batch, const Lane& volume) const {
     history.values[at(batch) * n_kept_ + n_state_] = volume;
   }
@@ -359,6 +397,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   PackVector<Lane> volume_;          ///< e_v of the last update, [batch]
   PackVector<Lane> old_volume_;      ///< e_v at t_n, [batch]
   PackVector<Lane> old_divergence_;  ///< div u at t_n, [batch]
+  PackVector<Lane> compaction_;      ///< [batch]; empty where no melt flows
   Pores pores_;
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
   PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where it is not requested

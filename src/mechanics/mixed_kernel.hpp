@@ -8,6 +8,8 @@
 ///   r_u = ∫ B_devᵀ s + b p dV                         s = dev σ(dev ε + ⅓ e_v 1), b = Bᵀ 1
 ///   r_p = ∫ N (div u − e_v(dev ε, p̄)) dV − S p        S: the stabilisation
 ///
+/// (in metal that freezes also pores, pores.hpp, and melt that feeds it, liquid_flow.hpp).
+///
 /// The law has the one point and the mean p̄ of the element; ∫ b p dV is exact, in axisymmetry with
 /// ∫ N_a N_b 2π dA of the hoop, as the weight ∫ N dV is: a liquid column rests.
 ///
@@ -55,9 +57,11 @@ class MixedKernel {
   virtual int field() const = 0;
   /// Looks up the slots of a scalar matrix of this field's pressures.
   virtual void bind_pressure(const algebra::BlockMatrix& matrix) = 0;
-  /// Sets the body force of the algebraic sub-scales [N/m³]; zero with orthogonal ones.
+  /// Sets the body force ρ g_0 [N/m³] of the algebraic sub-scales and of the flow of melt (liquid_flow.hpp).
   virtual void set_body_force(const std::array<double, 3>& force) = 0;
 
+  /// Whether melt flows between dendrites in some step (liquid_flow.hpp).
+  virtual bool flows() const = 0;
   /// ∫ 1 dV and ∫ 2Ĝ dV over the counted elements.
   virtual std::array<double, 2> mean_stiffness() const = 0;
   /// w of the projection, [local node][field].
@@ -67,7 +71,7 @@ class MixedKernel {
   /// out_a += Σ τ V ∇N_a·(1/n Σ_b Π_b).
   virtual void add_projected(std::span<const double> projection, std::span<double> out) const = 0;
 
-  /// matrix += scale (∫ N (1/κ + 1/2Ĝ) N dV + τ V ∇N·∇N), the part with 1/2Ĝ lumped, κ and 2Ĝ at the start
+  /// matrix += scale (∫ N (1/κ + 1/2Ĝ) N dV + (τ + Δt K/μ) V ∇N·∇N), the part with 1/2Ĝ lumped, κ and 2Ĝ at the start
   /// of the step: the Schur complement of a preconditioner. After bind_pressure().
   virtual void add_schur(double scale, algebra::BlockMatrix& matrix) const = 0;
   /// softness_a += ∫ N_a/(2Ĝ) dV with 2Ĝ of add_schur() [m³/Pa] and volume_a += ∫ N_a dV [m³], both
@@ -78,7 +82,7 @@ class MixedKernel {
   virtual void add_augmentation(double factor, std::span<const double> stiffness,
                                 algebra::BlockMatrix& displacement) const = 0;
   /// After add_tangent(): the pressures' part of the tangent, p in units of `unit` [Pa/m], without the
-  /// projection: ∂r_u/∂p, ∂r_p/∂u and ∂r_p/∂p = −∫ N 1/κ N dV − τ V ∇N·∇N with κ of now.
+  /// projection: ∂r_u/∂p, ∂r_p/∂u and ∂r_p/∂p = −∫ N 1/κ N dV − (τ + Δt K/μ) V ∇N·∇N with κ of now.
   virtual void add_saddle(double unit, algebra::SaddleMatrix& matrix) const = 0;
 };
 

@@ -59,10 +59,10 @@ PressureFields pressure_fields(const mesh::Mesh& mesh, const std::vector<materia
 }
 
 NodalPressure::NodalPressure(const mesh::Mesh& mesh, PressureFields fields_of_bodies,
-                             std::span<const std::unique_ptr<BlockKernel>> blocks,
-                             std::vector<std::array<double, 3>> body_force)
+                             std::span<const std::unique_ptr<BlockKernel>> blocks, bool orthogonal,
+                             std::span<const std::array<double, 3>> body_force)
     : mesh_(mesh),
-      orthogonal_(body_force.empty()),
+      orthogonal_(orthogonal),
       ghosts_(mesh),
       fields_of_body_(std::move(fields_of_bodies)),
       blocks_(blocks_with_pressure(mesh, blocks)) {
@@ -78,7 +78,7 @@ NodalPressure::NodalPressure(const mesh::Mesh& mesh, PressureFields fields_of_bo
     const auto body = static_cast<std::size_t>(mesh.blocks[b].body);
     const int field = fields_of_body_.of_body[body];
     kernel->use_pressure({pressure_, volume_residual_, volume_change_, fields(), field});
-    if (!body_force.empty()) kernel->set_body_force(body_force[body]);
+    kernel->set_body_force(body_force[body]);
     kernels_.push_back(kernel);
     for (const Index node : mesh.blocks[b].nodes)
       absent[static_cast<std::size_t>(node * fields() + field)] = 0;

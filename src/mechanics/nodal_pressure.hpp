@@ -33,11 +33,12 @@ class NodalPressure {
  public:
   /// @param blocks      kernels of the phase; those that are no MixedKernel have no pressure
   /// @param fields      those of a phase stay as they are when bodies leave: states hold them
-  /// @param body_force  ρ g_0 of each body [N/m³]; empty with orthogonal sub-scales
+  /// @param orthogonal  sub-scales; else algebraic ones
+  /// @param body_force  ρ g_0 of each body [N/m³]
   /// Collective.
   NodalPressure(const mesh::Mesh& mesh, PressureFields fields,
-                std::span<const std::unique_ptr<BlockKernel>> blocks,
-                std::vector<std::array<double, 3>> body_force);
+                std::span<const std::unique_ptr<BlockKernel>> blocks, bool orthogonal,
+                std::span<const std::array<double, 3>> body_force);
 
   int fields() const { return fields_of_body_.n_fields; }
   const PressureFields& fields_of_bodies() const { return fields_of_body_; }

@@ -24,7 +24,8 @@
 
 namespace solidus::mechanics {
 
-/// A law whose tangent is κ 1⊗1 + 2Ĝ I_dev; others offer a full symmetric `tangent` (Sym4).
+/// A law whose tangent is κ 1⊗1 + 2Ĝ I_dev; others offer a full `tangent` (Sym4), which is symmetric where
+/// the law says so.
 template <class Response>
 concept IsotropicTangent = requires(const Response& r) {
   r.bulk;
@@ -50,6 +51,12 @@ concept HoldsEntropy = requires(Properties& p) {
   p.entropy;
 };
 
+/// A law whose state has as many numbers as its user says: its State refers to them in the history.
+template <class Law>
+concept KeepsStateInPlace = requires {
+  typename Law::StateInPlace;
+};
+
 /// Law: built from a material; `properties_at`, `update`, `symmetric`, and the overloads of law_parts.hpp.
 /// @tparam n_extra  numbers that the element keeps at a point behind the law's state
 template <class Law, int n_nodes, AnalysisKind kind, bool b_bar, int n_extra = 0>
@@ -65,7 +72,7 @@ class PointBlock : public BlockKernel {
                                     Sym<Lane>{}));
   using Matrix = ElementMatrix<n_nodes, Operator::dim>;
   static constexpr std::size_t dim = Operator::dim;
-  static_assert(sizeof(State) % sizeof(Lane) == 0, "a state is made of lanes");
+  static_assert(KeepsStateInPlace<Law> || sizeof(State) % sizeof(Lane) == 0, "a state is made of lanes");
   using Lanes = std::array<Lane, sizeof(State) / sizeof(Lane)>;
 
   PointBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
@@ -140,7 +147,7 @@ class PointBlock : public BlockKernel {
   std::size_t bytes() const override {
     return geometry_.bytes() + points_.bytes() + properties_.bytes() + slots_.bytes() + averages_.bytes() +
            directions_.bytes() + (kept_averages_ ? kept_averages_->bytes() : 0) +
-           kept_stress_.capacity() * sizeof(Sym<Lane>);
+           kept_stress_.capacity() * sizeof(Sym<Lane>) + answers_.capacity() * sizeof(Answer);
   }
 
  protected:
@@ -174,10 +181,14 @@ class PointBlock : public BlockKernel {
   const algebra::BlockMatrix::Slot* slots_of(Index batch) const { return slots_.of(batch); }
 
   State state_of(const BlockHistory& history, Index batch, int point) const {
-    Lanes lanes{};
     const Lane* from = history.values.data() + index(batch, point) * n_kept_;
-    for (const std::size_t lane : kept_) lanes[lane] = *from++;
-    return std::bit_cast<State>(lanes);
+    if constexpr (KeepsStateInPlace<Law>) {
+      return State{from};
+    } else {
+      Lanes lanes{};
+      for (const std::size_t lane : kept_) lanes[lane] = *from++;
+      return std::bit_cast<State>(lanes);
+    }
   }
   State old_state(Index batch, int point) const { return state_of(*old_history_, batch, point); }
   State start_state(Index batch, int point) const { return state_of(*start_history_, batch, point); }
@@ -186,7 +197,33 @@ class PointBlock : public BlockKernel {
     return law_.update(properties_[index(batch, point)], start_state(batch, point), strain, effective_dt_);
   }
 
+  /// The same for a law that is not to be asked twice: keeps the answer for answer_at().
+  Response update_and_keep(Index batch, int point, const Sym<Lane>& strain) {
+    Response response = update(batch, point, strain);
+    if constexpr (KeepsStateInPlace<Law>) {
+      if (answers_.empty()) {
+        answers_.resize(properties_.size());
+        for (Answer& answer : answers_) answer.strain[0] = Lane(std::numeric_limits<double>::quiet_NaN());
+      }
+      answers_[index(batch, point)] = {strain, response};
+    }
+    return response;
+  }
+  /// Stress and tangent, of the answer that is kept where it is that of this strain.
+  Response answer_at(Index batch, int point, const Sym<Lane>& strain) const {
+    if constexpr (KeepsStateInPlace<Law>) {
+      if (!answers_.empty()) {
+        const Answer& answer = answers_[index(batch, point)];
+        LaneMask same = answer.strain[0] == strain[0];
+        for (int i = 1; i < 6; ++i) same = same & (answer.strain[i] == strain[i]);
+        if (!any(!same)) return answer.response;
+      }
+    }
+    return update(batch, point, strain);
+  }
+
   void begin_step(const StepStart& start) {
+    answers_.clear();
     old_history_ = start.old_history;
     start_history_ = start.start_history;
     dt_ = start.dt;
@@ -280,9 +317,13 @@ class PointBlock : public BlockKernel {
                    const Response& response, BlockHistory& trial, Average& average, Tally& tally) {
     const Lane w = geometry_.weight_at(batch, q), share = counted(batch) * w;
     const Properties p = properties_[index(batch, q)];
-    const auto lanes = std::bit_cast<Lanes>(response.state);
     Lane* to = trial.values.data() + index(batch, q) * n_kept_;
-    for (const std::size_t lane : kept_) *to++ = lanes[lane];
+    if constexpr (KeepsStateInPlace<Law>) {
+      std::copy_n(response.state.values, kept_.size(), to);
+    } else {
+      const auto lanes = std::bit_cast<Lanes>(response.state);
+      for (const std::size_t lane : kept_) *to++ = lanes[lane];
+    }
     average.volume += w;
     add_weighted(average.sums, w, values_of(law_, p, response, strain));
 
@@ -350,22 +391,33 @@ class PointBlock : public BlockKernel {
 
   /// The first element of a batch whose law finds no state at these strains, with its inputs.
   std::string failure_at(Index batch, int q, const Sym<Lane>& strain) const {
+    if constexpr (KeepsStateInPlace<Law>) update(batch, q, strain);
     for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane) {
-      using StateOfOne = typename Law::template State<double>;
       const auto p =
           element_of<typename Law::template Properties<double>>(properties_[index(batch, q)], lane);
-      const auto start = element_of<StateOfOne>(start_state(batch, q), lane);
       const auto strain_of_one = element_of<Sym<double>>(strain, lane);
-      if (!std::isfinite(norm(strain_of_one)) ||  // that is not the law's fault
-          law_.update(p, start, strain_of_one, effective_dt_).status == material::Status::converged)
-        continue;
-      return fmt::format(
-          "element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, at the start of the step {}",
-          block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)],
-          temperature_at(geometry_, batch, q, temperature_)[lane], elastic_part(law_, p).solid_fraction,
-          text(strain_of_one), text(start));
+      if (!std::isfinite(norm(strain_of_one))) continue;  // that is not the law's fault
+      const std::string start = failed_start(batch, q, lane, p, strain_of_one);
+      if (start.empty()) continue;
+      return fmt::format("element {}: temperature {:.6g} K, solid fraction {:.4g}, strain {}, {}",
+                         block_.input_element[static_cast<std::size_t>(batch * k_lanes + lane)],
+                         temperature_at(geometry_, batch, q, temperature_)[lane],
+                         elastic_part(law_, p).solid_fraction, text(strain_of_one), start);
     }
     return {};
+  }
+
+  /// The state from which the law of an element found none, in words; empty if it found one.
+  template <class PropertiesOfOne>
+  std::string failed_start(Index batch, int q, int lane, const PropertiesOfOne& p,
+                           const Sym<double>& strain) const {
+    if constexpr (KeepsStateInPlace<Law>) {
+      return law_.failure(lane);
+    } else {
+      const auto start = element_of<typename Law::template State<double>>(start_state(batch, q), lane);
+      if (law_.update(p, start, strain, effective_dt_).status == material::Status::converged) return {};
+      return "at the start of the step " + text(start);
+    }
   }
 
   static constexpr std::size_t k_base_lanes = sizeof(StructuralBase) / sizeof(Lane);
@@ -384,8 +436,8 @@ class PointBlock : public BlockKernel {
   static Deformation deformation(const Sym<Lane>& strain, const State& state, const LaneMask& solid) {
     const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
     const auto [hardening, back_squared] = hardening_of(state);
-    return {trace(strain), select(solid, dot(elastic, elastic), Lane(0.0)), hardening, back_squared,
-            cold_work(state)};
+    return {trace(strain) - inelastic_volume(state), select(solid, dot(elastic, elastic), Lane(0.0)),
+            hardening, back_squared, cold_work(state)};
   }
 
   /// Now : Δ since the old state.
@@ -394,8 +446,9 @@ class PointBlock : public BlockKernel {
     const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
     const Sym<Lane> old_elastic = dev(old_strain - inelastic_strain(old));
     const auto [hardening, back] = hardening_change(state, old);
-    return {trace(strain - old_strain), select(solid, dot(elastic, elastic - old_elastic), Lane(0.0)),
-            hardening, back, cold_work(state) - cold_work(old)};
+    return {trace(strain - old_strain) - (inelastic_volume(state) - inelastic_volume(old)),
+            select(solid, dot(elastic, elastic - old_elastic), Lane(0.0)), hardening, back,
+            cold_work(state) - cold_work(old)};
   }
 
   /// The mean of the stresses at both ends of a dynamic step; leaves that of its end for the next one.
@@ -504,6 +557,11 @@ class PointBlock : public BlockKernel {
   double stress_share_ = 1;
   double dt_ = 0, effective_dt_ = 0;
   StressAtWork work_ = StressAtWork::end;
+  struct Answer {
+    Sym<Lane> strain;
+    Response response;  ///< its state is not read
+  };
+  PackVector<Answer> answers_;         ///< of the last forces in this step, [batch][point]; empty: none
   PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where it is not requested
 };
 

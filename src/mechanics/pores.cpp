@@ -2,9 +2,11 @@
 
 namespace solidus::mechanics {
 
-Pores::Pores(const material::Material& material, Index n_batches) : tension_(material.casting.pore_tension) {
+Pores::Pores(const material::Material& material, Index n_batches)
+    : tension_(material.casting.pore_tension),
+      critical_pressure_drop_(material.casting.critical_pressure_drop),
+      coherency_(material.casting.coherency_fraction) {
   if (!material.chooses_viscosity()) return;
-  mush_ = material::mush_viscosity(material);
   for (PackVector<Lane>* values : {&softness_, &threshold_, &held_, &now_})
     values->resize(static_cast<std::size_t>(n_batches), Lane(0.0));
 }

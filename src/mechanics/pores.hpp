@@ -1,22 +1,22 @@
 /// Shrinkage pores of the metal in mixed elements: volume that the casting has and its metal has not.
 ///
-/// Metal that freezes where nothing feeds it is drawn into tension. Liquid metal carries none to speak of: at
-/// a tension p_c a pore opens. In mush the network of dendrites has to give way as well, with k_pore_strength
-/// times its strength, σ(f_S) (material/melt.hpp). In mixed elements, where p is the mean stress (positive in
-/// tension) and div u − e_v the volume that the metal does not fill, the pore fraction is
+/// Metal that freezes where nothing feeds it is drawn into tension. In a pool a pore opens at a tension p_c
+/// that is next to none, in mush where the pressure of the melt between the dendrites has dropped by ΔP_cr.
+/// In mixed elements, where p is that pressure (positive in tension) and div u − e_v the volume that the
+/// metal does not fill, the pore fraction is
 ///
-///   θ(p) = ⟨p − p_c⟩/M                      below coherency,
-///   θ(p) = θ_n + ⟨p − p_c − σ(f_S)⟩/M_σ      in mush,  M_σ = k_pore_strengths σ(f_S),
-///   θ = θ_n                                 in solid metal,
+///   θ(p) = (1 − θ_n) ⟨p − p_c⟩/M              below coherency,
+///   θ(p) = θ_n + (1 − θ_n) ⟨p − ΔP_cr⟩/M_m     in mush,  M_m = k_pore_drops ΔP_cr,
+///   θ = θ_n                                   in solid metal,
 ///
-/// p_c being pore_tension of the material and k_least_pore_share M at least, with f_S of t_n, and r_p = ∫ N
-/// (div u − e_v − θ) dV − S p. The law of the metal sees e_v alone. Below coherency θ is a function of p
-/// without memory, the derivative of the convex ⟨p − p_c⟩²/2M: pores that are pressed or fed close, and their
-/// work is stored and not lost. In mush a pore grows or stays, and its work, p Δθ ≥ 0, is lost. Both are
-/// counted with the work of the sub-scales.
+/// p_c being pore_tension of the material and k_least_pore_share M at least, ΔP_cr its
+/// critical_pressure_drop, with f_S of t_n, and r_p = ∫ N (div u − e_v − θ) dV − S p. The law of the metal
+/// sees e_v alone. Below coherency pores that are pressed or fed close; in mush a pore grows or stays. The
+/// metal that is left, 1 − θ_n, is what a pore can still open in: an element that has run empty opens no
+/// more, and its neighbours take over. The work of pores is counted with that of the sub-scales.
 ///
-/// M is the modulus 2Ĝ of the melt, some heads of metal: a pool opens its pores in its upper part first,
-/// where its pressure is least.
+/// M = k_pore_share 2Ĝ of the melt, two heads of metal: a pool opens its pores in its upper part first, where
+/// its pressure is least.
 #pragma once
 
 #include <algorithm>
@@ -31,11 +31,12 @@
 
 namespace solidus::mechanics {
 
-/// Strengths of the mush at k_mush_rate that a pore in it has to overcome: walls that hold a mush strain it
-/// by some 1e-3/s, which is no reason for a pore.
-inline constexpr double k_pore_strength = 5;
-/// M_σ in such strengths: pores of 1e-2 in a step cost a tenth of them.
-inline constexpr double k_pore_strengths = 10;
+/// M_m in pressure drops: pores of 1e-2 in a step cost another one.
+inline constexpr double k_pore_drops = 100;
+/// Pores of an element whose stiffness rises no more.
+inline constexpr double k_most_pores = 0.98;
+/// M as a share of the modulus of the melt: two heads of metal.
+inline constexpr double k_pore_share = 0.2;
 /// p_c is at least this share of M, which a strain increment of as much costs in a melt: without it the
 /// viscosity of the numerical melt alone would open pores.
 inline constexpr double k_least_pore_share = 0.02;
@@ -51,14 +52,14 @@ class Pores {
   /// @param before          θ_n
   void begin_step(Index batch, const Lane& solid_fraction, double melt_modulus, const Lane& before) {
     if (held_.empty()) return;
-    const LaneMask melt = solid_fraction < Lane(mush_.coherency);
+    const LaneMask melt = solid_fraction < Lane(coherency_);
     const LaneMask solid = solid_fraction >= Lane(1.0);
-    const Lane strength = Lane(k_pore_strength) * mush_.strength(select(solid, Lane(0.0), solid_fraction));
-    const Lane modulus(melt_modulus);
-    const Lane softness = Lane(1.0) / select(melt, modulus, max(modulus, Lane(k_pore_strengths) * strength));
-    softness_[at(batch)] = select(solid, Lane(0.0), softness);
-    threshold_[at(batch)] =
-        Lane(std::max(tension_, k_least_pore_share * melt_modulus)) + select(melt, Lane(0.0), strength);
+    const Lane metal = Lane(1.0) - min(before, Lane(k_most_pores));
+    const Lane modulus =
+        select(melt, Lane(k_pore_share * melt_modulus), Lane(k_pore_drops * critical_pressure_drop_));
+    const double in_pool = std::max(tension_, k_least_pore_share * melt_modulus);
+    softness_[at(batch)] = select(solid, Lane(0.0), metal / modulus);
+    threshold_[at(batch)] = select(melt, Lane(in_pool), Lane(std::max(in_pool, critical_pressure_drop_)));
     held_[at(batch)] = select(melt, Lane(0.0), before);
   }
   /// θ at a mean stress [Pa].
@@ -86,10 +87,9 @@ class Pores {
  private:
   static std::size_t at(Index batch) { return static_cast<std::size_t>(batch); }
 
-  double tension_;
-  material::MushViscosity mush_;
+  double tension_, critical_pressure_drop_, coherency_;  ///< p_c, ΔP_cr, f_c
   PackVector<Lane> softness_, threshold_,
-      held_;  ///< 1/M, p_c with the strength, and θ_n of what was coherent
+      held_;  ///< dθ/dp, its threshold, and θ_n of what was coherent
   PackVector<Lane> now_, kept_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "mechanics/element_transfer.hpp"
+#include "mechanics/liquid_flow.hpp"
 #include "mechanics/mixed_kernel.hpp"
 #include "mechanics/padding.hpp"
 #include "mesh/block_geometry.hpp"
@@ -26,8 +27,10 @@ class PressureNodes : public MixedKernel {
 
   /// @param geometry  of the block, with one point; must outlive this object
   PressureNodes(const mesh::Mesh& mesh, const mesh::Block& block, const mesh::BlockGeometry& geometry,
-                Stabilisation stabilisation)
-      : orthogonal_(stabilisation == Stabilisation::orthogonal), geometry_(geometry) {
+                const material::Material& material, Stabilisation stabilisation)
+      : orthogonal_(stabilisation == Stabilisation::orthogonal),
+        flow_(material, geometry.n_batches),
+        geometry_(geometry) {
     const auto n = static_cast<std::size_t>(geometry.n_batches);
     compliance_.resize(n);
     twice_shear_.resize(n);
@@ -39,6 +42,7 @@ class PressureNodes : public MixedKernel {
 
   void use_pressure(const PressureField& field) override { field_ = field; }
   int field() const override { return field_.field; }
+  bool flows() const override { return flow_.flows(); }
   void bind_pressure(const algebra::BlockMatrix& matrix) override {
     pressure_slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
@@ -154,7 +158,6 @@ class PressureNodes : public MixedKernel {
     return Lane(2.0 * static_cast<double>(dim)) / squares;
   }
 
-  Lane body_force(std::size_t i) const { return Lane(body_force_[i]); }
   Lane projection_weight(Index batch) const {
     if (!orthogonal_) return Lane(0.0);
     return Lane(share) * tau_[at(batch)] * weight(batch);
@@ -254,11 +257,11 @@ class PressureNodes : public MixedKernel {
         out[place(batch, a, lane)] += values[a][static_cast<int>(lane)];
   }
 
-  /// scale (∫ N compliance N dV + τ V ∇N·∇N), [node][node].
+  /// scale (∫ N compliance N dV + (τ + Δt K/μ) V ∇N·∇N), [node][node].
   std::array<Lane, n_nodes * n_nodes> compliance_terms(const Lane& scale, const Lane& compliance,
                                                        Index batch) const {
     const Operator b = at_point(batch);
-    const Lane w = weight(batch), stabilised = scale * w * tau_[at(batch)];
+    const Lane w = weight(batch), stabilised = scale * w * (tau_[at(batch)] + flow_.mobility(batch));
     const Nodal mass = masses(batch);
     const Lane density = select(w > Lane(0.0), scale * compliance / w, Lane(0.0));  // padding has no volume
     std::array<Lane, n_nodes * n_nodes> terms;
@@ -271,18 +274,28 @@ class PressureNodes : public MixedKernel {
     return terms;
   }
 
-  /// rows −= τ V ∇N·(∇p + ρ g_0).
+  /// rows −= τ V ∇N·g with orthogonal sub-scales, τ V ∇N·(g + ρ g_0) with algebraic ones, and V ∇N·q.
   void subtract_stabilisation(const Operator& b, Index batch, const Nodal& p, Nodal& rows) const {
-    const Lane stabilised = tau_[at(batch)] * weight(batch);
+    const Lane stabilised = tau_[at(batch)];
     const auto g = pressure_gradient(p, batch);
-    for (std::size_t a = 0; a < n_nodes; ++a)
-      for (std::size_t i = 0; i < dim; ++i) rows[a] -= stabilised * b.gradient[a][i] * (g[i] + body_force(i));
+    const auto q = liquid_flow(g, batch);
+    for (std::size_t i = 0; i < dim; ++i) {
+      const Lane unresolved = orthogonal_ ? g[i] : g[i] + Lane(body_force_[i]);
+      const Lane flux = weight(batch) * (stabilised * unresolved + q[i]);
+      for (std::size_t a = 0; a < n_nodes; ++a) rows[a] -= flux * b.gradient[a][i];
+    }
+  }
+  /// q where the pressure has this gradient [m].
+  std::array<Lane, dim> liquid_flow(const std::array<Lane, dim>& gradient, Index batch) const {
+    std::array<Lane, dim> drive;
+    for (std::size_t i = 0; i < dim; ++i) drive[i] = gradient[i] + Lane(body_force_[i]);
+    return flow_.total(batch, drive);
   }
   std::size_t bytes_of_nodes() const {
     return (compliance_.capacity() + twice_shear_.capacity() + tangent_shear_.capacity() +
             pore_compliance_.capacity() + tau_.capacity() + masses_.capacity()) *
                sizeof(Lane) +
-           pressure_slots_.bytes();
+           pressure_slots_.bytes() + flow_.bytes();
   }
 
   bool orthogonal_;
@@ -294,6 +307,7 @@ class PressureNodes : public MixedKernel {
   /// by. Where metal flows by many yield strains it is a hundredth of that of the stabilisation.
   PackVector<Lane> tangent_shear_;
   PackVector<Lane> pore_compliance_;  ///< of the last tangent (pores.hpp) [1/Pa]
+  LiquidFlow<dim> flow_;
 
  private:
   const mesh::BlockGeometry& geometry_;

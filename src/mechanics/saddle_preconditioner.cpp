@@ -1,5 +1,7 @@
 #include "mechanics/saddle_preconditioner.hpp"
 
+#include <algorithm>
+
 namespace solidus::mechanics {
 
 namespace {
@@ -26,9 +28,14 @@ SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, algebra::Sadd
       matrix_(matrix),
       pressure_(pressure),
       ghosts_(ghosts),
-      multigrid_(mesh, matrix.components(), algebra::rigid_body_modes, symmetric, k_coarsest),
-      factors_(static_cast<std::size_t>(pressure.fields())) {
+      multigrid_(mesh, matrix.components(), algebra::rigid_body_modes, symmetric, k_coarsest) {
   const auto fields = static_cast<std::size_t>(pressure.fields());
+  const auto& kernels = pressure.kernels();
+  if (std::any_of(kernels.begin(), kernels.end(), [](const MixedKernel* kernel) { return kernel->flows(); }))
+    for (std::size_t field = 0; field < fields; ++field)
+      schur_cycles_.push_back(std::make_unique<algebra::Multigrid>(mesh, 1, algebra::constants, true));
+  else
+    factors_.resize(fields);
   for (std::size_t field = 0; field < fields; ++field) {
     schur_.push_back(std::make_unique<algebra::BlockMatrix>(mesh, 1, pressure.graph(),
                                                             algebra::BlockMatrix::Storage::upper));
@@ -46,7 +53,9 @@ void SaddlePreconditioner::set_up_schur() {
   for (const auto& matrix : schur_) matrix->set_zero();
   for (const MixedKernel* kernel : pressure_.kernels())
     kernel->add_schur(scale, *schur_[static_cast<std::size_t>(kernel->field())]);
-  for (std::size_t field = 0; field < schur_.size(); ++field) factors_[field].set_up(*schur_[field]);
+  for (std::size_t field = 0; field < factors_.size(); ++field) factors_[field].set_up(*schur_[field]);
+  for (std::size_t field = 0; field < schur_cycles_.size(); ++field)
+    schur_cycles_[field]->set_up(*schur_[field]);
   find_softness();
 }
 
@@ -80,7 +89,11 @@ void SaddlePreconditioner::apply(std::span<const double> r, std::span<double> z)
   result_.resize(n_p);
   for (std::size_t field = 0; field < fields; ++field) {
     for (std::size_t node = 0; node < right_.size(); ++node) right_[node] = -r[n_u + node * fields + field];
-    factors_[field].apply(right_, std::span(result_).first(right_.size()));
+    const auto part = std::span(result_).first(right_.size());
+    if (factors_.empty())
+      schur_cycles_[field]->apply(right_, part);
+    else
+      factors_[field].apply(right_, part);
     for (std::size_t node = 0; node < right_.size(); ++node) z[n_u + node * fields + field] = result_[node];
   }
   local_.resize(mesh_.x.size() * fields);
@@ -105,8 +118,9 @@ std::size_t SaddlePreconditioner::bytes() const {
       multigrid_.bytes() + (stiffness_.capacity() + inverse_softness_.capacity() + right_.capacity() +
                             part_.capacity() + result_.capacity() + local_.capacity() + local_u_.capacity()) *
                                sizeof(double);
-  for (std::size_t field = 0; field < schur_.size(); ++field)
-    total += schur_[field]->bytes() + factors_[field].bytes();
+  for (const auto& matrix : schur_) total += matrix->bytes();
+  for (const auto& factors : factors_) total += factors.bytes();
+  for (const auto& cycle : schur_cycles_) total += cycle->bytes();
   return total;
 }
 

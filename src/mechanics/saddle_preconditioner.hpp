@@ -4,7 +4,8 @@
 ///   K ⎡ 1      0 ⎤ = ⎡ A + B W⁻¹ Bᵀ   B  ⎤        ⎡ A_γ   B ⎤ ⎧z_u⎫   ⎧r_u⎫        z_p += W⁻¹ Bᵀ z_u
 ///     ⎣ W⁻¹Bᵀ 1 ⎦   ⎣       …         −C ⎦ ,      ⎣ 0    −S̃ ⎦ ⎩z_p⎭ = ⎩r_p⎭ ,
 ///
-/// A_γ by one cycle of multigrid, S̃ = C + S + ∫ N 1/(2Ĝ) N dV by incomplete Cholesky factors on each process.
+/// A_γ by one cycle of multigrid, S̃ = C + S + ∫ N 1/(2Ĝ) N dV by incomplete Cholesky factors on each process,
+/// or by a cycle of multigrid of its own where melt flows between dendrites: S̃ is Darcy's Laplacian there.
 ///
 /// A alone has no stiffness against a body that swells evenly, and a hierarchy cannot be made of it. The
 /// first factor gives it one, W = diag ∫ N 1/(2Ĝ) dV/γ, without a change of what is solved: the augmented
@@ -38,7 +39,7 @@ class SaddlePreconditioner {
   SaddlePreconditioner(const mesh::Mesh& mesh, algebra::SaddleMatrix& matrix, NodalPressure& pressure,
                        const algebra::GhostExchange& ghosts, bool symmetric);
 
-  /// New factors of S̃, and W, for the moduli of now. Collective.
+  /// New factors or hierarchy of S̃, and W, for the moduli of now. Collective.
   void set_up_schur();
   /// A new hierarchy for A as it stands. Collective.
   void set_up_displacement();
@@ -54,11 +55,12 @@ class SaddlePreconditioner {
   NodalPressure& pressure_;
   const algebra::GhostExchange& ghosts_;
   algebra::Multigrid multigrid_;
-  std::vector<std::unique_ptr<algebra::BlockMatrix>> schur_;  ///< of each field: fields do not couple
-  std::vector<algebra::IncompleteCholesky> factors_;
-  std::vector<double> stiffness_;                                ///< s [Pa], [local node][field]
-  std::vector<double> inverse_softness_;                         ///< W⁻¹, [owned node][field]
-  std::vector<double> right_, part_, result_, local_, local_u_;  ///< scratch
+  std::vector<std::unique_ptr<algebra::BlockMatrix>> schur_;       ///< of each field: fields do not couple
+  std::vector<algebra::IncompleteCholesky> factors_;               ///< of each field where no melt flows
+  std::vector<std::unique_ptr<algebra::Multigrid>> schur_cycles_;  ///< the same where it does
+  std::vector<double> stiffness_;                                  ///< s [Pa], [local node][field]
+  std::vector<double> inverse_softness_;                           ///< W⁻¹, [owned node][field]
+  std::vector<double> right_, part_, result_, local_, local_u_;    ///< scratch
 };
 
 }  // namespace solidus::mechanics

@@ -1,5 +1,7 @@
 #include "mechanics/simplices.hpp"
 
+#include "material/external_law.hpp"
+
 namespace solidus::mechanics {
 
 namespace {
@@ -9,7 +11,7 @@ constexpr double k_incompressible = 0.45;
 
 bool nearly_incompressible(const material::Material& material) {
   return material.solidification() != nullptr || material.flow.has_value() ||
-         material.poisson_ratio.max_value() > k_incompressible;
+         external_law(material) != nullptr || material.poisson_ratio.max_value() > k_incompressible;
 }
 
 bool is_mixed(const mesh::Block& block, const material::Material& material, Simplices simplices) {

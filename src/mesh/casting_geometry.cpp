@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/log.hpp"
+#include "mesh/file_format.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reader_process.hpp"
@@ -42,11 +43,17 @@ std::string complaint_of(const InputError& error, const std::string& path) {
 
 RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough) {
   require_gmsh(source.path);
+  check_readable(source.path);
+  const bool solids = is_cad(file_format(source.path));
+  const int n_attempts = solids ? n_meshing_attempts() : n_faceted_attempts();
+  const auto attempt_text = [&](int attempt) {
+    return solids ? meshing_attempt(attempt) : faceted_attempt(attempt);
+  };
   std::optional<RawMesh> best;
   double best_quality = 0;
   int best_way = 0;
   std::vector<std::string> complaints;
-  for (geometry.attempt = 0; geometry.attempt < n_meshing_attempts(); ++geometry.attempt) {
+  for (geometry.attempt = 0; geometry.attempt < n_attempts; ++geometry.attempt) {
     try {
       RawMesh mesh = read_in_one_way(source, &geometry);
       if (enough > 0 && source.element_order == 1) smooth_poor_tetrahedra(mesh);
@@ -57,10 +64,10 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
         best_way = geometry.attempt;
       }
       if (best_quality >= enough) break;
-      complaints.push_back(meshing_attempt(geometry.attempt) + ": least quality " +
+      complaints.push_back(attempt_text(geometry.attempt) + ": least quality " +
                            std::to_string(quality).substr(0, 5));
     } catch (const InputError& error) {
-      complaints.push_back(meshing_attempt(geometry.attempt) + ": " + complaint_of(error, source.path));
+      complaints.push_back(attempt_text(geometry.attempt) + ": " + complaint_of(error, source.path));
     }
     logging::debug("meshing '{}', {}", source.path, complaints.back());
   }
@@ -72,9 +79,9 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
   }
   if (best_quality < enough)
     logging::warn("the best of {} ways to mesh '{}' has elements of quality {:.2g}; 0.15 is sound",
-                  n_meshing_attempts(), source.path, best_quality);
+                  n_attempts, source.path, best_quality);
   else if (best_way > 0 && enough > 0)
-    logging::info("meshed in way {} ({}), after: {}", best_way + 1, meshing_attempt(best_way),
+    logging::info("meshed in way {} ({}), after: {}", best_way + 1, attempt_text(best_way),
                   complaints.back());
   return std::move(*best);
 }

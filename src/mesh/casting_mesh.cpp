@@ -424,7 +424,8 @@ class Maker {
 
   /// On a face that is narrower than an element, of the width 2 area / boundary, elements are as small.
   void sample_narrow_faces(std::vector<SizeSample>& all) const {
-    constexpr double k_least = 0.12;  // of the limit
+    constexpr double k_least =
+        0.25;  // of the limit: steps of a hundredth of a part would take most of its nodes
     for (const auto& [entity, limit] : limit_) {
       if (entity.first != 2) continue;
       double area = 0, around = 0;

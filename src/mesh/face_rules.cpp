@@ -170,14 +170,15 @@ std::string to_text(const std::vector<SkinPatch>& patches) {
       neighbours += fmt::format("{}{}", i > 0 ? ", " : "", p.neighbours[i] + 1);
     if (p.neighbours.size() > k_most) neighbours += ", …";
     const bool plane = dot(p.normal, p.normal) > 0.999;
+    const auto mm = [](double x) { return std::abs(x) < 1e-9 ? 0.0 : 1e3 * x; };
     text += fmt::format(
         "{:>4}  {:<20} {:>7} {:>11.5g}  {:<27} {:<21} {:<24} {}\n", k + 1, p.body, p.faces, 1e6 * p.area,
-        fmt::format("({:.4g}, {:.4g}, {:.4g})", 1e3 * p.centre[0], 1e3 * p.centre[1], 1e3 * p.centre[2]),
+        fmt::format("({:.4g}, {:.4g}, {:.4g})", mm(p.centre[0]), mm(p.centre[1]), mm(p.centre[2])),
         plane
             ? fmt::format("({:.2f}, {:.2f}, {:.2f})", p.normal[0] + 0.0, p.normal[1] + 0.0, p.normal[2] + 0.0)
             : std::string("curved"),
-        fmt::format("{:.4g} x {:.4g} x {:.4g}", 1e3 * (p.high[0] - p.low[0]), 1e3 * (p.high[1] - p.low[1]),
-                    1e3 * (p.high[2] - p.low[2])),
+        fmt::format("{:.4g} x {:.4g} x {:.4g}", mm(p.high[0] - p.low[0]), mm(p.high[1] - p.low[1]),
+                    mm(p.high[2] - p.low[2])),
         neighbours);
   }
   return text;

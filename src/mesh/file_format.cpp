@@ -59,6 +59,11 @@ bool begins_as_vtk_xml(std::string_view head) {
   return head.find("<VTKFile") != std::string_view::npos;
 }
 
+bool begins_as_stl(std::string_view head) {
+  constexpr std::size_t k_binary = 84;  // a title, and the number of triangles
+  return head.starts_with("solid") || head.size() >= k_binary;
+}
+
 struct Known {
   FileFormat format;
   /// Endings as Gmsh compares them: ".Step" is none of a CAD file to it, so it is none here.
@@ -86,7 +91,8 @@ const std::vector<Known>& known_formats() {
       {FileFormat::nastran, {".bdf", ".BDF", ".nas", ".NAS"}, is_text, "text"},
       {FileFormat::medit, {".mesh", ".MESH"}, begins_as_medit, "'MeshVersionFormatted'"},
       {FileFormat::vtk, {".vtk", ".VTK"}, begins_as_vtk, "'# vtk DataFile'"},
-      {FileFormat::vtu, {".vtu"}, begins_as_vtk_xml, "'<VTKFile'"}};
+      {FileFormat::vtu, {".vtu"}, begins_as_vtk_xml, "'<VTKFile'"},
+      {FileFormat::stl, {".stl", ".STL"}, begins_as_stl, "'solid', or 80 bytes and the number of triangles"}};
   return known;
 }
 
@@ -107,6 +113,14 @@ std::string head_of(const std::string& path) {
 }
 
 }  // namespace
+
+void check_readable(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError({path}, "the mesh file does not exist");
+  if (!std::filesystem::is_regular_file(path, error)) throw InputError({path}, "the mesh is not a file");
+  if (std::filesystem::file_size(path, error) == 0) throw InputError({path}, "the mesh file is empty");
+  if (!std::ifstream(path)) throw InputError({path}, "the mesh file cannot be read");
+}
 
 FileFormat file_format(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();

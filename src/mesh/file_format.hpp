@@ -21,8 +21,12 @@ enum class FileFormat {
   nastran,
   medit,
   vtk,
-  vtu
+  vtu,
+  stl  ///< triangles of a skin
 };
+
+/// Throws InputError where there is no file of this name with something in it that can be read.
+void check_readable(const std::string& path);
 
 /// The format of a regular file that exists and is not empty.
 /// Throws InputError where the name has no known ending or the content is not what the ending says.

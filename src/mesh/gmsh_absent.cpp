@@ -1,6 +1,7 @@
 // Stands in a build without Gmsh for all that needs it.
 #include "base/errors.hpp"
 #include "mesh/casting_geometry.hpp"
+#include "mesh/faceted_casting.hpp"
 #include "mesh/gmsh_reader.hpp"
 
 namespace solidus::mesh {
@@ -15,6 +16,15 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat, const CastingGeomet
   return {};
 }
 
+RawMesh mesh_faceted_casting(const MeshSource& source, const CastingGeometry&, const std::vector<Facets>&) {
+  require_gmsh(source.path);
+  return {};
+}
+
+std::vector<Facets> facets_of(const RawMesh&, double) {
+  return {};
+}
+
 std::string gmsh_version() {
   return "not in this build";
 }
@@ -24,6 +34,14 @@ int n_meshing_attempts() {
 }
 
 std::string meshing_attempt(int) {
+  return "without Gmsh";
+}
+
+int n_faceted_attempts() {
+  return 0;
+}
+
+std::string faceted_attempt(int) {
   return "without Gmsh";
 }
 

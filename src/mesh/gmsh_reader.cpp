@@ -265,9 +265,9 @@ void name_groups(const std::string& path, const GeometryChoice& geometry, double
 }
 
 /// With the CAD kernel's own exceptions as messages.
-void make_casting(const MeshSource& source, const CastingGeometry& casting) {
+void make_casting(const MeshSource& source, const std::function<void()>& make) {
   try {
-    make_casting_mesh(source, casting);
+    make();
   } catch (const std::exception&) {
     throw;
   } catch (const std::string& complaint) {
@@ -277,7 +277,28 @@ void make_casting(const MeshSource& source, const CastingGeometry& casting) {
   }
 }
 
+/// The mesh that Gmsh has.
+RawMesh mesh_of_session(const MeshSource& source) {
+  RawMesh mesh;
+  mesh.dimension = mesh_dimension();
+  if (mesh.dimension == 0)
+    throw InputError(
+        {source.path},
+        "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
+        mesh_formats());
+  const auto index = read_nodes(source.unit_in_metres, mesh);
+  read_groups(source.path, index, mesh);
+  return mesh;
+}
+
 }  // namespace
+
+RawMesh mesh_in_gmsh(const MeshSource& source, const std::function<void()>& make) {
+  const Session session;
+  gmsh::model::add("casting");
+  make_casting(source, make);
+  return mesh_of_session(source);
+}
 
 RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const CastingGeometry* casting) {
   const std::string& path = source.path;
@@ -285,21 +306,12 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
   const Session session(source.constants);
   open(path, format);
   if (casting != nullptr) {
-    make_casting(source, *casting);
+    make_casting(source, [&] { make_casting_mesh(source, *casting); });
   } else if (is_geometry(format)) {
     name_groups(path, source.geometry, source.unit_in_metres, format);
     generate(path, source.element_size / source.unit_in_metres, source.element_order);
   }
-
-  RawMesh mesh;
-  mesh.dimension = mesh_dimension();
-  if (mesh.dimension == 0)
-    throw InputError(
-        {path}, "the mesh has no triangles, quads, tetrahedra or hexahedra: empty, cut off or not a mesh",
-        mesh_formats());
-  const auto index = read_nodes(source.unit_in_metres, mesh);
-  read_groups(path, index, mesh);
-  return mesh;
+  return mesh_of_session(source);
 }
 
 void require_gmsh(const std::string&) {}

@@ -1,7 +1,8 @@
 /// The part of the readers that needs Gmsh. A build without Gmsh (-DSOLIDUS_GMSH=OFF) has gmsh_absent.cpp in
-/// the place of gmsh_reader.cpp, geometry_groups.cpp and casting_mesh.cpp.
+/// the place of gmsh_reader.cpp, geometry_groups.cpp, casting_mesh.cpp and faceted_casting.cpp.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "mesh/casting_geometry.hpp"
@@ -14,6 +15,10 @@ namespace solidus::mesh {
 /// @param casting  makes mould and riser around the parts of a file of CAD; may be null
 /// Throws InputError; without Gmsh always.
 RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const CastingGeometry* casting);
+
+/// Opens an empty model in Gmsh, lets `make` fill and mesh it, and takes the mesh. Throws InputError, also
+/// for what Gmsh complains of.
+RawMesh mesh_in_gmsh(const MeshSource& source, const std::function<void()>& make);
 
 /// Throws InputError that names the file where this program was built without Gmsh.
 void require_gmsh(const std::string& path);

@@ -7,24 +7,28 @@
 #include "base/errors.hpp"
 #include "mesh/abaqus_input.hpp"
 #include "mesh/casting_geometry.hpp"
+#include "mesh/faceted_casting.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_mesh_file.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/gmsh_script.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/reader_process.hpp"
+#include "mesh/stl_file.hpp"
 #include "mesh/vtu_mesh.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
-void check_readable(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw InputError({path}, "the mesh file does not exist");
-  if (!std::filesystem::is_regular_file(path, error)) throw InputError({path}, "the mesh is not a file");
-  if (std::filesystem::file_size(path, error) == 0) throw InputError({path}, "the mesh file is empty");
-  if (!std::ifstream(path)) throw InputError({path}, "the mesh file cannot be read");
+/// Meshes what the skins of an STL file or of the bodies of a mesh enclose, and a mould around them.
+RawMesh mesh_skins(const MeshSource& source, FileFormat format, const CastingGeometry& casting) {
+  if (format == FileFormat::stl) return mesh_faceted_casting(source, casting, read_stl(source.path));
+  const RawMesh mesh = read_mesh_here(source);
+  if (mesh.dimension != 3)
+    throw InputError({source.path}, "[[mesh.size]] and [mesh.mould] are for solids, this mesh is plane",
+                     "a mesh of tetrahedra or hexahedra");
+  return mesh_faceted_casting(source, casting, facets_of(mesh, source.unit_in_metres));
 }
 
 }  // namespace
@@ -33,9 +37,10 @@ RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting)
   const std::string& path = source.path;
   check_readable(path);
   const FileFormat format = file_format(path);
-  if (casting != nullptr && !is_cad(format))
-    throw InputError({path}, "[[mesh.size]], [mesh.mould], [mesh.riser] and [mesh.symmetry] are for solids",
-                     "a STEP, BREP or IGES file");
+  if (casting != nullptr && !is_cad(format)) return mesh_skins(source, format, *casting);
+  if (format == FileFormat::stl)
+    throw InputError({path}, "an STL file holds a skin of triangles and no elements of a body",
+                     "[[mesh.size]] for each body: then what it encloses is meshed");
   if (!source.geometry.groups.empty() && !is_geometry(format))
     throw InputError({path}, "the file holds a mesh, whose groups are its own",
                      "a STEP, BREP, IGES or .geo file");

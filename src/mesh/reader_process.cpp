@@ -259,7 +259,7 @@ void Reader::ended() {
 }
 
 RawMesh read_in_own_process(const MeshSource& source, const CastingGeometry* casting) {
-  const ReaderLimits limits = reader_limits(source);
+  const ReaderLimits limits = reader_limits(source, casting != nullptr);
   Reader reader(source, casting, limits);
   const TakeBytes take = [&](void* bytes, std::size_t n) { reader.take(bytes, n); };
   Answer answer = Answer::internal;
@@ -331,7 +331,7 @@ void give_up_reading_when(bool (*asked)()) {
   give_up = asked;
 }
 
-ReaderLimits reader_limits(const MeshSource& source) {
+ReaderLimits reader_limits(const MeshSource& source, bool meshes) {
   const double machine =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   ReaderLimits limits{0.5 * machine, 1800};
@@ -339,7 +339,8 @@ ReaderLimits reader_limits(const MeshSource& source) {
   const auto size = static_cast<double>(std::filesystem::file_size(source.path, error));
   // A file that holds a mesh becomes some twenty times as large in memory, and takes a second per megabyte
   // where the machine is busy.
-  if (!error && holds_mesh(source.path)) limits = {std::min(limits.memory, 1e9 + 60 * size), 60 + size / 1e6};
+  if (!error && !meshes && holds_mesh(source.path))
+    limits = {std::min(limits.memory, 1e9 + 60 * size), 60 + size / 1e6};
   if (const char* memory = std::getenv("SOLIDUS_MESH_MEMORY")) limits.memory = bytes_of(memory);
   if (const char* time = std::getenv("SOLIDUS_MESH_TIME")) limits.time = seconds_of(time);
   return limits;

@@ -33,7 +33,8 @@ struct ReaderLimits {
 };
 /// Without a word of the environment: geometries half of the machine's memory and half an hour, meshes what
 /// their size makes likely. Throws InputError for a limit that cannot be read.
-ReaderLimits reader_limits(const MeshSource& source);
+/// @param meshes  what the file holds is meshed anew, whatever it is
+ReaderLimits reader_limits(const MeshSource& source, bool meshes = false);
 
 /// Reads in this process, whatever happens.
 RawMesh read_mesh_here(const MeshSource& source, const CastingGeometry* casting = nullptr);

@@ -88,6 +88,44 @@ std::string attribute(const pt::ptree& element, const std::string& name) {
   return element.get<std::string>("<xmlattr>." + name, "");
 }
 
+/// Whether elements lie in each other deeper than `most`: the parser of XML calls itself for each.
+bool nested_deeper(std::string_view xml, int most) {
+  int depth = 0;
+  const auto behind = [&](std::size_t from, std::string_view end) {
+    const std::size_t at = xml.find(end, from);
+    return at == std::string_view::npos ? xml.size() : at + end.size();
+  };
+  for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
+    const std::string_view rest = xml.substr(at);
+    if (rest.starts_with("<!--")) {
+      at = behind(at, "-->");
+    } else if (rest.starts_with("<![CDATA[")) {
+      at = behind(at, "]]>");
+    } else if (rest.starts_with("<?")) {
+      at = behind(at, "?>");
+    } else if (rest.starts_with("<!")) {
+      at = behind(at, ">");
+    } else if (rest.starts_with("</")) {
+      --depth;
+      at = behind(at, ">");
+    } else {
+      char quote = 0;
+      for (++at; at < xml.size() && (quote != 0 || xml[at] != '>'); ++at) {
+        if (quote != 0)
+          quote = xml[at] == quote ? '\0' : quote;
+        else if (xml[at] == '"' || xml[at] == '\'')
+          quote = xml[at];
+      }
+      if (at >= xml.size() || xml[at - 1] != '/') ++depth;
+      if (depth > most) return true;
+    }
+  }
+  return false;
+}
+
+/// deflate packs at most 1 032 bytes into one.
+constexpr std::size_t k_most_packed = 1032;
+
 }  // namespace
 
 void VtuFile::fail(const std::string& what, const std::string& allowed) const {
@@ -110,6 +148,9 @@ VtuFile::VtuFile(const std::filesystem::path& file) : file_(file) {
     appended_ = std::string_view(content_).substr(begin + 1);
     xml = content_.substr(0, tag) + "</VTKFile>";
   }
+  constexpr int k_deepest = 50;
+  if (nested_deeper(xml, k_deepest))
+    fail("the elements of the file lie deeper in each other than those of a grid");
   try {
     std::istringstream text(xml);
     pt::read_xml(text, document_);
@@ -159,8 +200,11 @@ std::string VtuFile::bytes(const pt::ptree& array, std::size_t n) const {
   const std::size_t n_head = (3 + n_blocks) * word;
   std::string head = stored(data, base64, n_head);
   std::size_t packed = 0;
-  for (std::size_t b = 0; b < n_blocks; ++b) packed += header_word(head, 3 + b, wide_header_);
-  if (packed > content_.size()) fail("the file is damaged: a block is longer than the file");
+  for (std::size_t b = 0; b < n_blocks; ++b) {
+    const std::size_t size = header_word(head, 3 + b, wide_header_);
+    if (size > content_.size() - packed) fail("the file is damaged: a block is longer than the file");
+    packed += size;
+  }
   const std::string all = stored(data, base64, n_head + packed);
   const std::size_t block_size = header_word(head, 1, wide_header_),
                     last = header_word(head, 2, wide_header_);
@@ -182,9 +226,15 @@ std::string VtuFile::bytes(const pt::ptree& array, std::size_t n) const {
 }
 
 std::vector<double> VtuFile::numbers(const pt::ptree& array, std::size_t n) const {
-  std::vector<double> result(n);
+  // A number takes a byte at least, or what deflate makes of it: no memory is taken for more than the file
+  // holds.
+  if (n / (compressed_ ? k_most_packed : 1) > content_.size())
+    fail("an array of the file is shorter than its grid");
+  std::vector<double> result;
   if (n == 0) return result;
   if (attribute(array, "format") == "ascii") {
+    if (n > array.data().size()) fail("an array of the file is shorter than its grid");
+    result.resize(n);
     std::istringstream text(array.data());
     std::string word;
     for (double& number : result) {
@@ -198,7 +248,9 @@ std::vector<double> VtuFile::numbers(const pt::ptree& array, std::size_t n) cons
   const std::string type = attribute(array, "type");
   for (const NumberType& each : k_types)
     if (each.name == type) {
-      each.convert(bytes(array, n * each.size), result);
+      const std::string stored = bytes(array, n * each.size);
+      result.resize(n);
+      each.convert(stored, result);
       return result;
     }
   fail(fmt::format("numbers of the type '{}' are not read", type));

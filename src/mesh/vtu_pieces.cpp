@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <span>
 
 #include "mesh/vtk_cells.hpp"
@@ -68,6 +69,19 @@ const ptree& children(const VtuFile& file, const char* name) {
   return *found;
 }
 
+std::vector<std::filesystem::path> grid_files(const VtuFile& file, const std::filesystem::path& path) {
+  if (file.type() != "PUnstructuredGrid") return {path};
+  std::vector<std::filesystem::path> parts;
+  std::set<std::filesystem::path> seen = {std::filesystem::weakly_canonical(path)};
+  for (const auto& [tag, child] : children(file, "PUnstructuredGrid")) {
+    if (tag != "Piece") continue;
+    parts.push_back(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""));
+    if (!seen.insert(std::filesystem::weakly_canonical(parts.back())).second)
+      file.fail(fmt::format("'{}' stands in the list of parts twice", parts.back().string()));
+  }
+  return parts;
+}
+
 const ptree& points_array(const VtuFile& file, const ptree& piece) {
   const ptree* points = nullptr;
   if (const auto group = piece.get_child_optional("Points"))
@@ -92,6 +106,8 @@ CellTable read_cells(const VtuFile& file, const ptree& piece, std::size_t n_cell
     end = offset;
   }
   const std::vector<double> corners = file.numbers(*arrays[2], static_cast<std::size_t>(end));
+  for (const double type : types)
+    if (!(type >= 0 && type <= 255)) file.fail(fmt::format("cells of VTK's type {:g} are not read", type));
   CellTable table;
   table.types.assign(types.begin(), types.end());
   table.offsets.assign(offsets.begin(), offsets.end());

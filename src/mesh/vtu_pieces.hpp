@@ -2,6 +2,10 @@
 #pragma once
 
 #include <boost/property_tree/ptree.hpp>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,8 +31,17 @@ const boost::property_tree::ptree* find_array(const boost::property_tree::ptree&
 std::vector<std::string> array_names(const boost::property_tree::ptree& piece, const char* section);
 /// Its UNITS_LABEL; empty where the file does not say it.
 std::string array_unit(const boost::property_tree::ptree& array);
+/// A number of the input that an array holds; the least of all where the array has none there.
+inline std::int64_t whole_number(double value) {
+  constexpr double k_beyond = 9.2e18;
+  return std::abs(value) < k_beyond ? static_cast<std::int64_t>(value)
+                                    : std::numeric_limits<std::int64_t>::min();
+}
 /// The element below <VTKFile>. Throws InputError where the file has none of that name.
 const boost::property_tree::ptree& children(const VtuFile& file, const char* name);
+/// The files of a grid: the file itself, or the parts that a .pvtu lists, as paths. Throws InputError where a
+/// part stands there twice or is the list itself; whether a part lists further ones is for its reader.
+std::vector<std::filesystem::path> grid_files(const VtuFile& file, const std::filesystem::path& path);
 /// The array of the points. Throws InputError where there is none.
 const boost::property_tree::ptree& points_array(const VtuFile& file,
                                                 const boost::property_tree::ptree& piece);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "algebra/parallel.hpp"
@@ -218,12 +219,32 @@ coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::ve
   return heat;
 }
 
+namespace {
+
+/// The conditions and contacts that find no body to act on in any stage: a body may come after the first one.
+/// Throws InputError as without_body() does. Collective.
+std::vector<std::string> idle_throughout(const CaseSpec& spec, const Assembly& a) {
+  std::map<std::string, const std::vector<std::string>*> stages_of;
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) stages_of[c.name] = &c.stages;
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) stages_of[c.name] = &c.stages;
+  for (const ContactSpec& c : spec.contacts) stages_of[c.name] = &c.stages;
+  std::vector<std::string> idle = without_body(spec, a.mesh, a.first_stage());
+  for (const StageRun& stage : a.stages) {
+    if (stage.cycle > 1) continue;
+    const std::vector<std::string> here = without_body(spec, a.mesh, &stage);
+    std::erase_if(idle, [&](const std::string& name) {
+      return holds(*stages_of.at(name), &stage) && std::find(here.begin(), here.end(), name) == here.end();
+    });
+  }
+  return idle;
+}
+
+}  // namespace
+
 void build(const CaseSpec& spec, Assembly& a) {
   a.stages = stage_runs(spec);
-  if (const auto idle = without_body(spec, a.mesh, a.first_stage()); !idle.empty())
+  if (const auto idle = idle_throughout(spec, a); !idle.empty())
     logging::warn("these act on bodies that only conduct heat, and do nothing: {}", listed(idle));
-  for (const StageRun& stage : a.stages)
-    if (stage.cycle <= 1) without_body(spec, a.mesh, &stage);  // complains early
   check_new_bodies(spec, a.stages, a.mesh);
   a.initial_temperatures = std::make_unique<InitialTemperatures>(spec, a.materials, a.mesh);
   const InitialTemperatures& start = *a.initial_temperatures;
@@ -235,7 +256,7 @@ void build(const CaseSpec& spec, Assembly& a) {
   a.phases.temperature = nodal_temperature(spec, start, a.mesh);
   if (spec.has_mechanics()) {
     build_mechanics(spec, a.phases.temperature, a);
-    if (spec.has_heat() && spec.coupling.structural_heating != CouplingSpec::StructuralHeating::none) {
+    if (spec.exchanges_heat()) {
       a.structural = std::make_unique<mechanics::StructuralHeat>(
           *a.mechanics, structural_form(spec), spec.heat.integration == heat::Integration::closed);
       a.phases.structural = a.structural.get();

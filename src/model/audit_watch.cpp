@@ -101,11 +101,10 @@ void WallWatch::report() const {
   for (std::size_t i = 0; i < largest_.size(); ++i)
     if (largest_[i].area > 0)
       logging::warn(
-          "contact '{}': liquid metal left its wall, {:.3g} m2 of it at most, by up to {:.3g} m at t = {:g} "
-          "s; "
-          "more than {:.3g} m, 1 % of the free contraction, counts",
-          contacts_[i]->spec().name, largest_[i].area, largest_[i].gap, largest_[i].time,
-          contacts_[i]->spec().leaving_gap);
+          "contact '{}': liquid metal left its wall, {:.3g} mm2 of it at most, by up to {:.3g} mm at "
+          "t = {:g} s; more than {:.3g} mm, 1 % of the free contraction, counts",
+          contacts_[i]->spec().name, 1e6 * largest_[i].area, 1e3 * largest_[i].gap, largest_[i].time,
+          1e3 * contacts_[i]->spec().leaving_gap);
 }
 
 }  // namespace solidus::model

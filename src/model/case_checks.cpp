@@ -389,6 +389,16 @@ void check_simplices(const CaseSpec& spec) {
         "stabilisation = \"orthogonal\"");
 }
 
+void check_output(const OutputSpec& o) {
+  const auto check = [&](const std::string& unit, const char* si, const char* key, const char* allowed) {
+    if (!units::compatible(unit, si))
+      throw InputError(o.where, fmt::format("'{}' is no unit for {}", unit, key), allowed);
+  };
+  check(o.length_unit, "m", "length_unit", "\"mm\", \"m\", \"inch\", ...");
+  check(o.temperature_unit, "K", "temperature_unit", "\"degC\", \"degF\", \"K\"");
+  check(o.stress_unit, "Pa", "stress_unit", "\"MPa\", \"ksi\", ...");
+}
+
 }  // namespace
 
 void check_case(const CaseSpec& spec) {
@@ -408,12 +418,14 @@ void check_case(const CaseSpec& spec) {
   check_simplices(spec);
   check_probes(spec);
   check_profiles(spec);
+  check_output(spec.output);
   probes(spec), profiles(spec);  // components that their fields do not have
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
     throw InputError(spec.time.where, "more than a million outputs are asked for",
                      "a longer `every` in [output]");
-  if (spec.time.steady && spec.has_mechanics())
-    throw InputError(spec.time.where, "a steady analysis solves for heat alone", "physics = \"heat\"");
+  if (spec.time.steady && spec.dynamics)
+    throw InputError(spec.dynamics->where, "inertia in a steady analysis, in which nothing moves",
+                     "no [dynamics], or steady = false");
 }
 
 }  // namespace solidus::model

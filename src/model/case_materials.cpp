@@ -9,6 +9,7 @@
 #include "base/types.hpp"
 #include "material/library.hpp"
 #include "model/body_input.hpp"
+#include "model/external_laws.hpp"
 #include "model/roles.hpp"
 
 namespace solidus::model {
@@ -50,6 +51,7 @@ std::vector<material::Material> load_materials(const CaseSpec& spec) {
           body.where,
           fmt::format("the material '{}' of body '{}' has no elastic properties", body.material, body.name),
           "young_modulus, poisson_ratio and expansion in the material, or physics = \"heat\" of the body");
+    if (spec.has_mechanics() && !only_conducts(body)) load_external_law(spec, materials.back());
   }
   return materials;
 }

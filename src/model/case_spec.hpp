@@ -148,6 +148,8 @@ struct MeshSpec {
 struct TimeSpec {
   bool steady = false;
   std::optional<double> end, step;  ///< [s]; required unless steady
+  enum class Until { end, solid };
+  Until until = Until::end;
   bool adaptive = false;
   std::optional<double> min_step, max_step;  ///< [s]
   double growth = 0, cut = 0;
@@ -357,6 +359,9 @@ struct OutputSpec {
   std::optional<int> checkpoint_every;  ///< steps
   std::optional<std::string> folder;
   bool stage_ends = true;  ///< outputs at the end of every stage
+  bool vtkhdf = false;     ///< fields.vtkhdf too, when the run ends or stops
+  std::string length_unit, temperature_unit, stress_unit;  ///< of the printed answers
+  SourceLocation where;
 };
 
 /// Settings of the criteria that are evaluated on a freezing casting (model/criteria_input.hpp).
@@ -400,13 +405,19 @@ struct CaseSpec {
   bool has_heat() const { return analysis.physics != Physics::mechanics; }
   bool has_mechanics() const { return analysis.physics != Physics::heat; }
   bool coupled() const { return analysis.physics == Physics::thermomechanical; }
+  /// Deformation and heat exchange energy: not in one-way coupling, nor in a steady state, where nothing
+  /// changes any more.
+  bool exchanges_heat() const {
+    return coupled() && !time.steady && coupling.structural_heating != CouplingSpec::StructuralHeating::none;
+  }
   /// Both fields by one iteration.
   bool simultaneous() const {
-    return coupled() && coupling.scheme->traits().mapping == mechanics::Mapping::simultaneous;
+    return coupled() && !time.steady && coupling.scheme->traits().mapping == mechanics::Mapping::simultaneous;
   }
-  /// Heat and mechanics with a mechanical phase that holds entropy.
+  /// Heat and mechanics with a mechanical phase that holds entropy. Where they exchange no heat the entropy
+  /// is a function of temperature alone, and to hold it is to hold the temperature.
   bool isentropic() const {
-    return coupled() && coupling.scheme->traits().mapping == mechanics::Mapping::isentropic;
+    return exchanges_heat() && coupling.scheme->traits().mapping == mechanics::Mapping::isentropic;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "algebra/parallel.hpp"
 #include "base/units.hpp"
@@ -12,6 +13,16 @@
 namespace solidus::model {
 
 namespace {
+
+/// A table that begins near 20 K was meant in degrees Celsius: surfaces are not so cold.
+void cold_arguments(const ThermalConditionSpec& t, const char* key, const Table& table, Findings& findings) {
+  constexpr double k_coldest = 150;  // [K]
+  if (const double first = table.x().front(); first < k_coldest)
+    findings.push_back({false, t.where,
+                        fmt::format("the table of '{}' of '{}' begins at {:g} K ({:.0f} degC)", key, t.name,
+                                    first, units::to_display(first, "K", "degC")),
+                        "are its temperatures in degC? argument_unit = \"degC\""});
+}
 
 void surroundings(const CaseSpec& spec, Findings& findings) {
   using Kind = ThermalConditionSpec::Kind;
@@ -28,7 +39,16 @@ void surroundings(const CaseSpec& spec, Findings& findings) {
       findings.push_back({false, t.where,
                           fmt::format("the source '{}' has {:g} W/m3", t.name, t.power.table.value(0)),
                           "usual are 1e3 to 1e9 W/m3, under a laser 1e11"});
-    if (t.kind == Kind::flux && is_number(t.flux) && std::abs(t.flux.table.value(0)) > 1e8)
+    if (t.kind == Kind::radiation && is_number(t.emissivity) && is_number(t.factor) &&
+        t.emissivity.table.value(0) < 0.02)
+      findings.push_back({false, t.where,
+                          fmt::format("the emissivity of '{}' is {:g}", t.name, t.emissivity.table.value(0)),
+                          "polished metal has 0.03 to 0.1, oxidised metal, sand and coatings 0.3 to 0.95"});
+    for (const auto& [function, key] :
+         {std::pair(&t.coefficient, "coefficient"), std::pair(&t.emissivity, "emissivity")})
+      if (surrounded && function->place == nullptr && function->of == Argument::temperature)
+        cold_arguments(t, key, function->table, findings);
+    if (t.kind == Kind::flux && is_number(t.flux) && std::abs(t.flux.table.value(0)) > 2e7)
       findings.push_back({false, t.where,
                           fmt::format("the flux '{}' has {:g} W/m2", t.name, t.flux.table.value(0)),
                           "usual are 1e2 to 1e7 W/m2"});
@@ -75,6 +95,49 @@ void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& finding
                           fmt::format("{} of {:.0f} degC", body, a.start[b].low - k_zero_celsius),
                           "moulds start at 0 to 400 degC"});
   }
+}
+
+/// Heat that a body does not have.
+void sinks(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  if (spec.time.steady || !spec.time.end) return;
+  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
+    if (t.kind != ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor)) continue;
+    const double power = t.power.table.value(0) * t.factor.table.value(0);
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+      if (spec.bodies[b].mesh_group() != t.group || power >= 0) continue;
+      const material::EnthalpyCurve enthalpy = a.materials[b].enthalpy();
+      const double lasts = (enthalpy.upper(a.start[b].high) - enthalpy.lower(1.0)) / -power;
+      if (lasts < *spec.time.end && t.stages.empty())
+        findings.push_back(
+            {false, t.where,
+             fmt::format("the source '{}' of {:g} W/m3 takes all the heat that '{}' has within {:.3g} s",
+                         t.name, power, spec.bodies[b].name, lasts),
+             "a source is positive into the body; films and contacts cool"});
+    }
+  }
+}
+
+/// Residuals that are left in every step.
+void residuals(const CaseSpec& spec, Findings& findings) {
+  constexpr double k_loose = 2e-3;
+  const auto compare = [&](const char* key, double tolerance, const char* of) {
+    if (tolerance > k_loose)
+      findings.push_back({false, spec.time.where,
+                          fmt::format("{} = {:g}: each step may leave {:.3g} % of its {} unaccounted for",
+                                      key, tolerance, 100 * tolerance, of),
+                          "1e-4 and less, or without the key"});
+  };
+  if (spec.has_heat()) compare("heat.tolerance", spec.heat.tolerance, "heat");
+  if (spec.has_mechanics()) compare("mechanics.tolerance", spec.mechanics.tolerance, "forces");
+}
+
+void periodic_states(const CaseSpec& spec, Findings& findings) {
+  for (const CycleSpec& cycle : spec.cycles)
+    if (cycle.periodic && (*cycle.periodic < 1e-3 || *cycle.periodic > 50))
+      findings.push_back({false, cycle.where,
+                          fmt::format("the cycle '{}' counts as periodic where its rounds differ by {:g} K",
+                                      cycle.name, *cycle.periodic),
+                          "0.1 to 5 K: below are errors of steps and mesh, above dies that still warm up"});
 }
 
 void outputs(const CaseSpec& spec, Findings& findings) {
@@ -137,6 +200,9 @@ void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
 
 void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   if (spec.has_heat()) surroundings(spec, findings);
+  if (spec.has_heat()) sinks(spec, a, findings);
+  residuals(spec, findings);
+  periodic_states(spec, findings);
   gravity(spec, findings);
   steps(spec, findings);
   if (spec.has_heat()) tolerance(spec, a, findings);

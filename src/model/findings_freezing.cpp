@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "model/findings.hpp"
 #include "model/mechanics_input.hpp"
+#include "model/roles.hpp"
 
 namespace solidus::model {
 
@@ -50,8 +51,23 @@ double time_there(const CaseSpec& spec, const Assembly& a, std::size_t body) {
   return *spec.time.end - pour;
 }
 
+/// Over all processes the same.
+void nothing_to_wait_for(const CaseSpec& spec, const std::vector<Pour>& pours, Findings& findings) {
+  if (spec.time.until == TimeSpec::Until::solid && pours.empty())
+    findings.push_back({true, spec.time.where, "the run lasts until all is solid, but nothing is poured",
+                        "until = \"end\", or a body that starts above its solidus"});
+}
+
 void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
   const std::string& name = spec.bodies[pour.body].name;
+  if (spec.time.steady) {
+    findings.push_back({false, spec.time.where,
+                        fmt::format("a steady analysis has no time in which '{}' freezes: it gives the "
+                                    "temperatures that conditions hold for ever, whatever was poured",
+                                    name),
+                        "time.end and time.step in place of time.steady"});
+    return;
+  }
   if (pour.no_estimate == "nothing cools it") {
     findings.push_back({false, spec.bodies[pour.body].where, fmt::format("nothing cools the body '{}'", name),
                         "a contact with [contact.heat], a film, radiation or a temperature on its skin"});
@@ -92,6 +108,30 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                         "seconds to hours; are mesh.unit, the conductances and conductivities right?"});
 }
 
+/// Rounds of a cycle in which no casting leaves go on with the one that was poured before. Where everything
+/// stays, nothing is poured again.
+void rounds_without_a_shot(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                           Findings& findings) {
+  for (const CycleSpec& cycle : spec.cycles) {
+    const auto is_of_it = [&](const StageRun& stage) {
+      return std::find(cycle.stages.begin(), cycle.stages.end(), stage.stage->name) != cycle.stages.end();
+    };
+    const bool leaves = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& pour) {
+      return std::any_of(a.stages.begin(), a.stages.end(), [&](const StageRun& stage) {
+        return is_of_it(stage) && !holds(spec.bodies[pour.body].stages, &stage);
+      });
+    });
+    if (m.pours.empty() || cycle.repeat < 2 || leaves) continue;
+    const std::string& name = spec.bodies[m.pours.front().body].name;
+    findings.push_back(
+        {false, cycle.where,
+         fmt::format("the cycle '{}' comes round {} times, but '{}' is poured once: it is there in all "
+                     "stages of the cycle",
+                     cycle.name, cycle.repeat, name),
+         "'stages' of its [[body]] without the last one of the cycle: then every round is a shot"});
+  }
+}
+
 /// Conditions on the skin of the body that keep it hot.
 void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const Pour& pour,
              Findings& findings) {
@@ -102,7 +142,7 @@ void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, con
     const ThermalConditionSpec& c = spec.thermal_conditions[i];
     if (m.surfaces[i].body != static_cast<int>(pour.body)) continue;
     if (c.kind == Kind::temperature && is_number(c.temperature) && c.temperature.table.value(0) > solidus &&
-        pour.freezing.time.value_or(1e300) > *spec.time.end)
+        pour.freezing.time.value_or(1e300) > spec.time.end.value_or(0))
       findings.push_back(
           {false, c.where,
            fmt::format(
@@ -132,6 +172,8 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::PhaseChange* freezing = a.materials[b].solidification();
     if (freezing == nullptr || a.start[b].high >= freezing->fraction.solidus()) continue;
+    const Role role = role_of(spec.bodies[b], a.materials[b]);
+    if (role != Role::casting && role != Role::riser) continue;  // the case says that it is a chill
     findings.push_back(
         {false, spec.bodies[b].where,
          fmt::format(
@@ -154,6 +196,8 @@ void feeders(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fin
   const std::array<double, 3> g = gravity(spec.analysis);
   for (const std::string& group : spec.criteria.feeders) {
     double n = 0, height = 0, lowest = 0, highest = 0;  // against gravity
+    double all = 0;                                     // nodes of what it is a part of
+    for (const Pour& pour : m.pours) all += static_cast<double>(m.bodies[pour.body].nodes);
     if (const auto nodes = a.mesh.node_sets.find(group); nodes != a.mesh.node_sets.end())
       for (const Index node : nodes->second) {
         const auto i = static_cast<std::size_t>(node);
@@ -174,6 +218,10 @@ void feeders(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fin
       findings.push_back({true, spec.criteria.where,
                           fmt::format("the feeder '{}' has no node of a body that is poured", group),
                           "a surface or volume of the casting: melt that it touches is fed"});
+    else if (n > 0.9 * all)
+      findings.push_back({false, spec.criteria.where,
+                          fmt::format("the feeder '{}' is all that is poured: no pore is looked for", group),
+                          "the riser, or the surface through which the casting is fed"});
     else if (height < lowest + 0.25 * (highest - lowest))
       findings.push_back(
           {false, spec.criteria.where,
@@ -192,6 +240,8 @@ void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasure
     heating(spec, a, m, pour, findings);
     length_of_run(spec, a, pour, findings);
   }
+  rounds_without_a_shot(spec, a, m, findings);
+  nothing_to_wait_for(spec, m.pours, findings);
   cold_castings(spec, a, m, findings);
   feeders(spec, a, m, findings);
 }

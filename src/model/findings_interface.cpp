@@ -161,9 +161,7 @@ void conductances(const CaseSpec& spec, Findings& findings) {
 /// 5.24 without a heat capacity would forbid every slip that changes the entropy: the interface keeps its
 /// temperature instead, and the estimate of the isentropic split with it (5.13a).
 void isentropic_friction(const CaseSpec& spec, Findings& findings) {
-  if (!spec.coupled()) return;
-  const coupling::SchemeTraits traits = spec.coupling.scheme->traits();
-  if (traits.mapping != mechanics::Mapping::isentropic || traits.iterates) return;
+  if (!spec.isentropic() || spec.coupling.scheme->traits().iterates) return;
   for (const ContactSpec& contact : spec.contacts) {
     if (!contact.friction || contact.interface.heat_capacity > 0 ||
         contact.friction->internal_variable != contact::InternalVariable::normal_work)

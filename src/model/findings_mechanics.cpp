@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "algebra/parallel.hpp"
 #include "model/body_input.hpp"
@@ -129,6 +131,51 @@ void contact_numbers(const CaseSpec& spec, const CaseMeasures& m, Findings& find
   }
 }
 
+/// Melt gives way to a pressure wherever its skin has neither a mould nor a support. Collective.
+void pressed_melts(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  using Kind = MechanicalConditionSpec::Kind;
+  constexpr double k_head = 5e4, k_free = 0.02;  // [Pa]: of some metres of melt; share of the skin
+  const AnalysisKind kind = spec.analysis.kind;
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    if (c.kind != Kind::pressure || !is_number(c.pressure) || c.pressure.table.value(0) < k_head) continue;
+    if (!holds(c.stages, a.first_stage())) continue;
+    const SurfaceMeasures pressed = measure_surface(a.mesh, c.group, kind);
+    for (const Pour& pour : m.pours) {
+      const auto body = static_cast<int>(pour.body);
+      if (pressed.body != body) continue;
+      const BodyMeasures& measures = m.bodies[pour.body];
+      double covered = std::accumulate(measures.shared.begin(), measures.shared.end(), 0.0);
+      std::set<std::string> groups;
+      for (const MechanicalConditionSpec& other : spec.mechanical_conditions) groups.insert(other.group);
+      for (const ContactSpec& contact : spec.contacts)
+        for (const std::string& side : contact.sides()) groups.insert(side);
+      for (const std::string& group : groups)
+        if (const SurfaceMeasures s = measure_surface(a.mesh, group, kind); s.body == body) covered += s.area;
+      if (covered > (1 - k_free) * measures.skin) continue;
+      findings.push_back(
+          {false, c.where,
+           fmt::format("'{}' presses on the melt of '{}' with {:.3g} MPa, but {:.0f} % of its skin has "
+                       "neither a contact nor a support: there it flows out",
+                       c.name, spec.bodies[pour.body].name, 1e-6 * c.pressure.table.value(0),
+                       100 * (1 - covered / measures.skin)),
+           "a mould all around, a pressure that comes later ('stages', or a table of time)"});
+    }
+  }
+}
+
+/// Coefficients of friction beyond all metals.
+void friction_numbers(const CaseSpec& spec, Findings& findings) {
+  for (const ContactSpec& contact : spec.contacts) {
+    if (!contact.friction || contact.friction->coefficient.empty()) continue;
+    const Function& mu = contact.friction->coefficient.front();
+    if (mu.place != nullptr || mu.table.max_value() <= 2) continue;
+    findings.push_back(
+        {false, contact.friction->where,
+         fmt::format("the coefficient of friction of '{}' is {:g}", contact.name, mu.table.max_value()),
+         "0.05 to 1; 0.3 is 30 %"});
+  }
+}
+
 void loads(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   double largest = 0;
   for (const BodyMeasures& body : m.bodies)
@@ -161,6 +208,8 @@ void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   held_skins(spec, a, m, findings);
   contact_numbers(spec, m, findings);
   loads(spec, m, findings);
+  pressed_melts(spec, a, m, findings);
+  friction_numbers(spec, findings);
 }
 
 }  // namespace solidus::model

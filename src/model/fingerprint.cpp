@@ -7,10 +7,12 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <string>
 
 #include "algebra/parallel.hpp"
+#include "material/external_law.hpp"
 #include "model/body_input.hpp"
 #include "model/dynamics_input.hpp"
 #include "results/summary.hpp"
@@ -155,6 +157,16 @@ std::string material_text(const material::Material& m) {
     for (const auto numbers :
          {m.flow->curves.strains(), m.flow->curves.temperatures(), m.flow->curves.stresses()})
       for (const double number : numbers) hash.add(number);
+  }
+  if (const material::ExternalLaw* law = external_law(m)) {
+    const material::ExternalData& data = law->data();
+    hash.add(std::string_view(std::filesystem::path(data.library).filename().native()));
+    hash.add(data.behaviour);
+    for (const auto& numbers : {data.properties, data.external_state_variables, data.initial_state})
+      for (const double number : numbers) hash.add(number);
+    hash.add(static_cast<double>(data.dissipation));
+    hash.add(data.heat_share);
+    hash.add(static_cast<double>(law->loaded() ? law->size() : 0));
   }
   for (const material::PhaseChange& change : m.phase_changes) {
     hash.add(change.latent_heat);

@@ -127,7 +127,8 @@ Section<MeshSizeSpec> size_keys() {
   using S = MeshSizeSpec;
   Section<S> s(
       "size",
-      "How large the elements of a body are, of a file that holds a geometry. With any of these sections "
+      "How large the elements of a body are, of a file that holds a geometry: solids (STEP, BREP, IGES), the "
+      "skin of one (STL), or a mesh, of which the skins are taken. With any of these sections "
       "sizes follow the thickness of walls and grow away from thin ones, bodies that touch are meshed "
       "together, and meshing is tried in other ways until the least quality is above 0.15.");
   s.key("body", &S::body).doc("The group of the mesh.");

@@ -15,6 +15,7 @@
 #include "base/units.hpp"
 #include "material/library.hpp"
 #include "mesh/casting_geometry.hpp"
+#include "mesh/file_format.hpp"
 #include "mesh/hot_spots.hpp"
 #include "model/case_file.hpp"
 #include "model/case_materials.hpp"
@@ -33,6 +34,11 @@ namespace fs = std::filesystem;
 
 double rounded_up(double value, double to) {
   return to * std::ceil(value / to - 1e-9);
+}
+
+/// The thickness of a wall of the mould in whole millimetres, below a centimetre in tenths of them.
+double of_wall(double least) {
+  return rounded_up(least, least < 0.01 ? 1e-4 : 1e-3);
 }
 
 /// A value with two digits.
@@ -102,14 +108,31 @@ class NewCase {
                        "another folder: -o FOLDER");
   }
 
+  /// Riser and symmetry cut solids, and triangles cannot be cut.
+  void refuse_cuts(bool solids) const {
+    const char* allowed = "a STEP, BREP or IGES file";
+    if (!solids && options_.riser)
+      throw InputError({"--riser"}, "a riser can be joined to solids of a CAD program only", allowed);
+    if (!solids && !options_.symmetry.empty())
+      throw InputError({"--symmetry"}, "only solids of a CAD program can be cut", allowed);
+  }
+
   void measure() {
     mesh::MeshSource source{options_.geometry.string(), units::convert(1, options_.unit, "m")};
-    mesh_ = mesh::mesh_casting(source, {}, 0);
+    mesh::check_readable(source.path);
+    const mesh::FileFormat format = mesh::file_format(source.path);
+    const bool solids = mesh::is_cad(format), meshed = !solids && format != mesh::FileFormat::stl;
+    refuse_cuts(solids);
+    mesh_ = meshed ? mesh::read_mesh(source) : mesh::mesh_casting(source, {}, 0);
+    if (mesh_.dimension != 3)
+      throw InputError({source.path}, "the mesh is plane",
+                       "a solid: STEP, BREP, IGES, STL, or a mesh of one");
     bodies_ = bodies_of(mesh_, options_.as);
     for (const GeometryBody& body : bodies_) {
       if (body.role == Role::mould || body.role == Role::die) has_mould_ = true;
       if (is_metal(body.role)) metal_.push_back(body.name);
     }
+    draft_.meshed = meshed && has_mould_;
     for (std::size_t i = 0; i < 3; ++i) {
       low_[i] = 1e300, high_[i] = -1e300;
       for (const GeometryBody& body : bodies_)
@@ -158,8 +181,9 @@ class NewCase {
     if (draft_.riser) fold(draft_.riser->foot, 0);
     draft_.film = process_.film;
     draft_.film_source = process_.film_source;
-    draft_.end = 600;
+    draft_.end = 3600;
     draft_.step = 1;
+    draft_.every = 30;
     if (options_.shots > 0)
       draft_.shots = {options_.shots, process_.pour,       600,
                       process_.open,  process_.eject,      process_.spray,
@@ -276,7 +300,11 @@ class NewCase {
 
   void choose_mould() {
     DraftMould& mould = draft_.mould.emplace();
-    const double wall = rounded_up(std::max(process_.least_wall, process_.walls * thickest_), 1e-3);
+    // A part of a few millimetres has no walls of the usual least thickness: nearly all nodes would be
+    // theirs.
+    constexpr double k_small_part = 4;
+    const double least = std::min(process_.least_wall, k_small_part * thickest_);
+    const double wall = of_wall(std::max(least, process_.walls * thickest_));
     mould.walls.fill(wall);
     if (draft_.symmetry) mould.walls[2 * static_cast<std::size_t>(draft_.symmetry->axis) + 1] = 0;
     if (draft_.riser) mould.walls[5] = 0;  // open at the top
@@ -287,7 +315,9 @@ class NewCase {
     describe(body);
     draft_.law = process_.law;
     draft_.layers = process_.layers;
-    draft_.mould_size = std::min(draft_.mould_size, two_digits(std::max(wall / 1.5, draft_.size)));
+    // Away from the metal elements grow with the wall that they fill, not with the part.
+    draft_.mould_size = std::clamp(draft_.mould_size, two_digits(wall / 4),
+                                   two_digits(std::max(wall / 1.5, std::max(draft_.size, wall / 4))));
   }
 
   void write() const { write(draft_); }
@@ -371,35 +401,30 @@ class NewCase {
 
   /// @return whether sizes and walls may stay
   bool adapt(const CheckedRun& checked) {
-    double time = 0, reach = 0, least_constant = 1e300;
+    double time = 0, reach = 0;
     nodes_ = metal_nodes_ = 0;
     for (const results::PourOverview& pour : checked.overview.pours) {
       time = std::max(time, pour.freezing_time.value_or(0));
       reach = std::max(reach, pour.mould_reach);
-      if (pour.freezing_time) least_constant = std::min(least_constant, pour.chvorinov());
     }
-    // Metal drawn as several bodies feeds heat to each other, which the estimate of each takes for its mould:
-    // Chvorinov's constant of the one that it fits best, and the thickest place, are no shorter.
-    const double hot = spheres_.empty() ? 0 : spheres_.front().radius / 2;
-    const double modulus = std::max({volume_ / area_, hot, draft_.riser ? draft_.riser->diameter / 4 : 0.0});
-    if (time > 0) time = std::min(time, least_constant * modulus * modulus);
     for (const results::BodyOverview& body : checked.overview.bodies) {
       nodes_ += static_cast<double>(body.nodes);
       for (const DraftBody& draft : draft_.bodies)
         if (draft.name == body.name && is_metal(draft.role)) metal_nodes_ += static_cast<double>(body.nodes);
     }
-    constexpr double k_margin = 1.8;  // the estimate is of one dimension
-    constexpr double k_margin_of_shots = 1.3;
+    // The estimate is of one dimension: the run ends when all is solid, well before this where it is right.
+    constexpr double k_latest = 6, k_usual = 1.8, k_margin_of_shots = 1.3;
     freezing_ = time;
     if (time > 0) {
-      draft_.end = two_digits(std::max(k_margin * time, 1.0));
-      draft_.step = two_digits(draft_.end / 600);
+      draft_.end = two_digits(std::max(k_latest * time, 1.0));
+      draft_.step = two_digits(std::max(k_usual * time, 1.0) / 600);
+      draft_.every = two_digits(std::max(k_usual * time, 1.0) / 20);
       if (draft_.shots) draft_.shots->solidify = two_digits(std::max(k_margin_of_shots * time, 1.0));
     }
     bool good = true;
     constexpr double k_most = 6000, k_wanted = 3500, k_reaches = 2;
     const double finer = options_.fineness * options_.fineness * options_.fineness;
-    if (metal_nodes_ > k_most * finer) {
+    if (metal_nodes_ > k_most * finer && !draft_.meshed) {
       const double scale = std::cbrt(metal_nodes_ / (k_wanted * finer));
       draft_.size = two_digits(draft_.size * scale);
       draft_.smallest = std::min(draft_.size, two_digits(draft_.smallest * scale));
@@ -408,7 +433,11 @@ class NewCase {
     }
     if (draft_.mould && process_.walls > 0 && process_.mould == Role::mould)
       for (double& wall : draft_.mould->walls)
-        if (wall > 0 && wall < k_reaches * reach) wall = rounded_up(k_reaches * reach, 1e-3), good = false;
+        if (wall > 0 && wall < k_reaches * reach) {
+          wall = of_wall(k_reaches * reach);
+          draft_.mould_size = std::max(draft_.mould_size, two_digits(wall / 4));
+          good = false;
+        }
     return good;
   }
 
@@ -430,16 +459,17 @@ class NewCase {
     if (draft_.mould)
       out += fmt::format("\n  mould       walls of {:.3g} mm",
                          1e3 * *std::ranges::max_element(draft_.mould->walls));
-    out += fmt::format(
-        "\n  mesh        {:.0f} nodes, {:.0f} of them in metal; elements of {:.3g} to {:.3g} mm there",
-        nodes_, metal_nodes_, 1e3 * draft_.smallest, 1e3 * draft_.size);
+    out += fmt::format("\n  mesh        {:.0f} nodes, {:.0f} of them in metal; {}", nodes_, metal_nodes_,
+                       draft_.meshed ? std::string("elements as the file has them")
+                                     : fmt::format("elements of {:.3g} to {:.3g} mm there",
+                                                   1e3 * draft_.smallest, 1e3 * draft_.size));
     if (freezing_ > 0)
-      out += fmt::format("\n  freezes     in about {:.2g} s by an estimate of one dimension; {}", freezing_,
-                         draft_.shots
-                             ? fmt::format("it leaves the die after {:.3g} s, {} times",
-                                           draft_.shots->pour + draft_.shots->solidify + draft_.shots->open,
-                                           draft_.shots->number)
-                             : fmt::format("the run ends at {:.3g} s", draft_.end));
+      out += fmt::format(
+          "\n  freezes     in about {:.2g} s by an estimate of one dimension; {}", freezing_,
+          draft_.shots ? fmt::format("it leaves the die after {:.3g} s, {} times",
+                                     draft_.shots->pour + draft_.shots->solidify + draft_.shots->open,
+                                     draft_.shots->number)
+                       : fmt::format("the run ends when it has, at {:.3g} s at the latest", draft_.end));
     if (draft_.process == "shell" && draft_.mould)
       out +=
           "\n  note        the shell is a block around the part with thin walls, not an offset of its skin";

@@ -11,7 +11,7 @@
 namespace solidus::model {
 
 struct NewCaseOptions {
-  std::filesystem::path geometry;  ///< STEP, BREP, IGES
+  std::filesystem::path geometry;  ///< STEP, BREP, IGES, STL, or a mesh
   std::string process = "sand";    ///< sand, shell, gravity_die, high_pressure
   std::string alloy;               ///< a material of the library, or a file
   std::string unit = "mm";         ///< of the file; STEP files come in mm

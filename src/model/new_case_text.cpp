@@ -31,6 +31,7 @@ bool is_metal(const DraftBody& body) {
 std::string mesh_text(const Draft& d) {
   std::string t =
       fmt::format("[mesh]\nfile = {}\nunit = {}\n\n", quoted(d.geometry.filename().string()), quoted(d.unit));
+  if (d.meshed) return t + "# Elements are those of the file.\n\n";
   t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
        "time.\n";
   for (const DraftBody& b : d.bodies) {
@@ -79,8 +80,9 @@ bool leaves(const DraftBody& b) {
 std::string time_text(const Draft& d) {
   if (!d.shots)
     return fmt::format(
-        "[time]\nend = \"{:g} s\"    # 1.8 times an estimate of the time to freeze\nstep = \"{:g} s\"\n"
-        "adaptive = true\n\n",
+        "[time]\nuntil = \"solid\"   # ends when all that was poured is; \"end\": goes on, for stress when "
+        "cold\nend = \"{:g} s\"    # at the latest: six times an estimate of the time to freeze\n"
+        "step = \"{:g} s\"\nadaptive = true\n\n",
         d.end, d.step);
   const DraftShots& s = *d.shots;
   std::string t =
@@ -185,7 +187,7 @@ std::string case_text(const Draft& d) {
       if (b.role == Role::riser) t += fmt::format("{}{}", first ? "" : ", ", quoted(b.group)), first = false;
     t += "]\n\n";
   }
-  t += fmt::format("[output]\nevery = \"{:g} s\"\n", d.end / 20);
+  t += fmt::format("[output]\nevery = \"{:g} s\"\n", d.every);
   return t;
 }
 

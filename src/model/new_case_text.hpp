@@ -48,6 +48,7 @@ struct Draft {
   std::filesystem::path folder, geometry;
   std::string unit, process, alloy, law;
   bool coupled = true;  ///< the alloy has elastic properties
+  bool meshed = false;  ///< the file holds the elements of parts and mould
   double pouring = 0, liquidus = 0, superheat = 0;
   double size = 0, smallest = 0, mould_size = 0;
   std::vector<DraftBody> bodies;
@@ -59,7 +60,7 @@ struct Draft {
   double film = 0;                            ///< [W/(m² K)]
   std::string film_source;
   std::vector<mesh::InscribedSphere> hot_spots;
-  double end = 0, step = 0;
+  double end = 0, step = 0, every = 0;  ///< latest end, first step, between outputs [s]
   std::optional<DraftShots> shots;
   std::vector<std::string> cavity;  ///< surfaces of the die that are free when the casting has left
 };

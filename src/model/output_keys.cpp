@@ -97,6 +97,12 @@ Section<OutputSpec> output_keys() {
       .initially(Value::list())
       .choices(field_names(false))
       .doc("The fields to write; empty: all there are.");
+  s.key("vtkhdf", &OutputSpec::vtkhdf)
+      .initially(false)
+      .doc(
+          "All fields of the run in one file fields.vtkhdf too, for ParaView 5.12 or newer; written when the "
+          "run "
+          "ends or stops.");
   s.key("checkpoint_every", &OutputSpec::checkpoint_every)
       .at_least(1)
       .doc(
@@ -104,6 +110,16 @@ Section<OutputSpec> output_keys() {
           "written and where a run stops.");
   s.key("folder", &OutputSpec::folder)
       .doc("Results folder; `-o` goes before it, without both results/CASE/VARIANT.");
+  s.key("length_unit", &OutputSpec::length_unit)
+      .initially("mm")
+      .doc("Unit of places, gaps and distortion in the answers at the end of a run: \"mm\", \"inch\".");
+  s.key("temperature_unit", &OutputSpec::temperature_unit)
+      .initially("degC")
+      .doc("Unit of temperatures there: \"degC\", \"degF\", \"K\".");
+  s.key("stress_unit", &OutputSpec::stress_unit)
+      .initially("MPa")
+      .doc("Unit of stresses there: \"MPa\", \"ksi\".");
+  s.place(&OutputSpec::where);
   return s;
 }
 

@@ -225,13 +225,23 @@ std::function<double(double, double)> outer_heat(std::size_t mould, double coole
   };
 }
 
-/// Of the parts of the skin those that count as cooled, and the problem in one dimension.
+/// Whether a body is there from the start and not solid then.
+bool is_poured(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+  const material::PhaseChange* freezing = a.materials[body].solidification();
+  return freezing != nullptr && a.start[body].high > freezing->fraction.solidus() &&
+         holds(spec.bodies[body].stages, a.first_stage());
+}
+
+/// Of the parts of the skin those that count as cooled, and the problem in one dimension. Metal that is
+/// poured with it, as a riser is with its casting, neither cools nor heats it: Chvorinov's rule counts each
+/// by the skin that its mould cools.
 void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Pour& pour) {
   const std::size_t body = pour.body;
   const double start = a.start[body].high, end = spec.time.end.value_or(0);
   std::vector<CooledSkin> skins = contacts_of(body, spec, a, m);
   for (CooledSkin& skin : shared_faces_of(body, a, m)) skins.push_back(std::move(skin));
   for (CooledSkin& skin : conditions_on(body, spec, a, m)) skins.push_back(std::move(skin));
+  std::erase_if(skins, [&](const CooledSkin& s) { return s.other && is_poured(spec, a, *s.other); });
   double most = 0;
   for (CooledSkin& skin : skins) most = std::max(most, skin.cooling = cooling_of(skin, start, a, end));
   if (!(most > 0)) {
@@ -293,10 +303,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
 std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   std::vector<Pour> list;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const material::PhaseChange* freezing = a.materials[b].solidification();
-    if (freezing == nullptr || a.start[b].high <= freezing->fraction.solidus() ||
-        !holds(spec.bodies[b].stages, a.first_stage()))
-      continue;
+    if (!is_poured(spec, a, b)) continue;
     Pour pour;
     pour.body = b;
     const bool heated =

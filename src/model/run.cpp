@@ -15,9 +15,9 @@
 #include "base/log.hpp"
 #include "base/profile.hpp"
 #include "base/units.hpp"
-#include "coupling/contact_work.hpp"
 #include "coupling/shot_map.hpp"
 #include "coupling/simulation.hpp"
+#include "coupling/steady.hpp"
 #include "model/advice.hpp"
 #include "model/assembly.hpp"
 #include "model/audit_watch.hpp"
@@ -100,12 +100,14 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.probes = probes(spec);
   r.profiles = profiles(spec);
   r.fields = spec.output.fields;
+  r.vtkhdf = spec.output.vtkhdf;
   r.stages = !spec.stages.empty();
   r.shots = has_shots(a);
   r.steady = spec.time.steady;
   r.progress = options.progress;
   r.profile = options.profile;
   r.castings = cast_bodies(spec, a.materials, a.start);
+  r.units = {spec.output.length_unit, spec.output.temperature_unit, spec.output.stress_unit};
   r.progress_options.end = spec.time.end.value_or(0);
   r.progress_options.heat = spec.has_heat();
   r.progress_options.mechanics = spec.has_mechanics();
@@ -131,19 +133,7 @@ RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* reco
   if (recorder != nullptr) recorder->begin(a.initial);
   record = {};
   try {
-    const double start = MPI_Wtime();
-    const heat::PhaseReport report = a.heat->solve_steady(a.initial.heat, steady.heat, 0);
-    record.heat = {report.newton.iterations, report.newton.linear_iterations,
-                   report.newton.residuals.empty() ? 0.0 : report.newton.residuals.back(),
-                   MPI_Wtime() - start};
-    // Joules are those of one second.
-    for (const heat::ConditionHeat& condition : report.balance.conditions)
-      record.energy.heat_in += condition.heat;
-    record.energy.entropy_in = report.balance.entropy_in;
-    record.energy.heat_exchanged = report.balance.exchanged;
-    coupling::commit_contact_heat(a.phases, steady.heat.temperature, report.balance.contributions,
-                                  record.energy);
-    coupling::summarise(a.phases, steady, record);
+    static_cast<coupling::StepEffort&>(record) = coupling::solve_steady(a.phases, a.initial, steady);
   } catch (const StepRejected& rejected) {
     const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};
     if (recorder != nullptr) recorder->stopped(stop, a.initial);
@@ -297,8 +287,16 @@ std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOpt
                      fmt::format("the run has found its periodic state already, to {:.3g} K in shot {}",
                                  found.continuation.shots.change, found.state.shot),
                      "a smaller 'periodic' in the cycle");
+  constexpr double k_solid = 1 - 1e-12;
+  const bool solid = spec.time.until == TimeSpec::Until::solid && a.heat &&
+                     a.heat->mean_solid_fraction(found.state.heat) >= k_solid;
+  if (solid && results::is_finished(options.folder))
+    throw InputError(
+        spec.time.where,
+        fmt::format("the run has ended at t = {:g} s: all that was poured is solid", found.state.time),
+        "time.until = \"end\" to go on until time.end");
   // A run that was killed behind its last checkpoint has but its summary to write.
-  const bool reached = found.state.time == *spec.time.end || periodic;
+  const bool reached = found.state.time == *spec.time.end || periodic || solid;
   if (reached && !results::is_finished(options.folder)) {
     logging::info("the run has reached t = {:g} s already; its results are completed", found.state.time);
     return found;

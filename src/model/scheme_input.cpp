@@ -9,8 +9,7 @@ namespace solidus::model {
 
 coupling::SchemeContext scheme_context(const CaseSpec& spec, bool melts) {
   coupling::SchemeContext c;
-  if (spec.coupling.structural_heating != CouplingSpec::StructuralHeating::none)
-    c.heating = structural_form(spec);
+  if (spec.exchanges_heat()) c.heating = structural_form(spec);
   c.as_printed = spec.coupling.as_printed;
   c.inertia = spec.dynamics.has_value();
   c.rubs =

@@ -37,6 +37,14 @@ void check_limits(const TimeSpec& t, const CaseSpec& spec) {
          "in an analysis without mechanics", "temperature_error");
 }
 
+void check_until(const TimeSpec& t, const CaseSpec& spec) {
+  if (t.until != TimeSpec::Until::solid) return;
+  refuse(t, t.steady, "until = \"solid\"", "in a steady analysis", "no 'until'");
+  refuse(t, !spec.stages.empty(), "until = \"solid\"",
+         "in a run with stages, whose durations say when it ends", "no 'until'");
+  refuse(t, !spec.has_heat(), "until = \"solid\"", "in an analysis without heat", "no 'until'");
+}
+
 void check_number_of_steps(const TimeSpec& t, double steps) {
   if (steps > 1e8)
     throw InputError(t.where, fmt::format("{:.3g} steps would be needed", steps), "at most 1e8");
@@ -76,6 +84,7 @@ coupling::Stage stage(const TimeSpec& t, const StageRun& run) {
 
 void check_time(const CaseSpec& spec) {
   const TimeSpec& t = spec.time;
+  check_until(t, spec);
   if (t.steady) return;
   if (!spec.stages.empty()) {  // steps and durations are checked with the stages
     check_limits(t, spec);
@@ -102,6 +111,7 @@ coupling::TimeOptions time_options(const CaseSpec& spec) {
   const TimeSpec& t = spec.time;
   coupling::TimeOptions options;
   options.end = *t.end;
+  options.until_solid = t.until == TimeSpec::Until::solid;
   if (spec.stages.empty()) options.step = step_options(t, *t.step);
   for (const StageRun& run : stage_runs(spec)) options.stages.push_back(stage(t, run));
   options.output_at_stage_ends = spec.output.stage_ends;

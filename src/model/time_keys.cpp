@@ -7,10 +7,20 @@ Section<TimeSpec> time_keys() {
   Section<TimeSpec> s("time", "The time that is simulated and the size of its steps.");
   s.key("steady", &TimeSpec::steady)
       .initially(false)
-      .doc("Solve for the final equilibrium at once, without time.");
+      .doc(
+          "Solve for the final equilibrium at once, without time: the temperatures at which nothing warms or "
+          "cools any more and, in mechanics, the deformation that goes with them and with the gaps, from the "
+          "unstressed bodies of the start. Conditions are those of t = 0; [coupling] says nothing here.");
   s.quantity("end", &TimeSpec::end, "s")
       .positive()
       .doc("The run goes from zero to this time; required unless steady or in stages, which make the end.");
+  s.choice("until", &TimeSpec::until,
+           {{"end", TimeSpec::Until::end, "the run goes on to `end`"},
+            {"solid", TimeSpec::Until::solid,
+             "it ends with the first step after which everything that can melt is solid, at `end` at the "
+             "latest"}})
+      .initially("end")
+      .doc("What ends the run; without stages.");
   s.quantity("step", &TimeSpec::step, "s")
       .positive()
       .doc(

@@ -35,9 +35,10 @@ double largest_missing(const std::vector<int>& free, const Target& target, const
 }
 
 /// Newton's correction of the strain; zero in the imposed components.
-bool correction(const std::vector<int>& free, const Target& target, const Law::Response<double>& r,
+bool correction(const std::vector<int>& free, const Target& target, const Answer& answer,
                 Sym<double>& change) {
-  const Sym4<double> tangent = material::full_tangent(r);
+  const Sym4<double>& tangent = answer.tangent;
+  const Law::Response<double>& r = answer.response;
   const Sym4<double> least = Sym4<double>::isotropic(0, k_least_stiffness * r.bulk);
   Matrix6 a{};
   Vector6 b{}, x{};
@@ -61,7 +62,18 @@ constexpr double k_temperature_tolerance = 1e-9;
 }  // namespace
 
 MaterialPoint::MaterialPoint(const material::Material& material, const Options& options)
-    : law_(material), options_(options) {
+    : law_(material), outside_(external_law(material)), options_(options) {
+  if (outside_ != nullptr) {
+    const SourceLocation& where = outside_->data().where;
+    if (!outside_->loaded())
+      throw InputError(where, "the law from outside of '" + material.name + "' is not loaded",
+                       "--trust-laws, where you trust it");
+    if (options.integration == Integration::two_step)
+      throw InputError(where,
+                       "the two-step method extrapolates state, which a law from outside does not allow",
+                       "integration = \"backward_euler\"");
+    now_.outside.assign(outside_->size(), 0.0);
+  }
   now_.temperature = options.temperature;
   const double thermal =
       law_.properties_at(options.temperature, options.strain_reference).elastic.thermal_strain;
@@ -73,7 +85,7 @@ Stored MaterialPoint::stored(const PointState& s) const {
   const auto state = material::thermal_state<double>(
       law_, {elastic, s.history.hardening, s.history.back_strain}, s.temperature, strain_reference());
   const auto latent = material::latent_heat(law_.material(), strain_reference(), s.temperature);
-  return {state.internal_energy + latent.heat, state.entropy + state.latent_entropy,
+  return {state.internal_energy + latent.heat + s.history.cold_work, state.entropy + state.latent_entropy,
           state.capacity + state.latent_capacity};
 }
 
@@ -111,6 +123,43 @@ Law::Properties<double> MaterialPoint::properties(double temperature, double eff
   return p;
 }
 
+Answer MaterialPoint::answer(const Law::Properties<double>& p, double temperature,
+                             const Law::State<double>& start, const Sym<double>& strain, double dt) const {
+  Answer a;
+  if (outside_ == nullptr) {
+    a.response = law_.update(p, start, strain, dt);
+    a.tangent = material::full_tangent(a.response);
+    return a;
+  }
+  using Outside = material::ExternalLaw;
+  a.outside.resize(outside_->size());
+  const auto r = outside_->update(Outside::Properties<double>{p.elastic, temperature, strain_reference()},
+                                  now_.outside.data(), a.outside.data(), strain, dt, &a.complaint);
+  const auto tensor = [&](std::size_t place) {
+    Sym<double> t;
+    std::copy_n(a.outside.begin() + static_cast<std::ptrdiff_t>(place), 6, t.c.begin());
+    return t;
+  };
+  a.tangent = r.tangent;
+  a.response.stress = r.stress;
+  a.response.state.viscous_strain = tensor(Outside::k_viscous);
+  a.response.state.plastic_strain = tensor(Outside::k_inelastic);
+  a.response.state.hardening = a.outside[Outside::k_equivalent];
+  a.response.state.cold_work = a.outside[Outside::k_cold_work];
+  a.response.bulk = p.elastic.bulk;
+  a.response.twice_shear = 2 * p.elastic.shear;
+  a.response.plastic_power = r.plastic_power;
+  a.response.plastic_dissipation = r.plastic_dissipation;
+  a.response.viscous_dissipation = r.dissipation - r.plastic_dissipation;
+  a.response.dissipation = r.dissipation;
+  a.response.status = r.status;
+  return a;
+}
+
+Answer MaterialPoint::answer(double temperature, const Sym<double>& strain, double dt) const {
+  return answer(properties(temperature, dt), temperature, now_.history, strain, dt);
+}
+
 StepResult MaterialPoint::attempt_at(double temperature, const Target& end, double dt) const {
   const bool two_step = options_.integration == Integration::two_step && step_before_ > 0;
   const auto step =
@@ -131,31 +180,36 @@ StepResult MaterialPoint::attempt_at(double temperature, const Target& end, doub
       strain[i] += growth;
   }
 
-  auto response = law_.update(p, start, strain, step.dt);
-  double missing = largest_missing(free, end, response.stress);
+  Answer now = answer(p, temperature, start, strain, step.dt);
+  double missing = largest_missing(free, end, now.response.stress);
   const auto tolerance = [&] {
-    return k_tolerance * (norm(response.stress) + norm(now_.stress)) + k_rounding * p.elastic.bulk;
+    return k_tolerance * (norm(now.response.stress) + norm(now_.stress)) + k_rounding * p.elastic.bulk;
   };
-  const auto good = [&] { return response.status == material::Status::converged && std::isfinite(missing); };
+  const auto good = [&] {
+    return now.response.status == material::Status::converged && std::isfinite(missing);
+  };
   for (int i = 0; good() && missing > tolerance() && i < k_max_iterations; ++i) {
     result.residuals.push_back(missing);
     Sym<double> change;
-    if (!correction(free, end, response, change)) break;
+    if (!correction(free, end, now, change)) break;
     double part = 1;
     for (int halving = 0;; ++halving, part *= 0.5) {
       const Sym<double> next = strain + part * change;
-      const auto trial = law_.update(p, start, next, step.dt);
-      const double left = largest_missing(free, end, trial.stress);
-      if (left < missing || halving == k_max_halvings) {
-        strain = next, response = trial, missing = left;
+      Answer trial = answer(p, temperature, start, next, step.dt);
+      const double left = largest_missing(free, end, trial.response.stress);
+      const bool answers = outside_ == nullptr || trial.response.status == material::Status::converged;
+      if ((answers && left < missing) || halving == k_max_halvings) {
+        strain = next, now = std::move(trial), missing = left;
         break;
       }
     }
   }
   result.residuals.push_back(missing);
   result.converged = good() && missing <= tolerance();
-  result.response = response;
-  result.state = {now_.time + dt, temperature, strain, response.stress, response.state};
+  result.response = now.response;
+  result.complaint = std::move(now.complaint);
+  result.state = {now_.time + dt,      temperature,        strain,
+                  now.response.stress, now.response.state, std::move(now.outside)};
   return result;
 }
 

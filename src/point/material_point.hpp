@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "material/external_law.hpp"
 #include "material/free_energy.hpp"
 #include "material/time_integration.hpp"
 #include "point/loading.hpp"
@@ -31,7 +32,9 @@ struct PointState {
   double time = 0;  ///< [s]
   double temperature = 0;
   Sym<double> strain, stress;  ///< total strain, σ [Pa]
+  /// Of a law from outside: what follows from its stress (material/external_law.hpp).
   material::Viscoplastic::State<double> history;
+  std::vector<double> outside;  ///< the numbers of a law from outside
 };
 
 struct StepResult {
@@ -40,6 +43,7 @@ struct StepResult {
   double effective_step = 0;      ///< of the law [s]
   std::vector<double> residuals;  ///< largest stress missing before each Newton correction [Pa]
   bool converged = false;
+  std::string complaint;  ///< Answer::complaint
 };
 
 /// Energy, entropy and heat capacity of a state.
@@ -47,6 +51,15 @@ struct Stored {
   double energy;    ///< E + L [J/m³], zero for the free material at Θ_0
   double entropy;   ///< S^E + S^pc [J/(m³ K)]
   double capacity;  ///< ∂(E + L)/∂Θ [J/(m³ K)]
+};
+
+/// Stress, history and tangent of a law at a strain.
+struct Answer {
+  /// Of a law from outside without what is of plastic flow alone.
+  material::Viscoplastic::Response<double> response;
+  Sym4<double> tangent;         ///< ∂σ/∂ε on engineering shears [Pa]
+  std::vector<double> outside;  ///< PointState::outside
+  std::string complaint;        ///< of a law from outside that found no answer
 };
 
 class MaterialPoint {
@@ -58,13 +71,16 @@ class MaterialPoint {
     Thermal thermal = Thermal::prescribed;
   };
 
-  /// Starts free of stress. Keeps a reference to the material.
+  /// Starts free of stress. Keeps a reference to the material. Throws InputError for a law from outside that
+  /// is not loaded, or that is to be integrated by two steps.
   MaterialPoint(const material::Material& material, const Options& options);
 
   /// One step from the present state; nothing changes until accept(). An adiabatic point does not read the
   /// target's temperature.
   StepResult attempt(const Target& end, double dt) const;
   void accept(const StepResult& result);
+  /// The law at a strain and temperature after a step of backward Euler from the present state.
+  Answer answer(double temperature, const Sym<double>& strain, double dt) const;
   /// Makes the next step one of backward Euler: the loading turns here, so earlier steps do not predict it.
   void restart() { step_before_ = 0; }
 
@@ -75,10 +91,14 @@ class MaterialPoint {
 
  private:
   material::Viscoplastic::Properties<double> properties(double temperature, double effective_step) const;
+  Answer answer(const material::Viscoplastic::Properties<double>& p, double temperature,
+                const material::Viscoplastic::State<double>& start, const Sym<double>& strain,
+                double dt) const;
   StepResult attempt_at(double temperature, const Target& end, double dt) const;
   StepResult attempt_adiabatic(const Target& end, double dt) const;
 
   material::Viscoplastic law_;
+  const material::ExternalLaw* outside_;  ///< null: law_ it is
   Options options_;
   PointState now_;
   material::Viscoplastic::State<double> history_before_;

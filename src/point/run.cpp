@@ -86,7 +86,9 @@ std::string failure(const MaterialPoint& point, const Record& last, const Segmen
       number, last.time, last.temperature - k_zero_celsius, last.solid_fraction, step.residuals.size() - 1,
       megapascal(step.residuals.back()), megapascal(von_mises(last.stress)), megapascal(last.flow_stress));
   if (!segment.where.file.empty()) text = segment.where.text() + ": " + text;
-  if (last.solid_fraction == 0 || step.response.twice_shear == 0)
+  if (!step.complaint.empty())
+    text += "\n  The law: " + step.complaint + ".";
+  else if (last.solid_fraction == 0 || step.response.twice_shear == 0)
     text += "\n  The liquid carries no shear: leave shear stresses at zero, or prescribe strains.";
   else if (point.law().material().flow && stress_controlled)
     text +=

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/errors.hpp"
+#include "material/external_law.hpp"
 #include "material/library.hpp"
 #include "material/melt.hpp"
 #include "material/viscoplastic.hpp"
@@ -117,6 +118,9 @@ Viscoplastic::Properties<double> properties_at(const Viscoplastic& law, double t
 void require_mechanics(const Material& m) {
   if (!m.mechanical())
     throw InputError({}, "the material '" + m.name + "' has no elastic properties", "one with young_modulus");
+  if (external_law(m) != nullptr)
+    throw InputError({}, "the law of the material '" + m.name + "' is in a shared object",
+                     "solidus point, or a Simulation with trust_laws");
 }
 
 /// The update of every point by itself. Shapes were checked by the package.

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/errors.hpp"
+#include "material/external_law.hpp"
 #include "mesh/vtk_cells.hpp"
 #include "model/assembly.hpp"
 #include "model/run.hpp"
@@ -69,11 +70,13 @@ py::dict dict_of(const coupling::StepRecord& record) {
 class Driver {
  public:
   Driver(const std::string& path, const std::vector<std::string>& assignments,
-         std::optional<std::string> physics, const std::string& folder, bool restart, bool trust_script) {
+         std::optional<std::string> physics, const std::string& folder, bool restart, bool trust_script,
+         bool trust_laws) {
     std::optional<model::Physics> wanted;
     if (physics) wanted = *physics == "heat" ? model::Physics::heat : model::Physics::thermomechanical;
     model::Case c = model::load_case(path, assignments, wanted);
     c.spec.mesh.trust_script = trust_script;
+    if (trust_laws) material::trust_external_laws();
     model::RunOptions options;
     options.folder = folder;
     options.restart = restart;
@@ -241,7 +244,7 @@ class Driver {
 void bind_sessions(py::module_& core) {
   py::class_<Driver>(core, "Session")
       .def(py::init<const std::string&, const std::vector<std::string>&, std::optional<std::string>,
-                    const std::string&, bool, bool>())
+                    const std::string&, bool, bool, bool>())
       .def("run", &Driver::run)
       .def("advance", &Driver::advance)
       .def("repeat", &Driver::repeat)

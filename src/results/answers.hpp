@@ -12,6 +12,7 @@
 #include "coupling/phases.hpp"
 #include "coupling/state.hpp"
 #include "criteria/criterion.hpp"
+#include "results/display_units.hpp"
 #include "results/field.hpp"
 #include "results/json.hpp"
 #include "results/shot_table.hpp"
@@ -83,9 +84,10 @@ Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const co
 double solid_fraction(const coupling::Phases& phases, const coupling::State& state,
                       const std::vector<CastBody>& castings, const mesh::Mesh& mesh);
 
-/// Lines for people: temperatures in degC, lengths in mm, stresses in MPa.
+/// Lines for people, times in s since pouring.
 /// @param criteria  what the criteria found, for the lines on solidification times, arm spacing and Niyama
-std::string text(const Answers& answers, const std::vector<criteria::Finding>& criteria);
+std::string text(const Answers& answers, const std::vector<criteria::Finding>& criteria,
+                 const DisplayUnits& units = {});
 /// For summary.json, SI.
 Json json(const Answers& answers);
 

@@ -102,8 +102,14 @@ class FoamFile {
     if (!file) throw InputError({path_.string()}, "the file cannot be read");
     std::vector<char> piece(std::size_t{1} << 20);
     int n = 0;
-    while ((n = gzread(file.get(), piece.data(), static_cast<unsigned>(piece.size()))) > 0)
+    // Texts of numbers shrink to a quarter or so; what is made to fill the memory shrinks to a thousandth.
+    constexpr double k_free = 64e6, k_most_times = 100;
+    const double most = k_free + k_most_times * static_cast<double>(fs::file_size(path_));
+    while ((n = gzread(file.get(), piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
       text_.append(piece.data(), static_cast<std::size_t>(n));
+      if (static_cast<double>(text_.size()) > most)
+        throw InputError({path_.string()}, "the compressed file holds more than 100 times its size");
+    }
     if (n < 0) throw InputError({path_.string()}, "the compressed file is damaged");
   }
   static bool blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }

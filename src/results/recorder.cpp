@@ -10,6 +10,7 @@
 #include "coupling/energy_scale.hpp"
 #include "coupling/internal_energy.hpp"
 #include "results/output_error.hpp"
+#include "results/vtkhdf.hpp"
 
 namespace solidus::results {
 
@@ -283,8 +284,12 @@ void Recorder::conclude(const std::string& outcome, const coupling::State& state
     if (!criteria_probed_) fields_.release_criteria();
     if (phases_.heat != nullptr) s.answers->energy_defect = globals_.relative_defect();
   }
+  // Before the summary, which says that the run is finished.
+  if (options_.vtkhdf && output_.written() > 0)
+    on_first_process([&] { write_vtkhdf(folder_.collection(), folder_.root() / "fields.vtkhdf"); });
   write_summary_file(outcome, state);
-  if (progress_ && s.answers) *options_.progress << text(*s.answers, s.criteria) << std::flush;
+  if (progress_ && s.answers)
+    *options_.progress << text(*s.answers, s.criteria, options_.units) << std::flush;
 }
 
 std::vector<double> Recorder::history_row(const coupling::State& state) {

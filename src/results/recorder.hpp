@@ -28,6 +28,7 @@ struct RecorderOptions {
   std::vector<Probe> probes;
   std::vector<Profile> profiles;
   std::vector<std::string> fields;   ///< to write; empty: all
+  bool vtkhdf = false;               ///< gather them in fields.vtkhdf when the run ends or stops
   std::ostream* progress = nullptr;  ///< process 0; null: none
   ProgressOptions progress_options;
   bool melting = true;   ///< a material can melt
@@ -37,6 +38,7 @@ struct RecorderOptions {
   bool profile = false;  ///< print where the wall time went
   /// What is poured: the solid fraction that is shown is of these bodies; empty: of all that can melt.
   std::vector<CastBody> castings;
+  DisplayUnits units;                       ///< of the printed answers
   Fingerprint fingerprint;                  ///< of the case, for checkpoints
   std::optional<Checkpoint> continue_from;  ///< the tables and fields of the run so far go on
   Summary summary;                          ///< known before the run: names, mesh, seconds of setting up

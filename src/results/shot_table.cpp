@@ -131,7 +131,7 @@ std::string shot_text(const ShotRow& row) {
       "changed by {:.3g} K at most",
       s.number,
       row.time_to_solidify ? fmt::format("solid {:.4g} s after pouring", *row.time_to_solidify)
-                           : std::string("not seen solid"),
+                           : std::string("not solid when it left"),
       s.at_pour.mean - k_zero_celsius, s.at_pour.highest - k_zero_celsius, s.change);
 }
 

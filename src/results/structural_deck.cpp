@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "material/external_law.hpp"
 #include "material/tensile.hpp"
 #include "mesh/abaqus_elements.hpp"
 #include "mesh/faces.hpp"
@@ -219,6 +220,8 @@ class Writer {
     for (const double t : temperatures({&m.specific_heat}))
       line("{:.10g}, {:.10g}", m.specific_heat.value(t), t);
     if (m.flow) plasticity(*m.flow);
+    if (external_law(m) != nullptr)
+      line("** Elastic: the law is that of {}, which is not in this file.", external_law(m)->data().library);
   }
 
   /// Slow tensile curves. Kinematic hardening is in them as isotropic, overstress is not.

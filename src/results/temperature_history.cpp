@@ -16,12 +16,12 @@ namespace fs = std::filesystem;
 using boost::property_tree::ptree;
 using LocalNodes = std::unordered_map<GlobalIndex, Index>;  ///< by the input's number
 
-void read_file(const fs::path& path, const LocalNodes& local, std::vector<double>& temperature) {
+/// @param part  the file stands in a list of parts, and is none itself
+void read_file(const fs::path& path, const LocalNodes& local, std::vector<double>& temperature,
+               bool part = false) {
   const mesh::VtuFile file(path);
-  if (file.type() == "PUnstructuredGrid") {
-    for (const auto& [tag, child] : children(file, "PUnstructuredGrid"))
-      if (tag == "Piece")
-        read_file(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""), local, temperature);
+  if (file.type() == "PUnstructuredGrid" && !part) {
+    for (const fs::path& each : grid_files(file, path)) read_file(each, local, temperature, true);
     return;
   }
   for (const auto& [tag, piece] : children(file, "UnstructuredGrid")) {
@@ -34,7 +34,7 @@ void read_file(const fs::path& path, const LocalNodes& local, std::vector<double
     const std::size_t n = piece_size(file, piece).points;
     const std::vector<double> node = file.numbers(*numbers, n), value = file.numbers(*values, n);
     for (std::size_t i = 0; i < n; ++i)
-      if (const auto found = local.find(static_cast<GlobalIndex>(node[i])); found != local.end())
+      if (const auto found = local.find(mesh::whole_number(node[i])); found != local.end())
         temperature[static_cast<std::size_t>(found->second)] = value[i];
   }
 }

@@ -4,68 +4,19 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "base/errors.hpp"
-#include "mesh/vtu_pieces.hpp"
+#include "results/field_moments.hpp"
 #include "results/hdf5_file.hpp"
 #include "results/output_error.hpp"
-#include "results/pvd.hpp"
 
 namespace solidus::results {
 
 namespace {
 
 namespace fs = std::filesystem;
-using boost::property_tree::ptree;
-
-/// A .vtu, or the parts that a .pvtu lists.
-class Moment {
- public:
-  explicit Moment(const fs::path& path) { add(path); }
-
-  struct Piece {
-    const mesh::VtuFile* file;
-    const ptree* tree;
-    std::size_t n_points, n_cells;
-  };
-  const std::vector<Piece>& pieces() const { return pieces_; }
-
- private:
-  void add(const fs::path& path) {
-    files_.push_back(std::make_unique<mesh::VtuFile>(path));
-    const mesh::VtuFile& file = *files_.back();
-    if (file.type() == "PUnstructuredGrid") {
-      for (const auto& [tag, child] : children(file, "PUnstructuredGrid"))
-        if (tag == "Piece") add(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""));
-      return;
-    }
-    for (const auto& [tag, child] : children(file, "UnstructuredGrid"))
-      if (tag == "Piece") {
-        const auto [n_points, n_cells] = piece_size(file, child);
-        pieces_.push_back({&file, &child, n_points, n_cells});
-      }
-  }
-  std::vector<std::unique_ptr<mesh::VtuFile>> files_;
-  std::vector<Piece> pieces_;
-};
-
-/// An array of the grid's points or cells.
-struct Column {
-  const char* section;  ///< "PointData" or "CellData"
-  std::string name, unit;
-  std::size_t components = 1;
-};
-
-// Numbers of the input and the processes, the same at every moment.
-bool is_of_mesh(const std::string& name) {
-  return name == "node" || name == "element" || name == "body" || name == "process";
-}
-constexpr const char* k_hidden = "vtkGhostType";
 
 /// The file that is written: groups, attributes, and tables that grow by rows.
 class Writer {
@@ -161,59 +112,21 @@ class Writer {
   Hdf5Handle file_;
 };
 
-std::vector<Column> columns_of(const Moment::Piece& piece) {
-  std::vector<Column> columns;
-  for (const char* section : {"PointData", "CellData"})
-    for (const std::string& name : mesh::array_names(*piece.tree, section)) {
-      if (name == k_hidden) continue;
-      const ptree& array = *mesh::find_array(*piece.tree, section, name);
-      columns.push_back({section, name, mesh::array_unit(array),
-                         array.get<std::size_t>("<xmlattr>.NumberOfComponents", 1)});
-    }
-  return columns;
-}
-
-std::size_t entities(const Moment::Piece& piece, const Column& column) {
-  return column.section == std::string_view("PointData") ? piece.n_points : piece.n_cells;
-}
-
-std::vector<double> values_of(const Moment& moment, const Column& column) {
-  std::vector<double> all;
-  for (const Moment::Piece& piece : moment.pieces()) {
-    const ptree* array = mesh::find_array(*piece.tree, column.section, column.name);
-    if (array == nullptr || array->get<std::size_t>("<xmlattr>.NumberOfComponents", 1) != column.components)
-      piece.file->fail(fmt::format("the file has no array '{}' as the first of the run has", column.name));
-    const std::vector<double> values =
-        piece.file->numbers(*array, entities(piece, column) * column.components);
-    all.insert(all.end(), values.begin(), values.end());
-  }
-  return all;
-}
-
-std::vector<std::uint8_t> hidden_cells(const Moment& moment) {
-  std::vector<std::uint8_t> all;
-  for (const Moment::Piece& piece : moment.pieces()) {
-    const ptree* array = mesh::find_array(*piece.tree, "CellData", k_hidden);
-    const std::vector<double> values = array == nullptr ? std::vector<double>(piece.n_cells, 0.0)
-                                                        : piece.file->numbers(*array, piece.n_cells);
-    for (const double value : values) all.push_back(static_cast<std::uint8_t>(value));
-  }
-  return all;
-}
-
 std::vector<std::int64_t> whole(const std::vector<double>& numbers) {
-  return {numbers.begin(), numbers.end()};
+  std::vector<std::int64_t> all;
+  for (const double number : numbers) all.push_back(mesh::whole_number(number));
+  return all;
 }
 
-std::string path_of(const Column& column) {
+std::string path_of(const FieldColumn& column) {
   return fmt::format("VTKHDF/{}/{}", column.section, column.name);
 }
 
-void write_mesh(Writer& writer, const Moment& moment, const std::vector<Column>& columns,
+void write_mesh(Writer& writer, const FieldMoment& moment, const std::vector<FieldColumn>& columns,
                 VtkHdfReport& report) {
   std::vector<std::int64_t> connectivity, offsets = {0};
   std::vector<std::uint8_t> types;
-  for (const Moment::Piece& piece : moment.pieces()) {
+  for (const FieldMoment::Piece& piece : moment.pieces()) {
     const mesh::CellTable cells = read_cells(*piece.file, *piece.tree, piece.n_cells, piece.n_points);
     for (const Index corner : cells.corners)
       connectivity.push_back(static_cast<std::int64_t>(report.points) + corner);
@@ -232,8 +145,8 @@ void write_mesh(Writer& writer, const Moment& moment, const std::vector<Column>&
   writer.append("VTKHDF/Connectivity", connectivity);
   writer.append("VTKHDF/Offsets", offsets);
   writer.append("VTKHDF/Types", types);
-  for (const Column& column : columns)
-    if (is_of_mesh(column.name)) writer.append(path_of(column), whole(values_of(moment, column)));
+  for (const FieldColumn& column : columns)
+    if (column.is_of_mesh()) writer.append(path_of(column), whole(values_of(moment, column)));
 }
 
 VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const fs::path& root,
@@ -243,38 +156,34 @@ VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const f
   writer.group("VTKHDF");
   writer.integer_attribute("VTKHDF", "Version", {2, 0});
   writer.text_attribute("VTKHDF", "Type", "UnstructuredGrid");
-  std::vector<Column> columns;
+  std::vector<FieldColumn> columns;
   std::vector<double> times;
   for (const PvdCollection::Entry& entry : moments) {
-    const Moment moment(root / entry.file);
+    const FieldMoment moment(root / entry.file);
     if (report.times == 0) {
       if (moment.pieces().empty()) throw InputError({entry.file}, "the file holds no grid");
       columns = columns_of(moment.pieces().front());
       write_mesh(writer, moment, columns, report);
     }
-    std::size_t points = 0, cells = 0;
-    for (const Moment::Piece& piece : moment.pieces()) points += piece.n_points, cells += piece.n_cells;
-    if (points != report.points || cells != report.cells)
-      throw InputError({(root / entry.file).string()}, "the file has another mesh than the first of the run");
+    check_same_mesh(moment, report.points, report.cells, root / entry.file);
     const auto step = static_cast<std::int64_t>(report.times);
-    for (const Column& column : columns) {
-      const bool of_points = column.section == std::string_view("PointData");
-      const std::int64_t n = static_cast<std::int64_t>(of_points ? points : cells);
-      const std::int64_t offset = is_of_mesh(column.name) ? 0 : step * n;
+    for (const FieldColumn& column : columns) {
+      const auto n = static_cast<std::int64_t>(column.of_points() ? report.points : report.cells);
+      const std::int64_t offset = column.is_of_mesh() ? 0 : step * n;
       writer.append(fmt::format("VTKHDF/Steps/{}Offsets/{}", column.section, column.name),
                     std::vector<std::int64_t>{offset});
-      if (!is_of_mesh(column.name))
+      if (!column.is_of_mesh())
         writer.append(path_of(column), values_of(moment, column),
                       column.components == 1 ? 0 : column.components);
     }
-    writer.append(fmt::format("VTKHDF/CellData/{}", k_hidden), hidden_cells(moment));
-    writer.append(fmt::format("VTKHDF/Steps/CellDataOffsets/{}", k_hidden),
-                  std::vector<std::int64_t>{step * static_cast<std::int64_t>(cells)});
+    writer.append(fmt::format("VTKHDF/CellData/{}", k_hidden_cells), hidden_cells(moment));
+    writer.append(fmt::format("VTKHDF/Steps/CellDataOffsets/{}", k_hidden_cells),
+                  std::vector<std::int64_t>{step * static_cast<std::int64_t>(report.cells)});
     times.push_back(entry.time);
     ++report.times;
   }
-  for (const Column& column : columns) {
-    if (is_of_mesh(column.name)) continue;
+  for (const FieldColumn& column : columns) {
+    if (column.is_of_mesh()) continue;
     ++report.fields;
     if (!column.unit.empty()) writer.text_attribute(path_of(column), "UNITS_LABEL", column.unit);
   }
@@ -293,19 +202,15 @@ VtkHdfReport write_all(const std::vector<PvdCollection::Entry>& moments, const f
 }  // namespace
 
 VtkHdfReport write_vtkhdf(const fs::path& collection, const fs::path& file) {
-  std::vector<PvdCollection::Entry> moments;
-  const PvdCollection all(collection, std::numeric_limits<double>::infinity());
-  for (const PvdCollection::Entry& entry : all.entries())
-    if (entry.part == 0) moments.push_back(entry);
-  if (moments.empty()) throw InputError({collection.string()}, "the run has left no fields");
-  const fs::path unfinished = file.string() + ".unfinished";
+  const std::vector<PvdCollection::Entry> moments = body_moments(collection);
+  const fs::path part = file.string() + ".part";
   try {
-    const VtkHdfReport report = write_all(moments, collection.parent_path(), unfinished);
-    fs::rename(unfinished, file);
+    const VtkHdfReport report = write_all(moments, collection.parent_path(), part);
+    fs::rename(part, file);
     return report;
   } catch (...) {
     std::error_code none;
-    fs::remove(unfinished, none);
+    fs::remove(part, none);
     throw;
   }
 }

@@ -29,13 +29,13 @@ class Reader {
   Reader(const std::string& field, int body, double length, const SourceLocation& where)
       : field_(field), body_(body), length_(length), where_(where) {}
 
-  void read(const fs::path& path) {
+  /// @param part  the file stands in a list of parts, and is none itself
+  void read(const fs::path& path, bool part = false) {
     if (!fs::exists(path))
       throw InputError(where_, fmt::format("the file '{}' does not exist", path.string()));
     const VtuFile file(path);
-    if (file.type() == "PUnstructuredGrid") {
-      for (const auto& [tag, child] : children(file, "PUnstructuredGrid"))
-        if (tag == "Piece") read(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""));
+    if (file.type() == "PUnstructuredGrid" && !part) {
+      for (const fs::path& each : grid_files(file, path)) read(each, true);
       return;
     }
     if (file.type() != "UnstructuredGrid")

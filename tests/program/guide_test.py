@@ -176,7 +176,8 @@ class Guide(ProgramTest):
 
     def test_the_tutorials_can_be_followed(self):
         """Their commands one after the other, in a folder each, as they stand there; runs end after two seconds of the
-        casting, and coupled runs in space are checked alone."""
+        casting, those of shots after the second, and coupled runs in space are checked alone. Then their Python, as one
+        program; every picture of theirs is there."""
         for page in sorted((SOURCES / "docs/tutorials").glob("*.md")):
             folder = self.folder / page.stem
             folder.mkdir()
@@ -191,11 +192,22 @@ class Guide(ProgramTest):
                         words = ["solidus", "check", "bracket"]
                     if words[1] == "run":
                         name = words[2] if not words[2].startswith("-") else words[3]
-                        words += ["--set", "time.end=2 s"] + ([] if "-o" in words else ["-o", f"results/{name}/default"])
+                        words += ["--set", "cycle.shots.repeat=2" if name == "wheel_in_die" else "time.end=2 s"]
+                        words += [] if "-o" in words else ["-o", f"results/{name}/default"]
                     if words[1] != "plot" and "--riser" not in words:  # slow, and tests of their own
                         self.done(*words[1:], cwd=folder, timeout=600)
+            python = [block.text for block in blocks(page.read_text()) if block.language == "python"]
+            if python:
+                with self.subTest(page=page.name, line="Python"):
+                    done = subprocess.run([sys.executable, "-c", "\n".join(python)], cwd=folder, capture_output=True, text=True,
+                                          env={**os.environ, "PYTHONPATH": str(SOURCES / "python"), "MPLBACKEND": "Agg"})
+                    self.assertEqual(done.returncode, 0, done.stderr)
             if page.stem != "README":
-                self.assertGreater(len(lines), 3, page.name)
+                self.assertGreater(len(lines) + 2 * len(python), 3, page.name)
+                pictures = re.findall(r"!\[[^\]]+\]\(([^)]+)\)", page.read_text())
+                self.assertTrue(pictures, page.name)
+                for picture in pictures:
+                    self.assertTrue((page.parent / picture).is_file(), picture)
 
     def test_the_table_of_check_stands_on_its_page_as_it_is_printed(self):
         page = (SOURCES / "docs/guide/findings.md").read_text()

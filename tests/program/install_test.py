@@ -11,11 +11,42 @@ from program import PROGRAM, SOURCES, ProgramTest
 
 
 class Installed(ProgramTest):
-    def test_a_prefix_holds_all_of_it_and_may_be_moved(self):
-        prefix = self.folder / "prefix"
-        build = Path(PROGRAM).parent
-        subprocess.run(["cmake", "--install", build, "--component", "program", "--prefix", prefix], check=True, capture_output=True)
-        moved = prefix.rename(self.folder / "moved")
+    def packed(self):
+        """Debian's package of this build, by cpack as ./dev package calls it; None where its tools are missing."""
+        if any(shutil.which(tool) is None for tool in ("dpkg-deb", "dpkg-shlibdeps", "file")):
+            return None
+        done = subprocess.run(["cpack", "--config", Path(PROGRAM).parent / "CPackConfig.cmake", "-B", self.folder / "packages",
+                               "-D", "CPACK_COMPONENTS_ALL=program", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none"],
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
+        package, = (self.folder / "packages").glob("solidus_*_amd64.deb")
+        return package
+
+    def installed(self):
+        """A prefix that was made in one place and lies in another: what the package holds, or what cmake installs."""
+        package = self.packed()
+        if package is None:
+            prefix = self.folder / "prefix"
+            subprocess.run(["cmake", "--install", Path(PROGRAM).parent, "--component", "program", "--prefix", prefix], check=True,
+                           capture_output=True)
+            return prefix.rename(self.folder / "moved")
+        needed = subprocess.run(["dpkg-deb", "-f", package, "Depends"], check=True, capture_output=True, text=True).stdout
+        for library in ("libpetsc-real3", "libopenmpi3", "libhdf5-openmpi-103", "libopenblas0-serial | libopenblas0", "libmetis5"):
+            self.assertIn(library, needed)
+        unpacked = self.folder / "unpacked"
+        subprocess.run(["dpkg-deb", "-x", package, unpacked], check=True)
+        shutil.rmtree(self.folder / "packages")  # it is large
+        # Debian's Python is told of our package.
+        site = unpacked / "usr/lib/python3/dist-packages"
+        code = f"import site; site.addsitedir({str(site)!r}); import solidus_casting as sc; print(sc.__file__, sc.program())"
+        environment = {name: value for name, value in os.environ.items() if name not in ("SOLIDUS_PROGRAM", "PYTHONPATH")}
+        where = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True, env=environment).stdout.split()
+        self.assertEqual([Path(path).resolve() for path in where],
+                         [unpacked / "usr/share/solidus/python/solidus_casting/__init__.py", unpacked / "usr/bin/solidus"])
+        return unpacked / "usr"
+
+    def test_a_package_or_prefix_holds_all_of_it_and_may_be_moved(self):
+        moved = self.installed()
         for file in ("bin/solidus", "share/bash-completion/completions/solidus", "share/zsh/site-functions/_solidus",
                      "share/fish/vendor_completions.d/solidus.fish", "share/man/man1/solidus.1",
                      "share/solidus/schema/case.schema.json", "share/solidus/python/solidus_plots/plot_case.py",

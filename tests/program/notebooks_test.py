@@ -40,6 +40,10 @@ class Notebooks(ProgramTest):
                     self.assertEqual(set(cell), keys)
                     self.assertRegex(cell["id"], r"^[a-zA-Z0-9_-]{1,64}$")
 
+    def test_every_notebook_is_run_by_one_of_the_tests(self):
+        if "SOLIDUS_ALL_NOTEBOOKS" in os.environ:
+            self.assertEqual(sorted(os.environ["SOLIDUS_ALL_NOTEBOOKS"].split()), [folder.name for folder in FOLDERS])
+
     def test_notebooks_run_from_their_first_cell_to_their_last(self):
         for name in CHOSEN:
             with self.subTest(notebook=name):

@@ -521,6 +521,34 @@ class Pages(ProgramTest):
         np.testing.assert_allclose(sc.Results(self.folder / "results/small/parallel")[-1].probe("temperature", INSIDE),
                                    alone[-1].probe("temperature", INSIDE), rtol=1e-7)  # the solver's tolerance
 
+    @with_core
+    def test_a_coupled_simulation_is_the_same_on_two_processes(self):
+        """Blocks in contact, driven by mpi4py: three steps, of which the last is repeated half as long."""
+        try:
+            import mpi4py  # noqa: F401
+        except ImportError:
+            self.skipTest("mpi4py is not there")
+        text = f"""
+from mpi4py import MPI
+import solidus_casting as sc
+world = MPI.COMM_WORLD
+sc.initialize(world)
+with sc.Simulation({str(SOURCES / "cases/two_blocks")!r}) as simulation:
+    for step in simulation:
+        if step.number == 3:
+            break
+    largest = [world.allreduce(abs(simulation[field]).max(), MPI.MAX) for field in ("temperature", "displacement")]
+    simulation.repeat(step.step / 2)
+    largest.append(world.allreduce(simulation["temperature"].max(), MPI.MAX))
+if world.rank == 0:
+    print(world.size, *(repr(float(value)) for value in largest))
+"""
+        said = [self.python("coupled.py", text, *launcher).split()[-4:]
+                for launcher in ([], ["mpirun", "-n", "2", "--bind-to", "none", "--oversubscribe"])]
+        self.assertEqual([words[0] for words in said], ["1", "2"])
+        alone, together = ([float(word) for word in words[1:]] for words in said)
+        np.testing.assert_allclose(together, alone, rtol=1e-6)  # measured: 1e-9
+
     def test_the_reference_is_that_of_the_docstrings(self):
         from solidus_docs.python_reference import reference
 

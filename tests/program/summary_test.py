@@ -3,7 +3,7 @@
 import csv
 import unittest
 
-from program import ProgramTest
+from program import ProgramTest, solidus
 
 # A plate with a riser on it, a chill of the same metal beside it; the plate cools at its lower edge. The bodies share
 # their nodes.
@@ -75,6 +75,25 @@ class Summary(ProgramTest):
         self.assertGreater(riser["hottest_melt"]["at[m]"][1], 0.02)  # in the riser, away from what cools
         self.assertNotIn("freezes last", text)
 
+    def test_all_fields_are_gathered_in_one_file_where_the_case_asks_for_it(self):
+        hdf5 = b"\x89HDF\r\n"
+        self.run_case(20, "top", "--set", "output.vtkhdf=true", "--set", "output.every=10 s")
+        gathered = (self.folder / "out/fields.vtkhdf").read_bytes()
+        self.assertTrue(gathered.startswith(hdf5))
+        said = self.done("export", "out", "--vtkhdf", "later.vtkhdf")
+        self.assertIn(" fields at 3 times, ", said)
+        self.assertEqual((self.folder / "later.vtkhdf").read_bytes(), gathered)
+        result = solidus("export", "out", "--med", "later.med", cwd=self.folder)
+        if "without the MED library" in result.stderr:
+            self.assertEqual(result.returncode, 1)
+        else:
+            self.assertEqual(result.stdout.split(":")[1], said.split(":")[1])
+            self.assertTrue((self.folder / "later.med").read_bytes().startswith(hdf5))
+        both = solidus("export", "out", "--med", "a.med", "--vtkhdf", "b.vtkhdf", cwd=self.folder)
+        self.assertEqual((both.returncode, (self.folder / "b.vtkhdf").exists()), (1, False))
+        self.run_case(20)  # a new run takes the old file away
+        self.assertFalse((self.folder / "out/fields.vtkhdf").exists())
+
     def test_a_chill_of_the_same_metal_is_no_casting(self):
         text, answers = self.run_case(20)
         self.assertEqual(set(answers["castings"]), {"plate", "riser"})
@@ -95,6 +114,40 @@ class Summary(ProgramTest):
         text, answers = self.run_case(400, "plate")  # what the plate would feed is frozen later
         self.assertIn(f"froze {froze['riser'] - froze['plate']:.4g} s before the part: it could not feed to the end",
                       text)
+
+    def test_a_run_until_all_is_solid_ends_when_it_is_and_goes_on_only_where_asked(self):
+        until = ("--set", 'time.until="solid"')
+        text, answers = self.run_case(4000, "top", *until)
+        last = max(body["last_melt_froze"]["value[s]"] for body in answers["castings"].values())
+        ended = answers["time[s]"]
+        self.assertTrue(last <= ended < last + 5, (last, ended))  # a step of five seconds
+        self.assertEqual({body["solid_fraction"] for body in answers["castings"].values()}, {1})
+        collection = (self.folder / "out/fields.pvd").read_text()
+        self.assertIn(f'timestep="{ended:g}"', collection)
+        again = solidus("run", ".", "-o", "out", "--no-progress", "--restart", *until, cwd=self.folder)
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("all that was poured is solid", again.stderr)
+        self.done("run", ".", "-o", "out", "--no-progress", "--restart", "--set", f'time.end="{ended + 10} s"')
+        self.assertEqual(self.summary(self.folder / "out")["answers"]["time[s]"], ended + 10)
+
+    def test_a_run_until_all_is_solid_needs_something_that_is_poured(self):
+        self.write("plate.geo", GEOMETRY)
+        self.write("case.toml", CASE.format(end=10, feeders="top").replace("700 degC", "20 degC"))
+        result = solidus("check", ".", "--set", 'time.until="solid"', "--set", "criteria.feeders=[]", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("the run lasts until all is solid, but nothing is poured", result.stderr)
+        result = solidus("check", ".", "--set", 'time.until="solid"', "--set", "time.steady=true", cwd=self.folder)
+        self.assertIn("means nothing in a steady analysis", result.stderr)
+
+    def test_places_and_temperatures_are_printed_in_the_units_of_the_user(self):
+        units = ("--set", 'output.length_unit="inch"', "--set", 'output.temperature_unit="degF"')
+        text, answers = self.run_case(60, "top", *units)
+        riser = answers["castings"]["riser"]["hottest_melt"]
+        fahrenheit = 1.8 * (riser["value[K]"] - 273.15) + 32
+        x, y, _ = (metres / 0.0254 for metres in riser["at[m]"])
+        self.assertIn(f"the melt is hottest, {fahrenheit:.4g} degF, at ({x:.4g}, {y:.4g}, 0) inch", text)
+        result = solidus("check", ".", "--set", 'output.length_unit="degC"', cwd=self.folder)
+        self.assertIn("'degC' is no unit for length_unit", result.stderr)
 
     def test_the_profile_of_the_solver_is_printed_where_it_is_asked_for(self):
         text, _ = self.run_case(10)

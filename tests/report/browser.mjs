@@ -82,7 +82,15 @@ export class Page {
     const loaded = new Promise((resolve) => this.browser.listeners.push((m) => m.sessionId === this.session && m.method === "Page.loadEventFired" && resolve()));
     await this.send("Page.navigate", { url });
     await loaded;
+    await this.built();
     await this.settle();
+  }
+  /** Until the sections below the picture are there, or the page has said why not. */
+  built() {
+    return this.run(`new Promise((done) => {
+      const look = () => (performance.getEntriesByName("built").length || document.querySelector("#failure:not([hidden])") ? done() : setTimeout(look, 10));
+      look();
+    })`);
   }
   /** Until the page has drawn twice. */
   settle() {

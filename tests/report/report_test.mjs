@@ -4,8 +4,9 @@ import { spawn, spawnSync } from "node:child_process";
 import { request } from "node:http";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { inflateSync } from "node:zlib";
 import { Browser } from "./browser.mjs";
+import { checkInFirefox } from "./firefox_test.mjs";
+import { colourful, pixels } from "./picture.mjs";
 
 const program = resolve(process.argv[2]), folder = resolve(process.argv[3]);
 let passed = 0, failed = 0;
@@ -75,29 +76,6 @@ every = "40 s"
 `;
 const TITLE = "A <b>block</b> </script><script>document.title='taken'</script><img src=x onerror=alert(1)> & \"more\"";
 
-/** RGB of the pixels of a PNG of 8 bits without interlace, as Chromium writes it. */
-function pixels(png) {
-  let at = 8, width = 0, height = 0, channels = 3;
-  const data = [];
-  while (at < png.length) {
-    const n = png.readUInt32BE(at), type = png.toString("latin1", at + 4, at + 8), body = png.subarray(at + 8, at + 8 + n);
-    if (type === "IHDR") [width, height, channels] = [body.readUInt32BE(0), body.readUInt32BE(4), body[9] === 6 ? 4 : 3];
-    if (type === "IDAT") data.push(body);
-    at += n + 12;
-  }
-  const raw = inflateSync(Buffer.concat(data)), row = width * channels, out = Buffer.alloc(row * height);
-  for (let y = 0; y < height; ++y)
-    for (let i = 0; i < row; ++i) {
-      const filter = raw[y * (row + 1)], byte = raw[y * (row + 1) + 1 + i];
-      const left = i >= channels ? out[y * row + i - channels] : 0, up = y > 0 ? out[(y - 1) * row + i] : 0;
-      const corner = i >= channels && y > 0 ? out[(y - 1) * row + i - channels] : 0;
-      const p = left + up - corner, pa = Math.abs(p - left), pb = Math.abs(p - up), pc = Math.abs(p - corner);
-      const guess = [0, left, up, (left + up) >> 1, pa <= pb && pa <= pc ? left : pb <= pc ? up : corner][filter];
-      out[y * row + i] = (byte + guess) & 255;
-    }
-  return { width, height, rgb: (x, y) => [...out.subarray(channels * (y * width + x), channels * (y * width + x) + 3)] };
-}
-
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 writeFileSync(join(folder, "metal.toml"), METAL);
@@ -138,7 +116,43 @@ every = "4 s"
 writeFileSync(join(folder, "elastic.toml"), METAL.slice(0, METAL.indexOf("[[phase_change]]")));
 writeFileSync(join(folder, "ring.toml"), axisymmetric);
 
-for (const [name, ...set] of [["block"], ["ring"]]) {
+const box = `title = "A closed box of melt"
+[analysis]
+kind = "solid"
+physics = "thermomechanical"
+[mesh]
+shape = "block"
+element = "tet4"
+[mesh.block]
+size = ["30 mm", "30 mm", "30 mm"]
+divisions = [3, 3, 3]
+[time]
+end = "40 s"
+step = "5 s"
+[[body]]
+name = "casting"
+group = "block"
+material = "aluminium_alsi7mg"
+initial_temperature = "650 degC"
+[output]
+every = "20 s"
+` + ["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"].map((side) => `[[thermal_condition]]
+name = "${side}"
+group = "${side}"
+kind = "film"
+coefficient = "1500 W/m2/K"
+ambient = "20 degC"
+[[mechanical_condition]]
+name = "held_${side}"
+group = "${side}"
+kind = "displacement"
+ux = "0 mm"
+uy = "0 mm"
+uz = "0 mm"
+`).join("");
+writeFileSync(join(folder, "pores.toml"), box);
+
+for (const [name, ...set] of [["block"], ["ring"], ["pores"]]) {
   const run = solidus("run", `${name}.toml`, "-o", name, "--no-progress", ...set);
   if (run.code !== 0) console.log(run.text);
   check(`the run '${name}' ends well`, run.code === 0, run.text.slice(-400));
@@ -146,8 +160,11 @@ for (const [name, ...set] of [["block"], ["ring"]]) {
 const second = solidus("run", "block.toml", "-o", "warmer", "--no-progress", "--set", "thermal_condition.wall.coefficient=\"800 W/m2/K\"");
 check("a second block runs", second.code === 0, second.text.slice(-400));
 
+const wheels = solidus("run", "--heat-only", resolve("cases/wheel_in_die"), "-o", "shots", "--no-progress", "--set", "cycle.shots.repeat=2");
+check("two shots into a die run", wheels.code === 0, wheels.text.slice(-400));
+
 // The command.
-for (const [args, page] of [[["block"], "block/report.html"], [["ring"], "ring/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
+for (const [args, page] of [[["pores"], "pores/report.html"], [["shots"], "shots/report.html"], [["block"], "block/report.html"], [["ring"], "ring/report.html"], [["block", "warmer", "-o", "two.html"], "two.html"]]) {
   const made = solidus("report", ...args);
   check(`report ${args.join(" ")} says where the page is`, made.code === 0 && made.text.includes(page), made.text);
 }
@@ -169,19 +186,6 @@ try {
   const box = await page.run("(() => { const r = document.querySelector('.stage').getBoundingClientRect(); return { x: r.left, y: r.top, width: r.width, height: r.height, scale: 1 }; })()");
   const shot = async () => pixels(await page.screenshot({ clip: box }));
   const middle = [Math.round(box.width / 2), Math.round(box.height * 0.44)];
-  const colourful = (picture) => {
-    const seen = new Set();
-    let n = 0;
-    for (let y = 20; y < picture.height * 0.75; y += 4)
-      for (let x = 20; x < picture.width - 20; x += 4) {
-        const [r, g, b] = picture.rgb(x, y);
-        if (Math.max(r, g, b) - Math.min(r, g, b) > 40) {
-          ++n;
-          seen.add(`${r >> 4},${g >> 4},${b >> 4}`);
-        }
-      }
-    return { n, colours: seen.size };
-  };
   const first = await shot(), looked = colourful(first);
   check("the picture is not blank and shows many colours of the scale", looked.n > 500 && looked.colours > 12, looked);
   await page.run(`${bench}.look([1, 0, 0])`);
@@ -283,6 +287,38 @@ try {
   await ring.settle();
   check("without a word on the console", ring.messages.length === 0, ring.messages);
 
+  // Pores: a card that flies to the densest, a field in shares of the volume.
+  const pores = await browser.page(1000, 800);
+  await pores.go(`file://${join(folder, "pores/report.html")}`);
+  const found = JSON.parse(readFileSync(join(folder, "pores/summary.json"))).answers.pores;
+  const card = "[...document.querySelectorAll('button.figure')].find((b) => b.textContent.startsWith('Pores'))";
+  const shown = await pores.run(`${card}?.querySelector('b').textContent ?? ''`);
+  check("a card says how much of the casting is pores", shown.endsWith("%") && Math.abs(parseFloat(shown) - 100 * found.share_of_casting) < 1e-3 * parseFloat(shown), [shown, found]);
+  await pores.run(`${card}.click()`);
+  let arrived;
+  for (const end = Date.now() + 10000; Date.now() < end && !arrived?.every((x, i) => Math.abs(x - found["at[m]"][i]) < 1e-6);) {
+    await pores.settle();
+    arrived = await pores.run(`${bench}.camera.target.toArray()`);
+  }
+  check("and flies to the densest", arrived.every((x, i) => Math.abs(x - found["at[m]"][i]) < 1e-6), [arrived, found]);
+  await pores.run("[...document.querySelectorAll('.presets button')].find((b) => b.textContent === 'Pores').click()");
+  await pores.settle();
+  check("the pores are a field, as a share of the volume", (await pores.run(`[${bench}.field.id, ${bench}.field.unit.text, ${bench}.choice.only.on].join()`)) === "pore_fraction,%,true");
+  check("without a word on the console there", pores.messages.length === 0, pores.messages);
+
+  // Shots: a row each, and a click that goes to the end of one.
+  const shots = await browser.page(1000, 800);
+  await shots.go(`file://${join(folder, "shots/report.html")}`);
+  const answers = JSON.parse(readFileSync(join(folder, "shots/summary.json"))).answers.shots;
+  const cells = await shots.run("[...document.querySelectorAll('#shots tbody tr')].map((r) => [...r.children].map((c) => c.textContent))");
+  check("every shot has its row", cells.length === 2 && answers.length === 2 && cells[1][0] === "2", cells);
+  check("with the time to solidify of the summary", Math.abs(parseFloat(cells[0][3]) - answers[0]["time_to_solidify[s]"]) < 2 || cells[0][3].includes("min"), [cells[0], answers[0]]);
+  check("two charts are over the shots", (await shots.run("[...document.querySelectorAll('#shots figcaption')].length")) === 2);
+  await shots.run("document.querySelector('#shots tbody tr button').click()");
+  await shots.settle();
+  check("a click goes to the end of a shot", Math.abs((await shots.run(`${bench}.choice.time`)) - answers[0]["end[s]"]) < 1, answers[0]);
+  check("and no word on the console there", shots.messages.length === 0, shots.messages);
+
   // Two runs side by side, on a telephone.
   const two = await browser.page(390, 800, { mobile: true });
   await two.go(`file://${join(folder, "two.html")}`);
@@ -336,5 +372,6 @@ try {
 } finally {
   await browser.close();
 }
+await checkInFirefox(check, folder);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed === 0 ? 0 : 1);

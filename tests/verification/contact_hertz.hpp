@@ -25,6 +25,7 @@ struct HertzCase {
   int n = 24;  ///< elements along a side, fine at the contact: 0.4 n of them under half the contact
   contact::NormalKind normal = contact::NormalKind::penalty;
   double stiffness = 1.5;  ///< ε_N over n E/a; the smallest elements have 0.4 n E/a
+  contact::IntegrationRule rule = contact::IntegrationRule::segments;  ///< of small sliding
 };
 
 inline constexpr double k_hertz_radius = 1, k_hertz_width = 0.6, k_hertz_young = 200e9, k_hertz_poisson = 0.3;
@@ -41,9 +42,11 @@ inline double hertz_arc(double x) {
 
 inline mesh::Mesh hertz_mesh(const HertzCase& c) {
   const double w = k_hertz_width;
-  // The block's lines stand between those of the cap.
+  // The block's lines stand between those of the cap; beside a rigid plane it has nothing to do.
+  const bool idle = c.bodies == HertzCase::Bodies::round_on_rigid;
   const int m = c.n - c.n / 8;
-  mesh::RawMesh raw = raw_blocks({{w, w}, {w, w}, {m, c.n}, {c.n, c.n}, 0}, c.shape);
+  const std::vector<int> divisions = idle ? std::vector{2, 2} : std::vector{m, c.n};
+  mesh::RawMesh raw = raw_blocks({{w, w}, {w, w}, divisions, {c.n, c.n}, 0}, c.shape);
   std::vector<char> upper(raw.x.size(), 0);
   for (const mesh::RawBlock& block : raw.groups["upper"].blocks)
     for (Index node : block.nodes) upper[static_cast<std::size_t>(node)] = 1;
@@ -70,9 +73,8 @@ struct Hertz {
     contact::ContactSpec spec = interface();
     std::swap(spec.slave, spec.master);
     spec.formulation = c.formulation;
-    spec.integration = c.formulation == contact::Formulation::small_sliding
-                           ? contact::IntegrationRule::segments
-                           : contact::IntegrationRule::gauss;
+    spec.integration =
+        c.formulation == contact::Formulation::small_sliding ? c.rule : contact::IntegrationRule::gauss;
     spec.normal = c.normal;
     spec.penalty = c.stiffness * c.n * k_hertz_young / k_hertz_half_width;
     spec.penalty_is_factor = false;

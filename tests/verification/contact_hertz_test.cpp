@@ -127,5 +127,54 @@ TEST(Hertz, HoldsForAllPlaneElementsAndWithTheAugmentedLagrangian) {
     }
 }
 
+// On meshes that do not match the points of segments ask for more than the faces can follow, the more the
+// stiffer the penalty; means around the slave's nodes do not.
+TEST(Hertz, HasPressuresThatDoNotDependOnThePenaltyAtMeansAroundNodes) {
+  auto table = verification::table("contact_hertz_penalty", "kind,rule,penalty[E/h],p0,deviation");
+  using contact::IntegrationRule;
+  const auto measured = [&](AnalysisKind kind, IntegrationRule rule, double factor) {
+    Hertz hertz({.kind = kind,
+                 .formulation = Formulation::small_sliding,
+                 .n = 32,
+                 .stiffness = 0.4 * factor,
+                 .rule = rule});
+    hertz.run->step(1);
+    const Errors e = errors(hertz);
+    table << fmt::format("{},{},{},{:.2e},{:.2e}\n", kind == AnalysisKind::plane_strain ? "line" : "point",
+                         rule == IntegrationRule::mortar ? "mortar" : "segments", factor, e.pressure,
+                         e.deviation);
+    return e;
+  };
+  for (const auto kind : {AnalysisKind::plane_strain, AnalysisKind::axisymmetric}) {
+    const Errors segments = measured(kind, IntegrationRule::segments, 100),
+                 soft = measured(kind, IntegrationRule::mortar, 10);
+    if (kind == AnalysisKind::plane_strain) {
+      EXPECT_GT(segments.deviation, 0.1);
+      EXPECT_LT(soft.deviation, 0.1);
+    }
+    EXPECT_NEAR(soft.pressure, 0, 0.01);
+    for (const double factor : {100.0, 1000.0}) {
+      const Errors stiff = measured(kind, IntegrationRule::mortar, factor);
+      EXPECT_NEAR(stiff.pressure, soft.pressure, 0.005);
+      EXPECT_NEAR(stiff.deviation, soft.deviation, 0.03);
+    }
+  }
+}
+
+// The mesh on which the augmented Lagrangian once took 60 turns and more: 48 triangles under half the
+// contact.
+TEST(Hertz, OfAFineMeshOfTrianglesEndsInFewTurnsOfTheAugmentedLagrangian) {
+  Hertz hertz({.bodies = Bodies::round_on_rigid,
+               .shape = Shape::tri3,
+               .n = 120,
+               .normal = NormalKind::augmented_lagrangian});
+  hertz.run->step(1);
+  const Errors e = errors(hertz);
+  EXPECT_NEAR(e.pressure, 0, 0.01);
+  EXPECT_NEAR(e.half_width, 0, 0.01);
+  EXPECT_NEAR(e.edge, 0, 1 / 48.0);
+  EXPECT_LE(hertz.run->turns.size(), 25U);
+}
+
 }  // namespace
 }  // namespace solidus

@@ -91,20 +91,22 @@ contact::ContactSpec large_sliding(int gauss_degree) {
 
 class ContactPatch : public ::testing::TestWithParam<Patch> {};
 
-TEST_P(ContactPatch, PassesAUniformPressureToSolverAccuracyWithSegments) {
+TEST_P(ContactPatch, PassesAUniformPressureToSolverAccuracyWithSegmentsAndTheirMeans) {
   const auto [shape, kind] = GetParam();
   const mesh::Mesh mesh = test::two_blocks(shape);
-  for (const bool swapped : {false, true}) {
-    contact::ContactSpec spec = test::interface();
-    if (swapped) std::swap(spec.slave, spec.master);
-    const Deviation d = press(mesh, kind, spec, 5e7);
-    RecordProperty(swapped ? "pressure_swapped" : "pressure", fmt::format("{:.1e}", d.pressure));
-    EXPECT_LT(d.pressure, 1e-8);
-    EXPECT_LT(d.stress, 1e-8);
-    EXPECT_LT(d.penetration, 1e-8);
-    // One iteration from touching, one to clear the stabilisation of the tangent, one to see it.
-    EXPECT_LE(d.iterations, 4);
-  }
+  for (const auto rule : {IntegrationRule::segments, IntegrationRule::mortar})
+    for (const bool swapped : {false, true}) {
+      contact::ContactSpec spec = test::interface();
+      spec.integration = rule;
+      if (swapped) std::swap(spec.slave, spec.master);
+      const Deviation d = press(mesh, kind, spec, 5e7);
+      RecordProperty(swapped ? "pressure_swapped" : "pressure", fmt::format("{:.1e}", d.pressure));
+      EXPECT_LT(d.pressure, 1e-8);
+      EXPECT_LT(d.stress, 1e-8);
+      EXPECT_LT(d.penetration, 1e-8);
+      // One iteration from touching, one to clear the stabilisation of the tangent, one to see it.
+      EXPECT_LE(d.iterations, 4);
+    }
 }
 
 TEST_P(ContactPatch, LeavesNoPenetrationWithTheAugmentedLagrangian) {

@@ -38,7 +38,7 @@ struct Coupled {
   heat::SensibleForm sensible = heat::SensibleForm::enthalpy;
   std::optional<heat::ThermalStepping> stepping;  ///< of the thermal phase of a split; absent: backward Euler
   coupling::SimultaneousOptions simultaneous;     ///< with Mapping::simultaneous
-  bool double_pass = false;                       ///< with Mapping::isentropic
+  bool double_pass = false;                       ///< with either mapping of a split
   coupling::PhaseOrder order = coupling::PhaseOrder::mechanics_first;  ///< of the sequential splits
   /// Present: passes of `mapping` in turn until they agree.
   std::optional<coupling::IterationOptions> iteration;

@@ -1,8 +1,11 @@
 /// The double pass (monograph 4.21, coupling/double_pass.hpp): order two where everything is smooth, the
 /// first law, and no growth however strong the coupling. The wall of section 7.1, its pressure and the
-/// temperature of its surroundings rising and falling without a kink.
+/// temperature of its surroundings rising and falling without a kink; with inertia a strip whose surface is
+/// heated smoothly.
 #include <gtest/gtest.h>
 
+#include "base/errors.hpp"
+#include "linear_strip.hpp"
 #include "thick_cylinder.hpp"
 
 namespace solidus {
@@ -194,6 +197,105 @@ TEST(DoublePass, SettlesWithAnyStep) {
         EXPECT_LT(before, 1e-3) << factor;
       }
     }
+}
+
+// Passes that hold a temperature find the one that their own deformation leads to: the same solution as that
+// of isentropic passes but for errors of second order.
+TEST(DoublePass, OfIsothermalPassesIsOfSecondOrderToo) {
+  const std::vector<int> n_steps{16, 32, 64};
+  Coupled c = wall(1, true);
+  const coupling::State isentropic = verification::march(c, k_end, 64).end;
+  c.mapping = Mapping::isothermal;
+  const Differences d = differences(c, n_steps);
+  EXPECT_NEAR(order(d.temperature, &Difference::mean), 2, 0.15);
+  EXPECT_NEAR(order(d.displacement, &Difference::mean), 2.1, 0.25);
+  const coupling::State isothermal = verification::march(c, k_end, 64).end;
+  EXPECT_LT(difference(isothermal.heat.temperature, isentropic.heat.temperature).mean,
+            d.temperature.back().mean);
+}
+
+// At six times the expansion a turn of an isothermal pass makes the error larger.
+TEST(DoublePass, OfIsothermalPassesRejectsStepsWhereTheCouplingIsTooStrong) {
+  Coupled c = wall(6, true);
+  c.mapping = Mapping::isothermal;
+  EXPECT_THROW(verification::march(c, k_end, 16), StepRejected);
+}
+
+// Temperature x difference of entropy is the work of a step at its end, not in its middle: the order is one,
+// its constant that of what deformation heats alone.
+TEST(DoublePass, InTheEntropyFormIsFarAheadOfTheSplitAndLosesItsSecondOrder) {
+  const std::vector<int> n_steps{16, 32, 64};
+  Differences d[2];
+  for (const bool double_pass : {false, true}) {
+    Coupled c = wall(1, double_pass);
+    c.form = StructuralForm::entropy;
+    d[double_pass] = differences(c, n_steps);
+  }
+  auto out = verification::table("coupling_double_pass_entropy", "dt[s],T[K],u[m],split: T[K],split: u[m]");
+  for (std::size_t i = 0; i < d[0].temperature.size(); ++i) {
+    out << k_end / n_steps[i] << "," << d[1].temperature[i].mean << "," << d[1].displacement[i].mean << ","
+        << d[0].temperature[i].mean << "," << d[0].displacement[i].mean << "\n";
+    EXPECT_LT(d[1].temperature[i].mean, 0.1 * d[0].temperature[i].mean);
+    EXPECT_LT(d[1].displacement[i].mean, 0.1 * d[0].displacement[i].mean);
+  }
+  EXPECT_GT(order(d[1].temperature, &Difference::mean), 0.9);
+}
+
+/// The strip of the coupled half space (coupling_half_space_test.cpp), two lengths, in units of its own.
+struct Moving {
+  Mapping mapping = Mapping::isentropic;
+  bool double_pass = true;
+  mechanics::Motion motion = mechanics::Motion::generalised_alpha(0.5);
+};
+Coupled strip(const Moving& m, double delta) {
+  constexpr double k_strip_end = 2;
+  const verification::LinearSolid solid{delta};
+  Coupled c = verification::linear_strip(solid, {"", m.mapping, m.double_pass}, 2, 40);
+  c.thermal.temperatures.push_back(
+      {"hot", "left", verification::smooth(solid.k_start, solid.k_start + solid.k_rise, k_strip_end)});
+  c.dynamics = mechanics::DynamicsOptions{mechanics::MassKind::consistent, m.motion, {}};
+  return c;
+}
+
+// A split is of first order with inertia whatever the integrator; the double pass keeps the integrator's.
+// Beside the surface, whose temperature is prescribed, SDIRK2 by itself is of order 1.5, at 1e-6 of the rise.
+TEST(DoublePass, WithInertiaIsOfSecondOrderAndTheSplitOfFirst) {
+  auto out = verification::table("coupling_double_pass_inertia", "scheme,dt,T[dT],u[largest]");
+  const std::vector<int> n_steps{100, 200, 400};
+  struct Case {
+    const char* name;
+    Moving moving;
+    double order;
+  };
+  for (const Case& c :
+       {Case{"isentropic split", {.double_pass = false}, 1}, Case{"double pass, isentropic", {}, 2},
+        Case{"double pass, isothermal", {.mapping = Mapping::isothermal}, 2},
+        Case{"double pass, trapezoidal", {.motion = mechanics::Motion::trapezoidal()}, 2}}) {
+    SCOPED_TRACE(c.name);
+    const Coupled body = strip(c.moving, 0.36);
+    std::vector<Difference> temperature, displacement;
+    std::optional<coupling::State> before;
+    for (const int n : n_steps) {
+      const CoupledRun run = verification::march(body, 2, n);
+      double energy = run.exchanged();
+      for (const auto& audit : run.steps) energy += std::abs(audit.kinetic);
+      EXPECT_LT(run.worst_defect(), 1e-8 * energy);
+      if (before) {
+        temperature.push_back(difference(before->heat.temperature, run.end.heat.temperature));
+        displacement.push_back(difference(before->mechanics.displacement, run.end.mechanics.displacement));
+        out << c.name << "," << 2.0 / n << "," << temperature.back().mean << "," << displacement.back().mean
+            << "\n";
+      }
+      before = run.end;
+    }
+    EXPECT_NEAR(order(displacement, &Difference::mean), c.order, 0.25);
+    if (c.order == 1) {
+      EXPECT_NEAR(order(temperature, &Difference::mean), 1, 0.1);
+    } else {
+      EXPECT_GT(order(temperature, &Difference::mean), 1.45);
+      EXPECT_LT(temperature.back().mean, 2e-5 * verification::LinearSolid::k_rise);
+    }
+  }
 }
 
 }  // namespace

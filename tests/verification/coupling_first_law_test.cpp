@@ -125,6 +125,7 @@ const Variant k_variants[] = {
     {"isentropic", mechanics::Mapping::isentropic},
     {"isentropic, heat first", mechanics::Mapping::isentropic, coupling::PhaseOrder::heat_first},
     {"double pass", mechanics::Mapping::isentropic, coupling::PhaseOrder::mechanics_first, true},
+    {"double pass, isothermal", mechanics::Mapping::isothermal, coupling::PhaseOrder::mechanics_first, true},
     {"iterative", mechanics::Mapping::isentropic, coupling::PhaseOrder::mechanics_first, false, true},
     {"simultaneous", mechanics::Mapping::simultaneous},
     {"two stages", mechanics::Mapping::simultaneous, coupling::PhaseOrder::mechanics_first, false, false,

@@ -65,10 +65,18 @@ struct PowerContact {
     return std::nullopt;
   }
   std::vector<Remark> remarks(std::string_view contact) const {
-    if (conductance >= 20 && conductance <= 1e6) return {};
-    return {{conductance > 1e8,
-             fmt::format("the contact '{}' conducts {:g} W/m2/K where it is closed", contact, conductance),
-             "usual are 100 to 50000 W/m2/K between casting and mould"}};
+    std::vector<Remark> remarks;
+    if (conductance < 20 || conductance > 1e6)
+      remarks.push_back(
+          {conductance > 1e8,
+           fmt::format("the contact '{}' conducts {:g} W/m2/K where it is closed", contact, conductance),
+           "usual are 100 to 50000 W/m2/K between casting and mould"});
+    if (exponent > 0 && hardness && (*hardness < 1e5 || *hardness > 1e11))
+      remarks.push_back({false,
+                         fmt::format("the softer side of the contact '{}' has a hardness of {:g} MPa",
+                                     contact, 1e-6 * *hardness),
+                         "usual are 10 MPa of hot metal to 10 GPa of hardened steel"});
+    return remarks;
   }
 };
 

@@ -61,6 +61,26 @@ struct TableGap : Tabulated {
     table = gap_conductance;
     return read(std::move(tables), "gap_law", "gap_conductance");
   }
+  std::vector<Remark> remarks(std::string_view contact) const {
+    constexpr double k_widest = 0.05;  // [m]
+    std::vector<Remark> remarks;
+    if (!gap_conductance || gap_conductance->constant()) return remarks;
+    if (const double gap = gap_conductance->x().back(); gap > k_widest)
+      remarks.push_back(
+          {false,
+           fmt::format("'gap_conductance' of the contact '{}' goes up to a gap of {:g} mm", contact,
+                       1e3 * gap),
+           "castings shrink off their moulds by less than some millimetres; is argument_unit right?"});
+    if (const double closed = gap_conductance->y().front(), open = gap_conductance->y().back();
+        open > 1.01 * closed)
+      remarks.push_back(
+          {false,
+           fmt::format("'gap_conductance' of the contact '{}' rises with the gap, from {:g} to {:g} "
+                       "W/m2/K",
+                       contact, closed, open),
+           "an open gap conducts less than a closed one; are the points in their order?"});
+    return remarks;
+  }
 };
 
 struct TableContact : Tabulated {

@@ -9,19 +9,32 @@ namespace solidus::coupling {
 struct DoublePassScheme {
   static constexpr std::string_view name = "double_pass";
   static constexpr std::string_view doc =
-      "isentropic split of second order: half a mechanical phase, thermal phase, half a mechanical "
-      "phase";
+      "split of second order: half a mechanical phase, thermal phase, half a mechanical phase (4.21)";
 
+  enum class Passes { isentropic, isothermal };
+  Passes passes = Passes::isentropic;
+
+  static void keys(Section<DoublePassScheme>& s) {
+    s.choice("passes", &DoublePassScheme::passes,
+             {{"isentropic", Passes::isentropic, "the mechanical phase holds the entropy of every point"},
+              {"isothermal", Passes::isothermal,
+               "it holds the temperature to which its own deformation leads, found in a few turns; for weak "
+               "coupling only"}})
+        .initially("isentropic")
+        .doc("Which split the double pass is made of.");
+  }
   SchemeTraits traits() const {
-    return {.mapping = mechanics::Mapping::isentropic, .second_order = true, .effort = 2};
+    const bool isothermal = passes == Passes::isothermal;
+    return {.mapping = isothermal ? mechanics::Mapping::isothermal : mechanics::Mapping::isentropic,
+            .second_order = true,
+            .needs_weak_coupling = isothermal,
+            .effort = isothermal ? 6.0 : 2.0};
   }
   std::optional<Objection> objection(const SchemeContext& c) const {
-    if (c.inertia)
-      return Objection{"the double pass is for quasi-statics",
-                       "scheme = \"isentropic\", \"simultaneous\" or \"isothermal\""};
-    if (c.heating != mechanics::StructuralForm::energy)
-      return Objection{"temperature x difference of entropy is of first order, the double pass of second",
-                       "structural_heating = \"energy\""};
+    if (c.as_printed)
+      return Objection{
+          "printed forms of sensible heat go with backward Euler, the double pass has two stages",
+          "as_printed = false, or scheme = \"isentropic\" or \"isothermal\""};
     if (c.slides_in_heat)
       return Objection{
           "thermal_return_mapping: the double pass counts the heat of friction of its first half twice and "

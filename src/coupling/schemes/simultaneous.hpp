@@ -33,9 +33,6 @@ struct SimultaneousKeys : SimultaneousOptions {
     return {.mapping = mechanics::Mapping::simultaneous, .second_order = two_stages(), .effort = 2};
   }
   std::optional<Objection> objection(const SchemeContext& c) const {
-    if (!c.heating)
-      return Objection{"without structural heat there is nothing to solve simultaneously",
-                       "structural_heating \"energy\" or \"entropy\", or scheme = \"isothermal\""};
     if (two_stages() && c.inertia)
       return Objection{"integration = \"sdirk2\" is for quasi-statics",
                        "integration = \"backward_euler\", which leaves inertia to its own integrator"};

@@ -24,8 +24,7 @@ void FieldFile::add(const fs::path& path) {
   files_.push_back(std::make_unique<mesh::VtuFile>(path));
   const mesh::VtuFile& file = *files_.back();
   if (file.type() == "PUnstructuredGrid" && files_.size() == 1) {
-    for (const auto& [tag, child] : mesh::children(file, "PUnstructuredGrid"))
-      if (tag == "Piece") add(path.parent_path() / child.get<std::string>("<xmlattr>.Source", ""));
+    for (const fs::path& each : mesh::grid_files(file, path)) add(each);
     return;
   }
   if (file.type() != "UnstructuredGrid")
@@ -223,7 +222,7 @@ Bodies::Bodies(const FieldFile& file) {
                     BodyMesh& body = bodies_[b];
                     for (std::int32_t& node : nodes) {
                       const auto point = static_cast<std::size_t>(node);
-                      const auto input = static_cast<std::int64_t>(r.node[point]);
+                      const auto input = mesh::whole_number(r.node[point]);
                       const auto [found, is_new] =
                           local_[b].try_emplace(input, static_cast<std::int32_t>(body.x.size()));
                       if (is_new) {
@@ -272,7 +271,7 @@ PieceMap Bodies::make_map(const FieldFile::Piece& piece, std::vector<double> nod
     const auto b = static_cast<std::size_t>(cell.body);
     for (std::int32_t& at : nodes) {
       pairs.emplace_back(cell.body, at);
-      const auto found = local_[b].find(static_cast<std::int64_t>(map.node[static_cast<std::size_t>(at)]));
+      const auto found = local_[b].find(mesh::whole_number(map.node[static_cast<std::size_t>(at)]));
       if (found == local_[b].end())
         piece.file->fail("the mesh of the file is not that of the first field file of the run");
       at = found->second;
@@ -291,7 +290,7 @@ PieceMap Bodies::make_map(const FieldFile::Piece& piece, std::vector<double> nod
   for (const auto& [b, point] : pairs)
     map.targets.push_back({point, b,
                            local_[static_cast<std::size_t>(b)].at(
-                               static_cast<std::int64_t>(map.node[static_cast<std::size_t>(point)]))});
+                               mesh::whole_number(map.node[static_cast<std::size_t>(point)]))});
   return map;
 }
 

@@ -72,9 +72,28 @@ Json table_data(const Table& table, Blocks& blocks) {
   return out;
 }
 
+/// Whether brackets outside of texts lie deeper in each other than `most`.
+bool nested_deeper(std::string_view json, int most) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < json.size() && depth <= most; ++i) {
+    const char c = json[i];
+    if (quoted && c == '\\')
+      ++i;
+    else if (c == '"')
+      quoted = !quoted;
+    else if (!quoted)
+      depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+  }
+  return depth > most;
+}
+
 /// The text of summary.json, where it is one.
 std::string checked_summary(const fs::path& file) {
   const std::string text = read_text_file(file, {file.string(), 0, 0});
+  constexpr int k_deepest = 64;  // the parser calls itself for each
+  if (nested_deeper(text, k_deepest))
+    throw InputError({file.string(), 0, 0}, "the JSON of the file is nested too deep");
   try {
     std::istringstream in(text);
     boost::property_tree::ptree tree;
@@ -136,7 +155,7 @@ ContactParts contact_parts(const std::vector<fs::path>& files) {
       const auto* array = mesh::find_array(*piece.tree, "PointData", "node");
       if (array == nullptr) continue;
       for (const double number : piece.file->numbers(*array, piece.n_points))
-        parts.nodes.insert(static_cast<std::int64_t>(number));
+        parts.nodes.insert(mesh::whole_number(number));
     }
   }
   for (const char* state :
@@ -280,7 +299,7 @@ Json run_data(const ReportedRun& run, const ReportOptions& options, std::size_t 
         "There is no summary.json: the run goes on, or it was killed. The page shows how far it came.");
   out.add("materials", run.materials);
   Json tables;
-  for (const char* name : {"history", "steps", "pools"}) {
+  for (const char* name : {"history", "steps", "pools", "shots"}) {
     const std::string file = std::string(name) + ".csv";
     if (!there(file.c_str())) continue;
     const Table table = read_table(folder / file, k_most_rows);

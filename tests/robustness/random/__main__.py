@@ -1,5 +1,5 @@
 """random CASES [--seed S] [--program P] [--folder F] [--jobs J] [--limit SECONDS] [--processes P]
-                [--allow N]
+                [--allow N] [--also SEED ...]
 
 Runs cases made from the seeds S, S + 1, ... and says what of them broke an invariant, stopped (exit code 2) or was
 refused. Folders of cases that went well are removed; the others stay, for `solidus run FOLDER/SEED/case.toml`.
@@ -31,6 +31,7 @@ def main():
     parser.add_argument("--limit", type=int, default=60, help="of one run [s of a processor]")
     parser.add_argument("--processes", type=int, default=2, help="at most, of a run: 1 where others use the machine")
     parser.add_argument("--allow", type=int, default=0, help="how many may break or stop")
+    parser.add_argument("--also", type=int, nargs="*", default=[], help="further seeds, of cases that were mended")
     arguments = parser.parse_args()
 
     runner = Runner(arguments.program, arguments.folder, arguments.limit)
@@ -42,7 +43,8 @@ def main():
         return case, runner.check(case)
 
     with ThreadPoolExecutor(arguments.jobs) as pool:
-        for case, (kind, reason) in pool.map(run, range(arguments.seed, arguments.seed + arguments.cases)):
+        seeds = [*range(arguments.seed, arguments.seed + arguments.cases), *arguments.also]
+        for case, (kind, reason) in pool.map(run, seeds):
             count[kind] += 1
             if kind in ("ok", "refused"):
                 shutil.rmtree(runner.folder / str(case.seed), ignore_errors=True)
@@ -53,7 +55,7 @@ def main():
                 print(f"seed {case.seed}: {kind}: {reason.strip()}\n  {facts}", flush=True)
     for reason, seeds in reasons.items():
         print(f"refused {len(seeds)}, for example seed {seeds[0]}: {reason}")
-    print(f"{arguments.cases} cases: " + ", ".join(f"{n} {kind}" for kind, n in sorted(count.items())))
+    print(f"{len(seeds)} cases: " + ", ".join(f"{n} {kind}" for kind, n in sorted(count.items())))
     return 1 if count["stopped"] + count["broken"] > arguments.allow else 0
 
 

@@ -60,9 +60,9 @@ IntegrationOptions options(IntegrationRule rule = IntegrationRule::segments) {
 
 // The largest defect of Σ w N_a at a node of either side and of the covered area, as a part of the area.
 double largest_miss(const mesh::Mesh& mesh, AnalysisKind kind, const std::string& slave_name,
-                    const std::string& master_name) {
+                    const std::string& master_name, IntegrationRule rule = IntegrationRule::segments) {
   const ContactSurface slave(mesh, slave_name), master(mesh, master_name);
-  const ContactPoints points = integrate(mesh, kind, slave, master, options());
+  const ContactPoints points = integrate(mesh, kind, slave, master, options(rule));
   auto sums = point_sums(mesh, points);
   double miss = std::abs(points.paired_measure - points.slave_measure);
   for (const auto& [node, integral] : exact_integrals(mesh, slave, kind))
@@ -72,6 +72,29 @@ double largest_miss(const mesh::Mesh& mesh, AnalysisKind kind, const std::string
   miss = algebra::global_max(miss) / points.slave_measure;
   ::testing::Test::RecordProperty(std::string(mesh::name(slave.shape(0))), fmt::format("{:.1e}", miss));
   return miss;
+}
+
+// An even pressure makes the forces of segments; every vertex of the slave has one point with the surface
+// around it.
+TEST(Mortar, IntegratesAsSegmentsDoWithOnePointForEveryVertexOfTheSlave) {
+  for (Shape shape : k_shapes) {
+    SCOPED_TRACE(mesh::name(shape));
+    const mesh::Mesh mesh = test::two_blocks(shape);
+    const AnalysisKind kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+    EXPECT_LT(largest_miss(mesh, kind, "upper_bottom", "lower_top", IntegrationRule::mortar), 1e-12);
+    const ContactSurface slave(mesh, "upper_bottom"), master(mesh, "lower_top");
+    const ContactPoints points = integrate(mesh, kind, slave, master, options(IntegrationRule::mortar));
+    std::map<Index, int> vertices;
+    for (Index f = 0; f < slave.n_faces(); ++f)
+      for (const Index node :
+           slave.nodes(f).first(static_cast<std::size_t>(mesh::vertex_count(slave.shape(f)))))
+        if (node < mesh.n_owned_nodes) vertices[node] = 1;
+    GlobalIndex counted = 0;
+    for (const Pairing& pairing : points.pairings) counted += pairing.counted ? 1 : 0;
+    EXPECT_EQ(algebra::global_sum(static_cast<double>(counted)),
+              algebra::global_sum(static_cast<double>(vertices.size())));
+    for (const Point& n : points.normal) EXPECT_NEAR(norm(n), 1, 1e-14);
+  }
 }
 
 TEST(Segments, IntegrateTheShapeFunctionsOfBothSidesExactlyOnMeshesThatDoNotMatch) {

@@ -74,10 +74,9 @@ struct Mixed {
     for (const mesh::Block& block : mesh.blocks)
       blocks.push_back(
           mechanics::make_mixed_kernel(mesh, block, s.kind, materials[0], s.mapping, stabilisation));
-    const bool algebraic = stabilisation == Stabilisation::algebraic;
     pressure = std::make_unique<mechanics::NodalPressure>(
         mesh, mechanics::pressure_fields(mesh, materials, blocks), blocks,
-        algebraic ? std::vector<std::array<double, 3>>{{0, -7e4, 0}} : std::vector<std::array<double, 3>>{});
+        stabilisation == Stabilisation::orthogonal, std::vector<std::array<double, 3>>{{0, -7e4, 0}});
     algebra::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));

@@ -139,6 +139,9 @@ TEST(ReaderSandbox, ReadsButNeitherWritesNorStartsPrograms) {
 TEST(ReaderLimits, AreThoseOfTheEnvironmentWhereItSaysSo) {
   const MeshSource source{"nowhere.geo"};
   EXPECT_GT(reader_limits(source).memory, 1e8);
+  const MeshSource there{"/proc/self/exe"};
+  EXPECT_LT(reader_limits(there).time, 1000);  // of a mesh that is only read, by its size
+  EXPECT_EQ(reader_limits(there, true).time, 1800);
   setenv("SOLIDUS_MESH_MEMORY", "3 GB", 1);
   setenv("SOLIDUS_MESH_TIME", "5 min", 1);
   EXPECT_EQ(reader_limits(source).memory, 3e9);

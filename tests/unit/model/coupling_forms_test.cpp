@@ -52,9 +52,29 @@ TEST(CouplingForms, PrintedSensibleHeatNeedsAPrintedFormOfStructuralHeat) {
   EXPECT_THAT(error("as_printed = true"), HasSubstr("as_printed"));
 }
 
-TEST(CouplingForms, TheDoublePassIsOfTheEnergyForm) {
-  EXPECT_EQ(error("scheme = \"double_pass\""), "");
-  EXPECT_THAT(error("scheme = \"double_pass\"\nstructural_heating = \"entropy\""), HasSubstr("first order"));
+TEST(CouplingForms, TheDoublePassHasBothEnergyFormsAndNoPrintedSensibleHeat) {
+  const std::string scheme = "scheme = \"double_pass\"\nstructural_heating = ";
+  EXPECT_EQ(error(scheme + "\"energy\""), "");
+  EXPECT_EQ(error(scheme + "\"entropy\""), "");
+  EXPECT_THAT(error(scheme + "\"entropy\"\nas_printed = true"), HasSubstr("two stages"));
+}
+
+TEST(CouplingForms, TheDoublePassGoesWithInertiaAndWithPassesOfBothKinds) {
+  for (const std::string passes : {"isentropic", "isothermal"})
+    EXPECT_EQ(error("scheme = \"double_pass\"\npasses = \"" + passes + "\"\n[dynamics]"), "");
+  const CaseSpec spec = read("scheme = \"double_pass\"\npasses = \"isothermal\"");
+  EXPECT_FALSE(spec.isentropic());
+  EXPECT_TRUE(spec.coupling.scheme->traits().needs_weak_coupling);
+}
+
+TEST(CouplingForms, WithoutStructuralHeatEverySchemeGoesAndNoneHoldsEntropy) {
+  for (const std::string scheme :
+       {"isentropic", "isothermal", "double_pass", "block_iterative", "simultaneous"}) {
+    const std::string text = "scheme = \"" + scheme + "\"\nstructural_heating = \"none\"";
+    EXPECT_EQ(error(text), "") << scheme;
+    EXPECT_FALSE(read(text).isentropic()) << scheme;
+    EXPECT_FALSE(read(text).exchanges_heat()) << scheme;
+  }
 }
 
 TEST(Advice, NamesTheCouplingWhereItIsTooStrongForTheIsothermalSplitAndNoShorterSteps) {

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include "base/keys.hpp"
 #include "base/log.hpp"
@@ -306,6 +308,17 @@ TEST_F(FieldMapping, FoldersThatCannotBeReadAreNamed) {
   EXPECT_THAT(complaint("T"), HasSubstr("3 values, the mesh 2 cells"));
   EXPECT_THAT(complaint("U"), HasSubstr("allowed: T"));
   FoamBox::write_field(folder_ / "filling/1/T", {900, 800});
+  // Eighty million blanks in 80 kB.
+  const fs::path packed = folder_ / "filling/1/T.gz";
+  {
+    const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(packed.c_str(), "wb9"), gzclose);
+    const std::string blanks(1'000'000, ' ');
+    for (int i = 0; i < 80; ++i) gzwrite(file.get(), blanks.data(), static_cast<unsigned>(blanks.size()));
+  }
+  fs::rename(folder_ / "filling/1/T", folder_ / "filling/1/U");
+  EXPECT_THAT(complaint("T"), HasSubstr("more than 100 times its size"));
+  fs::remove(packed);
+  fs::rename(folder_ / "filling/1/U", folder_ / "filling/1/T");
   std::ofstream(folder_ / "filling/constant/polyMesh/owner")
       << "FoamFile\n{ format ascii; class labelList; }\n11\n(0 0";
   EXPECT_THAT(complaint("T"),

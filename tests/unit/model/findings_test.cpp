@@ -248,6 +248,99 @@ TEST_F(FindingsTest, FurtherSlipsOfUnitsAreNamed) {
         << slip.with;
 }
 
+/// The casting in shots: it freezes, and the die stands open.
+std::string shots() {
+  const std::string stages = R"(step = "1 s"
+[[stage]]
+name = "freeze"
+duration = "4 min"
+[[stage]]
+name = "open"
+duration = "10 s"
+[[cycle]]
+name = "shots"
+stages = ["freeze", "open"]
+repeat = 3
+)";
+  return changed(changed(k_casting, "end = \"10 min\"\nstep = \"1 s\"\n", stages), "name = \"upper\"\n",
+                 "name = \"upper\"\nstages = [\"freeze\"]\n");
+}
+
+TEST_F(FindingsTest, SlipsOfShotsAreNamed) {
+  EXPECT_THAT(said_of(shots()), IsEmpty());
+  const std::string periodic = changed(shots(), "repeat = 3", "repeat = 30\nperiodic = \"1 K\"");
+  EXPECT_THAT(said_of(periodic), IsEmpty());
+  const std::vector<Slip> slips = {
+      {"stages = [\"freeze\"]\n", "", "'shots' comes round 30 times, but 'upper' is poured once"},
+      {"\"1 K\"", "\"1 uK\"", "counts as periodic where its rounds differ by 1e-06 K"},
+      {"\"1 K\"", "\"500 K\"", "counts as periodic where its rounds differ by 500 K"}};
+  for (const Slip& slip : slips)
+    EXPECT_THAT(said_of(changed(periodic, slip.what, slip.with)), ::testing::Contains(HasSubstr(slip.said)))
+        << slip.with;
+  // A die that is warmed up before the first pour: contacts and films of the casting wait for it.
+  EXPECT_THAT(said_of(changed(shots(), "[[stage]]\nname = \"freeze\"",
+                              "[[stage]]\nname = \"warm_up\"\nduration = \"1 min\"\n"
+                              "[[stage]]\nname = \"freeze\"")),
+              IsEmpty());
+}
+
+TEST_F(FindingsTest, FurtherSlipsOfConditionsAreNamed) {
+  const auto condition = [](const std::string& text) {
+    return "[[thermal_condition]]\nname = \"slip\"\n" + text + "\n[[contact]]";
+  };
+  const auto gap = [](const std::string& unit, const std::string& points) {
+    return "gap_law = \"table\"\ngap_conductance = { argument_unit = \"" + unit +
+           "\", unit = \"W/m2/K\", points = " + points + " }";
+  };
+  const std::string gap_law = "gap_law = \"constant\"";
+  EXPECT_THAT(said_of(changed(k_casting, gap_law, gap("mm", "[[0, 2000], [0.1, 400], [0.5, 100]]"))),
+              IsEmpty());
+  const std::vector<Slip> slips = {
+      {"kind = \"film\"\ncoefficient = \"20 W/m2/K\"", "kind = \"radiation\"\nemissivity = 0.001",
+       "the emissivity of 'air' is 0.001"},
+      {"\"20 W/m2/K\"",
+       "{ of = \"temperature\", argument_unit = \"K\", unit = \"W/m2/K\", points = [[20, 10], [500, 40]] }",
+       "the table of 'coefficient' of 'air' begins at 20 K"},
+      {"[[contact]]", condition("group = \"lower_x_max\"\nkind = \"flux\"\nflux = \"-1e8 W/m2\""),
+       "the flux 'slip' has -1e+08 W/m2"},
+      {"[[contact]]", condition("group = \"upper\"\nkind = \"source\"\npower = \"-1e9 W/m3\""),
+       "takes all the heat that 'upper' has within"},
+      {"[[contact]]", "[heat]\ntolerance = 0.05\n[[contact]]", "may leave 5 % of its heat unaccounted for"},
+      {"[[contact]]", "[criteria]\nfeeders = [\"upper\"]\n[[contact]]", "'upper' is all that is poured"},
+      {"end = \"10 min\"\nstep = \"1 s\"", "steady = true", "no time in which 'upper' freezes"},
+      {gap_law, gap("m", "[[0, 2000], [0.1, 400], [0.5, 100]]"), "goes up to a gap of 500 mm"},
+      {gap_law, gap("mm", "[[0, 2000], [0.1, 4000], [0.5, 10000]]"),
+       "rises with the gap, from 2000 to 10000"},
+      {"exponent = 0", "exponent = 0.95\nhardness = \"300 Pa\"", "a hardness of 0.0003 MPa"}};
+  for (const Slip& slip : slips)
+    EXPECT_THAT(said_of(changed(k_casting, slip.what, slip.with)), ::testing::Contains(HasSubstr(slip.said)))
+        << slip.with;
+}
+
+TEST_F(FindingsTest, PressureOnMeltThatNothingHoldsAndFrictionBeyondAllMetalsAreNamed) {
+  const std::string pressed = deforming() + R"(
+[[mechanical_condition]]
+name = "piston"
+group = "upper_y_max"
+kind = "pressure"
+pressure = "60 MPa"
+)";
+  EXPECT_THAT(
+      said_of(pressed),
+      ::testing::Contains(HasSubstr("'piston' presses on the melt of 'upper' with 60 MPa, but 33 %")));
+  std::string walled = pressed;
+  for (const char* side : {"min", "max"})
+    walled += std::string("[[mechanical_condition]]\nname = \"wall_") + side + "\"\ngroup = \"upper_x_" +
+              side + "\"\nkind = \"displacement\"\nux = \"0 mm\"\n";
+  EXPECT_THAT(said_of(walled), IsEmpty());
+  EXPECT_THAT(said_of(changed(pressed, "60 MPa", "10 kPa")), IsEmpty()) << "a head of melt";
+  const std::string rubbing = changed(deforming(), "gap_law = \"constant\"\n",
+                                      "gap_law = \"constant\"\n[contact.friction]\ncoefficient = 0.3\n");
+  EXPECT_THAT(said_of(rubbing), IsEmpty());
+  EXPECT_THAT(said_of(changed(rubbing, "0.3", "30")),
+              ::testing::Contains(HasSubstr("the coefficient of friction of 'interface' is 30")));
+}
+
 TEST_F(FindingsTest, SupportsThatHoldTooMuchOrNothingAreNamed) {
   const auto support = [](const std::string& text) {
     return "[[mechanical_condition]]\nname = \"slip\"\n" + text + "\n[[mechanical_condition]]";

@@ -76,9 +76,18 @@ TEST(NewCaseText, OfShotsHasStagesACycleAndSpray) {
 TEST(NewCaseText, OfOneCastingHasNoStages) {
   const std::string text = case_text(draft());
   EXPECT_THAT(text, HasSubstr("end = \"200 s\""));
+  EXPECT_THAT(text, HasSubstr("until = \"solid\""));
   const CaseSpec spec = case_keys().read(parse_document(text, "case.toml"));
   EXPECT_TRUE(spec.stages.empty());
   EXPECT_EQ(spec.thermal_conditions.size(), 1u);
+}
+
+TEST(NewCaseText, OfAMeshWithItsMouldAsksForNoElements) {
+  Draft d = draft();
+  d.meshed = true;
+  const CaseSpec spec = case_keys().read(parse_document(case_text(d), "case.toml"));
+  EXPECT_TRUE(spec.mesh.sizes.empty());
+  EXPECT_FALSE(spec.mesh.mould);
 }
 
 }  // namespace

@@ -55,8 +55,6 @@ TEST(SimultaneousKeys, ThatContradictEachOtherAreRefused) {
   EXPECT_THAT(refusal(read(two_stages, "[mechanics]\nintegration = \"bdf2\"")),
               HasSubstr("two integrators of second order"));
   EXPECT_THAT(refusal(read(two_stages, "[dynamics]")), HasSubstr("quasi-statics"));
-  EXPECT_THAT(refusal(read("scheme = \"simultaneous\"\nstructural_heating = \"none\"")),
-              HasSubstr("without structural heat"));
   EXPECT_THAT(refusal(read("scheme = \"simultaneous\"\nstructural_heating = \"literal\"")),
               HasSubstr("isothermal"));
 }

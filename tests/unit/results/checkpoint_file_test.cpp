@@ -6,9 +6,12 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -99,6 +102,34 @@ TEST_F(CheckpointFile, NoFlippedBitNoCutAndNoTailIsAccepted) {
   }
   write(file_, good + "x");
   EXPECT_THAT(complaint([&] { check_checksum(file_); }), HasSubstr("damaged"));
+}
+
+// As many bits as `./dev flips` asks for, of the checkpoint of a whole run that it names.
+TEST_F(CheckpointFile, NoFlippedBitOfTheNamedFileIsAccepted) {
+  const char *named = std::getenv("SOLIDUS_CHECKPOINT"), *count = std::getenv("SOLIDUS_FLIPS"),
+             *seed = std::getenv("SOLIDUS_FLIP_SEED");
+  if (named == nullptr || count == nullptr) GTEST_SKIP() << "./dev flips names a checkpoint";
+  std::string bytes = text(named);
+  write(file_, bytes);
+  ASSERT_EQ(complaint([&] { check_checksum(file_); }), "nothing");
+  std::mt19937_64 random(seed != nullptr ? std::strtoull(seed, nullptr, 10) : 1);
+  std::uniform_int_distribution<std::size_t> bit(0, 8 * bytes.size() - 1);
+  int accepted = 0;
+  const auto flip = [&](std::size_t at) {
+    bytes[at / 8] = static_cast<char>(bytes[at / 8] ^ (1 << (at % 8)));
+    std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(at / 8)).put(bytes[at / 8]);
+  };
+  const int flips = std::atoi(count);
+  for (int i = 0; i < flips; ++i) {
+    const std::size_t at = bit(random);
+    flip(at);
+    if (complaint([&] { check_checksum(file_); }) == "nothing") ++accepted;
+    flip(at);
+  }
+  EXPECT_EQ(complaint([&] { check_checksum(file_); }), "nothing") << "the bits are back";
+  EXPECT_EQ(accepted, 0);
+  std::printf("%d flipped bits of %zu bytes, %d accepted\n", flips, bytes.size(), accepted);
 }
 
 TEST_F(CheckpointFile, EqualContentsAreEqualFiles) {

@@ -119,6 +119,58 @@ TEST_F(VtuField, DamageIsNamed) {
   EXPECT_THAT([&] { read(with(k_base64, ">5<", ">42<")); }, message("type 42 are not read"));
   EXPECT_THAT([&] { read(with(k_base64, ">5<", ">3<")); }, message("no areas or volumes"));
   EXPECT_THAT([&] { read(k_base64, "T", 0); }, message("no cell data `body`"));
+  EXPECT_THAT([&] { read(with(k_base64, ">5<", ">nan<")); }, message("type nan are not read"));
+}
+
+// What a file says of its sizes takes no memory that its bytes do not account for.
+TEST_F(VtuField, SizesBeyondTheFileAreRefusedBeforeTheyAreTaken) {
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const auto message = [](const std::string& text) { return ThrowsMessage<InputError>(HasSubstr(text)); };
+  const std::string many = with(k_base64, "NumberOfPoints=\"3\"", "NumberOfPoints=\"2000000000\"");
+  EXPECT_THAT([&] { read(many); }, message("shorter than its grid"));
+  EXPECT_THAT([&] { read(with(k_base64, "NumberOfCells=\"1\"", "NumberOfCells=\"2000000000\"")); },
+              message("shorter than its grid"));
+  const std::string packed = with(many, "byte_order", "compressor=\"vtkZLibDataCompressor\" byte_order");
+  EXPECT_THAT([&] { read(packed); }, message("shorter than its grid"));
+  // Two blocks of 2^63 bytes and 2^63 + 8: together 8, as 64 bits add.
+  const std::string wraps =
+      with(with(k_base64, "byte_order", "compressor=\"vtkZLibDataCompressor\" byte_order"),
+           "GAAAAAAAAAAAAAAAAADwPwAAAAAAAABAAAAAAAAACEA=",
+           "AgAAAAAAAAAMAAAAAAAAAAAAAAAAAAAAAAAAAAAAAIAIAAAAAAAAgAAAAAAAAAAAAAAAAAAAAAA=");
+  EXPECT_THAT([&] { read(wraps); }, message("a block is longer than the file"));
+}
+
+// The parser calls itself for every element within another one.
+TEST_F(VtuField, ElementsWithinElementsWithoutEndAreRefused) {
+  std::string deep = "<VTKFile type=\"UnstructuredGrid\">";
+  for (int i = 0; i < 300'000; ++i) deep += "<a b='/>'>";
+  EXPECT_THAT([&] { read(deep); }, ThrowsMessage<InputError>(HasSubstr("deeper in each other")));
+  std::string wide = k_base64;  // many beside each other are in order, comments and all
+  for (int i = 0; i < 1000; ++i)
+    wide.insert(wide.find("<UnstructuredGrid>"), "<FieldData><!-- <a> --><Array/><?a <b> ?></FieldData>");
+  EXPECT_THAT(read(wide).values, ElementsAre(1, 2, 3));
+}
+
+TEST_F(VtuField, PartsThatListThemselvesAreRefused) {
+  const auto list = [&](const std::string& name, const std::vector<std::string>& parts) {
+    std::ofstream out(folder.path / name);
+    out << "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>";
+    for (const std::string& part : parts) out << "<Piece Source=\"" << part << "\"/>";
+    out << "</PUnstructuredGrid></VTKFile>";
+  };
+  const auto read_list = [&] { read_vtu(folder.path / "all.pvtu", "T", -1, 1, k_where); };
+  write(k_base64);
+  list("all.pvtu", {"a.vtu"});
+  EXPECT_NO_THROW(read_list());
+  list("all.pvtu", {"a.vtu", "./a.vtu"});
+  EXPECT_THAT(read_list, ThrowsMessage<InputError>(HasSubstr("stands in the list of parts twice")));
+  list("all.pvtu", {"all.pvtu"});
+  EXPECT_THAT(read_list, ThrowsMessage<InputError>(HasSubstr("stands in the list of parts twice")));
+  list("all.pvtu", {"other.pvtu"});
+  list("other.pvtu", {"all.pvtu"});
+  EXPECT_THAT(read_list, ThrowsMessage<InputError>(HasSubstr("a grid of the type 'PUnstructuredGrid'")));
 }
 
 }  // namespace

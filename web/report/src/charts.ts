@@ -61,7 +61,7 @@ function options(spec: ChartSpec, width: number): uPlot.Options {
     scales: { x: { time: false, range: (_u, lo, hi) => wide(lo, hi) }, y: { distr: spec.logarithmic ? 3 : 1, range: spec.logarithmic ? undefined : (_u, lo, hi) => padded(lo, hi) } },
     legend: { live: true },
     axes: [
-      { ...axis, label: `${spec.xLabel ?? "Time"} [${spec.xUnit ?? "s"}]`, size: 28 },
+      { ...axis, label: `${spec.xLabel ?? "Time"}${spec.xUnit === "" ? "" : ` [${spec.xUnit ?? "s"}]`}`, size: 28 },
       { ...axis, size: (_u, ticks) => 16 + 6.6 * Math.max(3, ...(ticks ?? []).map((t) => t.length)), values: (_u, ticks) => ticks.map((v) => (v === null ? "" : short(v))) },
     ],
     series: [

@@ -70,19 +70,16 @@ function watch(bench: Workbench): void {
   setTimeout(look, 1500);
 }
 
-function start(): void {
+/** Builds head and picture. Returns what builds the sections below them. */
+function start(): () => void {
   theme();
   keysDialog();
   const page = new Page();
   const bench = new Workbench(page);
   buildHead(page, bench);
   bench.begin();
-  const nav: [string, string][] = [["top", "Summary"]];
-  if (bench.ready) nav.push(["view", "Picture"]);
-  nav.push(...buildSections(page, bench));
-  byId("nav").append(...nav.map(([id, text]) => h("a", { href: `#${id}` }, text)));
-  byId("made").textContent = `Written by Solidus ${page.meta.solidus}, ${page.meta.made}. The page needs no net; numbers of fields are right to 1/16 000 of the range that their field has in the run.`;
   onTimePicked((time) => bench.goTo(time));
+  byId("made").textContent = `Written by Solidus ${page.meta.solidus}, ${page.meta.made}. The page needs no net; numbers of fields are right to 1/16 000 of the range that their field has in the run.`;
   byId("theme").addEventListener("click", () => {
     const root = document.documentElement;
     root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
@@ -94,9 +91,22 @@ function start(): void {
     redrawCharts();
     bench.update();
   });
-  byId("print").addEventListener("click", () => window.print());
+  return () => {
+    const nav: [string, string][] = [["top", "Summary"]];
+    if (bench.ready) nav.push(["view", "Picture"]);
+    nav.push(...buildSections(page, bench));
+    byId("nav").append(...nav.map(([id, text]) => h("a", { href: `#${id}` }, text)));
+    if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
+    if (location.protocol === "http:") watch(bench);
+    (window as unknown as { solidus: unknown }).solidus = { page, bench };
+  };
+}
+
+function forPaper(finish: () => void): void {
   let onScreen = "";
+  byId("print").addEventListener("click", () => window.print());
   addEventListener("beforeprint", () => {
+    finish();
     onScreen = document.documentElement.dataset.theme ?? "light";
     document.documentElement.dataset.theme = "light";
     document.querySelectorAll<HTMLDetailsElement>("main details").forEach((d) => (d.open = true));
@@ -105,19 +115,35 @@ function start(): void {
   addEventListener("afterprint", () => {
     document.documentElement.dataset.theme = onScreen;
     drawForPaper(false);
-    bench.update();
+    (window as unknown as { solidus: { bench: Workbench } }).solidus.bench.update();
   });
-  if (location.protocol === "http:") watch(bench);
-  (window as unknown as { solidus: unknown }).solidus = { page, bench };
 }
 
-try {
-  performance.mark("start");
-  start();
-  performance.mark("built");
-} catch (error) {
+function failed(error: unknown): never {
   const box = byId("failure");
   box.hidden = false;
   box.textContent = `This report cannot be shown: ${error instanceof Error ? error.message : String(error)}`;
   throw error;
+}
+
+try {
+  performance.mark("start");
+  const sections = start();
+  // The picture comes to the screen before the sections are built; a page in the background, which is not drawn, does not wait for it.
+  let done = false;
+  const finish = () => {
+    if (done) return;
+    done = true;
+    try {
+      sections();
+      performance.mark("built");
+    } catch (error) {
+      failed(error);
+    }
+  };
+  forPaper(finish);
+  requestAnimationFrame(() => setTimeout(finish));
+  setTimeout(finish, 1000);
+} catch (error) {
+  failed(error);
 }

@@ -23,6 +23,7 @@ const OF_FIELD: Record<string, Unit> = {
   niyama: { text: "K½ s½/mm", scale: 1e-3, offset: 0 },
   secondary_arm_spacing: { text: "µm", scale: 1e6, offset: 0 },
   shrinkage_porosity: { text: "%", scale: 100, offset: 0 },
+  pore_fraction: { text: "%", scale: 100, offset: 0 },
   equivalent_plastic_strain: { text: "%", scale: 100, offset: 0 },
   brittle_strain: { text: "%", scale: 100, offset: 0 },
   strain_in_liquid: { text: "%", scale: 100, offset: 0 },
@@ -48,6 +49,7 @@ const LABELS: Record<string, string> = {
   niyama: "Niyama criterion",
   dimensionless_niyama: "Dimensionless Niyama",
   shrinkage_porosity: "Shrinkage porosity (estimate)",
+  pore_fraction: "Pores (share of the volume)",
   liquid_pool: "Pool of melt",
   gap: "Air gap",
   conductance: "Heat transfer coefficient",
@@ -65,7 +67,7 @@ export function labelOf(name: string): string {
 
 /** Groups of fields in their menu. */
 export function groupOf(name: string, atEnd: boolean): string {
-  if ((atEnd && !/conductance|dissipation|flow_stress/.test(name)) || name === "liquid_pool") return "Criteria";
+  if ((atEnd && !/conductance|dissipation|flow_stress/.test(name)) || name === "liquid_pool" || name === "pore_fraction") return "Criteria";
   if (/temperature|solid_fraction/.test(name)) return "Heat";
   if (/gap|contact|conductance|friction|slip|wear|internal_variable|interface/.test(name)) return "Contact";
   return "Mechanics";

@@ -232,6 +232,7 @@ export interface Summary {
   relative_energy_defect?: number;
   final?: Record<string, number>;
   criteria?: Record<string, number | number[]>;
+  answers?: { pores?: { "value[1]": number; "at[m]": number[]; "volume[m3]": number; share_of_casting: number } };
   warnings?: string[];
   understood?: {
     bodies?: Record<string, unknown>[];

@@ -58,12 +58,19 @@ function figures(): Figure[] {
   };
   return [
     { label: "Freezes last", ...of("solidified_at", "max", (v) => duration(v)) },
-    { label: "Longest local freezing", ...of("local_solidification_time", "max", (v) => duration(v)) },
+    { label: "Longest freezing", ...of("local_solidification_time", "max", (v) => duration(v)) },
     { label: "Least Niyama", ...of("niyama", "min", (v, u) => withUnit(v, u)) },
     { label: "Porosity (estimate)", ...of("shrinkage_porosity", "max", (v, u) => withUnit(v, u)) },
+    { label: "Pores, in all", text: (r) => {
+      const pores = r.summary.answers?.pores;
+      return pores && withUnit(pores.share_of_casting, unitOf("pore_fraction", "1"));
+    }, place: (r) => {
+      const pores = r.summary.answers?.pores;
+      return pores && { at: pores["at[m]"], label: `densest, ${withUnit(pores["value[1]"], unitOf("pore_fraction", "1"))}` };
+    } },
     { label: "Pools closed off", text: (r) => (typeof r.summary.criteria?.closed_off_pools === "number" ? String(r.summary.criteria.closed_off_pools) : undefined) },
-    { label: "Von Mises, largest at end", ...largest("von_mises") },
-    { label: "Plastic strain, largest", ...largest("equivalent_plastic_strain") },
+    { label: "Von Mises at end", ...largest("von_mises") },
+    { label: "Plastic strain", ...largest("equivalent_plastic_strain") },
     { label: "At the end", text: (r) => {
       const low = final(r, "T_min[degC]"), high = final(r, "T_max[degC]");
       return low !== undefined && high !== undefined ? (Math.abs(high - low) < 0.5 ? `${short(Math.round(high))} °C` : `${+low.toFixed(1)} … ${+high.toFixed(1)} °C`.replace(/-/g, "−")) : undefined;
@@ -153,6 +160,7 @@ export function buildSections(page: Page, bench: Workbench): [string, string][] 
   add("curves", "Curves", curves(page));
   add("criteria", "Criteria", page.runs.some((r) => r.summary.criteria) ? [perRun(page, (r, i) => [criteriaTable(r, i, bench)])] : []);
   add("pools", "Pools of melt", page.runs.some((r) => (r.table("pools")?.rows ?? 0) > 0) ? [perRun(page, (r, i) => pools(r, i, bench))] : []);
+  add("shots", "Shots", page.runs.some((r) => (r.table("shots")?.rows ?? 0) > 0) ? [shotCharts(page), perRun(page, (r) => shots(r, bench))] : []);
   add("energy", "Energy and 𝓛", energy(page));
   add("steps", "Steps", page.runs.some((r) => (r.table("steps")?.rows ?? 0) > 0) ? [stepCharts(page), perRun(page, (r) => stepTables(r))] : []);
   add("understood", "Bodies", page.runs.some((r) => r.summary.understood?.bodies?.length) ? [perRun(page, (r) => understood(r))] : []);
@@ -325,6 +333,44 @@ function gantt(pools: { number: number; from: number; to: number; closed: number
         ...(p.closed >= 0 ? [svg("rect", { x: at(open), y, width: Math.max(3, at(stop) - at(open)), height: row - 8, rx: 3, class: "closed" }, svg("title", {}, "closed off"))] : []),
       ];
     }));
+}
+
+/** A value a shot, over the number of the shot. */
+function shotLines(page: Page, names: [string, string][]): Line[] {
+  return page.runs.flatMap((r, run) => names.flatMap(([name, label], i) => {
+    const t = r.table("shots"), x = t?.numbers("shot"), y = t?.numbers(name);
+    const shown = page.runs.length > 1 ? `${label} · ${r.meta.name}` : label;
+    return x && y ? [{ label: shown, x, y: Array.from(y, (v) => (name === "time_to_solidify" && v < 0 ? NaN : v)), colour: i, dashed: run > 0 }] : [];
+  }));
+}
+
+function shotCharts(page: Page): Node {
+  const make = (title: string, unit: string, names: [string, string][]) => {
+    const lines = shotLines(page, names).filter((l) => Array.from(l.y).some((v) => Number.isFinite(v)));
+    return lines.length ? chart({ title, unit, lines, xLabel: "Shot", xUnit: "" }) : null;
+  };
+  return h("div", { class: "cards" },
+    make("From the pour to the last melt", "s", [["time_to_solidify", "time to solidify"]]),
+    make("The die when a shot begins", "°C", [["die_at_start_max", "hottest place"], ["die_at_start_mean", "mean"], ["die_at_start_min", "coldest place"]]));
+}
+
+function shots(run: Run, bench: Workbench): Node_[] {
+  const t = run.table("shots"), n = t?.numbers("shot"), end = t?.numbers("time"), poured = t?.numbers("poured_at");
+  if (!t || !n || !end || !poured) return [h("p", { class: "hint" }, "This run has no shots.")];
+  const cell = (name: string, i: number, unit: string) => {
+    const v = t.numbers(name)?.[i];
+    return v === undefined ? "–" : `${short(v)} ${unit}`;
+  };
+  const rows = Array.from({ length: t.rows }, (_, i) => {
+    const solid = t.numbers("time_to_solidify")?.[i] ?? -1;
+    const go = bench.ready ? h("button", { class: "link", title: "Show its end in the picture", click: () => {
+      bench.goTo(end[i]);
+      byId("view").scrollIntoView({ behavior: "smooth" });
+    } }, duration(end[i])) : duration(end[i]);
+    return [`${n[i]}`, duration(poured[i]), go, solid < 0 ? "left with melt" : duration(solid), cell("die_at_start_mean", i, "°C"), cell("die_at_end_mean", i, "°C"), cell("largest_change", i, "K"),
+      t.numbers("periodic")?.[i] ? "periodic" : ""];
+  });
+  return [h("div", { style: "height:12px" }), table(["Shot", "Poured at", "Ends at", "Solid after", "Die at its start, mean", "Die at its end, mean", "Largest change of a place", ""], rows)];
 }
 
 function stepCharts(page: Page): Node {

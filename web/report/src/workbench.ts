@@ -627,6 +627,7 @@ export class Workbench {
       preset("Mushy", "Between liquid and solid at this moment", "solid_fraction", () => [0.01, 0.99]),
       preset("Last to freeze", "What froze in the last tenth of the time: hot spots", "solidified_at", ([l, u]) => [l + 0.9 * (u - l), u]),
       preset("Low Niyama", "The lowest tenth of the range on a scale of logarithms: poor feeding", "niyama", ([l, u]) => [l, l > 0 ? l * (u / l) ** 0.1 : l + 0.02 * (u - l)]),
+      preset("Pores", "Where more than a tenth of the densest pores has opened at this moment", "pore_fraction", ([, u]) => [0.1 * u, u]),
       preset("Open gap", "Where casting and mould are apart by more than a tenth of the widest gap", "gap", ([, u]) => [0.1 * u, u])));
   }
 

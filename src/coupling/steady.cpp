@@ -1,0 +1,124 @@
+#include "coupling/steady.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "base/errors.hpp"
+#include "coupling/contact_states.hpp"
+#include "coupling/contact_work.hpp"
+#include "coupling/largest_difference.hpp"
+#include "coupling/passes.hpp"
+#include "coupling/relaxation.hpp"
+#include "heat/worst_node.hpp"
+
+namespace solidus::coupling {
+
+namespace {
+
+/// Changes below this are rounding [K].
+constexpr double k_rounding = 1e-9;
+
+/// The contacts where the bodies are at the start.
+void place_contacts(const Phases& phases, const State& initial) {
+  const std::vector<double>& temperature =
+      phases.heat != nullptr ? initial.heat.temperature : phases.temperature;
+  begin_contacts(phases, initial.contacts, initial.mechanics,
+                 {.time = 0, .dt = k_long, .temperature = temperature}, coherency_of(phases, initial.heat));
+  for (contact::ContactPair* pair : phases.contacts) pair->update(initial.mechanics.displacement);
+}
+
+void conduct(const Phases& phases, const State& initial, State& steady, StepEffort& effort) {
+  const double start = MPI_Wtime();
+  const heat::ThermalState& from = steady.heat.temperature.empty() ? initial.heat : steady.heat;
+  heat::ThermalState next;
+  const heat::PhaseReport report = phases.heat->solve_steady(from, next, 0);
+  steady.heat = std::move(next);
+  EnergyAudit& energy = effort.energy;
+  energy.heat_in = 0;
+  for (const heat::ConditionHeat& condition : report.balance.conditions) energy.heat_in += condition.heat;
+  energy.entropy_in = report.balance.entropy_in;
+  energy.heat_exchanged = report.balance.exchanged;
+  energy.interface = {};
+  commit_contact_heat(phases, steady.heat.temperature, report.balance.contributions, energy);
+  effort.heat.iterations += report.newton.iterations;
+  effort.heat.linear_iterations += report.newton.linear_iterations;
+  effort.heat.residual = report.newton.residuals.empty() ? 0.0 : report.newton.residuals.back();
+  effort.heat.seconds += MPI_Wtime() - start;
+}
+
+/// Equilibrium at `temperature`, from the bodies as they are at the start.
+/// @param found  that a turn before has found deformation: Newton's iteration sets out from it
+void deform(const Phases& phases, const State& initial, std::span<const double> temperature, bool found,
+            State& steady, StepEffort& effort) {
+  const std::vector<double>& before = phases.heat != nullptr ? initial.heat.temperature : phases.temperature;
+  const std::vector<double> share = plateau_share(phases, steady.heat);
+  mechanics::MechanicalPass pass{.time = 0, .dt = k_long, .temperature = before};
+  pass.phase_temperature = temperature;
+  pass.plateau_share = share;
+  pass.iterate_temperature = temperature;
+  if (found) pass.iterate = &steady.mechanics;
+  const MechanicalStart start(initial.mechanics, initial.contacts, steady.heat);
+  const std::vector<contact::ContactState> contacts =
+      found ? steady.contacts : std::vector<contact::ContactState>{};
+  mechanical_pass(phases, start, steady, pass, effort, contacts);
+  keep_heat_alone(effort.energy);
+}
+
+[[noreturn]] void reject(const Phases& phases, const SteadyOptions& options, double change,
+                         std::span<const double> found, std::span<const double> seen) {
+  heat::WorstNode worst;
+  for (Index i = 0; i < phases.heat->mesh().n_owned_nodes; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    worst.look(n, std::abs(found[n] - seen[n]));
+  }
+  throw StepRejected(
+      fmt::format("coupling: heat and deformation do not agree on a steady state in {} turns, the last of "
+                  "which changed temperatures by {:.3g} K: a gap that opens when it conducts and closes when "
+                  "it does not has none",
+                  options.max_turns, change),
+      worst.text(phases.heat->mesh(), found, {}));
+}
+
+}  // namespace
+
+StepEffort solve_steady(const Phases& phases, const State& initial, State& steady,
+                        const SteadyOptions& options) {
+  if (phases.structural != nullptr)
+    throw std::invalid_argument("in a steady state deformation exchanges no heat");
+  if (phases.mechanics != nullptr && phases.mechanics->dynamic())
+    throw std::invalid_argument("a steady state has no inertia");
+  StepEffort effort;
+  steady = initial;
+  if (phases.mechanics != nullptr) place_contacts(phases, initial);
+  if (phases.heat != nullptr) conduct(phases, initial, steady, effort);
+  if (phases.mechanics == nullptr) {
+    summarise(phases, steady, effort);
+    return effort;
+  }
+  std::vector<double> seen = phases.heat != nullptr ? steady.heat.temperature : phases.temperature;
+  deform(phases, initial, seen, false, steady, effort);
+  Relaxation relaxation({RelaxationOptions::Kind::aitken, 1.0});
+  relaxation.begin();
+  const auto n_owned = static_cast<std::size_t>(phases.mechanics->mesh().n_owned_nodes);
+  while (phases.heat != nullptr && !phases.contacts.empty()) {
+    conduct(phases, initial, steady, effort);
+    const std::vector<double>& found = steady.heat.temperature;
+    std::vector<double> change(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) change[i] = found[i] - seen[i];
+    const double size = largest_difference(found, seen);
+    if (size <= std::max(k_rounding, options.tolerance * largest_difference(found, initial.heat.temperature)))
+      break;
+    if (effort.coupling_iterations == options.max_turns) reject(phases, options, size, found, seen);
+    const double factor = relaxation.factor(std::span(change).first(n_owned));
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += factor * change[i];
+    deform(phases, initial, seen, true, steady, effort);
+    ++effort.coupling_iterations;
+  }
+  summarise(phases, steady, effort);
+  return effort;
+}
+
+}  // namespace solidus::coupling

@@ -1,0 +1,60 @@
+#include "heat/local_sweeps.hpp"
+
+#include <limits>
+
+#include "algebra/parallel.hpp"
+
+namespace solidus::heat {
+
+LocalSweeps::LocalSweeps(const algebra::BlockMatrix& matrix, std::span<const double> residual,
+                         std::span<const char> fixed) {
+  const std::size_t n = residual.size();
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (fixed[i] == 0) sum += std::abs(residual[i]);
+  sum_ = algebra::global_sum(sum);
+  mean_ = sum_ / algebra::global_sum(static_cast<double>(n));
+  const std::span<const std::int64_t> start = matrix.row_start();
+  const std::span<const Index> columns = matrix.columns();
+  const auto beside_others = [&](std::size_t i) {
+    for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
+      if (static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]) >= n) return true;
+    return false;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (fixed[i] != 0 || !(std::abs(residual[i]) >= mean_) || beside_others(i)) continue;
+    nodes_.push_back(i);
+    residual_.push_back(residual[i]);
+  }
+  copy_rows(matrix, n);
+}
+
+/// Copies the entries between chosen nodes, mirror images included where the matrix keeps half of them.
+void LocalSweeps::copy_rows(const algebra::BlockMatrix& matrix, std::size_t n_owned) {
+  constexpr auto k_none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> position(n_owned, k_none);
+  for (std::size_t k = 0; k < nodes_.size(); ++k) position[nodes_[k]] = static_cast<std::uint32_t>(k);
+  const std::span<const std::int64_t> row_start = matrix.row_start();
+  const std::span<const Index> columns = matrix.columns();
+  const double* values = matrix.block(0);
+  const bool half = matrix.storage() == algebra::BlockMatrix::Storage::upper;
+  const auto for_entries = [&](const auto& take) {
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      for (std::int64_t s = row_start[nodes_[k]]; s < row_start[nodes_[k] + 1]; ++s) {
+        const std::uint32_t other = position[static_cast<std::size_t>(columns[static_cast<std::size_t>(s)])];
+        if (other == k_none) continue;
+        take(k, other, values[s]);
+        if (half && other != k) take(other, static_cast<std::uint32_t>(k), values[s]);
+      }
+  };
+  start_.assign(nodes_.size() + 1, 0);
+  for_entries([&](std::size_t row, std::uint32_t, double) { ++start_[row + 1]; });
+  for (std::size_t k = 0; k < nodes_.size(); ++k) start_[k + 1] += start_[k];
+  neighbours_.resize(start_.back());
+  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+  for_entries([&](std::size_t row, std::uint32_t other, double entry) {
+    neighbours_[next[row]++] = {other, entry};
+  });
+}
+
+}  // namespace solidus::heat

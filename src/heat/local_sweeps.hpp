@@ -1,0 +1,71 @@
+/// Sweeps of Gauss and Seidel's method over the nodes where the residual of a step is concentrated.
+///
+/// After the sweeps over all nodes (truncated_newton.hpp) most of Σ|F_i| is left at few nodes, those that the
+/// front of a phase change has reached: there the curves bend within the step of Newton's method. Which of
+/// them freeze depends on their neighbours alone, and sweeps over these nodes find it out at a small part of
+/// the cost of one more linear system. They lower the functional E as any sweep does.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algebra/block_matrix.hpp"
+
+namespace solidus::heat {
+
+/// What the relaxation of one node changes.
+struct NodeChange {
+  double potential = 0;  ///< v, the unknown of the matrix
+  double stored = 0;     ///< (H − H*)/Δt [W]
+};
+
+class LocalSweeps {
+ public:
+  /// Chooses the nodes whose |F_i| is at least the mean over all nodes of all processes. Nodes beside those
+  /// of other processes are left out: processes then do not disturb one another. Collective.
+  /// @param matrix    A, symmetric
+  /// @param residual  F, [owned node]; where `fixed` is not zero it does not count
+  LocalSweeps(const algebra::BlockMatrix& matrix, std::span<const double> residual,
+              std::span<const char> fixed);
+
+  double sum() const { return sum_; }  ///< Σ|F_i| over all processes before these sweeps [W]
+
+  /// Sweeps there and back, as long as some |F_i| is above that mean, but at most six times.
+  /// @param relax  NodeChange relax(std::size_t node, double residual) balances the equation of a node whose
+  ///               F is given
+  template <class Relax>
+  void run(const Relax& relax) {
+    for (int round = 0; round < k_rounds; ++round) {
+      bool changed = false;
+      const auto visit = [&](std::size_t k) {
+        if (std::abs(residual_[k]) <= mean_) return;
+        const NodeChange change = relax(nodes_[k], residual_[k]);
+        residual_[k] += change.stored;
+        for (std::size_t s = start_[k]; s < start_[k + 1]; ++s)
+          residual_[neighbours_[s].position] += neighbours_[s].entry * change.potential;
+        changed = true;
+      };
+      for (std::size_t k = 0; k < nodes_.size(); ++k) visit(k);
+      for (std::size_t k = nodes_.size(); k-- > 0;) visit(k);
+      if (!changed) return;
+    }
+  }
+
+ private:
+  static constexpr int k_rounds = 6;
+  struct Neighbour {
+    std::uint32_t position;  ///< among the chosen nodes
+    double entry;            ///< of the matrix
+  };
+  void copy_rows(const algebra::BlockMatrix& matrix, std::size_t n_owned);
+
+  std::vector<std::size_t> nodes_;     ///< chosen, in rising order
+  std::vector<double> residual_;       ///< F of now, [chosen node]
+  std::vector<std::size_t> start_;     ///< of the neighbours of each chosen node, itself included
+  std::vector<Neighbour> neighbours_;  ///< that are chosen too
+  double sum_ = 0, mean_ = 0;
+};
+
+}  // namespace solidus::heat

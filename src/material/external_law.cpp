@@ -1,0 +1,203 @@
+#include "material/external_law.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <type_traits>
+
+#include "base/simd.hpp"
+
+namespace solidus::material {
+
+namespace {
+
+template <class T>
+inline constexpr int k_points = std::is_same_v<T, Lane> ? k_lanes : 1;
+
+double at(const double& value, int) {
+  return value;
+}
+double at(const Lane& value, int lane) {
+  return value[lane];
+}
+void set(double& value, int, double to) {
+  value = to;
+}
+void set(Lane& value, int lane, double to) {
+  value.set(lane, to);
+}
+bool holds(bool mask, int) {
+  return mask;
+}
+bool holds(const LaneMask& mask, int lane) {
+  return mask[lane];
+}
+
+template <class T>
+Sym<T> tensor_at(const T* numbers, std::size_t place) {
+  const T* from = numbers + place;
+  return {{from[0], from[1], from[2], from[3], from[4], from[5]}};
+}
+template <class T>
+void put(const Sym<T>& tensor, T* numbers, std::size_t place) {
+  for (int i = 0; i < 6; ++i) numbers[place + static_cast<std::size_t>(i)] = tensor[i];
+}
+template <class T>
+Sym<double> tensor_of(const T* numbers, std::size_t place, int lane) {
+  Sym<double> tensor;
+  for (int i = 0; i < 6; ++i) tensor[i] = at(numbers[place + static_cast<std::size_t>(i)], lane);
+  return tensor;
+}
+
+template <class T, class Mask>
+Sym<T> choose(const Mask& mask, const Sym<T>& a, const Sym<T>& b) {
+  Sym<T> r;
+  for (int i = 0; i < 6; ++i) r[i] = select(mask, a[i], b[i]);
+  return r;
+}
+
+bool trusted = false;
+
+}  // namespace
+
+std::string ExternalData::path() const {
+  namespace fs = std::filesystem;
+  return (fs::absolute(where.file).parent_path() / library).lexically_normal().string();
+}
+
+ExternalLaw::ExternalLaw(ExternalData data, std::shared_ptr<const ExternalLibrary> library)
+    : data_(std::move(data)),
+      library_(std::move(library)),
+      n_internal_(library_->n_internal()),
+      told_(data_.dissipation == ExternalDissipation::law || data_.dissipation == ExternalDissipation::rpl ||
+            (data_.dissipation == ExternalDissipation::automatic && library_->tells_dissipated())),
+      initial_(data_.initial_state),
+      old_internal_(n_internal_),
+      internal_(n_internal_) {
+  initial_.resize(n_internal_);
+}
+
+template <class T>
+bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt,
+                            int lane, Response<T>& r, T& dissipated, std::string* failure) const {
+  double old_energies[k_external_energies], energies[k_external_energies] = {};
+  for (std::size_t i = 0; i < k_external_energies; ++i) old_energies[i] = at(old[k_energies + i], lane);
+  for (std::size_t i = 0; i < n_internal_; ++i)
+    old_internal_[i] = initial_[i] + at(old[k_internal + i], lane);
+  ExternalCall call;
+  call.dt = dt;
+  call.time = at(old[k_time], lane);
+  call.old_temperature = at(p.initial_temperature, lane) + at(old[k_warming], lane);
+  call.temperature = at(p.temperature, lane);
+  call.old_strain = tensor_of(old, k_strain, lane);
+  call.strain = tensor_of(strain.c.data(), 0, lane);
+  call.old_stress = tensor_of(old, k_stress, lane);
+  call.fresh = !(at(old[k_solid], lane) > 0);
+  call.old_internal = old_internal_.data();
+  call.old_energies = old_energies;
+  call.internal = internal_.data();
+  call.energies = energies;
+  call.complaint = failure;
+  if (!library_->integrate(call)) return false;
+
+  for (int i = 0; i < 6; ++i) {
+    set(r.stress[i], lane, call.stress[i]);
+    for (std::size_t j = 0; j < 6; ++j) set(r.tangent[i][j], lane, call.tangent[i][j]);
+  }
+  for (std::size_t i = 0; i < n_internal_; ++i) set(now[k_internal + i], lane, internal_[i] - initial_[i]);
+  for (std::size_t i = 0; i < k_external_energies; ++i) set(now[k_energies + i], lane, energies[i]);
+  if (told_) set(dissipated, lane, library_->dissipated(call));
+  return true;
+}
+
+template <class T>
+ExternalLaw::Response<T> ExternalLaw::update(const Properties<T>& p, const T* old, T* now,
+                                             const Sym<T>& strain, double dt, std::string* failures) const {
+  const T zero(0.0), one(1.0), third(1.0 / 3.0);
+  const T bulk = p.elastic.bulk, twice_shear = T(2.0) * p.elastic.shear;
+  const auto solid = p.elastic.solid_fraction >= T(data_.coherency_fraction);
+  const Sym<T> old_inelastic = tensor_at(old, k_inelastic);
+  Sym<T> viscous = tensor_at(old, k_viscous);
+  const T growth = third * p.elastic.thermal_strain;
+  Sym<T> of_law = strain - viscous;  // e
+  for (int i = 0; i < 3; ++i) of_law[i] -= growth;
+
+  Response<T> r;
+  for (std::size_t i = 0; i < size(); ++i) now[i] = zero;
+  T dissipated = zero;
+  for (int lane = 0; lane < k_points<T>; ++lane)
+    if (holds(solid, lane) && !integrate(p, old, now, of_law, dt, lane, r, dissipated,
+                                         failures == nullptr ? nullptr : failures + lane))
+      r.status = Status::cut_the_step;
+  // Zero, or not a number where one of the values is not finite.
+  T check = zero * dissipated, check_of_tangent = zero;
+  for (int i = 0; i < 6; ++i) {
+    check += zero * r.stress[i];
+    for (std::size_t j = 0; j < 6; ++j) check_of_tangent += zero * r.tangent[i][j];
+  }
+  for (std::size_t i = k_energies; i < size(); ++i) check += zero * now[i];
+  const auto finite = check + check_of_tangent == zero;
+  if (any(!finite)) {
+    r.status = Status::cut_the_step;
+    for (int lane = 0; failures != nullptr && lane < k_points<T>; ++lane)
+      if (!holds(finite, lane)) failures[lane] = "the answer of the library holds values that are not finite";
+  }
+
+  // The balance of the inelastic work, with the moduli of the material file.
+  Sym<T> inelastic = of_law - (one / twice_shear) * dev(r.stress);
+  const T mean = trace(r.stress) * (third * third / bulk);
+  for (int i = 0; i < 3; ++i) inelastic[i] -= mean;
+  const Sym<T> flow = inelastic - old_inelastic;
+  const T work = dot(r.stress, flow);
+  if (!told_) dissipated = T(data_.heat_share) * select(work > zero, work, zero);
+  T stored = work - dissipated, equivalent = T(std::sqrt(2.0 / 3.0)) * norm(dev(flow));
+  const T rate(1.0 / dt);
+  r.plastic_power = rate * work;
+  r.dissipation = r.plastic_dissipation = rate * dissipated;
+
+  if (any(!solid)) {
+    const T volume = third * trace(old_inelastic);
+    Sym<T> swollen = strain;
+    for (int i = 0; i < 3; ++i) swollen[i] -= volume;
+    const auto melt = Viscoelastic::update(p.elastic, {viscous + dev(old_inelastic)}, swollen, dt);
+    const Sym4<T> isotropic = Sym4<T>::isotropic(melt.bulk, melt.twice_shear);
+    r.stress = choose(solid, r.stress, melt.stress);
+    for (int i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j) r.tangent[i][j] = select(solid, r.tangent[i][j], isotropic[i][j]);
+    viscous = choose(solid, viscous, melt.state.viscous_strain);
+    Sym<T> kept;
+    kept[0] = kept[1] = kept[2] = volume;
+    inelastic = choose(solid, inelastic, kept);
+    Sym<T> of_melt = strain - melt.state.viscous_strain;
+    for (int i = 0; i < 3; ++i) of_melt[i] -= growth;
+    of_law = choose(solid, of_law, of_melt);
+    stored = select(solid, stored, zero);
+    equivalent = select(solid, equivalent, zero);
+    r.plastic_power = select(solid, r.plastic_power, zero);
+    r.plastic_dissipation = select(solid, r.plastic_dissipation, zero);
+    r.dissipation = select(solid, r.dissipation, melt.dissipation);
+  }
+  put(viscous, now, k_viscous);
+  put(inelastic, now, k_inelastic);
+  put(of_law, now, k_strain);
+  put(r.stress, now, k_stress);
+  now[k_equivalent] = old[k_equivalent] + equivalent;
+  now[k_cold_work] = old[k_cold_work] + stored;
+  now[k_warming] = p.temperature - p.initial_temperature;
+  now[k_time] = old[k_time] + T(dt);
+  now[k_solid] = select(solid, one, zero);
+  return r;
+}
+
+template ExternalLaw::Response<double> ExternalLaw::update(const Properties<double>&, const double*, double*,
+                                                           const Sym<double>&, double, std::string*) const;
+template ExternalLaw::Response<Lane> ExternalLaw::update(const Properties<Lane>&, const Lane*, Lane*,
+                                                         const Sym<Lane>&, double, std::string*) const;
+
+void trust_external_laws() {
+  trusted = true;
+}
+bool external_laws_are_trusted() {
+  return trusted;
+}
+
+}  // namespace solidus::material

@@ -1,0 +1,109 @@
+#include "material/umat_library.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace solidus::material {
+
+namespace {
+
+// Integers of Fortran's default kind, texts of 80 characters whose length comes last.
+using Umat = void (*)(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
+                      double* rpl, double* ddsddt, double* drplde, double* drpldt, const double* stran,
+                      const double* dstran, const double* time, const double* dtime, const double* temp,
+                      const double* dtemp, const double* predef, const double* dpred, const char* cmname,
+                      const int* ndi, const int* nshr, const int* ntens, const int* nstatv,
+                      const double* props, const int* nprops, const double* coords, const double* drot,
+                      double* pnewdt, const double* celent, const double* dfgrd0, const double* dfgrd1,
+                      const int* noel, const int* npt, const int* layer, const int* kspt, const int* kstep,
+                      const int* kinc, std::size_t length_of_cmname);
+
+/// The component of Sym of each of Abaqus'.
+constexpr std::array<int, 6> k_component{0, 1, 2, 3, 5, 4};
+
+class UmatLibrary final : public ExternalLibrary {
+ public:
+  UmatLibrary(const SharedObject& object, const ExternalData& data)
+      : umat_(reinterpret_cast<Umat>(object.get(data.behaviour, "the subroutine UMAT"))),
+        properties_(data.properties),
+        n_state_(static_cast<std::size_t>(*data.state_variables)),
+        takes_rpl_(data.dissipation == ExternalDissipation::rpl) {
+    name_.fill(' ');
+    constexpr std::string_view name = "SOLIDUS";
+    std::copy(name.begin(), name.end(), name_.begin());
+    if (properties_.empty()) properties_.push_back(0);  // something to point to
+    n_properties_ = static_cast<int>(data.properties.size());
+  }
+
+  std::size_t n_internal() const override { return n_state_; }
+  std::vector<std::string> internal_names() const override {
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i <= n_state_; ++i) names.push_back("STATEV(" + std::to_string(i) + ")");
+    return names;
+  }
+  // A UMAT that does not compute energies leaves them as they are: nothing tells whether it does.
+  bool tells_stored() const override { return false; }
+  bool tells_dissipated() const override { return false; }
+  double dissipated(const ExternalCall& c) const override {
+    if (takes_rpl_) return c.heat * c.dt;
+    return c.energies[1] + c.energies[2] - c.old_energies[1] - c.old_energies[2];
+  }
+  double stored(const double* energies) const override { return energies[0]; }
+
+  bool integrate(ExternalCall& c) const override {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr int normal = 3, shears = 3, all = 6, one = 1, step[4] = {1, 1, 0, 0};
+    static constexpr double unused[9] = {nan, nan, nan, nan, nan, nan, nan, nan, nan};
+    static constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    double stress[6], tangent[36] = {}, strain[6], change[6], stress_by_temperature[6] = {},
+                      heat_by_strain[6] = {};
+    for (std::size_t i = 0; i < 6; ++i) {
+      const int k = k_component[i];
+      const double factor = i < 3 ? 1 : 2;
+      stress[i] = c.old_stress[k];
+      strain[i] = factor * c.old_strain[k];
+      change[i] = factor * (c.strain[k] - c.old_strain[k]);
+    }
+    std::copy_n(c.old_internal, n_state_, c.internal);
+    std::copy_n(c.old_energies, k_external_energies, c.energies);
+    double no_state = 0, heat_by_temperature = 0, shorter = 1;
+    const double time[2] = {c.time, c.time}, warming = c.temperature - c.old_temperature, field = 0;
+    const int n_state = static_cast<int>(n_state_);
+    c.heat = 0;
+    umat_(stress, n_state_ > 0 ? c.internal : &no_state, tangent, &c.energies[0], &c.energies[1],
+          &c.energies[2], &c.heat, stress_by_temperature, heat_by_strain, &heat_by_temperature, strain,
+          change, time, &c.dt, &c.old_temperature, &warming, &field, &field, name_.data(), &normal, &shears,
+          &all, &n_state, properties_.data(), &n_properties_, unused, identity, &shorter, unused, unused,
+          unused, &one, &one, &one, &one, step, &one, name_.size());
+    if (!(shorter >= 1)) {
+      if (c.complaint != nullptr) *c.complaint = "the UMAT asks for a shorter step (PNEWDT below 1)";
+      return false;
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+      c.stress[k_component[i]] = stress[i];
+      for (std::size_t j = 0; j < 6; ++j)
+        c.tangent[k_component[i]][static_cast<std::size_t>(k_component[j])] = tangent[j * 6 + i];
+    }
+    return true;
+  }
+
+ private:
+  Umat umat_;
+  std::vector<double> properties_;
+  int n_properties_ = 0;
+  std::size_t n_state_;
+  bool takes_rpl_;
+  std::array<char, 80> name_{};
+};
+
+}  // namespace
+
+std::shared_ptr<const ExternalLibrary> make_umat_library(const SharedObject& object,
+                                                         const ExternalData& data) {
+  return std::make_shared<UmatLibrary>(object, data);
+}
+
+}  // namespace solidus::material

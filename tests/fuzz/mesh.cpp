@@ -1,0 +1,19 @@
+/// Any bytes as a mesh that Solidus reads itself: .msh, .inp or .vtu, which the first byte chooses.
+#include "input.hpp"
+#include "mesh/abaqus_input.hpp"
+#include "mesh/gmsh_mesh_file.hpp"
+#include "mesh/vtu_mesh.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace solidus;
+  if (size == 0) return 0;
+  const auto file = fuzz::as_file("mesh", data + 1, size - 1).string();
+  switch (*data) {
+    case 'a':
+      return fuzz::answer([&] { mesh::read_abaqus_input(file, 0.001); });
+    case 'v':
+      return fuzz::answer([&] { mesh::read_vtu_mesh(file, 0.001); });
+    default:
+      return fuzz::answer([&] { mesh::read_gmsh_mesh_file(file, 0.001); });
+  }
+}

@@ -1,0 +1,109 @@
+"""`solidus new` from skins of triangles and from meshes. (From solids: tests/cases/step_test.cpp.)"""
+
+import itertools
+import re
+import tomllib
+import unittest
+
+from program import ProgramTest, solidus
+
+ALLOY = ("--alloy", "aluminium_alsi7mg")
+
+
+def box(low, high):
+    """The twelve triangles of a box."""
+    corner = [tuple((high if c >> i & 1 else low)[i] for i in range(3)) for c in range(8)]
+    faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    return [[corner[f[i]] for i in ends] for f in faces for ends in ((0, 1, 2), (0, 2, 3))]
+
+
+def stl(name, triangles):
+    lines = [f"solid {name}"]
+    for corners in triangles:
+        lines += ["facet normal 0 0 0", "outer loop", *(f"vertex {x} {y} {z}" for x, y, z in corners), "endloop",
+                  "endfacet"]
+    return "\n".join([*lines, f"endsolid {name}", ""])
+
+
+def grid(cells, size, group_of):
+    """A mesh of cubes as .msh 2.2; group_of(i, j, k) names the group of a cell, or nothing."""
+    names, elements = [], []
+    number = lambda i, j, k: 1 + i + (cells[0] + 1) * (j + (cells[1] + 1) * k)
+    for i, j, k in itertools.product(*map(range, cells)):
+        group = group_of(i, j, k)
+        if group is None:
+            continue
+        if group not in names:
+            names.append(group)
+        corners = [number(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        elements.append((names.index(group) + 1, corners))
+    used = {node for _, corners in elements for node in corners}
+    nodes = [(number(i, j, k), i * size, j * size, k * size)
+             for k, j, i in itertools.product(*(range(n + 1) for n in reversed(cells))) if number(i, j, k) in used]
+    return "\n".join(
+        ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names)),
+         *(f'3 {n + 1} "{name}"' for n, name in enumerate(names)), "$EndPhysicalNames", "$Nodes", str(len(nodes)),
+         *(" ".join(map(str, node)) for node in nodes), "$EndNodes", "$Elements", str(len(elements)),
+         *(f"{n + 1} 5 2 {group} {group} " + " ".join(map(str, corners)) for n, (group, corners) in enumerate(elements)),
+         "$EndElements", ""])
+
+
+class NewCase(ProgramTest):
+    def new(self, file, *arguments):
+        text = self.done("new", file, *ALLOY, *arguments, "-o", "case")
+        return text, tomllib.loads((self.folder / "case/case.toml").read_text())
+
+    def refusal(self, file, *arguments):
+        result = solidus("new", file, *ALLOY, *arguments, "-o", "refused", cwd=self.folder)
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertFalse((self.folder / "refused/case.toml").exists())
+        return result.stderr
+
+    def test_of_a_hollow_stl_has_a_mould_and_a_core_and_freezes(self):
+        self.write("pump.stl", stl("pump housing", box((0, 0, 0), (60, 40, 40)) + box((10, 10, 10), (30, 30, 30))))
+        text, case = self.new("pump.stl", "--fineness", "0.5")
+        roles = {body["group"] if "group" in body else body["name"]: body["role"] for body in case["body"]}
+        self.assertEqual(roles, {"pump_housing": "casting", "mould": "mould", "core": "core"})
+        self.assertEqual(case["time"]["until"], "solid")
+        self.done("run", "case", "--heat-only", "-o", "out", "--no-progress")
+        summary = self.summary(self.folder / "out")
+        self.assertEqual(summary["answers"]["castings"]["pump_housing"]["solid_fraction"], 1)
+        self.assertLess(summary["answers"]["time[s]"], float(case["time"]["end"].split()[0]))
+        volumes = {body["name"]: body["volume[m3]"] for body in summary["understood"]["bodies"]}
+        self.assertAlmostEqual(volumes["pump_housing"], 88e-6, delta=1e-11)
+        self.assertAlmostEqual(volumes["core"], 8e-6, delta=1e-12)
+
+    def test_of_a_part_of_millimetres_does_not_spend_its_nodes_on_the_mould(self):
+        self.write("chip.stl", stl("chip", box((0, 0, 0), (3, 2, 1))))
+        text, _ = self.new("chip.stl")
+        nodes = int(re.search(r"mesh +(\d+) nodes", text)[1])
+        self.assertLess(nodes, 30000)
+
+    def test_what_stl_files_cannot_is_said(self):
+        closed = box((0, 0, 0), (60, 40, 40))
+        self.write("open.stl", stl("open", closed[:-1]))
+        self.assertIn("the skin is not closed: 3 edges belong to one triangle alone", self.refusal("open.stl"))
+        self.write("part.stl", stl("part", closed))
+        self.assertIn("a riser can be joined to solids of a CAD program only", self.refusal("part.stl", "--riser", "auto"))
+        self.assertIn("only solids of a CAD program can be cut", self.refusal("part.stl", "--symmetry", "y"))
+        self.assertIn("the mesh file does not exist", self.refusal("absent.stl"))
+
+    def test_of_a_mesh_with_its_mould_takes_the_elements_as_they_are(self):
+        inside = lambda i, j, k: all(2 <= n < 4 for n in (i, j, k))
+        self.write("whole.msh", grid((6, 6, 6), 10, lambda i, j, k: "bell" if inside(i, j, k) else "sand"))
+        text, case = self.new("whole.msh")
+        self.assertNotIn("size", case["mesh"])
+        self.assertEqual({body["name"]: body["role"] for body in case["body"]}, {"bell": "casting", "sand": "mould"})
+        self.assertIn("elements as the file has them", text)
+
+    def test_of_a_mesh_of_the_casting_alone_puts_a_mould_around(self):
+        self.write("bell.msh", grid((3, 2, 2), 10, lambda i, j, k: "bell"))
+        text, case = self.new("bell.msh", "--fineness", "0.5")
+        self.assertEqual({body["name"]: body["role"] for body in case["body"]}, {"bell": "casting", "mould": "mould"})
+        self.assertIn("casting     bell of aluminium_alsi7mg", text)
+        self.write("two.msh", grid((2, 1, 1), 10, lambda i, j, k: f"part_{i}"))
+        self.assertIn("bodies touch there", self.refusal("two.msh"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,40 @@
+// How soon a report shows its picture and how fast it turns: node tests/report/speed.mjs REPORT.html
+// Beside the clock it says processor seconds, by process: on a busy machine these alone mean something. The renderer runs the page; the
+// process named GPU draws, here by software (SwiftShader), which a graphics card would do instead.
+import { resolve } from "node:path";
+import { Browser } from "./browser.mjs";
+
+const FRAMES = 20;
+const browser = await Browser.open();
+try {
+  const page = await browser.page(1280, 900);
+  const seconds = async () => {
+    const { processInfo } = await browser.send("SystemInfo.getProcessInfo");
+    const of = (type) => processInfo.filter((p) => p.type === type).reduce((sum, p) => sum + p.cpuTime, 0);
+    return { renderer: of("renderer"), gpu: of("GPU") };
+  };
+  const between = (a, b, n = 1) => `renderer ${((1e3 * (b.renderer - a.renderer)) / n).toFixed(1)} ms, drawing ${((1e3 * (b.gpu - a.gpu)) / n).toFixed(1)} ms of processor time`;
+  const before = await seconds();
+  await page.go(`file://${resolve(process.argv[2])}`);
+  const ready = await page.run("performance.getEntriesByName('drawn')[0].startTime");
+  const shown = await seconds();
+  console.log(`first picture after ${ready.toFixed(0)} ms of the clock, all sections after ${(await page.run("performance.getEntriesByName('built')[0].startTime")).toFixed(0)} ms; ${between(before, shown)}`);
+  console.log(`of the page's own work: ${await page.run("(() => { const at = (n) => performance.getEntriesByName(n)[0].startTime; return `${(at('drawn') - at('start')).toFixed(0)} ms from its first line to the picture, ${(at('built') - at('drawn')).toFixed(0)} ms to the last section`; })()")}`);
+  const view = "solidus.bench.stages[0].view";
+  console.log(`triangles: ${await page.run(`${view}.triangles`)}`);
+  console.log(`drawn by: ${await page.run("(() => { const gl = document.createElement('canvas').getContext('webgl2'), d = gl.getExtension('WEBGL_debug_renderer_info'); return gl.getParameter(d ? d.UNMASKED_RENDERER_WEBGL : gl.RENDERER); })()")}`);
+  const start = await seconds();
+  const took = await page.run(`new Promise((done) => {
+    const begin = performance.now();
+    let n = 0;
+    const turn = () => {
+      solidus.bench.look([Math.cos(n / 10), 0.4, Math.sin(n / 10)]);
+      ++n < ${FRAMES} ? requestAnimationFrame(turn) : done(performance.now() - begin);
+    };
+    requestAnimationFrame(turn);
+  })`);
+  await page.screenshot(); // what was asked for has been drawn
+  console.log(`${FRAMES} turns: ${(took / FRAMES).toFixed(1)} ms of the clock each; ${between(start, await seconds(), FRAMES)} each`);
+} finally {
+  await browser.close();
+}
