@@ -8,7 +8,7 @@
 /// forces of the field Σ_A t_A N̂_A: exact on meshes that do not match where pressures are even, and with as
 /// many conditions as the slave has vertices. The points of `segments` are more than the displacements of
 /// faces that do not match can follow: with a stiff penalty pressures vary from point to point
-/// (docs/decisions/0027-contact-at-means-around-nodes.md). F. Ben Belgacem, P. Hild, P. Laborde, The mortar
+/// (docs/decisions/0029-contact-at-means-around-nodes.md). F. Ben Belgacem, P. Hild, P. Laborde, The mortar
 /// finite element method for contact problems, Math. Comput. Modelling 28 (1998) 263–271.
 #pragma once
 

@@ -16,7 +16,7 @@ namespace {
 
 /// ε_N over the stiffness of the elements behind a surface. Points of segments are more than faces that do
 /// not match can follow: with 100 the pressure of a cylinder on quads varies from node to node by a quarter
-/// of its largest one. Means around nodes do not mind (docs/decisions/0027-contact-at-means-around-nodes.md).
+/// of its largest one. Means around nodes do not mind (docs/decisions/0029-contact-at-means-around-nodes.md).
 constexpr double k_penalty_factor = 10, k_penalty_factor_of_means = 100;
 /// Displacement by the atmosphere of a liquid skin that it holds on its wall, over the gap that counts as
 /// leaving it.
