@@ -75,9 +75,13 @@ class NewCase(ProgramTest):
 
     def test_of_a_part_of_millimetres_does_not_spend_its_nodes_on_the_mould(self):
         self.write("chip.stl", stl("chip", box((0, 0, 0), (3, 2, 1))))
-        text, _ = self.new("chip.stl")
+        text, _ = self.new("chip.stl", "--process", "gravity_die")
         nodes = int(re.search(r"mesh +(\d+) nodes", text)[1])
         self.assertLess(nodes, 30000)
+        checked = solidus("check", "case", "--heat-only", cwd=self.folder)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        # The interface of all bodies has nothing left beside that of casting and die: no reason to warn.
+        self.assertNotIn("no two bodies face each other", checked.stderr)
 
     def test_what_stl_files_cannot_is_said(self):
         closed = box((0, 0, 0), (60, 40, 40))
