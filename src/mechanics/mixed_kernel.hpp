@@ -71,8 +71,8 @@ class MixedKernel {
   /// out_a += Σ τ V ∇N_a·(1/n Σ_b Π_b).
   virtual void add_projected(std::span<const double> projection, std::span<double> out) const = 0;
 
-  /// matrix += scale (∫ N (1/κ + 1/2Ĝ) N dV + (τ + Δt K/μ) V ∇N·∇N), the part with 1/2Ĝ lumped, κ and 2Ĝ at the start
-  /// of the step: the Schur complement of a preconditioner. After bind_pressure().
+  /// matrix += scale (∫ N (1/κ + 1/2Ĝ) N dV + (τ + Δt K/μ) V ∇N·∇N), the part with 1/2Ĝ lumped, κ and 2Ĝ at
+  /// the start of the step: the Schur complement of a preconditioner. After bind_pressure().
   virtual void add_schur(double scale, algebra::BlockMatrix& matrix) const = 0;
   /// softness_a += ∫ N_a/(2Ĝ) dV with 2Ĝ of add_schur() [m³/Pa] and volume_a += ∫ N_a dV [m³], both
   /// [local node][field].

@@ -223,10 +223,11 @@ class Checks {
           {"energy", defect <= k_energy,
            fmt::format("work less stored and dissipated energy of the law: {:.2e} of the work", defect)});
     } else if (outside_ != nullptr) {
-      checks.push_back({"energy", true,
-                        outside_->library().tells_stored() && outside_->library().tells_dissipated()
-                            ? "not checked: no steps at constant temperature"
-                            : "the law tells no energies: heat is by taylor_quinney, or as dissipation says"});
+      checks.push_back(
+          {"energy", true,
+           outside_->library().tells_stored() && outside_->library().tells_dissipated()
+               ? "not checked: no steps at constant temperature"
+               : "the law tells no energies: heat is by taylor_quinney, or as dissipation says"});
     }
     check_moduli(checks);
     return checks;

@@ -49,9 +49,9 @@ struct Casting {
     for (const mesh::Block& block : mesh.blocks)
       blocks.push_back(mechanics::make_mixed_kernel(mesh, block, AnalysisKind::solid, materials[0],
                                                     Mapping::isothermal, Stabilisation::algebraic));
-    pressure =
-        std::make_unique<mechanics::NodalPressure>(mesh, mechanics::pressure_fields(mesh, materials, blocks),
-                                                   blocks, false, std::vector<std::array<double, 3>>{{0, 0, -7e4}});
+    pressure = std::make_unique<mechanics::NodalPressure>(
+        mesh, mechanics::pressure_fields(mesh, materials, blocks), blocks, false,
+        std::vector<std::array<double, 3>>{{0, 0, -7e4}});
     algebra::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
     matrix = std::make_unique<algebra::BlockMatrix>(mesh, 3, std::move(graph),

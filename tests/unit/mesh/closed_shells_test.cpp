@@ -12,6 +12,7 @@
 #include "base/errors.hpp"
 #include "mesh/closed_shells.hpp"
 #include "mesh/stl_file.hpp"
+#include "sample_mesh.hpp"
 
 namespace {
 
@@ -81,7 +82,7 @@ TEST(ClosedShells, SayWhereBodiesTouch) {
 class StlFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(SOLIDUS_BINARY_DIR) / "stl_files";
+    folder_ = std::filesystem::path(SOLIDUS_BINARY_DIR) / ("stl_files_" + std::to_string(test::rank()));
     std::filesystem::create_directories(folder_);
   }
   std::string write(const std::string& file, const std::string& bytes) const {

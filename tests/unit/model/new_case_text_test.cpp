@@ -41,6 +41,7 @@ Draft draft() {
   d.smallest = 0.003;
   d.mould_size = 0.015;
   d.end = 200;
+  d.every = 10;
   d.step = 0.5;
   d.films = {"die"};
   d.film = 20;
