@@ -74,8 +74,8 @@ class MixedKernel {
   /// matrix += scale (∫ N (1/κ + 1/2Ĝ) N dV + (τ + Δt K/μ) V ∇N·∇N), the part with 1/2Ĝ lumped, κ and 2Ĝ at
   /// the start of the step: the Schur complement of a preconditioner. After bind_pressure().
   virtual void add_schur(double scale, algebra::BlockMatrix& matrix) const = 0;
-  /// softness_a += ∫ N_a/(2Ĝ) dV with 2Ĝ of add_schur() [m³/Pa] and volume_a += ∫ N_a dV [m³], both
-  /// [local node][field].
+  /// softness_a += ∫ N_a/(2Ĝ) + Δt K/μ |∇N_a|² dV with 2Ĝ of add_schur() [m³/Pa] and volume_a += ∫ N_a dV
+  /// [m³], both [local node][field].
   virtual void add_softness(std::span<double> softness, std::span<double> volume) const = 0;
   /// displacement += ∫ bᵀ s̄ b dV, b = Bᵀ 1: a stiffness against the divergence.
   /// @param stiffness  [local node][field] [Pa], of which an element takes the mean s̄ of its nodes

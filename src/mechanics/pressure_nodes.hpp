@@ -114,8 +114,13 @@ class PressureNodes : public MixedKernel {
   void add_softness(std::span<double> softness, std::span<double> volume) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal mass = masses(batch);
+      const Operator b = at_point(batch);
+      const Lane flow = flow_.mobility(batch) * weight(batch);
       Nodal soft = mass;
-      for (Lane& value : soft) value = value / tangent_shear_[at(batch)];
+      for (std::size_t a = 0; a < n_nodes; ++a) {
+        soft[a] = soft[a] / tangent_shear_[at(batch)];
+        for (const Lane& g : b.gradient[a]) soft[a] += flow * g * g;
+      }
       scatter_pressure(mass, batch, volume);
       scatter_pressure(soft, batch, softness);
     }
