@@ -118,13 +118,13 @@ std::vector<CooledSkin> contacts_of(std::size_t body, const CaseSpec& spec, cons
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const ContactSpec& contact = spec.contacts[c];
     const ContactMeasures& sides = m.contacts[c];
-    const bool slave = sides.slave_body == static_cast<int>(body);
-    if (!contact.heat || slave == (sides.master_body == static_cast<int>(body)) ||
-        !holds(spec, contact, a.mesh, a.first_stage()))
-      continue;
+    const double of_slave = share_behind(a.mesh, sides.slave, static_cast<int>(body)),
+                 of_master = share_behind(a.mesh, sides.master, static_cast<int>(body));
+    const bool slave = of_slave > 0;
+    if (!contact.heat || slave == (of_master > 0) || !holds(spec, contact, a.mesh, a.first_stage())) continue;
     const int other = slave ? sides.master_body : sides.slave_body;
     CooledSkin skin;
-    skin.area = sides.paired;
+    skin.area = sides.paired * (slave ? of_slave : of_master);
     skin.surface = slave ? sides.slave : sides.master;
     skin.points = measure_surface(a.mesh, skin.surface, spec.analysis.kind).corners;
     const auto conductance = conductance_of(contact, a, sides);

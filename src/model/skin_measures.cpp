@@ -31,6 +31,18 @@ int body_of(const mesh::Mesh& mesh, const std::string& name) {
 
 }  // namespace
 
+double share_behind(const mesh::Mesh& mesh, const std::string& surface, int body) {
+  double own = 0, all = 0;
+  if (const auto found = mesh.surfaces.find(surface); found != mesh.surfaces.end())
+    for (const mesh::Block& faces : found->second.faces) {
+      all += static_cast<double>(faces.n_counted);
+      if (faces.body == body) own += static_cast<double>(faces.n_counted);
+    }
+  own = algebra::global_sum(own);
+  all = algebra::global_sum(all);
+  return all > 0 ? own / all : 0.0;
+}
+
 GlobalIndex shared_nodes(const mesh::Mesh& mesh, const std::string& a, const std::string& b) {
   const auto one = mesh.surfaces.find(a), two = mesh.surfaces.find(b);
   if (one == mesh.surfaces.end() || two == mesh.surfaces.end()) return 0;

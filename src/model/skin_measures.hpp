@@ -38,6 +38,10 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
 /// Collective. A group that is no surface has no faces.
 SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name, AnalysisKind kind);
 
+/// Share of the faces of a surface that lie on a body: a riser and its casting, which share nodes, may share
+/// the surface toward their mould. Collective.
+double share_behind(const mesh::Mesh& mesh, const std::string& surface, int body);
+
 /// Nodes that lie on both of two surfaces. Collective.
 GlobalIndex shared_nodes(const mesh::Mesh& mesh, const std::string& a, const std::string& b);
 

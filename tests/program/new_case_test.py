@@ -5,7 +5,7 @@ import re
 import tomllib
 import unittest
 
-from program import ProgramTest, solidus
+from program import SOURCES, ProgramTest, solidus
 
 ALLOY = ("--alloy", "aluminium_alsi7mg")
 
@@ -82,6 +82,13 @@ class NewCase(ProgramTest):
         self.assertEqual(checked.returncode, 0, checked.stderr)
         # The interface of all bodies has nothing left beside that of casting and die: no reason to warn.
         self.assertNotIn("no two bodies face each other", checked.stderr)
+
+    def test_a_riser_is_cooled_by_the_mould_whose_surface_it_shares_with_its_casting(self):
+        self.new(str(SOURCES / "cases/bracket_from_step/bracket.step"), "--riser", "auto", "--fineness", "0.7")
+        checked = solidus("check", "case", cwd=self.folder)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertNotIn("nothing cools", checked.stderr)
+        self.assertRegex(checked.stdout, r"freezes +riser: in about")
 
     def test_what_stl_files_cannot_is_said(self):
         closed = box((0, 0, 0), (60, 40, 40))
