@@ -260,8 +260,8 @@ class ContactPair {
   std::unique_ptr<MasterWear> worn_;   ///< absent where the master does not wear
   std::vector<WornNode> worn_from_;    ///< at t_n
   std::vector<Point> start_traction_;  ///< at t_n, [point] [Pa]; empty where step_.from still has them
-  /// Of the last turn of the augmented Lagrangian in this step: ḡ_a [m] and the factors of the steps, [local
-  /// node]; empty in the first one.
+  /// ḡ_a [m] and the factors of the steps in the last turn of the augmented Lagrangian of this step, [local
+  /// node]; empty in the first turn.
   std::vector<double> last_penetration_, step_factor_;
   ContactState now_;
   std::vector<double> displacement_;  ///< of now_

@@ -56,8 +56,8 @@ struct SchemeContext {
 };
 
 struct SchemeTraits {
-  /// What its mechanical phase holds; `simultaneous`: both fields are solved at once. Without structural heat
-  /// an isentropic phase is made isothermal (CaseSpec::isentropic).
+  /// The mechanical phase holds the entropy or the temperature; `simultaneous`: both fields are solved at
+  /// once. Without structural heat an isentropic phase is made isothermal (CaseSpec::isentropic).
   mechanics::Mapping mapping = mechanics::Mapping::isentropic;
   bool leaves_stepping = false;  ///< the thermal phase may integrate a step by two stages of its own
   bool printed_forms = false;    ///< it has the forms `literal` and `temperature` of structural heat

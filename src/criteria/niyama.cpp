@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/permeability.hpp"
+
 namespace solidus::criteria {
 
 namespace {
-
-constexpr double k_permeability = 180;  // Blake–Kozeny
 
 // ∫ (1 − g)²/g² dg, which rises with g.
 double antiderivative(double g) {
@@ -17,8 +17,8 @@ double antiderivative(double g) {
 // Of a piece from `g` up to its hot end.
 double resistance_of(double low, double high, double width, double g) {
   if (width == 0) return 0;
-  if (high == low) return k_permeability * width * (1 - high) * (1 - high) / (high * high);
-  return k_permeability * width / (high - low) * (antiderivative(high) - antiderivative(g));
+  if (high == low) return material::k_blake_kozeny * width * (1 - high) * (1 - high) / (high * high);
+  return material::k_blake_kozeny * width / (high - low) * (antiderivative(high) - antiderivative(g));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 
 namespace solidus::heat {
 
-/// What the relaxation of one node changes.
+/// Changes that the relaxation of one node makes.
 struct NodeChange {
   double potential = 0;  ///< v, the unknown of the matrix
   double stored = 0;     ///< (H − H*)/Δt [W]

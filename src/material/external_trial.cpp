@@ -18,8 +18,7 @@ namespace {
 
 constexpr int k_came_to_an_end = 0, k_ended_itself = 1;
 
-/// What a library does by exit() or Fortran's STOP ends here, before the handlers of the program run in its
-/// copy.
+/// Ends the copy where a library calls exit() or Fortran's STOP, before the program's own handlers run in it.
 void leave(int /*status*/, void* /*unused*/) {
   _exit(k_ended_itself);
 }

@@ -53,7 +53,7 @@ class Symbols {
     const void* found = find(what);
     return found != nullptr ? *static_cast<const unsigned short*>(found) : otherwise;
   }
-  /// Of the hypothesis, else of all.
+  /// Looks for the symbol of the hypothesis first, then for that of all hypotheses.
   unsigned short own_number(const std::string& what) const {
     return *static_cast<const unsigned short*>(get(what));
   }

@@ -12,8 +12,9 @@
 /// p_c being pore_tension of the material and k_least_pore_share M at least, ΔP_cr its
 /// critical_pressure_drop, with f_S of t_n, and r_p = ∫ N (div u − e_v − θ) dV − S p. The law of the metal
 /// sees e_v alone. Below coherency pores that are pressed or fed close; in mush a pore grows or stays. The
-/// metal that is left, 1 − θ_n, is what a pore can still open in: an element that has run empty opens no
-/// more, and its neighbours take over. The work of pores is counted with that of the sub-scales.
+/// metal that is left, 1 − θ_n, is what a pore can still open in: an element that is nearly empty is stiff,
+/// and its neighbours take over; a single step may open more than is left. The work of pores is counted with
+/// that of the sub-scales.
 ///
 /// M = k_pore_share 2Ĝ of the melt, two heads of metal: a pool opens its pores in its upper part first, where
 /// its pressure is least.

@@ -11,7 +11,7 @@
 /// first factor gives it one, W = diag (∫ N 1/(2Ĝ) + Δt K/μ |∇N|² dV)/γ, without a change of what is solved:
 /// the augmented Lagrangian of Benzi and Olshanskii, SIAM J. Sci. Comput. 28 (2006) 2095, with the pressure
 /// as the variable that is transformed. Of A_γ the hierarchy has ∫ bᵀ s̄ b dV, b = Bᵀ 1, in place of B W⁻¹ Bᵀ,
-/// which would couple neighbours of neighbours, with the stiffness s = γ ∫ N dV/∫ N 1/(2Ĝ) dV of the nodes.
+/// which would couple neighbours of neighbours, with the stiffness s = ∫ N dV/W of the nodes.
 /// That is a harmonic mean: a frozen element between soft ones swells at their cost, as the nodal pressure
 /// lets it.
 ///
