@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "base/table.hpp"
 #include "material/phase_change.hpp"
+#include "numbers/table.hpp"
 
 namespace solidus {
 namespace {

@@ -24,19 +24,19 @@ double cpu_seconds() {
 }
 
 /// Adds up the time in a term.
-class Timed : public algebra::Contribution {
+class Timed : public linear::Contribution {
  public:
-  explicit Timed(algebra::Contribution& term) : term_(term) {}
+  explicit Timed(linear::Contribution& term) : term_(term) {}
   bool graph_may_change() const override { return term_.graph_may_change(); }
   bool graph_outdated() const override { return term_.graph_outdated(); }
-  void add_to_graph(algebra::NodeGraph& graph) const override { term_.add_to_graph(graph); }
-  void bind(const algebra::BlockMatrix& matrix) override {
+  void add_to_graph(linear::NodeGraph& graph) const override { term_.add_to_graph(graph); }
+  void bind(const linear::BlockMatrix& matrix) override {
     measure([&] { term_.bind(matrix); }, tangent);
   }
   void add_residual(std::span<const double> x, std::span<double> r) override {
     measure([&] { term_.add_residual(x, r); }, residual);
   }
-  void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override {
+  void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override {
     measure([&] { term_.add_tangent(x, matrix); }, tangent);
   }
   template <class Work>
@@ -48,7 +48,7 @@ class Timed : public algebra::Contribution {
   double residual = 0, tangent = 0;
 
  private:
-  algebra::Contribution& term_;
+  linear::Contribution& term_;
 };
 
 material::Material elastic(double young, double expansion) {
@@ -133,7 +133,7 @@ void blocks(benchmark::State& state, bool symmetric) {
   p.conditions.displacements.push_back({"upper_z_max", 0, Table({0, 1, 10}, {0, 0, 9e-3})});
   p.conditions.displacements.push_back({"upper_z_max", 1, 0.0});
   p.conditions.displacements.push_back({"upper_z_max", 2, -3e-6});
-  p.options.solver = algebra::SolverKind::automatic;
+  p.options.solver = linear::SolverKind::automatic;
   measure(state, std::move(p));
 }
 

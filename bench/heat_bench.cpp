@@ -54,14 +54,14 @@ void report(benchmark::State& state, const char* what, double n) {
 
 struct Conduction : Body {
   std::unique_ptr<heat::ConductionBlock> conduction;
-  std::unique_ptr<algebra::BlockMatrix> matrix;
+  std::unique_ptr<linear::BlockMatrix> matrix;
   std::vector<double> k;
 
   Conduction(mesh::Shape shape, int cells) : Body(shape, cells) {
     conduction = heat::make_conduction_block(mesh, block(), kind, true);
-    algebra::NodeGraph graph(mesh);
+    linear::NodeGraph graph(mesh);
     graph.add_cliques(block().nodes, mesh::node_count(shape));
-    matrix = std::make_unique<algebra::BlockMatrix>(mesh, 1, std::move(graph));
+    matrix = std::make_unique<linear::BlockMatrix>(mesh, 1, std::move(graph));
     conduction->bind(*matrix);
     const heat::KirchhoffPotential u(material.conductivity);
     for (double t : temperature) k.push_back(u.conductivity(t));

@@ -76,7 +76,7 @@ struct Prepared {
   material::Material material;
   int components;
   std::unique_ptr<mechanics::BlockKernel> kernel;
-  std::unique_ptr<algebra::BlockMatrix> matrix;
+  std::unique_ptr<linear::BlockMatrix> matrix;
   mechanics::BlockHistory history;
   std::vector<double> temperature, temperature_rate, u, forces;
 
@@ -95,9 +95,9 @@ struct Prepared {
                                                                                              material);
     else
       kernel = mechanics::make_block_kernel(mesh, block, kind, material, mapping, true);
-    algebra::NodeGraph graph(mesh);
+    linear::NodeGraph graph(mesh);
     graph.add_cliques(mesh.blocks.front().nodes, mesh::node_count(shape));
-    matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));
+    matrix = std::make_unique<linear::BlockMatrix>(mesh, components, std::move(graph));
     kernel->bind(*matrix);
     history = kernel->initial_history();
     kernel->prepare({.temperature = temperature,

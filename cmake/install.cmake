@@ -42,7 +42,7 @@ install(CODE "
   solidus_writes(${shared}/schema/point.schema.json schema --point)
 " COMPONENT program)
 
-# The libraries: solidus::model for whole cases, solidus::material for laws and cards, and so on, one a folder of src.
+# The libraries: solidus::run for whole cases, solidus::material for laws and cards, and so on, one a folder of src.
 get_property(rooms GLOBAL PROPERTY SOLIDUS_ROOMS)
 foreach(room ${rooms} solidus_options)
   string(REPLACE solidus_ "" name ${room})

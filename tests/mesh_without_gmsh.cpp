@@ -7,10 +7,10 @@
 #include <fstream>
 #include <string>
 
-#include "base/errors.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Runs the first two seconds of a case from a program of one's own, and says how it ended.
 //   freeze CASE FOLDER
 #include <petscsys.h>
-#include <model/run.hpp>
+#include <run/run.hpp>
 
 #include <cstdio>
 #include <exception>

@@ -3,8 +3,8 @@
 #include <fmt/ranges.h>
 
 #include "app/verbs.hpp"
-#include "model/run.hpp"
-#include "model/stage_input.hpp"
+#include "case/stage_input.hpp"
+#include "run/run.hpp"
 
 namespace solidus::app {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <map>
 
-#include "base/errors.hpp"
-#include "base/keys.hpp"
+#include "input/keys.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::app {
 

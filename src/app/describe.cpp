@@ -7,14 +7,14 @@
 #include <cstring>
 
 #include "app/verbs.hpp"
-#include "base/errors.hpp"
-#include "base/input_file.hpp"
-#include "base/key_docs.hpp"
-#include "base/version.hpp"
+#include "case/case_keys.hpp"
+#include "input/key_docs.hpp"
 #include "material/library.hpp"
 #include "mesh/gmsh_reader.hpp"
-#include "model/case_keys.hpp"
 #include "point/spec.hpp"
+#include "system/errors.hpp"
+#include "system/input_file.hpp"
+#include "system/version.hpp"
 
 namespace solidus::app {
 

@@ -1,5 +1,5 @@
 /// The verb `export`: the end of a run as the start of a structural analysis, or its fields in one file.
-#include "model/export.hpp"
+#include "run/export.hpp"
 
 #include <fmt/format.h>
 #include <petscsys.h>
@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "app/verbs.hpp"
-#include "base/errors.hpp"
 #include "results/med.hpp"
 #include "results/report/report.hpp"
 #include "results/vtkhdf.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::app {
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "app/verbs.hpp"
-#include "base/errors.hpp"
-#include "base/key_docs.hpp"
+#include "case/case_keys.hpp"
+#include "input/key_docs.hpp"
 #include "material/library.hpp"
-#include "model/case_keys.hpp"
 #include "point/spec.hpp"
 #include "results/output_file.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::app {
 

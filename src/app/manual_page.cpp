@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/version.hpp"
+#include "system/version.hpp"
 
 namespace solidus::app {
 

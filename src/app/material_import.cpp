@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "app/verbs.hpp"
-#include "base/column_table.hpp"
-#include "base/units.hpp"
+#include "case/case_materials.hpp"
+#include "input/column_table.hpp"
+#include "input/units.hpp"
 #include "material/card_import.hpp"
 #include "material/library.hpp"
 #include "material/liquidus_system.hpp"
-#include "model/case_materials.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::app {

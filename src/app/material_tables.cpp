@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/units.hpp"
+#include "input/units.hpp"
 #include "material/laws/hardening_law.hpp"
 #include "material/tensile.hpp"
 #include "results/csv.hpp"

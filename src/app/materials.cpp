@@ -5,10 +5,10 @@
 
 #include "app/material_tables.hpp"
 #include "app/verbs.hpp"
-#include "base/units.hpp"
+#include "case/case_materials.hpp"
+#include "input/units.hpp"
 #include "material/laws/hardening_law.hpp"
 #include "material/library.hpp"
-#include "model/case_materials.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::app {

@@ -5,13 +5,13 @@
 #include <numbers>
 
 #include "app/verbs.hpp"
-#include "base/errors.hpp"
-#include "base/units.hpp"
+#include "build/mesh_input.hpp"
+#include "case/case_file.hpp"
+#include "input/units.hpp"
 #include "mesh/face_rules.hpp"
 #include "mesh/quality.hpp"
-#include "model/case_file.hpp"
-#include "model/mesh_input.hpp"
 #include "results/output_error.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::app {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/verbs.hpp"
-#include "model/new_case.hpp"
+#include "new_case/new_case.hpp"
 
 namespace solidus::app {
 

@@ -10,18 +10,18 @@
 
 #include "app/places.hpp"
 #include "app/verbs.hpp"
-#include "base/types.hpp"
-#include "base/version.hpp"
+#include "case/case_materials.hpp"
+#include "case/overrides.hpp"
 #include "material/external_law.hpp"
 #include "material/library.hpp"
-#include "model/case_materials.hpp"
-#include "model/overrides.hpp"
+#include "numbers/types.hpp"
 #include "point/check_law.hpp"
 #include "point/point_case.hpp"
 #include "results/csv.hpp"
 #include "results/json.hpp"
 #include "results/output_file.hpp"
 #include "results/run_folder.hpp"
+#include "system/version.hpp"
 
 namespace solidus::app {
 

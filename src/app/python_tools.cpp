@@ -13,7 +13,7 @@
 #include <filesystem>
 
 #include "app/places.hpp"
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 extern char** environ;
 

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "app/verbs.hpp"
-#include "base/errors.hpp"
+#include "case/case_materials.hpp"
 #include "material/library.hpp"
-#include "model/case_materials.hpp"
 #include "results/report/report.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::app {
 

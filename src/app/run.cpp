@@ -1,5 +1,5 @@
 /// The verb `run`.
-#include "model/run.hpp"
+#include "run/run.hpp"
 
 #include <petscsys.h>
 #include <unistd.h>
@@ -8,15 +8,15 @@
 #include <iostream>
 #include <optional>
 
-#include "algebra/interruption.hpp"
-#include "algebra/parallel.hpp"
 #include "app/places.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "app/watch.hpp"
-#include "base/terminal.hpp"
+#include "linear/interruption.hpp"
+#include "parallel/parallel.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
+#include "system/terminal.hpp"
 
 namespace solidus::app {
 
@@ -44,7 +44,7 @@ ExitCode run(const CaseArguments& arguments) {
   options.restart = arguments.restart;
   options.profile = arguments.profile;
   options.stop_asked = stop_asked;
-  algebra::interrupt_when(stop_asked);
+  linear::interrupt_when(stop_asked);
   std::optional<Watch> watch;
   if (arguments.watch && rank == 0) {
     watch.emplace(options.folder);
@@ -57,7 +57,7 @@ ExitCode run(const CaseArguments& arguments) {
     if (rank == 0)
       std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason
                 << std::endl;
-    return algebra::any_process(interrupted()) ? k_interrupted : k_cannot_continue;
+    return parallel::any_process(interrupted()) ? k_interrupted : k_cannot_continue;
   }
   print("Results in " + options.folder.lexically_normal().string() + "\n");
   return k_done;

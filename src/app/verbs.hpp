@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/case_file.hpp"
+#include "case/case_file.hpp"
 
 namespace solidus::app {
 

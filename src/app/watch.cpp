@@ -16,8 +16,8 @@
 #include <system_error>
 #include <utility>
 
-#include "base/errors.hpp"
 #include "results/report/report.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::app {
 

@@ -30,7 +30,7 @@
 /// Source: Cooper, Mikić and Yovanovich 1969; Yovanovich 1981; Song and Yovanovich 1987; monograph 3.46–3.48.
 #pragma once
 
-#include "base/table.hpp"
+#include "numbers/table.hpp"
 
 namespace solidus::contact {
 

@@ -15,9 +15,9 @@
 #include <optional>
 #include <vector>
 
-#include "base/errors.hpp"
-#include "base/objection.hpp"
-#include "base/table.hpp"
+#include "numbers/table.hpp"
+#include "system/errors.hpp"
+#include "system/objection.hpp"
 
 namespace solidus::contact {
 

@@ -12,7 +12,7 @@ struct Recorder final : ContactKinematics::CliqueSink {
 
 }  // namespace
 
-int ContactGraph::add_to(algebra::NodeGraph& graph) {
+int ContactGraph::add_to(linear::NodeGraph& graph) {
   if (version_ == 0 || kinematics_.graph_outdated()) {
     cliques_.clear();
     Recorder recorder(cliques_);

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
 #include "contact/kinematics.hpp"
+#include "linear/block_matrix.hpp"
 
 namespace solidus::contact {
 
@@ -20,7 +20,7 @@ class ContactGraph {
   /// The same, or whether a matrix with the cliques of this version lacks places.
   bool outdated(int version) const { return renewed(version) || kinematics_.graph_outdated(); }
   /// Adds the cliques, recorded anew where nodes meet that did not. Returns their version.
-  int add_to(algebra::NodeGraph& graph);
+  int add_to(linear::NodeGraph& graph);
   /// Makes the next add_to() record anew, so that it depends on the present configuration alone
   /// (checkpoints).
   void forget() {

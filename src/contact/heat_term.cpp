@@ -79,7 +79,7 @@ void HeatTerm::begin_phase(const HeatSpan& span) {
 }
 
 // Θ* of S^e_c* = S^e_c,n + carried (S^e_c − S^e_c,n); of the slip every stage has its part.
-void HeatTerm::begin_stage(const algebra::Stage& stage, std::span<const double> before) {
+void HeatTerm::begin_stage(const linear::Stage& stage, std::span<const double> before) {
   if (!phase_) return;
   if (stage.carried != 0) {
     std::vector<double> start(points_.size(), 0.0), flux(points_.size(), 0.0), made(points_.size(), 0.0);
@@ -116,11 +116,11 @@ InterfaceStep HeatTerm::balance_step(Index point) const {
   return step;
 }
 
-void HeatTerm::add_to_graph(algebra::NodeGraph& graph) const {
+void HeatTerm::add_to_graph(linear::NodeGraph& graph) const {
   version_ = graph_.add_to(graph);
 }
 
-void HeatTerm::bind(const algebra::BlockMatrix& matrix) {
+void HeatTerm::bind(const linear::BlockMatrix& matrix) {
   slots_.bind(matrix, n_owned_, partners_.n_points());
   displacement_ = nullptr;  // whose pattern has changed with this one
 }
@@ -277,7 +277,7 @@ void HeatTerm::add_point_tangent(const AtPoint& s, std::span<const double> x, st
     for (std::size_t b = 0; b < n; ++b) k[a * n + b] += per_h[a] * side * shape(b);
 }
 
-void HeatTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {
+void HeatTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) {
   if (!active_) return;
   Run run;
   std::vector<double> per_h;
@@ -341,7 +341,7 @@ void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> tempera
 }
 
 void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index point)>& rates_of,
-                                        std::span<const double> temperature, algebra::CoupledMatrix& matrix) {
+                                        std::span<const double> temperature, linear::CoupledMatrix& matrix) {
   if (!active_) return;
   if (displacement_ != &matrix.displacement()) {
     displacement_ = &matrix.displacement();

@@ -7,8 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "algebra/contribution.hpp"
-#include "algebra/coupled_matrix.hpp"
 #include "contact/graph.hpp"
 #include "contact/heat_transfer.hpp"
 #include "contact/interface_thermodynamics.hpp"
@@ -16,6 +14,8 @@
 #include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
 #include "contact/surface_curvature.hpp"
+#include "linear/contribution.hpp"
+#include "linear/coupled_matrix.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::contact {
@@ -90,7 +90,7 @@ struct InterfaceHeat {
 /// The tangent takes 2 e N_i N_j (Θ_i³ + Θ_j³) for radiation, the mean of the two derivatives: it keeps the
 /// matrix symmetric and, being off by O(Θ_i − Θ_j), costs iterations, not accuracy. All else is exact; a law
 /// that changes with the temperature makes it unsymmetric.
-class HeatTerm : public algebra::Contribution {
+class HeatTerm : public linear::Contribution {
  public:
   /// Keeps references.
   /// @param nodal  the nodal form; for linear faces only
@@ -116,18 +116,18 @@ class HeatTerm : public algebra::Contribution {
   bool graph_outdated() const override {
     return active_ ? graph_.outdated(version_) : graph_.renewed(version_);
   }
-  void add_to_graph(algebra::NodeGraph& graph) const override;
-  void bind(const algebra::BlockMatrix& matrix) override;
+  void add_to_graph(linear::NodeGraph& graph) const override;
+  void bind(const linear::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
-  void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
+  void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override;
   /// In an adiabatic phase heat of friction is taken up on the spot.
   bool stores() const override { return phase_ && phase_->span.adiabatic; }
-  void begin_stage(const algebra::Stage& stage, std::span<const double> before) override;
+  void begin_stage(const linear::Stage& stage, std::span<const double> before) override;
   /// Adds ∂r/∂u: through the conductance, through the heat of friction where slip answers Θ_c (joint), and
   /// with the partner that moves on.
   /// @param rates  of a point that has a partner; valid until the next call
   void add_displacement_tangent(const std::function<HeatRates(Index point)>& rates,
-                                std::span<const double> temperature, algebra::CoupledMatrix& matrix);
+                                std::span<const double> temperature, linear::CoupledMatrix& matrix);
   /// Returns the heat fluxes of every point at these temperatures; zero where there is no partner.
   std::vector<SurfaceHeat> surface_heat(std::span<const double> temperature) const;
   /// Its integral over the points that this process counts [W].
@@ -212,7 +212,7 @@ class HeatTerm : public algebra::Contribution {
   std::optional<Phase> phase_;
   std::vector<double> fixed_;  ///< h of a law that does not change with the temperature, [point]
   SlotCache slots_, displacement_slots_;
-  const algebra::BlockMatrix* displacement_ = nullptr;  ///< that displacement_slots_ know
+  const linear::BlockMatrix* displacement_ = nullptr;  ///< that displacement_slots_ know
 };
 
 }  // namespace solidus::contact

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/types.hpp"
 #include "contact/laws/constant_gap.hpp"
 #include "contact/laws/power_contact.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::contact {
 

@@ -34,8 +34,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/errors.hpp"
-#include "base/table.hpp"
+#include "numbers/table.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::contact {
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "algebra/parallel.hpp"
 #include "contact/nodal_means.hpp"
 #include "contact/point_list.hpp"
 #include "contact/slave_rule.hpp"
 #include "mesh/quadrature.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 
@@ -37,7 +37,7 @@ class Builder {
 
   ContactPoints build() {
     for (Index f = 0; f < slave_.n_faces(); ++f) add_slave_face(f);
-    points_.paired_measure = algebra::global_sum(points_.paired_measure);
+    points_.paired_measure = parallel::global_sum(points_.paired_measure);
     return std::move(points_);
   }
 

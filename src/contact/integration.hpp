@@ -13,9 +13,9 @@
 
 #include <vector>
 
-#include "base/types.hpp"
 #include "contact/surface.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::contact {
 

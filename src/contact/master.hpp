@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "base/types.hpp"
 #include "contact/face.hpp"
 #include "contact/rotation.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::contact {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "base/table.hpp"
 #include "contact/master.hpp"
+#include "numbers/table.hpp"
 
 namespace solidus::contact {
 

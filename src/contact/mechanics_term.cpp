@@ -4,8 +4,8 @@
 #include <array>
 #include <limits>
 
-#include "algebra/parallel.hpp"
-#include "base/log.hpp"
+#include "parallel/parallel.hpp"
+#include "system/log.hpp"
 
 namespace solidus::contact {
 
@@ -55,11 +55,11 @@ MechanicsTerm::MechanicsTerm(std::string name, const mesh::Mesh& mesh, int compo
       symmetric_(symmetric),
       status_(at(kinematics_.n_points()), PointStatus::open) {}
 
-void MechanicsTerm::add_to_graph(algebra::NodeGraph& graph) const {
+void MechanicsTerm::add_to_graph(linear::NodeGraph& graph) const {
   version_ = graph_.add_to(graph);
 }
 
-void MechanicsTerm::bind(const algebra::BlockMatrix& matrix) {
+void MechanicsTerm::bind(const linear::BlockMatrix& matrix) {
   slots_.bind(matrix, n_owned_, kinematics_.n_points());
   coupled_ = nullptr;  // the places of coupled_slots_ are void too
 }
@@ -102,9 +102,9 @@ void MechanicsTerm::log(const Count& count) const {
       "contact '{}': {:.0f} of {:.0f} points closed, {:.0f} stick, {:.0f} changed; penetration up to {:.3g} "
       "m, "
       "pressure up to {:.3g} Pa",
-      name_, algebra::global_sum(count.closed), algebra::global_sum(count.points),
-      algebra::global_sum(count.sticking), algebra::global_sum(static_cast<double>(changes_)),
-      algebra::global_max(count.penetration), algebra::global_max(count.pressure));
+      name_, parallel::global_sum(count.closed), parallel::global_sum(count.points),
+      parallel::global_sum(count.sticking), parallel::global_sum(static_cast<double>(changes_)),
+      parallel::global_max(count.penetration), parallel::global_max(count.pressure));
 }
 
 template <int dim>
@@ -158,7 +158,7 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
 }
 
 template <int dim>
-void MechanicsTerm::flush(Run& run, algebra::BlockMatrix& matrix) {
+void MechanicsTerm::flush(Run& run, linear::BlockMatrix& matrix) {
   const std::size_t n = run.nodes.size();
   const auto entry = [&](std::size_t b, std::size_t c, std::size_t i, std::size_t j) -> double& {
     return run.k[((b * n + c) * dim + i) * dim + j];
@@ -180,7 +180,7 @@ void MechanicsTerm::flush(Run& run, algebra::BlockMatrix& matrix) {
 }
 
 template <int dim>
-void MechanicsTerm::add_tangents(algebra::BlockMatrix& matrix) {
+void MechanicsTerm::add_tangents(linear::BlockMatrix& matrix) {
   Run run;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
     if (!kinematics_.concerns(p)) continue;
@@ -200,7 +200,7 @@ void MechanicsTerm::add_tangents(algebra::BlockMatrix& matrix) {
   if (run.first >= 0) flush<dim>(run, matrix);
 }
 
-void MechanicsTerm::add_temperature_tangent(algebra::CoupledMatrix& matrix) {
+void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
   if (!active_ || step_.coupled.law == nullptr) return;
   if (coupled_ != &matrix.displacement()) {
     coupled_ = &matrix.displacement();
@@ -234,7 +234,7 @@ void MechanicsTerm::add_temperature_tangent(algebra::CoupledMatrix& matrix) {
   }
 }
 
-void MechanicsTerm::add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) {
+void MechanicsTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) {
   if (!active_) return;
   configuration_.place(step_.time, x, ContactKinematics::Points::own);
   if (components_ == 2)

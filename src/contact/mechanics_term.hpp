@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "algebra/contribution.hpp"
-#include "algebra/coupled_matrix.hpp"
 #include "contact/coupled_interface.hpp"
 #include "contact/current_configuration.hpp"
 #include "contact/graph.hpp"
 #include "contact/integration.hpp"
 #include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
+#include "linear/contribution.hpp"
+#include "linear/coupled_matrix.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::contact {
@@ -47,7 +47,7 @@ struct ContactStep {
 /// part is taken; the symmetric part of the whole would be indefinite wherever points slip.
 ///
 /// Where the friction law finds no state the residual is not a number: Newton's method shortens its step.
-class MechanicsTerm : public algebra::Contribution {
+class MechanicsTerm : public linear::Contribution {
  public:
   /// Keeps references.
   /// @param name  of the pair, for the log: with level debug every residual leaves a line
@@ -61,12 +61,12 @@ class MechanicsTerm : public algebra::Contribution {
   bool graph_outdated() const override {
     return active_ ? graph_.outdated(version_) : graph_.renewed(version_);
   }
-  void add_to_graph(algebra::NodeGraph& graph) const override;
-  void bind(const algebra::BlockMatrix& matrix) override;
+  void add_to_graph(linear::NodeGraph& graph) const override;
+  void bind(const linear::BlockMatrix& matrix) override;
   void add_residual(std::span<const double> x, std::span<double> r) override;
-  void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override;
+  void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override;
   /// Adds ∂r/∂Θ at the displacement of the last call, where friction follows the bodies' temperatures.
-  void add_temperature_tangent(algebra::CoupledMatrix& matrix);
+  void add_temperature_tangent(linear::CoupledMatrix& matrix);
 
   /// Number of points that changed between open, sticking and slipping from the last but one residual to the
   /// last.
@@ -80,11 +80,11 @@ class MechanicsTerm : public algebra::Contribution {
   struct Count;
   void log(const Count& count) const;
   template <int dim>
-  void add_tangents(algebra::BlockMatrix& matrix);
+  void add_tangents(linear::BlockMatrix& matrix);
   template <int dim>
   void add_point(const PointMotion& motion, Index point, Run& run);
   template <int dim>
-  void flush(Run& run, algebra::BlockMatrix& matrix);
+  void flush(Run& run, linear::BlockMatrix& matrix);
 
   std::string name_;
   Index n_owned_;
@@ -99,8 +99,8 @@ class MechanicsTerm : public algebra::Contribution {
   bool active_ = true;
   mutable int version_ = 0;  ///< of the graph it has
   SlotCache slots_, coupled_slots_;
-  const algebra::BlockMatrix* coupled_ = nullptr;  ///< that coupled_slots_ know
-  std::vector<PointStatus> status_;                ///< at the last residual
+  const linear::BlockMatrix* coupled_ = nullptr;  ///< that coupled_slots_ know
+  std::vector<PointStatus> status_;               ///< at the last residual
   Index changes_ = 0;
   FrictionStatus failure_ = FrictionStatus::converged;
 };

@@ -9,13 +9,13 @@
 #include <iterator>
 #include <limits>
 
-#include "algebra/parallel.hpp"
 #include "contact/fixed_kinematics.hpp"
 #include "contact/heat_term.hpp"
 #include "contact/master_mesh.hpp"
 #include "contact/penalty.hpp"
 #include "contact/sliding_kinematics.hpp"
 #include "contact/surface_curvature.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 
@@ -170,7 +170,7 @@ void ContactPair::require_apart(const ContactSurface& slave, const ContactSurfac
   std::vector<Index> both;
   std::set_intersection(of_slave.begin(), of_slave.end(), of_master.begin(), of_master.end(),
                         std::back_inserter(both));
-  const double shared = algebra::global_sum(static_cast<double>(
+  const double shared = parallel::global_sum(static_cast<double>(
       std::ranges::count_if(both, [this](Index node) { return node < mesh_.n_owned_nodes; })));
   if (shared > 0)
     refuse(fmt::format("the surfaces '{}' and '{}' share {:.0f} node{}", spec_.slave, spec_.master, shared,
@@ -224,7 +224,7 @@ void ContactPair::activate(bool on) {
   if (heat_) heat_->activate(on);
 }
 
-algebra::Contribution* ContactPair::heat() {
+linear::Contribution* ContactPair::heat() {
   return heat_.get();
 }
 
@@ -480,8 +480,8 @@ void ContactPair::restore(const ContactState& state, std::span<const double> dis
 
 std::string ContactPair::failure_text() const {
   const FrictionStatus failure = mechanics_->failure();
-  if (algebra::any_process(failure != FrictionStatus::converged)) {
-    const double worst = algebra::global_max(static_cast<double>(failure));
+  if (parallel::any_process(failure != FrictionStatus::converged)) {
+    const double worst = parallel::global_max(static_cast<double>(failure));
     return fmt::format("contact '{}': {}", spec_.name,
                        reason(static_cast<FrictionStatus>(std::lround(worst))));
   }
@@ -492,7 +492,7 @@ std::string ContactPair::failure_text() const {
 }
 
 GlobalIndex ContactPair::changes() const {
-  return std::llround(algebra::global_sum(static_cast<double>(mechanics_->changes())));
+  return std::llround(parallel::global_sum(static_cast<double>(mechanics_->changes())));
 }
 
 std::size_t ContactPair::bytes() const {

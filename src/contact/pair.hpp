@@ -10,12 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "algebra/contribution.hpp"
-#include "algebra/coupled_matrix.hpp"
 #include "contact/master_wear.hpp"
 #include "contact/mechanics_term.hpp"
 #include "contact/partners.hpp"
 #include "contact/spec.hpp"
+#include "linear/contribution.hpp"
+#include "linear/coupled_matrix.hpp"
 
 namespace solidus::contact {
 
@@ -114,9 +114,9 @@ class ContactPair {
 
   /// The term of the mechanical phase, of the displacement it is called with and the start of the step,
   /// whatever the state of update().
-  algebra::Contribution& mechanics() { return *mechanics_; }
+  linear::Contribution& mechanics() { return *mechanics_; }
   /// The term of the thermal phase, with the configuration of the last update(); null without a heat law.
-  algebra::Contribution* heat();
+  linear::Contribution* heat();
   /// Whether the derivative of mechanics() is symmetric.
   bool symmetric() const;
   /// Whether that of heat() is.
@@ -186,7 +186,7 @@ class ContactPair {
 
   /// Adds the derivatives of the heat with respect to the displacement and of the forces with respect to the
   /// temperature, at the last update(); nothing without a heat law.
-  void add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const;
+  void add_coupling(std::span<const double> temperature, linear::CoupledMatrix& matrix) const;
 
   /// Sums at the last update(); `temperature` [local node] or empty (heat = 0). Collective.
   ContactSums sums(std::span<const double> temperature) const;

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "contact/fixed_kinematics.hpp"
 #include "contact/mechanics_term.hpp"
 #include "contact/pair.hpp"
 #include "contact/sliding_kinematics.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 
@@ -34,7 +34,7 @@ std::vector<double> ContactPair::nodal_penetration() const {
     }
   }
   for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = weight[i] > 0 ? mean[i] / weight[i] : 0.0;
-  algebra::GhostExchange(mesh_).update(mean, 1);
+  parallel::GhostExchange(mesh_).update(mean, 1);
   return mean;
 }
 
@@ -76,7 +76,7 @@ double ContactPair::excess() const {
   if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return 0;
   double largest = 0;
   for (const double g : nodal_penetration()) largest = std::max(largest, std::abs(g));
-  return algebra::global_max(largest) / allowed_penetration_;
+  return parallel::global_max(largest) / allowed_penetration_;
 }
 
 std::string ContactPair::worst_penetration() const {

@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "contact/fixed_kinematics.hpp"
 #include "contact/heat_term.hpp"
 #include "contact/mechanics_term.hpp"
 #include "contact/pair.hpp"
 #include "contact/sliding_kinematics.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 
@@ -136,7 +136,7 @@ bool ContactPair::symmetric_heat() const {
   return !heat_ || heat_->symmetric();
 }
 
-void ContactPair::add_coupling(std::span<const double> temperature, algebra::CoupledMatrix& matrix) const {
+void ContactPair::add_coupling(std::span<const double> temperature, linear::CoupledMatrix& matrix) const {
   if (!heat_ || !active_) return;
   std::vector<Point> trial, share;
   const auto rates_of = [&](Index p) -> HeatRates {

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "contact/heat_term.hpp"
 #include "contact/pair.hpp"
 #include "contact/rotation.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 
@@ -85,7 +85,7 @@ double ContactPair::work(double share) {
   if (share != 1) work += (1 - share) * force_times_increment(End::start, increment);
   if (share != 0) work += share * force_times_increment(End::finish, increment);
   configuration_->place(time_, displacement_, ContactKinematics::Points::own);
-  return algebra::global_sum(work);
+  return parallel::global_sum(work);
 }
 
 double ContactPair::rigid_work(double share) {
@@ -104,7 +104,7 @@ double ContactPair::rigid_work(double share) {
     work_and_rigid_work +=
         motion.weight * (pressure * (to.penetration - from.penetration) + dot(traction, motion.slip));
   }
-  return algebra::global_sum(work_and_rigid_work) - work(share);
+  return parallel::global_sum(work_and_rigid_work) - work(share);
 }
 
 ContactSums ContactPair::sums(std::span<const double> temperature) const {
@@ -174,7 +174,7 @@ ContactSums ContactPair::sums(std::span<const double> temperature) const {
   sums.wet_area = s[18];
   sums.left_points = std::llround(s[19]);
   sums.left_area = s[20];
-  if (sums.left_points > 0) sums.left_gap = algebra::global_max(left_gap);
+  if (sums.left_points > 0) sums.left_gap = parallel::global_max(left_gap);
   return sums;
 }
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 
@@ -53,8 +53,8 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
       }
     }
   }
-  sum = algebra::global_sum(sum);
-  area = algebra::global_sum(area);
+  sum = parallel::global_sum(sum);
+  area = parallel::global_sum(area);
   return area > 0 ? sum / area : 0;
 }
 

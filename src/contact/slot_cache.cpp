@@ -11,7 +11,7 @@ std::span<const SlotCache::Slot> SlotCache::slots(Index first_point, std::span<c
     run.slots.clear();
     for (const Index row : nodes)
       for (const Index column : nodes)
-        run.slots.push_back(row < n_owned_ ? matrix_->slot(row, column) : algebra::BlockMatrix::k_no_slot);
+        run.slots.push_back(row < n_owned_ ? matrix_->slot(row, column) : linear::BlockMatrix::k_no_slot);
   }
   return run.slots;
 }

@@ -4,17 +4,17 @@
 #include <span>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
+#include "linear/block_matrix.hpp"
 
 namespace solidus::contact {
 
 /// Points come in runs that share their nodes; a run is known by its first point.
 class SlotCache {
  public:
-  using Slot = algebra::BlockMatrix::Slot;
+  using Slot = linear::BlockMatrix::Slot;
 
   /// Slots are those of this matrix from here on.
-  void bind(const algebra::BlockMatrix& matrix, Index n_owned, Index n_points) {
+  void bind(const linear::BlockMatrix& matrix, Index n_owned, Index n_points) {
     matrix_ = &matrix;
     n_owned_ = n_owned;
     runs_.assign(static_cast<std::size_t>(n_points), {});
@@ -29,7 +29,7 @@ class SlotCache {
     std::vector<Index> nodes;
     std::vector<Slot> slots;
   };
-  const algebra::BlockMatrix* matrix_ = nullptr;
+  const linear::BlockMatrix* matrix_ = nullptr;
   Index n_owned_ = 0;
   std::vector<Run> runs_;  ///< [first point]
 };

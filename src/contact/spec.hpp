@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "base/errors.hpp"
 #include "contact/friction.hpp"
 #include "contact/heat_transfer.hpp"
 #include "contact/integration.hpp"
 #include "contact/master_analytic.hpp"
 #include "contact/normal.hpp"
 #include "contact/wear.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::contact {
 

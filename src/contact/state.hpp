@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "base/types.hpp"
 #include "contact/vector.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::contact {
 

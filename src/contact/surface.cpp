@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::contact {
 

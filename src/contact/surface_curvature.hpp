@@ -13,8 +13,8 @@
 
 #include <vector>
 
-#include "base/types.hpp"
 #include "contact/surface.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::contact {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/table.hpp"
+#include "numbers/table.hpp"
 
 namespace solidus::contact {
 

@@ -10,8 +10,8 @@
 /// J. Appl. Phys. 24, 981.
 #pragma once
 
-#include "base/errors.hpp"
-#include "base/table.hpp"
+#include "numbers/table.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::contact {
 

@@ -1,10 +1,10 @@
 /// Makes a coupling scheme of a struct that describes it (scheme_kind.hpp).
 #pragma once
 
-#include "base/kinds.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/scheme.hpp"
 #include "coupling/scheme_kind.hpp"
+#include "input/kinds.hpp"
 
 namespace solidus::coupling {
 

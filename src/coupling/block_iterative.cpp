@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/largest_difference.hpp"
@@ -17,6 +15,8 @@
 #include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
 #include "heat/worst_node.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::coupling {
 
@@ -30,7 +30,7 @@ constexpr double k_diverged = 100;
 double largest(std::span<const double> a) {
   double size = 0;
   for (const double v : a) size = std::max(size, std::abs(v));
-  return algebra::global_max(size);
+  return parallel::global_max(size);
 }
 
 /// Θ_c of all points of all pairs [K]; zero where it is not known.
@@ -191,7 +191,7 @@ bool BlockIterative::agrees(const State& old, const Iterate& it) const {
 void BlockIterative::require_progress(const Iterate& it) const {
   const std::vector<double>& now = it.now.heat.temperature;
   const bool cold = std::any_of(now.begin(), now.end(), [](double t) { return !(t > 0); });
-  if (algebra::any_process(cold)) diverged(it, "a temperature fell below 0 K");
+  if (parallel::any_process(cold)) diverged(it, "a temperature fell below 0 K");
   if (!std::isfinite(changes_.back().temperature) || !std::isfinite(changes_.back().displacement))
     diverged(it, "a temperature or displacement is not a number");
   if (changes_.back().temperature > k_diverged * changes_.front().temperature)

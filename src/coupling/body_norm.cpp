@@ -9,8 +9,8 @@
 #include <limits>
 #include <numeric>
 
-#include "algebra/parallel.hpp"
 #include "mesh/block_geometry.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
@@ -26,7 +26,7 @@ double diagonal_of(const mesh::Mesh& mesh) {
       low = std::min(low, x[k]);
       high = std::max(high, x[k]);
     }
-    const double extent = algebra::global_max(high) - algebra::global_min(low);
+    const double extent = parallel::global_max(high) - parallel::global_min(low);
     square += extent * extent;
   }
   return std::sqrt(square);
@@ -119,7 +119,7 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
       }
   }
   for (std::size_t b = 0; b < n_bodies_; ++b) {
-    const double volume = algebra::global_sum(std::accumulate(weight[b].begin(), weight[b].end(), 0.0));
+    const double volume = parallel::global_sum(std::accumulate(weight[b].begin(), weight[b].end(), 0.0));
     for (std::size_t i = 0; i < n_owned; ++i)
       if (weight[b][i] > 0)
         shares_.push_back({static_cast<Index>(i), static_cast<int>(b), weight[b][i] / volume});
@@ -142,7 +142,7 @@ double BodyNorm::operator()(std::span<const double> values, std::span<const char
       square[static_cast<std::size_t>(share.body)] += share.weight * v * v;
     }
   }
-  for (double& s : square) s = algebra::global_sum(s);
+  for (double& s : square) s = parallel::global_sum(s);
   return largest(square);
 }
 
@@ -180,7 +180,7 @@ double BodyNorm::mean(std::span<const double> values) const {
     sum[static_cast<std::size_t>(share.body)] += share.weight * values[static_cast<std::size_t>(share.node)];
   double largest = 0;
   for (const double s : sum) {
-    const double mean = std::abs(algebra::global_sum(s));
+    const double mean = std::abs(parallel::global_sum(s));
     if (std::isnan(mean)) return mean;
     largest = std::max(largest, mean);
   }

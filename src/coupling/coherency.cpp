@@ -1,12 +1,12 @@
 #include "coupling/coherency.hpp"
 
-#include "algebra/parallel.hpp"
 #include "heat/thermal_phase.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
 Coherency::Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-                     const algebra::ActiveSet& active)
+                     const linear::ActiveSet& active)
     : mesh_(mesh), material_(static_cast<std::size_t>(mesh.n_owned_nodes), nullptr) {
   for (const mesh::Block& block : mesh.blocks) {
     const material::Material& material = materials[static_cast<std::size_t>(block.body)];
@@ -28,7 +28,7 @@ std::vector<double> Coherency::at(const heat::ThermalPhase* heat, const heat::Th
     const double fraction = heat != nullptr ? solid[i] : material_[i]->solid_fraction(temperature[i]);
     coherency[i] = fraction / material_[i]->casting.coherency_fraction;
   }
-  algebra::GhostExchange(mesh_).update(coherency, 1);
+  parallel::GhostExchange(mesh_).update(coherency, 1);
   return coherency;
 }
 

@@ -7,8 +7,8 @@
 
 #include <vector>
 
-#include "algebra/active_set.hpp"
 #include "heat/thermal_state.hpp"
+#include "linear/active_set.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -23,7 +23,7 @@ class Coherency {
   /// @param materials  [body]; kept by reference
   /// @param active   of the mechanical phase at the start: bodies that only conduct heat do not count
   Coherency(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-            const algebra::ActiveSet& active);
+            const linear::ActiveSet& active);
 
   /// Whether a body that deforms can melt. The same on every process.
   bool melts() const { return melts_; }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/errors.hpp"
-#include "base/log.hpp"
-#include "base/profile.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::coupling {
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <utility>
 
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
 #include "coupling/coupled_saddle_solver.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_solver.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::coupling {
 
@@ -33,7 +33,7 @@ double diagonal(const mesh::Mesh& mesh) {
   for (std::size_t i = 0; i < 3; ++i) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     for (const mesh::Point& x : mesh.x) low = std::min(low, x[i]), high = std::max(high, x[i]);
-    const double size = algebra::global_max(high) - algebra::global_min(low);
+    const double size = parallel::global_max(high) - parallel::global_min(low);
     squares += size * size;
   }
   return std::sqrt(squares);
@@ -49,7 +49,7 @@ double longest(std::span<const double> step, int components) {
     for (std::size_t c = 0; c < n; ++c) of_node += step[i + c] * step[i + c];
     squares = std::max(squares, of_node);
   }
-  return std::sqrt(algebra::global_max(squares));
+  return std::sqrt(parallel::global_max(squares));
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ double CoupledResidual::size() const {
   return std::hypot(force, heat);
 }
 
-CoupledNewton::CoupledNewton(const Phases& phases, algebra::CoupledSolverKind solver)
+CoupledNewton::CoupledNewton(const Phases& phases, linear::CoupledSolverKind solver)
     : phases_(phases),
       mechanics_(*phases.mechanics),
       thermal_(phases.heat->iteration()),
@@ -71,7 +71,7 @@ CoupledNewton::CoupledNewton(const Phases& phases, algebra::CoupledSolverKind so
     solver_ = std::make_unique<CoupledSaddleSolver>(mesh, matrix_, *mechanics_.pressure(), ghosts_, solver,
                                                     tolerance);
   else
-    solver_ = std::make_unique<algebra::CoupledSolver>(mesh, mechanics_.components(), solver, tolerance);
+    solver_ = std::make_unique<linear::CoupledSolver>(mesh, mechanics_.components(), solver, tolerance);
   for (const auto& block : mechanics_.blocks()) {
     auto& kernel = dynamic_cast<mechanics::CoupledKernel&>(*block);
     kernel.bind_heat(thermal_->matrix());
@@ -103,7 +103,7 @@ CoupledResidual CoupledNewton::evaluate(const mechanics::MechanicalState& old,
   mechanics_.matrix().constraints().sum(of_displacement);
   double squares = 0;
   for (const double r : force_) squares += r * r;
-  norm_ = std::sqrt(algebra::global_sum(squares));
+  norm_ = std::sqrt(parallel::global_sum(squares));
 
   mechanics_.finish(old, x, history_);
   thermal_->evaluate();
@@ -120,7 +120,7 @@ CoupledResidual CoupledNewton::present() const {
 }
 
 double CoupledNewton::goal() const {
-  const algebra::NewtonOptions& options = mechanics_.options().newton;
+  const linear::NewtonOptions& options = mechanics_.options().newton;
   return std::max({options.tolerance * reference_, options.absolute_tolerance, mechanics_.round_off()});
 }
 
@@ -133,8 +133,8 @@ bool CoupledNewton::converged() const {
   return balanced() && (allowed <= 0 || next_step_ <= allowed || norm_ <= mechanics_.round_off());
 }
 
-algebra::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState& old,
-                                                std::span<const double> x, int iteration) {
+linear::CoupledMatrix& CoupledNewton::assemble(const mechanics::MechanicalState& old,
+                                               std::span<const double> x, int iteration) {
   mechanics_.tangent();
   if (thermal_->follow_graph())
     for (mechanics::CoupledKernel* kernel : kernels_) kernel->bind_heat(thermal_->matrix());
@@ -192,7 +192,7 @@ void CoupledNewton::spread(std::span<const double> owned, std::span<double> x) c
   ghosts_.update(p, mechanics_.pressure()->fields());
 }
 
-algebra::FieldWeights CoupledNewton::weights() {
+linear::FieldWeights CoupledNewton::weights() {
   const std::span<const double> heat = thermal_->right_hand_side();
   double squares[2] = {0, 0};
   for (std::size_t i = 0; i < heat.size(); ++i) {
@@ -204,13 +204,13 @@ algebra::FieldWeights CoupledNewton::weights() {
   matrix_.multiply_force(step_t_, caused.first(n_owned_displacements()));
   if (matrix_.pressures() > 0) matrix_.multiply_volume(step_t_, caused.subspan(n_owned_displacements()));
   for (const double f : caused) squares[1] += f * f;
-  const double of_heat = std::sqrt(algebra::global_sum(squares[0]));
-  const double of_force = std::max(norm_, std::sqrt(algebra::global_sum(squares[1])));
+  const double of_heat = std::sqrt(parallel::global_sum(squares[0]));
+  const double of_force = std::max(norm_, std::sqrt(parallel::global_sum(squares[1])));
   return {of_force > 0 ? 1.0 / of_force : 1.0, of_heat > 0 ? 1.0 / of_heat : 1.0};
 }
 
-double CoupledNewton::forcing_term(algebra::Forcing& forcing, const algebra::FieldWeights& weights) const {
-  const algebra::FieldWeights in_use = solver_->in_use(weights);
+double CoupledNewton::forcing_term(linear::Forcing& forcing, const linear::FieldWeights& weights) const {
+  const linear::FieldWeights in_use = solver_->in_use(weights);
   // In the norm of the linear solver.
   const double force = in_use.force * norm_, heat = in_use.heat / weights.heat;
   const auto left = [](double norm, double goal) { return goal > 0 ? norm / goal : 1.0; };
@@ -220,11 +220,11 @@ double CoupledNewton::forcing_term(algebra::Forcing& forcing, const algebra::Fie
                       std::min(force / force_left, heat / heat_left) / std::hypot(force, heat));
 }
 
-bool CoupledNewton::find_direction(algebra::Forcing& forcing, CoupledReport& report, std::string& failure) {
-  const algebra::FieldWeights scales = weights();
+bool CoupledNewton::find_direction(linear::Forcing& forcing, CoupledReport& report, std::string& failure) {
+  const linear::FieldWeights scales = weights();
   const double eta = forcing_term(forcing, scales);
   for (double& r : force_) r = -r;
-  const algebra::LinearReport linear =
+  const linear::LinearReport linear =
       solver_->solve(matrix_, force_, thermal_->right_hand_side(), scales, owned_step_,
                      std::span(step_t_).first(further_.size()), eta);
   for (double& r : force_) r = -r;
@@ -251,7 +251,7 @@ CoupledResidual CoupledNewton::evaluate_at(double alpha, const mechanics::Mechan
   const auto& temperature = thermal_->temperature();
   const double coldest =
       temperature.empty() ? 1.0 : *std::min_element(temperature.begin(), temperature.end());
-  if (!(algebra::global_min(coldest) > 0)) {
+  if (!(parallel::global_min(coldest) > 0)) {
     constexpr double k_none = std::numeric_limits<double>::infinity();
     return {k_none, k_none};
   }
@@ -310,7 +310,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
   const int max_iterations = std::max(mechanics_.options().newton.max_iterations, thermal_->max_iterations());
   pass.iterate_temperature = thermal_->temperature();
   CoupledReport report;
-  algebra::Forcing forcing(mechanics_.options().newton.inexact, k_loosest);
+  linear::Forcing forcing(mechanics_.options().newton.inexact, k_loosest);
   in_equilibrium_ = false;
   next_step_ = std::numeric_limits<double>::infinity();
   CoupledResidual residual = evaluate(old, pass, x);

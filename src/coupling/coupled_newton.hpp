@@ -30,12 +30,12 @@
 #include <string>
 #include <vector>
 
-#include "algebra/coupled_solver.hpp"
-#include "algebra/forcing.hpp"
-#include "algebra/parallel.hpp"
 #include "coupling/phases.hpp"
 #include "heat/thermal_iteration.hpp"
+#include "linear/coupled_solver.hpp"
+#include "linear/forcing.hpp"
 #include "mechanics/coupled_kernel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
@@ -55,7 +55,7 @@ struct CoupledReport {
 class CoupledNewton {
  public:
   /// Both phases must outlive this object; the mechanical one is built for Mapping::simultaneous. Collective.
-  CoupledNewton(const Phases& phases, algebra::CoupledSolverKind solver);
+  CoupledNewton(const Phases& phases, linear::CoupledSolverKind solver);
 
   /// Solves one stage. Thermal start and unknowns are those of `thermal`, which has begun; `x` holds the
   /// unknowns of the mechanical phase at the start (MechanicalPhase::start) and, at the end, at the solution.
@@ -78,8 +78,8 @@ class CoupledNewton {
                            std::span<const double> x);
   std::span<const double> force() const { return force_; }
   /// The tangent there.
-  algebra::CoupledMatrix& assemble(const mechanics::MechanicalState& old, std::span<const double> x,
-                                   int iteration);
+  linear::CoupledMatrix& assemble(const mechanics::MechanicalState& old, std::span<const double> x,
+                                  int iteration);
   /// That tangent times a direction, which is local as x and Θ are; on owned entries as the residuals are,
   /// forces that are prescribed or tied as they come.
   void multiply(std::span<const double> x, std::span<const double> temperature, std::span<double> force,
@@ -91,16 +91,16 @@ class CoupledNewton {
   /// Residuals of the last evaluation.
   CoupledResidual present() const;
   bool balanced() const;   ///< both residuals are within their tolerances
-  bool converged() const;  ///< and the next step would be a small one (algebra::NewtonOptions)
+  bool converged() const;  ///< and the next step would be a small one (linear::NewtonOptions)
   double goal() const;     ///< ‖r_u‖ that ends the iteration [N]
   /// The reciprocals of the heat out of balance and of the forces that the temperatures which balance it
   /// would cause: measured by the forces that bodies exchange, thermal stress would drown the heat.
-  algebra::FieldWeights weights();
+  linear::FieldWeights weights();
   /// δu and δΘ from the tangent; false when the linear solver fails, which `failure` names.
-  bool find_direction(algebra::Forcing& forcing, CoupledReport& report, std::string& failure);
+  bool find_direction(linear::Forcing& forcing, CoupledReport& report, std::string& failure);
   /// Tolerance of the linear solver: the residual at which the phase that is further from convergence would
   /// end the iteration.
-  double forcing_term(algebra::Forcing& forcing, const algebra::FieldWeights& weights) const;
+  double forcing_term(linear::Forcing& forcing, const linear::FieldWeights& weights) const;
   /// Moves along the direction, with a line search.
   double move(const mechanics::MechanicalState& old, const mechanics::MechanicalPass& pass,
               std::vector<double>& x, const CoupledReport& report);
@@ -119,9 +119,9 @@ class CoupledNewton {
   mechanics::MechanicalPhase& mechanics_;
   std::unique_ptr<heat::ThermalIteration> thermal_;
   std::vector<mechanics::CoupledKernel*> kernels_;
-  algebra::CoupledMatrix matrix_;
-  algebra::GhostExchange ghosts_;
-  std::unique_ptr<algebra::CoupledTangentSolver> solver_;
+  linear::CoupledMatrix matrix_;
+  parallel::GhostExchange ghosts_;
+  std::unique_ptr<linear::CoupledTangentSolver> solver_;
   std::vector<mechanics::BlockHistory> history_;  ///< of the last residual
   std::vector<double> force_;                     ///< r_u and −unit × r_p, on owned nodes
   std::vector<double> owned_step_;                ///< of displacement and pressure, on owned nodes

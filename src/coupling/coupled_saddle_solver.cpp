@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "base/profile.hpp"
-#include "base/stopwatch.hpp"
+#include "system/profile.hpp"
+#include "system/stopwatch.hpp"
 
 namespace solidus::coupling {
 
@@ -23,10 +23,10 @@ constexpr double k_temperature_tolerance = 1e-2;
 
 }  // namespace
 
-CoupledSaddleSolver::CoupledSaddleSolver(const mesh::Mesh& mesh, algebra::CoupledMatrix& matrix,
+CoupledSaddleSolver::CoupledSaddleSolver(const mesh::Mesh& mesh, linear::CoupledMatrix& matrix,
                                          mechanics::NodalPressure& pressure,
-                                         const algebra::GhostExchange& ghosts,
-                                         algebra::CoupledSolverKind kind, double relative_tolerance)
+                                         const parallel::GhostExchange& ghosts,
+                                         linear::CoupledSolverKind kind, double relative_tolerance)
     : mesh_(mesh),
       matrix_(matrix),
       pressure_(pressure),
@@ -65,7 +65,7 @@ void CoupledSaddleSolver::find_unknowns() {
 
 bool CoupledSaddleSolver::factorises() const {
   return !mechanics::SaddlePreconditioner::serves(matrix_.displacement()) ||
-         algebra::is_direct(kind_, mesh_.dimension, unknowns_->n_global(), k_direct_limit_3d);
+         linear::is_direct(kind_, mesh_.dimension, unknowns_->n_global(), k_direct_limit_3d);
 }
 
 void CoupledSaddleSolver::make_solver(bool direct) {
@@ -77,19 +77,19 @@ void CoupledSaddleSolver::make_solver(bool direct) {
   temperatures_.reset();
   if (direct) {
     iterative_.reset();
-    factorised_.emplace(algebra::KrylovOptions{.prefix = "coupled_", .symmetric = false});
+    factorised_.emplace(linear::KrylovOptions{.prefix = "coupled_", .symmetric = false});
     operator_ =
-        std::make_unique<algebra::FunctionMatrix>(static_cast<std::int64_t>(unknowns_->size()), product);
+        std::make_unique<linear::FunctionMatrix>(static_cast<std::int64_t>(unknowns_->size()), product);
     return;
   }
   factorised_.reset();
   operator_.reset();
   // The matrix of displacements is whole, symmetric or not.
   saddle_.emplace(mesh_, *matrix_.saddle(), pressure_, ghosts_, false);
-  temperatures_.emplace(mesh_, algebra::LinearSolverOptions{.prefix = "coupled_temperature_",
-                                                            .kind = algebra::SolverKind::incomplete,
-                                                            .symmetric = false,
-                                                            .relative_tolerance = k_temperature_tolerance});
+  temperatures_.emplace(mesh_, linear::LinearSolverOptions{.prefix = "coupled_temperature_",
+                                                           .kind = linear::SolverKind::incomplete,
+                                                           .symmetric = false,
+                                                           .relative_tolerance = k_temperature_tolerance});
   iterative_.emplace();
   iterative_->set(product, [this](std::span<const double> r, std::span<double> z) { precondition(r, z); });
 }
@@ -173,10 +173,10 @@ void CoupledSaddleSolver::precondition(std::span<const double> r, std::span<doub
   unknowns_->restrict_to(product_, z);
 }
 
-algebra::LinearReport CoupledSaddleSolver::solve([[maybe_unused]] algebra::CoupledMatrix& a,
-                                                 std::span<const double> force, std::span<const double> heat,
-                                                 algebra::FieldWeights weights, std::span<double> u,
-                                                 std::span<double> temperature, double forcing) {
+linear::LinearReport CoupledSaddleSolver::solve([[maybe_unused]] linear::CoupledMatrix& a,
+                                                std::span<const double> force, std::span<const double> heat,
+                                                linear::FieldWeights weights, std::span<double> u,
+                                                std::span<double> temperature, double forcing) {
   assert(&a == &matrix_);
   const Stopwatch watch(seconds_);
   weights_ = weights;
@@ -188,7 +188,7 @@ algebra::LinearReport CoupledSaddleSolver::solve([[maybe_unused]] algebra::Coupl
   // Right-hand sides are summed already: those of followers are zero.
   unknowns_->restrict_to(whole, right_);
   set_up();
-  algebra::LinearReport report;
+  linear::LinearReport report;
   for (bool again = true; again;) {
     again = false;
     const double relative = direct_ ? std::min(k_direct_tolerance, tightest_) : std::max(forcing, tightest_);

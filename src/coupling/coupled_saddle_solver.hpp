@@ -21,30 +21,30 @@
 #include <span>
 #include <vector>
 
-#include "algebra/coupled_solver.hpp"
-#include "algebra/coupled_unknowns.hpp"
-#include "algebra/function_matrix.hpp"
-#include "algebra/hierarchy_age.hpp"
-#include "algebra/krylov_solver.hpp"
-#include "algebra/recycling_gmres.hpp"
+#include "linear/coupled_solver.hpp"
+#include "linear/coupled_unknowns.hpp"
+#include "linear/function_matrix.hpp"
+#include "linear/hierarchy_age.hpp"
+#include "linear/krylov_solver.hpp"
+#include "linear/recycling_gmres.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_preconditioner.hpp"
 
 namespace solidus::coupling {
 
-class CoupledSaddleSolver final : public algebra::CoupledTangentSolver {
+class CoupledSaddleSolver final : public linear::CoupledTangentSolver {
  public:
   /// @param matrix  with a saddle point
   /// Keeps references to all its arguments but the last two. Collective.
-  CoupledSaddleSolver(const mesh::Mesh& mesh, algebra::CoupledMatrix& matrix,
-                      mechanics::NodalPressure& pressure, const algebra::GhostExchange& ghosts,
-                      algebra::CoupledSolverKind kind, double relative_tolerance);
+  CoupledSaddleSolver(const mesh::Mesh& mesh, linear::CoupledMatrix& matrix,
+                      mechanics::NodalPressure& pressure, const parallel::GhostExchange& ghosts,
+                      linear::CoupledSolverKind kind, double relative_tolerance);
 
   /// @param a  the matrix of the constructor
-  algebra::LinearReport solve(algebra::CoupledMatrix& a, std::span<const double> force,
-                              std::span<const double> heat, algebra::FieldWeights weights,
-                              std::span<double> u, std::span<double> temperature, double forcing) override;
-  algebra::FieldWeights in_use(algebra::FieldWeights weights) const override { return weights; }
+  linear::LinearReport solve(linear::CoupledMatrix& a, std::span<const double> force,
+                             std::span<const double> heat, linear::FieldWeights weights, std::span<double> u,
+                             std::span<double> temperature, double forcing) override;
+  linear::FieldWeights in_use(linear::FieldWeights weights) const override { return weights; }
   void forget() override { make_solver(factorises()); }
   void reset() override;
   double seconds() const override { return seconds_; }
@@ -65,22 +65,22 @@ class CoupledSaddleSolver final : public algebra::CoupledTangentSolver {
   std::size_t n_pressures() const;
 
   const mesh::Mesh& mesh_;
-  algebra::CoupledMatrix& matrix_;
+  linear::CoupledMatrix& matrix_;
   mechanics::NodalPressure& pressure_;
-  const algebra::GhostExchange& ghosts_;
-  algebra::CoupledSolverKind kind_;
+  const parallel::GhostExchange& ghosts_;
+  linear::CoupledSolverKind kind_;
   double tightest_;  ///< relative tolerance
-  std::optional<algebra::CoupledUnknowns> unknowns_;
-  algebra::CoupledCopy copy_;
+  std::optional<linear::CoupledUnknowns> unknowns_;
+  linear::CoupledCopy copy_;
   bool direct_ = true;
-  std::unique_ptr<algebra::FunctionMatrix> operator_;
-  std::optional<algebra::KrylovSolver> factorised_;   ///< where few are unknown
-  std::optional<algebra::RecyclingGmres> iterative_;  ///< where many are
+  std::unique_ptr<linear::FunctionMatrix> operator_;
+  std::optional<linear::KrylovSolver> factorised_;   ///< where few are unknown
+  std::optional<linear::RecyclingGmres> iterative_;  ///< where many are
   std::optional<mechanics::SaddlePreconditioner> saddle_;
-  std::optional<algebra::LinearSolver> temperatures_;
+  std::optional<linear::LinearSolver> temperatures_;
   bool new_temperatures_ = true;  ///< K_ΘΘ has changed since the last solve with it
-  algebra::HierarchyAge hierarchy_;
-  algebra::FieldWeights weights_;
+  linear::HierarchyAge hierarchy_;
+  linear::FieldWeights weights_;
   double seconds_ = 0;
   std::vector<double> right_, solution_;                                      ///< [unknown]
   std::vector<double> whole_, product_, part_, local_u_, local_p_, local_t_;  ///< scratch

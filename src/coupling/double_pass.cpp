@@ -4,12 +4,12 @@
 
 #include <stdexcept>
 
-#include "base/errors.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::coupling {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
@@ -15,7 +15,7 @@ double heat_content(const heat::ThermalPhase& phase, const heat::ThermalState& s
     const double temperature = state.temperature[static_cast<std::size_t>(i)];
     content += storage.capacity(i, temperature) * temperature;
   }
-  return algebra::global_sum(content);
+  return parallel::global_sum(content);
 }
 
 double energy_scale(const EnergyAudit& sum, double heat_content) {

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
-#include "base/types.hpp"
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/worst_node.hpp"
+#include "numbers/types.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::coupling {
 
@@ -29,7 +29,7 @@ heat::TemperatureRange range_of(const heat::ThermalPhase& phase, const State& st
     range.lowest = std::min(range.lowest, t);
     range.highest = std::max(range.highest, t);
   }
-  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+  return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
 }
 
 heat::TemperatureRange including(const heat::TemperatureRange& a, const heat::TemperatureRange& b) {
@@ -86,10 +86,10 @@ void require_continued(const Phases& phases, const State& old, const State& tria
     }
     return worst;
   };
-  if (!(algebra::global_max(look(nullptr).size) > 0)) return;
+  if (!(parallel::global_max(look(nullptr).size) > 0)) return;
   const std::vector<double> deformation = by_deformation(phases, trial, dt, highest);
   const heat::WorstNode worst = look(&deformation);
-  if (!(algebra::global_max(worst.size) > 0)) return;
+  if (!(parallel::global_max(worst.size) > 0)) return;
   throw StepRejected(
       fmt::format(
           "coupling: a temperature that does not follow from those at the start of the step and around "

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
@@ -19,7 +19,7 @@ inline double largest_difference(std::span<const double> a, std::span<const doub
     const double difference = std::abs(a[i] - b[i]);
     size = std::isnan(difference) ? std::numeric_limits<double>::infinity() : std::max(size, difference);
   }
-  return algebra::global_max(size);
+  return parallel::global_max(size);
 }
 
 }  // namespace solidus::coupling

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 
-#include "base/errors.hpp"
-#include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
+#include "system/errors.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::coupling {
 
 namespace {
 
 /// @param hardest  iterations of the harder stage
-void add(const algebra::NewtonReport& newton, int hardest, double seconds, PhaseEffort& effort) {
+void add(const linear::NewtonReport& newton, int hardest, double seconds, PhaseEffort& effort) {
   effort.iterations += newton.iterations;
   effort.hardest += hardest;
   effort.linear_iterations += newton.linear_iterations;

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
 namespace {
 
 /// @param active  null: of all nodes
-void range_of_owned(const std::vector<double>& temperature, Index n_owned, const algebra::ActiveSet* active,
+void range_of_owned(const std::vector<double>& temperature, Index n_owned, const linear::ActiveSet* active,
                     StepEffort& effort) {
   constexpr double k_far = std::numeric_limits<double>::max();  // of a process that owns nothing
   double low = k_far, high = -k_far;
@@ -19,8 +19,8 @@ void range_of_owned(const std::vector<double>& temperature, Index n_owned, const
     low = std::min(low, temperature[static_cast<std::size_t>(i)]);
     high = std::max(high, temperature[static_cast<std::size_t>(i)]);
   }
-  effort.min_temperature = algebra::global_min(low);
-  effort.max_temperature = algebra::global_max(high);
+  effort.min_temperature = parallel::global_min(low);
+  effort.max_temperature = parallel::global_max(high);
 }
 
 }  // namespace

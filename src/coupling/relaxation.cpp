@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
@@ -22,7 +22,7 @@ double Relaxation::factor(std::span<const double> change) {
     sums[0] += last_[i] * difference;
     sums[1] += difference * difference;
   }
-  const double along = algebra::global_sum(sums[0]), square = algebra::global_sum(sums[1]);
+  const double along = parallel::global_sum(sums[0]), square = parallel::global_sum(sums[1]);
   if (first_)
     factor_ = options_.factor;
   else if (square > 0)

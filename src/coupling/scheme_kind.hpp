@@ -21,15 +21,15 @@
 #include <string_view>
 #include <vector>
 
-#include "base/objection.hpp"
 #include "coupling/continuation.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "mechanics/structural_heat.hpp"
+#include "system/objection.hpp"
 
 namespace solidus {
 
 template <class Interface>
-class Kinds;  // base/kinds.hpp
+class Kinds;  // input/kinds.hpp
 
 namespace coupling {
 

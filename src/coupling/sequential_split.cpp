@@ -2,11 +2,11 @@
 
 #include <stdexcept>
 
-#include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/stability_audit.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::coupling {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::coupling {
 
@@ -18,7 +18,7 @@ double dot(const std::vector<double>& weight, const std::vector<double>& a, cons
            Index n_owned) {
   double sum = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_owned); ++i) sum += weight[i] * a[i] * b[i];
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 }  // namespace
@@ -43,9 +43,9 @@ DieTemperature ShotMap::die_temperature(const State& state) const {
     die.lowest = std::min(die.lowest, t);
     die.highest = std::max(die.highest, t);
   }
-  volume = algebra::global_sum(volume);
-  return {algebra::global_sum(sum) / volume, algebra::global_min(die.lowest),
-          algebra::global_max(die.highest)};
+  volume = parallel::global_sum(volume);
+  return {parallel::global_sum(sum) / volume, parallel::global_min(die.lowest),
+          parallel::global_max(die.highest)};
 }
 
 double ShotMap::begin(State& state, ShotHistory& history) const {
@@ -66,7 +66,7 @@ ShotRecord ShotMap::end(const State& state, ShotHistory& history) const {
     iterate.change[i] = state.heat.temperature[i] - history.start[i];
     change = std::max(change, std::abs(iterate.change[i]));
   }
-  change = algebra::global_max(change);
+  change = parallel::global_max(change);
   if (change > k_worse * history.change) history.iterates.clear();
   history.change = change;
   ++history.shots;
@@ -141,7 +141,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
     if (std::abs(moved) > farthest) share = std::min(share, farthest / std::abs(moved));
     if (now + moved > history.highest) share = std::min(share, std::max(history.highest - now, 0.0) / moved);
   }
-  share = algebra::global_min(share);
+  share = parallel::global_min(share);
   double put_in = 0;
   for (std::size_t i = 0; i < n_owned; ++i) {
     if (!stays(i)) continue;
@@ -158,7 +158,7 @@ double ShotMap::combine(State& state, const ShotHistory& history) const {
   const std::size_t components = u.size() / volume_.size();
   for (std::size_t i = 0; i < u.size(); ++i)
     if (stays(i / components)) u[i] += share * (combined(&ShotIterate::displacement, i) - u[i]);
-  return algebra::global_sum(put_in);
+  return parallel::global_sum(put_in);
 }
 
 }  // namespace solidus::coupling

@@ -54,7 +54,7 @@ class ShotMap {
 
   const heat::ThermalPhase& heat_;
   PeriodicOptions options_;
-  algebra::GhostExchange ghosts_;
+  parallel::GhostExchange ghosts_;
   std::vector<double> volume_;  ///< of bodies that stay, [local node] [m³]; zero where there is none
 };
 

@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/interruption.hpp"
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
-#include "base/log.hpp"
+#include "linear/interruption.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace solidus::coupling {
 
@@ -73,7 +73,7 @@ bool Simulation::checkpoint_due(const StepRecord& record) const {
 }
 
 bool Simulation::stop_asked() const {
-  return stop_asked_ && algebra::any_process(stop_asked_());
+  return stop_asked_ && parallel::any_process(stop_asked_());
 }
 
 void Simulation::save(Progress& p, const ControlState& control) {
@@ -330,7 +330,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
     }
     record = p.record;
     static_cast<StepEffort&>(record) = taken.effort;
-  } catch (const algebra::Interrupted&) {
+  } catch (const linear::Interrupted&) {
     return Try::repeat;  // before which stop_asked() ends the run
   } catch (const StepRejected& rejection) {
     ++p.record.rejected;

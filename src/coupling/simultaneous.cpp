@@ -6,14 +6,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/errors.hpp"
-#include "base/log.hpp"
-#include "base/profile.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
 #include "material/time_integration.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::coupling {
 

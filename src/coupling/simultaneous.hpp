@@ -26,7 +26,7 @@ class ContactWork;
 struct SimultaneousOptions {
   enum class Integration { backward_euler, sdirk2 };
   Integration integration = Integration::backward_euler;
-  algebra::CoupledSolverKind solver = algebra::CoupledSolverKind::automatic;
+  linear::CoupledSolverKind solver = linear::CoupledSolverKind::automatic;
 };
 
 class SimultaneousScheme final : public CouplingScheme {

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/errors.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/largest_difference.hpp"
 #include "coupling/passes.hpp"
 #include "coupling/relaxation.hpp"
 #include "heat/worst_node.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::coupling {
 

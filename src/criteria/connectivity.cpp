@@ -52,7 +52,7 @@ std::map<double, double> joined_labels(const std::vector<double>& pairs) {
 
 }  // namespace
 
-Connectivity::Connectivity(const mesh::Mesh& mesh, const algebra::GhostExchange& ghosts,
+Connectivity::Connectivity(const mesh::Mesh& mesh, const parallel::GhostExchange& ghosts,
                            std::vector<char> chosen)
     : mesh_(mesh), ghosts_(ghosts), chosen_(std::move(chosen)) {}
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "mesh/mesh.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::criteria {
 
@@ -20,7 +20,7 @@ struct Parts {
 class Connectivity {
  public:
   /// @param chosen  one per body: its elements connect
-  Connectivity(const mesh::Mesh& mesh, const algebra::GhostExchange& ghosts, std::vector<char> chosen);
+  Connectivity(const mesh::Mesh& mesh, const parallel::GhostExchange& ghosts, std::vector<char> chosen);
 
   /// Two nodes of the set are connected where an element has both. Collective.
   /// @param inside  [local node]; ghosts as their owners say
@@ -28,7 +28,7 @@ class Connectivity {
 
  private:
   const mesh::Mesh& mesh_;
-  const algebra::GhostExchange& ghosts_;
+  const parallel::GhostExchange& ghosts_;
   std::vector<char> chosen_;
 };
 

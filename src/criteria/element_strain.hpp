@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base/tensor.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::criteria {
 

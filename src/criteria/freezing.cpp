@@ -263,7 +263,7 @@ void Freezing::step(const Moment& old, const Moment& next, Record& record) {
     follow(who, step, history, passages);
     if (h[k_liquidus_at] >= 0 && h[k_evaluated_at] < 0) freezing.push_back(who);
   }
-  if (!algebra::any_process(!passages.empty() || !waiting.empty() || !freezing.empty())) return;
+  if (!parallel::any_process(!passages.empty() || !waiting.empty() || !freezing.empty())) return;
   ghosts_.update(history, k_width);  // times of neighbours say what lies behind the front
   for (const Passage& passage : passages) evaluate(passage, step, history);
   for (const FreezingNode& who : freezing) accumulate(who, step, history);

@@ -30,12 +30,12 @@
 #include <optional>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "criteria/criterion.hpp"
 #include "criteria/freezing_levels.hpp"
 #include "criteria/niyama.hpp"
 #include "criteria/patches.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::criteria {
 
@@ -101,7 +101,7 @@ class Freezing : public Criterion {
   std::vector<std::optional<FeedingLaw>> feeding_;  ///< per body
   std::vector<FreezingNode> nodes_;                 ///< owned
   Patches patches_;
-  algebra::GhostExchange ghosts_;
+  parallel::GhostExchange ghosts_;
 };
 
 }  // namespace solidus::criteria

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base/types.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::criteria {
 

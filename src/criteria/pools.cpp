@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "base/errors.hpp"
 #include "criteria/pool_tracking.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::criteria {
 
@@ -85,7 +85,7 @@ Pools::Pools(const mesh::Mesh& mesh, const heat::NodalEnthalpy& storage, PoolOpt
       own += volume;
     }
   }
-  whole_ = algebra::global_sum(own);
+  whole_ = parallel::global_sum(own);
 }
 
 double Pools::volume(std::size_t node) const {
@@ -129,7 +129,7 @@ void Pools::track(const Moment* old, const Moment& next, Record& record) const {
   const bool melt_left = std::find(inside.begin(), inside.end(), 1) != inside.end();
   const bool pool_left =
       std::any_of(pools.begin(), pools.end(), [](const Pool& p) { return p.present() || p.ended; });
-  if (!algebra::any_process(melt_left) && !pool_left) return;
+  if (!parallel::any_process(melt_left) && !pool_left) return;
 
   const Parts parts = connectivity_.parts(inside);
   std::map<double, MeltPart> own;

@@ -74,7 +74,7 @@ class Pools : public Criterion {
   std::vector<int> body_;               ///< [owned node]: that of which it holds most among them, else −1
   std::vector<FreezingLevels> levels_;  ///< per body
   double whole_ = 0;                    ///< over all processes [m³]
-  algebra::GhostExchange ghosts_;
+  parallel::GhostExchange ghosts_;
   Connectivity connectivity_;
 };
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::criteria {
 
@@ -76,7 +76,7 @@ std::vector<int> bodies_of_nodes(const mesh::Mesh& mesh, const std::vector<mater
         }
       }
     }
-  algebra::GhostExchange(mesh).update(body, 1);
+  parallel::GhostExchange(mesh).update(body, 1);
   return {body.begin(), body.end()};
 }
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "algebra/lane_slots.hpp"
+#include "linear/lane_slots.hpp"
 #include "mesh/block_geometry.hpp"
 
 namespace solidus::heat {
@@ -37,8 +37,8 @@ void scatter(const mesh::BlockGeometry& geometry, Index batch, const std::array<
 
 /// @param slot  [a][b][lane] of the batch
 template <int n_nodes>
-void scatter_matrix(const algebra::BlockMatrix::Slot* slot, const ElementMatrix<n_nodes>& m,
-                    algebra::BlockMatrix& matrix) {
+void scatter_matrix(const linear::BlockMatrix::Slot* slot, const ElementMatrix<n_nodes>& m,
+                    linear::BlockMatrix& matrix) {
   for (std::size_t a = 0; a < n_nodes; ++a)
     for (std::size_t b = 0; b < n_nodes; ++b)
       for (int lane = 0; lane < k_lanes; ++lane) *matrix.block(*slot++) += m[a][b][lane];

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/place_function.hpp"
+#include "numbers/place_function.hpp"
 
 namespace solidus::heat {
 

@@ -75,20 +75,20 @@ class Conduction final : public ConductionBlock {
     PackVector<Lane>().swap(geometry_.counted);  // nothing is summed over elements here
   }
 
-  void bind(const algebra::BlockMatrix& matrix) override {
+  void bind(const linear::BlockMatrix& matrix) override {
     matrix_ = &matrix;
     slots_.reset();
   }
 
   void add_tangent(double factor, std::span<const double> columns,
-                   algebra::BlockMatrix& matrix) const override {
+                   linear::BlockMatrix& matrix) const override {
     assert(&matrix == matrix_);
     if (!slots_) slots_.emplace(matrix, geometry_.nodes, n_nodes, geometry_.n_elements);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch)
       add_batch(batch, factor, columns, slots_->of(batch), matrix);
   }
 
-  void add_tangent_once(double factor, algebra::BlockMatrix& matrix) const override {
+  void add_tangent_once(double factor, linear::BlockMatrix& matrix) const override {
     constexpr Index k_together = 1024;  // batches
     constexpr std::size_t k_nodes = static_cast<std::size_t>(n_nodes) * k_lanes;
     for (Index first = 0; first < geometry_.n_batches; first += k_together) {
@@ -96,7 +96,7 @@ class Conduction final : public ConductionBlock {
       const std::span<const Index> nodes =
           std::span(geometry_.nodes)
               .subspan(static_cast<std::size_t>(first) * k_nodes, static_cast<std::size_t>(n) * k_nodes);
-      const algebra::LaneSlots slots(matrix, nodes, n_nodes, geometry_.n_elements - first * k_lanes);
+      const linear::LaneSlots slots(matrix, nodes, n_nodes, geometry_.n_elements - first * k_lanes);
       for (Index batch = 0; batch < n; ++batch) add_batch(first + batch, factor, {}, slots.of(batch), matrix);
     }
   }
@@ -107,7 +107,7 @@ class Conduction final : public ConductionBlock {
   using Nodal = std::array<Lane, n_nodes>;
 
   void add_batch(Index batch, double factor, std::span<const double> columns,
-                 const algebra::LaneSlots::Slot* slots, algebra::BlockMatrix& matrix) const {
+                 const linear::LaneSlots::Slot* slots, linear::BlockMatrix& matrix) const {
     ElementMatrix<n_nodes> m{};
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Lane* g = geometry_.gradients_at(batch, q);
@@ -130,8 +130,8 @@ class Conduction final : public ConductionBlock {
   }
 
   mesh::BlockGeometry geometry_;
-  const algebra::BlockMatrix* matrix_ = nullptr;
-  mutable std::optional<algebra::LaneSlots> slots_;  ///< from the first tangent on
+  const linear::BlockMatrix* matrix_ = nullptr;
+  mutable std::optional<linear::LaneSlots> slots_;  ///< from the first tangent on
 };
 
 }  // namespace

@@ -17,7 +17,7 @@
 #include <memory>
 #include <span>
 
-#include "algebra/block_matrix.hpp"
+#include "linear/block_matrix.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {
@@ -26,14 +26,14 @@ class ConductionBlock {
  public:
   virtual ~ConductionBlock() = default;
   /// The matrix has a new graph: places in it are found anew.
-  virtual void bind(const algebra::BlockMatrix& matrix) = 0;
+  virtual void bind(const linear::BlockMatrix& matrix) = 0;
   /// matrix_ab += factor ∫ ∇N_a · ∇N_b dV columns_b.
   /// @param columns  [local node]; empty: one
   virtual void add_tangent(double factor, std::span<const double> columns,
-                           algebra::BlockMatrix& matrix) const = 0;
+                           linear::BlockMatrix& matrix) const = 0;
   /// The same with one for all columns, slower: nothing is remembered for the next time, which saves 180
   /// bytes a node of tetrahedra.
-  virtual void add_tangent_once(double factor, algebra::BlockMatrix& matrix) const = 0;
+  virtual void add_tangent_once(double factor, linear::BlockMatrix& matrix) const = 0;
   virtual std::size_t bytes() const = 0;
 };
 

@@ -33,7 +33,7 @@ void ConductionLimiter::clear() {
   nodes_.clear();
 }
 
-void ConductionLimiter::add_body(int body, algebra::BlockMatrix& matrix) {
+void ConductionLimiter::add_body(int body, linear::BlockMatrix& matrix) {
   const auto n = at(mesh_.n_owned_nodes);
   std::vector<double> diagonal(mesh_.x.size());
   for (std::size_t i = 0; i < n; ++i) diagonal[i] = *matrix.diagonal_block(static_cast<Index>(i));
@@ -54,7 +54,7 @@ void ConductionLimiter::add_body(int body, algebra::BlockMatrix& matrix) {
   bodies_.push_back(std::move(of_body));
 }
 
-void ConductionLimiter::finish(const algebra::BlockMatrix& matrix) {
+void ConductionLimiter::finish(const linear::BlockMatrix& matrix) {
   const auto n = at(mesh_.n_owned_nodes);
   std::vector<char> has_pairs(mesh_.x.size(), 0);
   std::size_t n_pairs = 0;
@@ -62,10 +62,10 @@ void ConductionLimiter::finish(const algebra::BlockMatrix& matrix) {
     n_pairs += body.pairs.size();
     for (const Pair& p : body.pairs) has_pairs[at(p.i)] = has_pairs[at(p.j)] = 1;
   }
-  needed_ = algebra::any_process(n_pairs > 0);
+  needed_ = parallel::any_process(n_pairs > 0);
   quadratic_ =
-      algebra::any_process(std::any_of(mesh_.blocks.begin(), mesh_.blocks.end(),
-                                       [](const mesh::Block& b) { return mesh::order(b.shape) == 2; }));
+      parallel::any_process(std::any_of(mesh_.blocks.begin(), mesh_.blocks.end(),
+                                        [](const mesh::Block& b) { return mesh::order(b.shape) == 2; }));
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
     if (has_pairs[at(i)] != 0) nodes_.push_back(i);
   for (Body& body : bodies_) {
@@ -258,7 +258,7 @@ bool ConductionLimiter::find_shares(std::span<const double> temperature, std::sp
   });
   for (const LimitedFlow* f : flows)
     if (f->from < mesh_.n_owned_nodes) change += std::abs((left_of_flow(*f) - f->left) * f->heat);
-  if (!(algebra::global_sum(change) > negligible)) return false;
+  if (!(parallel::global_sum(change) > negligible)) return false;
   for (LimitedFlow* f : flows) f->left = left_of_flow(*f);
   for_flows(temperature,
             [&](std::size_t position, const Pair& p, double flow) { left_[position] = left_of(p, flow); });
@@ -277,7 +277,7 @@ ConductionLimiter::Held ConductionLimiter::hold(std::span<const double> temperat
     held = std::max(held, now == 0 ? Held::further : Held::as_before);
     now = 1;
   }
-  return static_cast<Held>(static_cast<int>(algebra::global_max(static_cast<int>(held))));
+  return static_cast<Held>(static_cast<int>(parallel::global_max(static_cast<int>(held))));
 }
 
 void ConductionLimiter::add_heat(std::span<const double> temperature, std::span<double> r) const {
@@ -301,7 +301,7 @@ void ConductionLimiter::for_held(const F& f) const {
   }
 }
 
-void ConductionLimiter::add_symmetric_tangent(algebra::BlockMatrix& matrix) const {
+void ConductionLimiter::add_symmetric_tangent(linear::BlockMatrix& matrix) const {
   for_held([&](const KirchhoffPotential& u, const Pair& p, double left) {
     const double held = left * u.reference() * p.k;
     *matrix.block(p.ij) -= held;
@@ -311,7 +311,7 @@ void ConductionLimiter::add_symmetric_tangent(algebra::BlockMatrix& matrix) cons
   });
 }
 
-void ConductionLimiter::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const {
+void ConductionLimiter::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {
   for_held([&](const KirchhoffPotential& u, const Pair& p, double left) {
     const auto slope = [&](Index node) {
       return left * p.k * (u.constant() ? u.reference() : u.conductivity(temperature[at(node)]));

@@ -32,11 +32,11 @@
 #include <span>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
-#include "algebra/parallel.hpp"
 #include "heat/kirchhoff_potential.hpp"
 #include "heat/surface_heat.hpp"
+#include "linear/block_matrix.hpp"
 #include "mesh/mesh.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
@@ -48,9 +48,9 @@ class ConductionLimiter {
   /// Collects the pairs of all bodies anew: clear(), add_body() for each one, finish().
   void clear();
   /// @param matrix  Σ K_ij of the body alone
-  void add_body(int body, algebra::BlockMatrix& matrix);
+  void add_body(int body, linear::BlockMatrix& matrix);
   /// Collective. The slots of the pairs are those of this matrix, which must outlive this object.
-  void finish(const algebra::BlockMatrix& matrix);
+  void finish(const linear::BlockMatrix& matrix);
   /// Whether there are pairs with K_ij > 0, on any process.
   bool needed() const { return needed_; }
 
@@ -76,9 +76,9 @@ class ConductionLimiter {
   /// r += the part of the flows that is not let through.
   void add_heat(std::span<const double> temperature, std::span<double> r) const;
   /// matrix += ∂/∂v of that, in the unknown of nodal_potential.hpp: symmetric, no less than zero.
-  void add_symmetric_tangent(algebra::BlockMatrix& matrix) const;
+  void add_symmetric_tangent(linear::BlockMatrix& matrix) const;
   /// matrix += ∂/∂Θ of that.
-  void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const;
+  void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const;
   std::size_t bytes() const;
 
  private:
@@ -86,7 +86,7 @@ class ConductionLimiter {
   struct Pair {
     Index i, j;
     double k;  ///< [m]
-    algebra::BlockMatrix::Slot ij, ji;
+    linear::BlockMatrix::Slot ij, ji;
   };
   struct Diagonal {
     Index node;
@@ -108,9 +108,9 @@ class ConductionLimiter {
 
   const mesh::Mesh& mesh_;
   std::span<const KirchhoffPotential> potentials_;
-  algebra::GhostExchange ghosts_;
-  bool quadratic_ = false;                        ///< whether there are quadratic elements, on any process
-  const algebra::BlockMatrix* matrix_ = nullptr;  ///< its pattern tells the neighbours
+  parallel::GhostExchange ghosts_;
+  bool quadratic_ = false;                       ///< whether there are quadratic elements, on any process
+  const linear::BlockMatrix* matrix_ = nullptr;  ///< its pattern tells the neighbours
   bool needed_ = false;
   std::vector<Body> bodies_;
   std::vector<Index> nodes_;              ///< owned nodes with pairs

@@ -13,7 +13,7 @@ ConsistentHeat::ConsistentHeat(const mesh::Mesh& mesh,
       from_(static_cast<std::size_t>(mesh.n_owned_nodes)),
       local_(mesh.x.size()) {}
 
-void ConsistentHeat::begin_stage(const algebra::Stage& stage, std::span<const double> before) {
+void ConsistentHeat::begin_stage(const linear::Stage& stage, std::span<const double> before) {
   const bool first = stage.carried == 0;
   dt_ = stage.dt;
   on_ = true;
@@ -37,7 +37,7 @@ void ConsistentHeat::add_residual(std::span<const double> temperature, std::span
     r[i] += local_[i] - (nodes_.upper(static_cast<Index>(i), temperature[i]) - from_[i]) / dt_;
 }
 
-void ConsistentHeat::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) {
+void ConsistentHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) {
   if (!on_) return;
   for (const auto& block : points_) block->add_tangent(temperature, matrix);
   for (Index i = 0; i < nodes_.n_nodes(); ++i)

@@ -14,13 +14,13 @@
 #include <span>
 #include <vector>
 
-#include "algebra/contribution.hpp"
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/point_storage.hpp"
+#include "linear/contribution.hpp"
 
 namespace solidus::heat {
 
-class ConsistentHeat final : public algebra::Contribution {
+class ConsistentHeat final : public linear::Contribution {
  public:
   /// @param points  storage of the blocks of these bodies; must outlive this object, as the mesh must
   /// @param nodes   what the nodes hold of them
@@ -28,17 +28,17 @@ class ConsistentHeat final : public algebra::Contribution {
                  NodalEnthalpy nodes);
 
   /// Bodies have left or come back.
-  void set_active(const algebra::ActiveSet& active) { nodes_.set_active(active); }
+  void set_active(const linear::ActiveSet& active) { nodes_.set_active(active); }
   /// Off: a steady state stores nothing.
   void use(bool on) { on_ = on; }
 
-  void add_to_graph(algebra::NodeGraph&) const override {}
-  void bind(const algebra::BlockMatrix&) override {}
+  void add_to_graph(linear::NodeGraph&) const override {}
+  void bind(const linear::BlockMatrix&) override {}
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
-  void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
+  void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) override;
   bool stores() const override { return true; }
   /// @param before  Θ_n in the first stage, that of the first one in the second [K], [local node]
-  void begin_stage(const algebra::Stage& stage, std::span<const double> before) override;
+  void begin_stage(const linear::Stage& stage, std::span<const double> before) override;
 
   // By how much more the points have taken up than the nodes, on this process: since the start of the stage,
   // latent heat and entropy between two temperatures [local node].

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
-#include "base/profile.hpp"
+#include "parallel/parallel.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::heat {
 
@@ -23,7 +23,7 @@ constexpr double k_less_tilt = 0.3, k_least_tilt = 2e-3;  ///< its fall, and whe
 }  // namespace
 
 EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
-                               const algebra::GhostExchange& ghosts, double tolerance)
+                               const parallel::GhostExchange& ghosts, double tolerance)
     : system_(system), storage_(storage), ghosts_(ghosts), tolerance_(tolerance) {
   const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
   for (auto* v : {&r_, &b_, &step_h_, &inverse_}) v->resize(n);
@@ -32,7 +32,7 @@ EnthalpyNewton::EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const
     const double latent = storage_.latent_capacity(static_cast<Index>(i));
     per_latent_[i] = latent > 0 ? 1.0 / latent : 0.0;
   }
-  has_plateaus_ = algebra::any_process(storage.has_plateaus());
+  has_plateaus_ = parallel::any_process(storage.has_plateaus());
 }
 
 void EnthalpyNewton::evaluate(std::span<const double> temperature) {
@@ -46,9 +46,9 @@ void EnthalpyNewton::evaluate(std::span<const double> temperature) {
     contents += std::abs(heat_[i]) / dt_;
     (fixed[i] ? moved : norm) += std::abs(r_[i]);
   }
-  norm_ = algebra::global_sum(norm);
-  moved_ = 0.5 * algebra::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
-  round_off_ = k_round_off * (algebra::global_sum(contents) + conductance_);
+  norm_ = parallel::global_sum(norm);
+  moved_ = 0.5 * parallel::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
+  round_off_ = k_round_off * (parallel::global_sum(contents) + conductance_);
 }
 
 double EnthalpyNewton::temperature_of(std::size_t i, double heat) const {
@@ -89,7 +89,7 @@ void EnthalpyNewton::assemble(std::span<const double> temperature) {
     // A held node has no equation here: its residual must not set the scale of the linear solver.
     b_[i] = held || system_.fixed()[i] ? 0.0 : -r_[i];
   }
-  conductance_ = algebra::global_sum(conductance);
+  conductance_ = parallel::global_sum(conductance);
 }
 
 void EnthalpyNewton::hold(std::span<double> step_t) const {

@@ -20,9 +20,9 @@
 #include <span>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
@@ -30,7 +30,7 @@ class EnthalpyNewton {
  public:
   /// @param tolerance  Σ|F_i| <= tolerance × heat moved per time
   EnthalpyNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
-                 const algebra::GhostExchange& ghosts, double tolerance);
+                 const parallel::GhostExchange& ghosts, double tolerance);
 
   /// Starts from `heat`, which is kept and moved on.
   void begin(std::span<const double> old_heat, double dt, std::span<double> heat);
@@ -63,7 +63,7 @@ class EnthalpyNewton {
 
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
-  const algebra::GhostExchange& ghosts_;
+  const parallel::GhostExchange& ghosts_;
   double tolerance_;
 
   double dt_ = 1;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "material/time_integration.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
@@ -51,10 +51,10 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
     const double heat = old.enthalpy[i] + k_sdirk_carried * (middle.enthalpy[i] - old.enthalpy[i]);
     ahead_[i] = storage.temperature(node, heat);
   }
-  lowest_ = algebra::global_min(first.lowest);
-  highest_ = algebra::global_max(first.highest);
-  first_lowest_ = algebra::global_min(second.lowest);
-  first_highest_ = algebra::global_max(second.highest);
+  lowest_ = parallel::global_min(first.lowest);
+  highest_ = parallel::global_max(first.highest);
+  first_lowest_ = parallel::global_min(second.lowest);
+  first_highest_ = parallel::global_max(second.highest);
 
   std::vector<double> low(before_.size()), high(before_.size());
   for (std::size_t i = 0; i < low.size(); ++i) {
@@ -76,7 +76,7 @@ ExtrapolationGuard::ExtrapolationGuard(HeatSystem& system, const NodalEnthalpy& 
     kinks[i] = ahead_[i] < least[i] - even ? 1 : ahead_[i] > greatest[i] + even ? -1 : 0;
     found += kinks[i] != 0 ? 1 : 0;
   }
-  if (algebra::any_process(found > 0)) passes_kink_ = std::move(kinks);
+  if (parallel::any_process(found > 0)) passes_kink_ = std::move(kinks);
 }
 
 bool ExtrapolationGuard::free(std::size_t i) const {
@@ -104,13 +104,13 @@ bool ExtrapolationGuard::leaves_range(const TemperatureRange& surroundings) cons
   for (std::size_t i = 0; i < ahead_.size() && !leaves; ++i)
     leaves = free(i) &&
              (ahead_[i] < low - k_outside * fall - beyond || ahead_[i] > high + k_outside * rise + beyond);
-  return algebra::any_process(leaves);
+  return parallel::any_process(leaves);
 }
 
 // From a node on it goes to its coldest neighbour in the first stage, and so on: the hottest node that is
 // met there at the end, less the node itself, is how far it has sunk below its way out (turned upside down
 // where it melts).
-bool ExtrapolationGuard::turns_back(const ThermalState& next, const algebra::GhostExchange& ghosts) const {
+bool ExtrapolationGuard::turns_back(const ThermalState& next, const parallel::GhostExchange& ghosts) const {
   if (passes_kink_.empty()) return false;
   const std::size_t n = ahead_.size();
   const double range = highest_ - lowest_;
@@ -133,8 +133,8 @@ bool ExtrapolationGuard::turns_back(const ThermalState& next, const algebra::Gho
     squares += at_node * sunk[i] * sunk[i];
     volume += at_node;
   }
-  squares = algebra::global_sum(squares);
-  volume = algebra::global_sum(volume);
+  squares = parallel::global_sum(squares);
+  volume = parallel::global_sum(volume);
   return squares > k_sunk * k_sunk * range * range * volume;
 }
 
@@ -159,7 +159,7 @@ bool ExtrapolationGuard::raise_along(std::span<const std::size_t> way_out, doubl
       changed = true;
     }
   }
-  return algebra::any_process(changed && n < barrier.size());
+  return parallel::any_process(changed && n < barrier.size());
 }
 
 }  // namespace solidus::heat

@@ -15,10 +15,10 @@
 #include <span>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/thermal_state.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
@@ -40,7 +40,7 @@ class ExtrapolationGuard {
   /// pass a kink are those whose Θ(H*) lies beyond what it and its neighbours would come to, changing on as
   /// in the first stage and half as fast again.
   /// @param next  the state at the end of the second stage
-  bool turns_back(const ThermalState& next, const algebra::GhostExchange& ghosts) const;
+  bool turns_back(const ThermalState& next, const parallel::GhostExchange& ghosts) const;
 
  private:
   template <class F>

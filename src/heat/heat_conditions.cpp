@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 
-#include "base/errors.hpp"
 #include "heat/heat_system.hpp"
 #include "mesh/block_geometry.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::heat {
 

@@ -11,37 +11,37 @@ constexpr double k_slow = 20;
 constexpr int k_quick_limit = 400;  ///< iterations after which the quick solver gives up
 }  // namespace
 
-HeatSolver::HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool symmetric,
+HeatSolver::HeatSolver(const mesh::Mesh& mesh, linear::SolverKind kind, bool symmetric,
                        double relative_tolerance)
     : mesh_(mesh),
       options_{
           .prefix = "heat_", .kind = kind, .symmetric = symmetric, .relative_tolerance = relative_tolerance} {
 }
 
-algebra::BlockMatrix::Storage HeatSolver::storage_for(const mesh::Mesh& mesh, algebra::SolverKind kind,
-                                                      bool symmetric) {
-  return algebra::storage_for(
+linear::BlockMatrix::Storage HeatSolver::storage_for(const mesh::Mesh& mesh, linear::SolverKind kind,
+                                                     bool symmetric) {
+  return linear::storage_for(
       {.prefix = "heat_", .kind = kind, .symmetric = symmetric, .transient_heat = true}, mesh, 1, 1);
 }
 
-algebra::LinearSolver& HeatSolver::strong() {
-  if (!strong_) strong_ = std::make_unique<algebra::LinearSolver>(mesh_, options_);
+linear::LinearSolver& HeatSolver::strong() {
+  if (!strong_) strong_ = std::make_unique<linear::LinearSolver>(mesh_, options_);
   return *strong_;
 }
 
 void HeatSolver::begin(bool transient) {
-  use_quick_ = transient && options_.kind == algebra::SolverKind::automatic;
+  use_quick_ = transient && options_.kind == linear::SolverKind::automatic;
   if (!use_quick_ || quick_) return;
-  algebra::LinearSolverOptions quick = options_;
+  linear::LinearSolverOptions quick = options_;
   quick.transient_heat = true;
   quick.max_iterations = k_quick_limit;
-  quick_ = std::make_unique<algebra::LinearSolver>(mesh_, quick);
+  quick_ = std::make_unique<linear::LinearSolver>(mesh_, quick);
 }
 
-algebra::LinearReport HeatSolver::solve(algebra::BlockMatrix& a, std::span<const double> b,
-                                        std::span<double> x, double forcing) {
+linear::LinearReport HeatSolver::solve(linear::BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                                       double forcing) {
   if (!use_quick_) return strong().solve(a, b, x, forcing);
-  algebra::LinearReport report = quick_->solve(a, b, x, forcing);
+  linear::LinearReport report = quick_->solve(a, b, x, forcing);
   const double digits = -std::log10(std::max(forcing, options_.relative_tolerance));
   use_quick_ = report.converged && report.iterations <= k_slow * digits;
   if (report.converged) return report;

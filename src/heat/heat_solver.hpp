@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "algebra/linear_solver.hpp"
+#include "linear/linear_solver.hpp"
 
 namespace solidus::heat {
 
@@ -12,28 +12,28 @@ namespace solidus::heat {
 /// (MUMPS or multigrid) until the end of the step. A kind that the user chose is used alone.
 class HeatSolver {
  public:
-  HeatSolver(const mesh::Mesh& mesh, algebra::SolverKind kind, bool symmetric, double relative_tolerance);
+  HeatSolver(const mesh::Mesh& mesh, linear::SolverKind kind, bool symmetric, double relative_tolerance);
   /// Returns the storage of the matrix that suits such a solver best.
-  static algebra::BlockMatrix::Storage storage_for(const mesh::Mesh& mesh, algebra::SolverKind kind,
-                                                   bool symmetric);
+  static linear::BlockMatrix::Storage storage_for(const mesh::Mesh& mesh, linear::SolverKind kind,
+                                                  bool symmetric);
   /// Call at the start of a step, so that the same step gives the same bits.
   /// @param transient false: the strong solver at once
   void begin(bool transient);
-  /// @param forcing  as of algebra::LinearSolver::solve()
-  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x,
-                              double forcing = 0);
-  /// The solver that runs now, for algebra::newton().
-  algebra::LinearSolver& strong();
-  /// Drops what the solvers carry over from earlier solves, as algebra::LinearSolver::forget().
+  /// @param forcing  as of linear::LinearSolver::solve()
+  linear::LinearReport solve(linear::BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                             double forcing = 0);
+  /// The solver that runs now, for linear::newton().
+  linear::LinearSolver& strong();
+  /// Drops what the solvers carry over from earlier solves, as linear::LinearSolver::forget().
   void forget();
-  /// Resets the solvers as algebra::LinearSolver::reset().
+  /// Resets the solvers as linear::LinearSolver::reset().
   void reset();
   double seconds() const;
 
  private:
   const mesh::Mesh& mesh_;
-  algebra::LinearSolverOptions options_;
-  std::unique_ptr<algebra::LinearSolver> quick_, strong_;
+  linear::LinearSolverOptions options_;
+  std::unique_ptr<linear::LinearSolver> quick_, strong_;
   bool use_quick_ = false;
 };
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/profile.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::heat {
 
@@ -14,7 +14,7 @@ constexpr int k_max_iterations = 200;
 double dot(std::span<const double> a, std::span<const double> b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ std::vector<double> HeatSpread::operator()(std::span<const double> heat, std::sp
     ghosts_.update(slope, 1);
   }
   system_.assemble_symmetric(temperature, slope);
-  algebra::BlockMatrix& a = system_.matrix();
+  linear::BlockMatrix& a = system_.matrix();
   std::vector<double> inverse(n), r(n), x(n, 0.0), product(n), z(n), direction(temperature.size(), 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     double& diagonal = *a.diagonal_block(static_cast<Index>(i));

@@ -13,9 +13,9 @@
 #include <span>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
@@ -23,7 +23,7 @@ namespace solidus::heat {
 class HeatSpread {
  public:
   /// All must outlive this object.
-  HeatSpread(HeatSystem& system, const NodalEnthalpy& storage, const algebra::GhostExchange& ghosts)
+  HeatSpread(HeatSystem& system, const NodalEnthalpy& storage, const parallel::GhostExchange& ghosts)
       : system_(system), storage_(storage), ghosts_(ghosts) {}
 
   /// Q/C without spreading [K], [local node], ghosts up to date; zero where nothing is stored.
@@ -41,7 +41,7 @@ class HeatSpread {
 
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
-  const algebra::GhostExchange& ghosts_;
+  const parallel::GhostExchange& ghosts_;
 };
 
 }  // namespace solidus::heat

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/parallel.hpp"
-#include "base/common_failure.hpp"
-#include "base/errors.hpp"
 #include "mesh/block_geometry.hpp"
+#include "parallel/parallel.hpp"
+#include "system/common_failure.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::heat {
 
@@ -22,18 +22,18 @@ constexpr double k_rounding = 1e-7;  ///< of temperatures [K]
 
 HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
                        const std::vector<material::Material>& materials, const Conditions& conditions,
-                       bool closed, std::vector<algebra::Contribution*> contributions,
-                       algebra::BlockMatrix::Storage storage)
+                       bool closed, std::vector<linear::Contribution*> contributions,
+                       linear::BlockMatrix::Storage storage)
     : mesh_(mesh), kind_(kind), closed_(closed), contributions_(std::move(contributions)), active_(mesh) {
   contributions_heat_ = std::any_of(contributions_.begin(), contributions_.end(),
-                                    [](const algebra::Contribution* c) { return !c->stores(); });
+                                    [](const linear::Contribution* c) { return !c->stores(); });
   for (const material::Material& m : materials) at_nodes_.push_back(closed || m.changes_isothermally());
   add_conduction(materials);
   if (!conditions.absent_bodies.empty()) throw std::invalid_argument("every body is there when a run begins");
   add_conditions(conditions);
 
   nodal_ = std::make_unique<NodalPotential>(mesh, potentials_, active_);
-  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh, 1, graph(), storage);
+  matrix_ = std::make_unique<linear::BlockMatrix>(mesh, 1, graph(), storage);
   matrix_->set_fixed(fixed_);
   bind();
   local_.resize(mesh.x.size());
@@ -44,11 +44,11 @@ HeatSystem::HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind,
 
 HeatSystem::~HeatSystem() = default;
 
-algebra::NodeGraph HeatSystem::graph() const {
-  algebra::NodeGraph graph(mesh_);
+linear::NodeGraph HeatSystem::graph() const {
+  linear::NodeGraph graph(mesh_);
   for (const mesh::Block& block : mesh_.blocks)
     if (active_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-  for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
+  for (const linear::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   return graph;
 }
 
@@ -57,11 +57,11 @@ void HeatSystem::bind() {
   for (const auto& block : conduction_)
     if (block) block->bind(*matrix_);
   for (SurfaceHeat& surface : surfaces_) surface.bind(*matrix_);
-  for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
+  for (linear::Contribution* contribution : contributions_) contribution->bind(*matrix_);
 }
 
 bool HeatSystem::follow_graph() {
-  if (!algebra::graph_outdated(contributions_)) return false;
+  if (!linear::graph_outdated(contributions_)) return false;
   matrix_->set_graph(graph());
   bind();
   return true;
@@ -69,7 +69,7 @@ bool HeatSystem::follow_graph() {
 
 // While the bodies are the same the graph need not change: the nodes of a face are nodes of one element.
 bool HeatSystem::set_conditions(const Conditions& conditions) {
-  const algebra::ActiveSet active(mesh_, conditions.absent_bodies);
+  const linear::ActiveSet active(mesh_, conditions.absent_bodies);
   const bool others = active != active_;
   if (others) change_bodies(active);
   surfaces_.clear();
@@ -86,7 +86,7 @@ bool HeatSystem::set_conditions(const Conditions& conditions) {
 }
 
 /// Conduction of a body that comes back is computed anew when it is asked for.
-void HeatSystem::change_bodies(const algebra::ActiveSet& active) {
+void HeatSystem::change_bodies(const linear::ActiveSet& active) {
   for (std::size_t b = 0; b < conduction_.size(); ++b)
     if (!active.body(mesh_.blocks[b].body)) conduction_[b].reset();
   for (std::size_t body = 0; body < fields_.size(); ++body) {
@@ -162,7 +162,7 @@ bool HeatSystem::find_limits(std::span<const double> temperature, double negligi
     for (std::size_t i = 0; i < source.heat.size(); ++i)
       (source.heat[i] > 0 ? gain : loss)[i] += std::abs(source.heat[i]);
   contributions_heat_ = false;  // all are looked at
-  for (algebra::Contribution* contribution : contributions_) {
+  for (linear::Contribution* contribution : contributions_) {
     if (contribution->stores()) continue;
     std::fill(contributed_.begin(), contributed_.end(), 0.0);
     contribution->add_residual(temperature, contributed_);
@@ -173,7 +173,7 @@ bool HeatSystem::find_limits(std::span<const double> temperature, double negligi
       magnitude += std::abs(contributed_[i]);
     }
     constexpr double k_passed_on = 1e-9;  // net heat over the heat exchanged
-    if (std::abs(algebra::global_sum(net)) > k_passed_on * algebra::global_sum(magnitude))
+    if (std::abs(parallel::global_sum(net)) > k_passed_on * parallel::global_sum(magnitude))
       contributions_heat_ = true;
   }
   return limiter_->find_shares(temperature, gain, loss, fixed_, negligible, flows);
@@ -205,7 +205,7 @@ TemperatureRange HeatSystem::surroundings() const {
     if (const std::optional<TemperatureRange> ambient = surface.ambient()) include(*ambient);
   for (const Prescribed& p : prescribed_)
     for (const double temperature : p.now) include({temperature, temperature});
-  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+  return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
 }
 
 TemperatureRange HeatSystem::ambient_range(bool with_contributions) const {
@@ -223,14 +223,14 @@ TemperatureRange HeatSystem::ambient_range(bool with_contributions) const {
     }
   TemperatureRange range = surroundings();
   const bool contributed = with_contributions && contributions_heat_;
-  if (algebra::global_min(cooling) < 0 || contributed) range.lowest = -HUGE_VAL;
-  if (algebra::global_max(heating) > 0 || contributed) range.highest = HUGE_VAL;
+  if (parallel::global_min(cooling) < 0 || contributed) range.lowest = -HUGE_VAL;
+  if (parallel::global_max(heating) > 0 || contributed) range.highest = HUGE_VAL;
   return range;
 }
 
 TemperatureRange HeatSystem::range_of_contributions(std::span<const double> temperature) {
   TemperatureRange range;
-  for (algebra::Contribution* contribution : contributions_) {
+  for (linear::Contribution* contribution : contributions_) {
     if (contribution->stores()) continue;
     std::fill(contributed_.begin(), contributed_.end(), 0.0);
     contribution->add_residual(temperature, contributed_);
@@ -240,7 +240,7 @@ TemperatureRange HeatSystem::range_of_contributions(std::span<const double> temp
       range.highest = std::max(range.highest, temperature[i]);
     }
   }
-  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+  return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
 }
 
 double HeatSystem::residual(std::span<const double> temperature, std::span<double> r) {
@@ -294,7 +294,7 @@ void HeatSystem::conduct(std::span<const double> temperature) {
     factor[b] = 1.0 / potentials_[b].reference();
   }
   std::fill(local_.begin(), local_.end(), 0.0);
-  const bool half = matrix_->storage() == algebra::BlockMatrix::Storage::upper;
+  const bool half = matrix_->storage() == linear::BlockMatrix::Storage::upper;
   const std::span<const std::int64_t> start = matrix_->row_start();
   const std::span<const Index> columns = matrix_->columns();
   // The diagonal adds nothing. Rows of ghosts are scrap.
@@ -349,10 +349,10 @@ double HeatSystem::entropy_power(std::span<const double> temperature) const {
 }
 
 void HeatSystem::assemble(std::span<const double> temperature) {
-  assert((nodal_->identity() || matrix_->storage() == algebra::BlockMatrix::Storage::whole) &&
+  assert((nodal_->identity() || matrix_->storage() == linear::BlockMatrix::Storage::whole) &&
          "it is not symmetric");
   matrix_->set_zero();
-  for (algebra::Contribution* contribution : contributions_)
+  for (linear::Contribution* contribution : contributions_)
     if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);
   if (!exchange_) return;
   for (std::size_t b = 0; b < fields_.size(); ++b)
@@ -421,10 +421,10 @@ void HeatSystem::find_node_bodies() {
 }
 
 void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
-                                    const std::function<void(algebra::BlockMatrix&)>& further) {
+                                    const std::function<void(linear::BlockMatrix&)>& further) {
   if (exchange_ && kept_conduction_.empty()) keep_conduction();
   matrix_->set_zero();
-  for (algebra::Contribution* contribution : contributions_)
+  for (linear::Contribution* contribution : contributions_)
     if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);
   if (exchange_)
     for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);

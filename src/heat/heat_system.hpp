@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "algebra/active_set.hpp"
-#include "algebra/contribution.hpp"
 #include "heat/conditions.hpp"
 #include "heat/conduction_block.hpp"
 #include "heat/conduction_limiter.hpp"
@@ -21,6 +19,8 @@
 #include "heat/nodal_potential.hpp"
 #include "heat/surface_heat.hpp"
 #include "heat/thermal_state.hpp"
+#include "linear/active_set.hpp"
+#include "linear/contribution.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -32,14 +32,14 @@ class HeatSystem {
   /// Throws InputError for a condition that names no group of the mesh, std::invalid_argument for absent
   /// bodies: they leave later.
   HeatSystem(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
-             const Conditions& conditions, bool closed, std::vector<algebra::Contribution*> contributions,
-             algebra::BlockMatrix::Storage storage = algebra::BlockMatrix::Storage::whole);
+             const Conditions& conditions, bool closed, std::vector<linear::Contribution*> contributions,
+             linear::BlockMatrix::Storage storage = linear::BlockMatrix::Storage::whole);
   ~HeatSystem();
 
   /// Replaces the conditions from here on. If bodies leave or come back, the matrix gets another pattern;
   /// returns whether it did. Throws InputError as the constructor does. Collective.
   bool set_conditions(const Conditions& conditions);
-  const algebra::ActiveSet& active() const { return active_; }
+  const linear::ActiveSet& active() const { return active_; }
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
   /// value that is allowed.
   void set_time(double time);
@@ -85,10 +85,10 @@ class HeatSystem {
   /// @param slopes   c, [local node], ghosts up to date
   /// @param further  adds to S; may be empty
   void assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
-                          const std::function<void(algebra::BlockMatrix&)>& further = {});
+                          const std::function<void(linear::BlockMatrix&)>& further = {});
   /// The unknown of assemble_symmetric().
   const NodalPotential& potential() const { return *nodal_; }
-  algebra::BlockMatrix& matrix() { return *matrix_; }
+  linear::BlockMatrix& matrix() { return *matrix_; }
   /// Gives the matrix another pattern if a contribution asks for it; returns whether it did. Collective.
   bool follow_graph();
 
@@ -149,11 +149,11 @@ class HeatSystem {
   void add_nodal_shares(int body, Volume& volume) const;
   void add_gauss_shares(int body, Volume& volume) const;
   void evaluate(double time);
-  algebra::NodeGraph graph() const;
+  linear::NodeGraph graph() const;
   void bind();
   void add_conduction(const std::vector<material::Material>& materials);
   void add_conditions(const Conditions& conditions);
-  void change_bodies(const algebra::ActiveSet& active);
+  void change_bodies(const linear::ActiveSet& active);
   void find_field_nodes(std::size_t body);
   void conduct(std::span<const double> temperature);
   double add_flows(std::span<const double> temperature);
@@ -165,8 +165,8 @@ class HeatSystem {
   AnalysisKind kind_;
   bool closed_;
   std::vector<char> at_nodes_;  ///< [body]: whether it stores its heat there
-  std::vector<algebra::Contribution*> contributions_;
-  algebra::ActiveSet active_;
+  std::vector<linear::Contribution*> contributions_;
+  linear::ActiveSet active_;
   /// One per mesh block; null until it is asked for, and of a body that left.
   std::vector<std::unique_ptr<ConductionBlock>> conduction_;
   std::vector<KirchhoffPotential> potentials_;  ///< one per body
@@ -189,7 +189,7 @@ class HeatSystem {
   bool placed_ = false;  ///< some condition varies with position
   bool exchange_ = true;
   bool contributions_heat_ = false;  ///< whether they bring or take heat, as far as find_limits() has seen
-  std::unique_ptr<algebra::BlockMatrix> matrix_;
+  std::unique_ptr<linear::BlockMatrix> matrix_;
   std::vector<double> local_, roots_;  ///< work, [local node]
   std::vector<double> supplied_;  ///< by surfaces and sources at the last residual, sign of r, [local node]
   std::vector<double> contributed_;  ///< work, [owned node]

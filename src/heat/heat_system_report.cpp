@@ -1,21 +1,21 @@
 /// What a heat system reports: the power of each condition, and its memory.
-#include "algebra/parallel.hpp"
 #include "heat/heat_system.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
 std::vector<HeatSystem::Power> HeatSystem::powers() const {
   std::vector<Power> all;
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
-    all.push_back({surfaces_[s].name(), algebra::global_sum(surface_power_[s])});
+    all.push_back({surfaces_[s].name(), parallel::global_sum(surface_power_[s])});
   for (std::size_t s = 0; s < sources_.size(); ++s)
-    all.push_back({sources_[s].name, algebra::global_sum(source_power_[s])});
+    all.push_back({sources_[s].name, parallel::global_sum(source_power_[s])});
   return all;
 }
 
 std::vector<double> HeatSystem::contribution_powers() const {
   std::vector<double> all;
-  for (double power : contribution_power_) all.push_back(algebra::global_sum(power));
+  for (double power : contribution_power_) all.push_back(parallel::global_sum(power));
   return all;
 }
 
@@ -25,7 +25,7 @@ std::vector<HeatSystem::Power> HeatSystem::reaction_powers(std::span<const doubl
     double sum = 0;
     for (Index node : p.nodes)
       if (node < mesh_.n_owned_nodes) sum += reactions[static_cast<std::size_t>(node)];
-    all.push_back({p.name, algebra::global_sum(sum)});
+    all.push_back({p.name, parallel::global_sum(sum)});
   }
   return all;
 }

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "base/table.hpp"
+#include "numbers/table.hpp"
 
 namespace solidus::heat {
 

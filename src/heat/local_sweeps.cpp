@@ -2,18 +2,18 @@
 
 #include <limits>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
-LocalSweeps::LocalSweeps(const algebra::BlockMatrix& matrix, std::span<const double> residual,
+LocalSweeps::LocalSweeps(const linear::BlockMatrix& matrix, std::span<const double> residual,
                          std::span<const char> fixed) {
   const std::size_t n = residual.size();
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i)
     if (fixed[i] == 0) sum += std::abs(residual[i]);
-  sum_ = algebra::global_sum(sum);
-  mean_ = sum_ / algebra::global_sum(static_cast<double>(n));
+  sum_ = parallel::global_sum(sum);
+  mean_ = sum_ / parallel::global_sum(static_cast<double>(n));
   const std::span<const std::int64_t> start = matrix.row_start();
   const std::span<const Index> columns = matrix.columns();
   const auto beside_others = [&](std::size_t i) {
@@ -30,14 +30,14 @@ LocalSweeps::LocalSweeps(const algebra::BlockMatrix& matrix, std::span<const dou
 }
 
 /// Copies the entries between chosen nodes, mirror images included where the matrix keeps half of them.
-void LocalSweeps::copy_rows(const algebra::BlockMatrix& matrix, std::size_t n_owned) {
+void LocalSweeps::copy_rows(const linear::BlockMatrix& matrix, std::size_t n_owned) {
   constexpr auto k_none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> position(n_owned, k_none);
   for (std::size_t k = 0; k < nodes_.size(); ++k) position[nodes_[k]] = static_cast<std::uint32_t>(k);
   const std::span<const std::int64_t> row_start = matrix.row_start();
   const std::span<const Index> columns = matrix.columns();
   const double* values = matrix.block(0);
-  const bool half = matrix.storage() == algebra::BlockMatrix::Storage::upper;
+  const bool half = matrix.storage() == linear::BlockMatrix::Storage::upper;
   const auto for_entries = [&](const auto& take) {
     for (std::size_t k = 0; k < nodes_.size(); ++k)
       for (std::int64_t s = row_start[nodes_[k]]; s < row_start[nodes_[k] + 1]; ++s) {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
+#include "linear/block_matrix.hpp"
 
 namespace solidus::heat {
 
@@ -27,7 +27,7 @@ class LocalSweeps {
   /// of other processes are left out: processes then do not disturb one another. Collective.
   /// @param matrix    A, symmetric
   /// @param residual  F, [owned node]; where `fixed` is not zero it does not count
-  LocalSweeps(const algebra::BlockMatrix& matrix, std::span<const double> residual,
+  LocalSweeps(const linear::BlockMatrix& matrix, std::span<const double> residual,
               std::span<const char> fixed);
 
   double sum() const { return sum_; }  ///< Σ|F_i| over all processes before these sweeps [W]
@@ -59,7 +59,7 @@ class LocalSweeps {
     std::uint32_t position;  ///< among the chosen nodes
     double entry;            ///< of the matrix
   };
-  void copy_rows(const algebra::BlockMatrix& matrix, std::size_t n_owned);
+  void copy_rows(const linear::BlockMatrix& matrix, std::size_t n_owned);
 
   std::vector<std::size_t> nodes_;     ///< chosen, in rising order
   std::vector<double> residual_;       ///< F of now, [chosen node]

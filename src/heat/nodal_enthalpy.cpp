@@ -49,7 +49,7 @@ NodalEnthalpy::NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind,
   }
 }
 
-double NodalEnthalpy::held_by(const algebra::ActiveSet& active, Index node, double heat,
+double NodalEnthalpy::held_by(const linear::ActiveSet& active, Index node, double heat,
                               double temperature) const {
   const auto list = shares(node);
   if (std::all_of(list.begin(), list.end(), [&](const Share& s) { return active.body(s.body); })) return heat;
@@ -63,7 +63,7 @@ double NodalEnthalpy::held_by(const algebra::ActiveSet& active, Index node, doub
   return held;
 }
 
-void NodalEnthalpy::set_active(const algebra::ActiveSet& active) {
+void NodalEnthalpy::set_active(const linear::ActiveSet& active) {
   if (all_.start.empty()) all_ = {start_, shares_};
   std::vector<char> kept;
   for (std::size_t b = 0; b < materials_.size(); ++b) kept.push_back(active.body(static_cast<int>(b)));

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/active_set.hpp"
+#include "linear/active_set.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -21,10 +21,10 @@ class NodalEnthalpy {
   NodalEnthalpy(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials);
 
   /// The part of a node's heat that bodies which are there hold [J].
-  double held_by(const algebra::ActiveSet& active, Index node, double heat, double temperature) const;
+  double held_by(const linear::ActiveSet& active, Index node, double heat, double temperature) const;
   /// From here on nodes hold the heat of active bodies alone, those that come back included; nodes that
   /// belong to other bodies alone store nothing.
-  void set_active(const algebra::ActiveSet& active);
+  void set_active(const linear::ActiveSet& active);
   /// Removes the bodies of which kept[body] is zero for good.
   void keep_bodies(std::span<const char> kept);
 

@@ -6,7 +6,7 @@
 namespace solidus::heat {
 
 NodalPotential::NodalPotential(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials,
-                               const algebra::ActiveSet& active)
+                               const linear::ActiveSet& active)
     : potentials_(potentials),
       identity_(std::all_of(potentials.begin(), potentials.end(),
                             [](const KirchhoffPotential& u) { return u.constant(); })) {

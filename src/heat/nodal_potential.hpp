@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "algebra/active_set.hpp"
 #include "heat/kirchhoff_potential.hpp"
+#include "linear/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {
@@ -21,7 +21,7 @@ class NodalPotential {
  public:
   /// @param potentials  one per body of the mesh; must outlive this object
   NodalPotential(const mesh::Mesh& mesh, std::span<const KirchhoffPotential> potentials,
-                 const algebra::ActiveSet& active);
+                 const linear::ActiveSet& active);
 
   /// Whether v = Θ at every node.
   bool identity() const { return identity_; }

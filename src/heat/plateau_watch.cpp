@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
 PlateauWatch::PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage,
-                           const algebra::BlockMatrix& matrix)
+                           const linear::BlockMatrix& matrix)
     : mesh_(mesh), storage_(storage), matrix_(matrix) {}
 
 // A node beside one of another process does not count.
@@ -22,7 +22,7 @@ bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const
     moved[i] = branch != branch_[i] ? 1 : 0;
     branch_[i] = branch;
   }
-  if (algebra::any_process(first)) return false;
+  if (parallel::any_process(first)) return false;
   std::vector<char> inside = moved;
   const std::span<const std::int64_t> start = matrix_.row_start();
   const std::span<const Index> columns = matrix_.columns();
@@ -32,7 +32,7 @@ bool PlateauWatch::passed_in_depth(std::span<const double> heat, std::span<const
       if (j >= n || moved[j] == 0) inside[i] = 0;
       if (j < n && moved[i] == 0) inside[j] = 0;
     }
-  return algebra::any_process(std::find(inside.begin(), inside.end(), 1) != inside.end());
+  return parallel::any_process(std::find(inside.begin(), inside.end(), 1) != inside.end());
 }
 
 }  // namespace solidus::heat

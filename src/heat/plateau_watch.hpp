@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "linear/block_matrix.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::heat {
@@ -14,7 +14,7 @@ class PlateauWatch {
  public:
   /// All must outlive this object.
   /// @param matrix  its pattern tells the neighbours
-  PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage, const algebra::BlockMatrix& matrix);
+  PlateauWatch(const mesh::Mesh& mesh, const NodalEnthalpy& storage, const linear::BlockMatrix& matrix);
 
   /// Whether some node has come onto a plateau, has left one or has passed one since the last call, and all
   /// its neighbours too. False at the first call, which keeps where the nodes are. Collective.
@@ -24,7 +24,7 @@ class PlateauWatch {
  private:
   const mesh::Mesh& mesh_;
   const NodalEnthalpy& storage_;
-  const algebra::BlockMatrix& matrix_;
+  const linear::BlockMatrix& matrix_;
   std::vector<int> branch_;  ///< NodalEnthalpy::branch() at the last call, [owned node]
 };
 

@@ -24,7 +24,7 @@ class Storage final : public PointStorage {
         form_(form),
         old_(geometry_.weight.size()) {}
 
-  void bind(const algebra::BlockMatrix& matrix) override {
+  void bind(const linear::BlockMatrix& matrix) override {
     slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
 
@@ -59,7 +59,7 @@ class Storage final : public PointStorage {
     }
   }
 
-  void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const override {
+  void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal t = gather<n_nodes>(geometry_, batch, temperature);
       ElementMatrix<n_nodes> m{};
@@ -170,7 +170,7 @@ class Storage final : public PointStorage {
   SensibleForm form_;
   PackVector<Lane> old_;              ///< h(Θ_n), [batch][point] [J/m³]
   PackVector<Lane> old_temperature_;  ///< Θ_n, with a printed form only [K]
-  algebra::LaneSlots slots_;
+  linear::LaneSlots slots_;
   double dt_ = 1;
 };
 

@@ -11,9 +11,9 @@
 #include <memory>
 #include <span>
 
-#include "algebra/block_matrix.hpp"
 #include "heat/sensible_form.hpp"
 #include "heat/thermal_state.hpp"
+#include "linear/block_matrix.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -22,14 +22,14 @@ namespace solidus::heat {
 class PointStorage {
  public:
   virtual ~PointStorage() = default;
-  virtual void bind(const algebra::BlockMatrix& matrix) = 0;
+  virtual void bind(const linear::BlockMatrix& matrix) = 0;
   /// h(Θ_n) at the points; with a printed form Θ_n itself.
   virtual void start(std::span<const double> old_temperature, double dt) = 0;
   /// From then on heat is counted from h_n + factor (h(Θ) − h_n): the second stage of a two-stage method.
   virtual void extrapolate(std::span<const double> temperature, double factor) = 0;
   /// r += stored heat per time [W], [local node]; ghost rows are scrap.
   virtual void add_residual(std::span<const double> temperature, std::span<double> r) const = 0;
-  virtual void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const = 0;
+  virtual void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const = 0;
   /// Change of the heat content over the step and of its latent part, counted elements [J].
   virtual double stored(std::span<const double> temperature) const = 0;
   virtual double latent(std::span<const double> old_temperature,

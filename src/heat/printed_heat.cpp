@@ -16,13 +16,13 @@ void PrintedHeat::add_residual(std::span<const double> temperature, std::span<do
     r[i] += sum(static_cast<Index>(i), temperature[i], &PrintedExcess::heat) / dt_;
 }
 
-void PrintedHeat::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) {
+void PrintedHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) {
   for (Index i = 0; i < storage_.n_nodes(); ++i)
     *matrix.diagonal_block(i) +=
         sum(i, temperature[static_cast<std::size_t>(i)], &PrintedExcess::slope) / dt_;
 }
 
-void PrintedHeat::begin_stage(const algebra::Stage& stage, std::span<const double> old_temperature) {
+void PrintedHeat::begin_stage(const linear::Stage& stage, std::span<const double> old_temperature) {
   assert(stage.carried == 0 && "printed forms have a single stage");
   dt_ = stage.dt;
   old_temperature_.assign(old_temperature.begin(), old_temperature.begin() + storage_.n_nodes());

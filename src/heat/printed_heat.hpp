@@ -6,24 +6,24 @@
 
 #include <vector>
 
-#include "algebra/contribution.hpp"
 #include "heat/nodal_enthalpy.hpp"
 #include "heat/sensible_form.hpp"
+#include "linear/contribution.hpp"
 
 namespace solidus::heat {
 
-class PrintedHeat final : public algebra::Contribution {
+class PrintedHeat final : public linear::Contribution {
  public:
   /// Keeps a reference to the storage.
   PrintedHeat(const NodalEnthalpy& storage, SensibleForm form) : storage_(storage), form_(form) {}
 
-  void add_to_graph(algebra::NodeGraph&) const override {}
-  void bind(const algebra::BlockMatrix&) override {}
+  void add_to_graph(linear::NodeGraph&) const override {}
+  void bind(const linear::BlockMatrix&) override {}
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
-  void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
+  void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) override;
   bool stores() const override { return true; }
   /// @param old_temperature Θ_n [K], [local node]. A single stage only.
-  void begin_stage(const algebra::Stage& stage, std::span<const double> old_temperature) override;
+  void begin_stage(const linear::Stage& stage, std::span<const double> old_temperature) override;
 
  private:
   double sum(Index node, double temperature, double PrintedExcess::*part) const;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "base/types.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::heat {
 
@@ -212,7 +212,7 @@ void SurfaceHeat::add_corners(const mesh::Block& faces, const mesh::FaceGeometry
   }
 }
 
-void SurfaceHeat::bind(const algebra::BlockMatrix& matrix) {
+void SurfaceHeat::bind(const linear::BlockMatrix& matrix) {
   for (Pair& p : pairs_) {
     p.ij = matrix.slot(p.i, p.j);
     p.ji = matrix.slot(p.j, p.i);
@@ -271,9 +271,9 @@ void SurfaceHeat::update_flows(std::span<const double> temperature) {
   for (std::size_t i = 0; i < flows_.size(); ++i) flows_[i].heat = flow(temperature, i);
 }
 
-void SurfaceHeat::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const {
+void SurfaceHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const {
   for (const Patch& patch : patches_) {
-    const algebra::BlockMatrix::Slot* slot = patch.slots.data();
+    const linear::BlockMatrix::Slot* slot = patch.slots.data();
     for (Index face = 0; face < patch.n_faces; ++face, slot += patch.n_nodes * patch.n_nodes)
       for (int q = 0; q < patch.n_points; ++q) {
         const std::size_t point = patch.number(face, q);

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
 #include "heat/conditions.hpp"
 #include "heat/thermal_state.hpp"
+#include "linear/block_matrix.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/mesh.hpp"
 
@@ -90,11 +90,11 @@ class SurfaceHeat {
   /// The least and the greatest flux into the body at the time set, at a temperature of zero [W/m²].
   std::pair<double, double> flux_range() const;
   /// The nodes of a face are nodes of one element: its graph holds them.
-  void bind(const algebra::BlockMatrix& matrix);
+  void bind(const linear::BlockMatrix& matrix);
   /// r −= heat into the nodes [W], [local node]; ghost rows are scrap. Returns the sum over the counted
   /// points; adds its magnitude, before heat into the body cancels heat out of it, to `moved`.
   double add_residual(std::span<const double> temperature, std::span<double> r, double& moved) const;
-  void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) const;
+  void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) const;
   /// The flows from corners with negative weights; `left` is set by the limiter. Not of a flux, which has no
   /// ambient temperature to stay within.
   std::span<LimitedFlow> flows() { return flows_; }
@@ -117,7 +117,7 @@ class SurfaceHeat {
     std::vector<double> values;   ///< [point][node]
     std::vector<double> weight;   ///< [face][point] [m²]
     std::size_t first_point = 0;  ///< number of its first point among those of the surface
-    std::vector<algebra::BlockMatrix::Slot> slots;
+    std::vector<linear::BlockMatrix::Slot> slots;
     std::size_t number(Index face, int point) const {
       return static_cast<std::size_t>(face) * static_cast<std::size_t>(n_points) +
              static_cast<std::size_t>(point);
@@ -128,7 +128,7 @@ class SurfaceHeat {
   struct Pair {
     Index i, j;
     double weight;  ///< −∫ N_i N_j dA > 0 [m²]
-    algebra::BlockMatrix::Slot ij = 0, ji = 0, ii = 0, jj = 0;
+    linear::BlockMatrix::Slot ij = 0, ji = 0, ii = 0, jj = 0;
   };
   /// Numbers the points of the patches and tells the law where they are.
   void place_points(const mesh::Mesh& mesh);

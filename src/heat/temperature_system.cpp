@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::heat {
 
 namespace {
 
 /// Divides the solution of another solver by the slopes of the unknown: δΘ = δv/c.
-class SlopeSolver final : public algebra::TangentSolver {
+class SlopeSolver final : public linear::TangentSolver {
  public:
-  SlopeSolver(algebra::TangentSolver& solver, const std::vector<double>& slope)
+  SlopeSolver(linear::TangentSolver& solver, const std::vector<double>& slope)
       : solver_(solver), slope_(slope) {}
-  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x,
-                              double forcing) override {
+  linear::LinearReport solve(linear::BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                             double forcing) override {
     return divided(solver_.solve(a, b, x, forcing), x);
   }
-  algebra::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override {
+  linear::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override {
     return divided(solver_.solve_again(b, x, forcing), x);
   }
   void forget() override { solver_.forget(); }
@@ -27,18 +27,18 @@ class SlopeSolver final : public algebra::TangentSolver {
   double seconds_solve() const override { return solver_.seconds_solve(); }
 
  private:
-  algebra::LinearReport divided(algebra::LinearReport report, std::span<double> x) const {
+  linear::LinearReport divided(linear::LinearReport report, std::span<double> x) const {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] /= slope_[i];
     return report;
   }
-  algebra::TangentSolver& solver_;
+  linear::TangentSolver& solver_;
   const std::vector<double>& slope_;
 };
 
 }  // namespace
 
 TemperatureSystem::TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system,
-                                     const algebra::GhostExchange& ghosts,
+                                     const parallel::GhostExchange& ghosts,
                                      std::span<const std::unique_ptr<PointStorage>> points)
     : mesh_(mesh),
       system_(system),
@@ -60,32 +60,32 @@ double TemperatureSystem::residual(std::span<const double> x, std::span<double> 
   }
   for (std::size_t i = 0; i < r.size(); ++i)
     if (system_.fixed()[i]) moved += std::abs(r[i]);
-  moved_ = 0.5 * algebra::global_sum(moved);
+  moved_ = 0.5 * parallel::global_sum(moved);
   return moved_ / std::sqrt(static_cast<double>(mesh_.n_global_nodes));
 }
 
-algebra::BlockMatrix& TemperatureSystem::tangent() {
+linear::BlockMatrix& TemperatureSystem::tangent() {
   const NodalPotential& potential = system_.potential();
   if (!potential.identity()) {
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
       slope_[static_cast<std::size_t>(i)] = potential.slope(i, x_[static_cast<std::size_t>(i)]);
     ghosts_.update(slope_, 1);
   }
-  system_.assemble_symmetric(x_, slope_, [this](algebra::BlockMatrix& matrix) {
+  system_.assemble_symmetric(x_, slope_, [this](linear::BlockMatrix& matrix) {
     if (!storing_) return;
     for (const auto& block : points_) block->add_tangent(x_, matrix);
   });
   return system_.matrix();
 }
 
-algebra::BlockMatrix& TemperatureSystem::exact_tangent() {
+linear::BlockMatrix& TemperatureSystem::exact_tangent() {
   system_.assemble(x_);
   if (storing_)
     for (const auto& block : points_) block->add_tangent(x_, system_.matrix());
   return system_.matrix();
 }
 
-std::unique_ptr<algebra::TangentSolver> TemperatureSystem::solver(algebra::TangentSolver& solver) {
+std::unique_ptr<linear::TangentSolver> TemperatureSystem::solver(linear::TangentSolver& solver) {
   return std::make_unique<SlopeSolver>(solver, slope_);
 }
 
@@ -96,7 +96,7 @@ double TemperatureSystem::round_off() const {
     sum += part * part;
   }
   constexpr double rounding = 2e-15;
-  return rounding * std::sqrt(algebra::global_sum(sum));
+  return rounding * std::sqrt(parallel::global_sum(sum));
 }
 
 }  // namespace solidus::heat

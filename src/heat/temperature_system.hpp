@@ -5,16 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "algebra/newton.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/point_storage.hpp"
+#include "linear/newton.hpp"
 
 namespace solidus::heat {
 
-class TemperatureSystem final : public algebra::NonlinearSystem {
+class TemperatureSystem final : public linear::NonlinearSystem {
  public:
   /// @param points storage of every mesh block (open rule); empty for the steady state only
-  TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system, const algebra::GhostExchange& ghosts,
+  TemperatureSystem(const mesh::Mesh& mesh, HeatSystem& system, const parallel::GhostExchange& ghosts,
                     std::span<const std::unique_ptr<PointStorage>> points);
 
   /// With or without storage from now on.
@@ -23,11 +23,11 @@ class TemperatureSystem final : public algebra::NonlinearSystem {
   /// the heat moved over √N: the balance then closes to the tolerance.
   double residual(std::span<const double> x, std::span<double> r) override;
   /// In the unknown of nodal_potential.hpp, symmetric: for the solver of solver().
-  algebra::BlockMatrix& tangent() override;
+  linear::BlockMatrix& tangent() override;
   /// ∂r/∂Θ, unsymmetric where a conductivity varies.
-  algebra::BlockMatrix& exact_tangent();
+  linear::BlockMatrix& exact_tangent();
   /// Solves with tangent() by `solver` and returns steps of the temperature, which both must outlive.
-  std::unique_ptr<algebra::TangentSolver> solver(algebra::TangentSolver& solver);
+  std::unique_ptr<linear::TangentSolver> solver(linear::TangentSolver& solver);
   double moved() const { return moved_; }  ///< of the last residual, all processes [W]
   /// Residuals that rounding alone leaves.
   double round_off() const;
@@ -36,7 +36,7 @@ class TemperatureSystem final : public algebra::NonlinearSystem {
   const mesh::Mesh& mesh_;
   HeatSystem& system_;
   std::span<const std::unique_ptr<PointStorage>> points_;
-  const algebra::GhostExchange& ghosts_;
+  const parallel::GhostExchange& ghosts_;
   bool storing_ = false;
   double moved_ = 0;
   std::vector<double> x_, local_;

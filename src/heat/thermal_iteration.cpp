@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
 #include "heat/consistent_heat.hpp"
 #include "heat/enthalpy_newton.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/point_storage.hpp"
 #include "heat/printed_heat.hpp"
 #include "heat/temperature_system.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::heat {
 
@@ -30,7 +30,7 @@ TemperatureRange range_of(std::span<const double> a, std::span<const double> b) 
       range.lowest = std::min(range.lowest, temperature);
       range.highest = std::max(range.highest, temperature);
     }
-  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+  return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ void ThermalIteration::evaluate() {
   double sum = 0;
   for (std::size_t i = 0; i < residual_.size(); ++i)
     if (!phase_.system_->fixed()[i]) sum += std::abs(residual_[i]);
-  unbalanced_ = algebra::global_sum(sum);
+  unbalanced_ = parallel::global_sum(sum);
 }
 
 /// Where contributions alone leave the range open, it ends at the temperatures of the nodes they act on.
@@ -109,7 +109,7 @@ bool ThermalIteration::revise_limits() {
   for (std::size_t i = 0; i < phase_.reactions_.size(); ++i)
     beyond = std::max({beyond, range.lowest - now_.temperature[i], now_.temperature[i] - range.highest});
   const double width = range.highest - range.lowest;
-  if (!(algebra::global_max(beyond) > k_by_deformation + k_by_deformation_of_range * width)) return false;
+  if (!(parallel::global_max(beyond) > k_by_deformation + k_by_deformation_of_range * width)) return false;
   if (phase_.system_->hold_nodes(now_.temperature, range) != ConductionLimiter::Held::further) return false;
   phase_.system_->find_limits(now_.temperature);
   return true;
@@ -128,11 +128,11 @@ bool ThermalIteration::converged() const {
   return unbalanced_ <= tolerance() * moved() || unbalanced_ <= phase_.temperature_system_->round_off();
 }
 
-algebra::BlockMatrix& ThermalIteration::matrix() {
+linear::BlockMatrix& ThermalIteration::matrix() {
   return phase_.system_->matrix();
 }
 
-algebra::BlockMatrix& ThermalIteration::assemble(int iteration) {
+linear::BlockMatrix& ThermalIteration::assemble(int iteration) {
   if (nodal()) {
     newton_->adapt_tilt(iteration, now_.temperature);
     newton_->assemble(now_.temperature);
@@ -181,7 +181,7 @@ HeatBalance ThermalIteration::conclude(ThermalState& trial) {
 }
 
 void ThermalIteration::reject(const std::string& reason) const {
-  algebra::NewtonReport report;
+  linear::NewtonReport report;
   report.reason = reason;
   phase_.require(report, residual(), now_.temperature);
   throw StepRejected("heat: " + reason);  // require() has thrown

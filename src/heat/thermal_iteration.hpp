@@ -52,8 +52,8 @@ class ThermalIteration {
   bool follow_graph() { return phase_.follow_graph(); }
   /// ∂F/∂Θ with the exact conductivity and the storage, plateaus held. May move the plateaus (and F) of a
   /// start that lies far off. `iteration` counts from zero.
-  algebra::BlockMatrix& assemble(int iteration);
-  algebra::BlockMatrix& matrix();
+  linear::BlockMatrix& assemble(int iteration);
+  linear::BlockMatrix& matrix();
   /// −F, zero where δΘ is none, [owned node].
   std::span<const double> right_hand_side() const;
   /// Keeps the unknowns of now and sets out in the direction of δΘ.

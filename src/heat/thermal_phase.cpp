@@ -7,8 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/errors.hpp"
-#include "base/log.hpp"
 #include "heat/consistent_heat.hpp"
 #include "heat/extrapolation_guard.hpp"
 #include "heat/heat_solver.hpp"
@@ -22,6 +20,8 @@
 #include "heat/truncated_newton.hpp"
 #include "heat/worst_node.hpp"
 #include "material/time_integration.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace solidus::heat {
 
@@ -38,7 +38,7 @@ std::size_t at(Index i) {
 }
 
 /// A pass of so many Newton steps has taken them.
-bool may_end(const algebra::NewtonReport& report, int newton_steps) {
+bool may_end(const linear::NewtonReport& report, int newton_steps) {
   return newton_steps > 0 && report.out_of_iterations;
 }
 
@@ -47,7 +47,7 @@ bool may_end(const algebra::NewtonReport& report, int newton_steps) {
 constexpr int k_steady_revisions = 20;
 constexpr double k_limit_change = 1e-6;
 
-void add_iterations(algebra::NewtonReport& report, algebra::NewtonReport last) {
+void add_iterations(linear::NewtonReport& report, linear::NewtonReport last) {
   last.iterations += report.iterations;
   last.linear_iterations += report.linear_iterations;
   report = std::move(last);
@@ -74,7 +74,7 @@ void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
 
 ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                            const std::vector<material::Material>& materials, const Conditions& conditions,
-                           HeatOptions options, std::vector<algebra::Contribution*> contributions)
+                           HeatOptions options, std::vector<linear::Contribution*> contributions)
     : mesh_(mesh),
       kind_(kind),
       options_(options),
@@ -105,7 +105,7 @@ ThermalPhase::ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   system_ = std::make_unique<HeatSystem>(
       mesh, kind, materials_, conditions, closed, contributions_,
       options_.alone ? HeatSolver::storage_for(mesh, options_.solver, options_.symmetric)
-                     : algebra::BlockMatrix::Storage::whole);
+                     : linear::BlockMatrix::Storage::whole);
   solver_ =
       std::make_unique<HeatSolver>(mesh, options_.solver, options_.symmetric, options_.linear_tolerance);
   if (nodal) {
@@ -147,7 +147,7 @@ std::unique_ptr<ThermalIteration> ThermalPhase::iteration() {
 
 CarriedHeat ThermalPhase::set_conditions(const Conditions& conditions, ThermalState* state,
                                          const std::function<double(Index, int)>& fresh) {
-  const algebra::ActiveSet before = system_->active(), now(mesh_, conditions.absent_bodies);
+  const linear::ActiveSet before = system_->active(), now(mesh_, conditions.absent_bodies);
   for (int body = 0; body < static_cast<int>(materials_.size()); ++body)
     if (now.body(body) && !before.body(body) && !fresh)
       throw std::invalid_argument("a body that comes back needs its heat");
@@ -163,12 +163,12 @@ CarriedHeat ThermalPhase::set_conditions(const Conditions& conditions, ThermalSt
   return carried;
 }
 
-const algebra::ActiveSet& ThermalPhase::active() const {
+const linear::ActiveSet& ThermalPhase::active() const {
   return system_->active();
 }
 
 /// Takes the heat of the bodies that are not there out of the nodes that hold it.
-double ThermalPhase::take_out(const algebra::ActiveSet& active, ThermalState& state) const {
+double ThermalPhase::take_out(const linear::ActiveSet& active, ThermalState& state) const {
   double carried = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
     const double heat = heat_at(state, i), cold = storage_->upper(i, k_counted_from);
@@ -177,12 +177,12 @@ double ThermalPhase::take_out(const algebra::ActiveSet& active, ThermalState& st
     if (!state.enthalpy.empty()) state.enthalpy[at(i)] = left;
   }
   if (options_.integration == Integration::closed) ghosts_.update(state.enthalpy, 1);
-  return algebra::global_sum(carried);
+  return parallel::global_sum(carried);
 }
 
 /// Adds the heat of bodies that have come back to their nodes, whose temperatures follow; other nodes keep
 /// theirs to the last bit.
-double ThermalPhase::put_in(const algebra::ActiveSet& before, const std::function<double(Index, int)>& fresh,
+double ThermalPhase::put_in(const linear::ActiveSet& before, const std::function<double(Index, int)>& fresh,
                             ThermalState& state) const {
   double carried = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
@@ -206,18 +206,18 @@ double ThermalPhase::put_in(const algebra::ActiveSet& before, const std::functio
   }
   ghosts_.update(state.temperature, 1);
   if (nodal()) ghosts_.update(state.enthalpy, 1);
-  return algebra::global_sum(carried);
+  return parallel::global_sum(carried);
 }
 
 double ThermalPhase::heat_content(const ThermalState& state) const {
   double content = 0;
   for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
     content += heat_at(state, i) - storage_->upper(i, k_counted_from);
-  return algebra::global_sum(content);
+  return parallel::global_sum(content);
 }
 
-void ThermalPhase::change_bodies(const algebra::ActiveSet& before) {
-  const algebra::ActiveSet& now = system_->active();
+void ThermalPhase::change_bodies(const linear::ActiveSet& before) {
+  const linear::ActiveSet& now = system_->active();
   storage_->set_active(now);
   if (at_nodes_) at_nodes_->set_active(now);
   if (consistent_) consistent_->set_active(now);
@@ -312,7 +312,7 @@ PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, co
 /// SDIRK2; its second stage is backward Euler over the rest of the step where H* is no place to start from.
 PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const ThermalPass& pass,
                                            ThermalState& next) {
-  const algebra::Stage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
+  const linear::Stage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
       rest{pass.dt - first.dt, 1};
   const bool flows = nodal() && !pass.adiabatic;
   ThermalState middle;
@@ -342,7 +342,7 @@ PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const Therma
   }
   if (!second_order)
     logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
-  const algebra::Stage& stage = second_order ? extrapolated : rest;
+  const linear::Stage& stage = second_order ? extrapolated : rest;
   if (flows) flows_.last = flow(stage_start(old, middle, stage), next, stage);
   flows_.second_order = second_order;
   flows_.share = k_sdirk_share;
@@ -354,7 +354,7 @@ PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const Therma
 
 /// H* of a stage: H_n + carried (H − H_n) with the H of `before`.
 ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalState& before,
-                                       const algebra::Stage& stage) {
+                                       const linear::Stage& stage) {
   ThermalState from = old;
   if (stage.carried != 0)
     for (std::size_t i = 0; i < from.enthalpy.size(); ++i)
@@ -365,7 +365,7 @@ ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalSta
 // Computes the heat flow into the nodes: the heat that they have taken up, less that from contributions that
 // store heat.
 std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalState& next,
-                                       const algebra::Stage& stage) const {
+                                       const linear::Stage& stage) const {
   std::vector<double> flow(reactions_.size());
   for (std::size_t i = 0; i < flow.size(); ++i) flow[i] = (next.enthalpy[i] - from.enthalpy[i]) / stage.dt;
   const std::span<const double> stored = system_->stored_by_contributions();
@@ -393,7 +393,7 @@ std::vector<double> ThermalPhase::change_in_kelvin(const ThermalState& a, const 
 
 /// From H* = H_n + carried (H − H_n) with the H of `before`, which is the state at t_n in the first stage.
 PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalState& before,
-                                      const algebra::Stage& stage, const ThermalPass& pass,
+                                      const linear::Stage& stage, const ThermalPass& pass,
                                       ThermalState& next) {
   begin_stage(stage, before.temperature);
   next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.time);
@@ -438,7 +438,7 @@ TemperatureRange ThermalPhase::limit_conduction(const ThermalState& before, cons
     range.lowest = std::min({range.lowest, temperature[i], old.temperature[i]});
     range.highest = std::max({range.highest, temperature[i], old.temperature[i]});
   }
-  return {algebra::global_min(range.lowest), algebra::global_max(range.highest)};
+  return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
 }
 
 /// Starts the iteration from heats instead of temperatures, where it is free.
@@ -462,8 +462,8 @@ void ThermalPhase::book(std::span<const double> residual, double dt, std::span<d
   ghosts_.update(heat, 1);
 }
 
-void ThermalPhase::begin_stage(const algebra::Stage& stage, std::span<const double> before) {
-  for (algebra::Contribution* contribution : contributions_) contribution->begin_stage(stage, before);
+void ThermalPhase::begin_stage(const linear::Stage& stage, std::span<const double> before) {
+  for (linear::Contribution* contribution : contributions_) contribution->begin_stage(stage, before);
 }
 
 HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& next,
@@ -477,7 +477,7 @@ HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& n
   } else {
     for (const auto& block : points_) stored += block->stored(next.temperature);
   }
-  balance.stored = algebra::global_sum(stored);
+  balance.stored = parallel::global_sum(stored);
   set_latent(balance, old, next);
   balance.exchanged = moved * dt;
   return balance;
@@ -494,7 +494,7 @@ void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, con
       latent += storage_->latent(i, next.enthalpy[at(i)], next.temperature[at(i)]) -
                 storage_->latent(i, old.enthalpy[at(i)], old.temperature[at(i)]);
   }
-  balance.latent = algebra::global_sum(latent);
+  balance.latent = parallel::global_sum(latent);
   balance.sensible = balance.stored - balance.latent;
 }
 
@@ -527,18 +527,18 @@ PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& 
   return report;
 }
 
-algebra::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature, int newton_steps) {
+linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature, int newton_steps) {
   std::vector<double> r(reactions_.size());
   temperature_system_->residual(temperature, r);
   temperature_system_->tangent();
-  algebra::NewtonOptions newton;
+  linear::NewtonOptions newton;
   newton.tolerance = options_.tolerance > 0 ? options_.tolerance : k_point_tolerance;
   newton.inexact = false;  // an iteration costs as much as 25 of the linear solver, which takes as many
   newton.absolute_tolerance = temperature_system_->round_off();
   newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;
-  const algebra::NewtonReport report =
-      algebra::newton(*temperature_system_, *temperature_system_->solver(solver_->strong()), ghosts_,
-                      k_one_component, temperature, newton);
+  const linear::NewtonReport report =
+      linear::newton(*temperature_system_, *temperature_system_->solver(solver_->strong()), ghosts_,
+                     k_one_component, temperature, newton);
   temperature_system_->residual(temperature, r);
   require_positive(temperature);
   if (!may_end(report, newton_steps)) require(report, r, temperature);
@@ -555,7 +555,7 @@ HeatBalance ThermalPhase::measure(std::span<const double> temperature, double dt
   HeatBalance balance;
   double entropy = system_->entropy_power(temperature);
   for (std::size_t i = 0; i < reactions_.size(); ++i) entropy += reactions_[i] / temperature[i];
-  balance.entropy_in = algebra::global_sum(entropy) * dt;
+  balance.entropy_in = parallel::global_sum(entropy) * dt;
   for (const auto& [name, power] : system_->reaction_powers(reactions_))
     balance.conditions.push_back({name, power * dt});
   for (const auto& [name, power] : system_->powers()) balance.conditions.push_back({name, power * dt});
@@ -565,7 +565,7 @@ HeatBalance ThermalPhase::measure(std::span<const double> temperature, double dt
   return balance;
 }
 
-void ThermalPhase::require(const algebra::NewtonReport& report, std::span<const double> residual,
+void ThermalPhase::require(const linear::NewtonReport& report, std::span<const double> residual,
                            std::span<const double> temperature) const {
   if (report.converged) return;
   WorstNode worst;
@@ -577,7 +577,7 @@ void ThermalPhase::require(const algebra::NewtonReport& report, std::span<const 
 void ThermalPhase::require_positive(std::span<const double> temperature) const {
   WorstNode coldest;
   for (std::size_t i = 0; i < reactions_.size(); ++i) coldest.look(i, -temperature[i]);
-  const double lowest = -algebra::global_max(coldest.size);
+  const double lowest = -parallel::global_max(coldest.size);
   if (lowest > 0) return;
   throw StepRejected(std::isfinite(lowest) ? fmt::format("heat: the temperature falls to {:.4g} K", lowest)
                                            : "heat: the temperature is not a number",
@@ -612,7 +612,7 @@ double ThermalPhase::mean_solid_fraction(const ThermalState& state, int body) co
     volume += storage_->volume(i, body);
     solid += storage_->solid_volume(i, body, heat_at(state, i), state.temperature[at(i)]);
   }
-  return algebra::global_sum(solid) / algebra::global_sum(volume);
+  return parallel::global_sum(solid) / parallel::global_sum(volume);
 }
 
 double ThermalPhase::mean_solid_fraction(const ThermalState& state) const {
@@ -625,8 +625,8 @@ double ThermalPhase::mean_solid_fraction(const ThermalState& state) const {
       solid += storage_->solid_volume(i, body, heat_at(state, i), state.temperature[at(i)]);
     }
   }
-  volume = algebra::global_sum(volume);
-  solid = algebra::global_sum(solid);
+  volume = parallel::global_sum(volume);
+  solid = parallel::global_sum(solid);
   return volume > 0 ? solid / volume : 1.0;
 }
 
@@ -646,7 +646,7 @@ EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const Therm
       add({after - before, std::abs(before)});
     }
   }
-  return {algebra::global_sum(sum.change), algebra::global_sum(sum.magnitude)};
+  return {parallel::global_sum(sum.change), parallel::global_sum(sum.magnitude)};
 }
 
 double ThermalPhase::enthalpy(const ThermalState& state) const {
@@ -657,7 +657,7 @@ double ThermalPhase::enthalpy(const ThermalState& state) const {
     for (Index i = 0; i < mesh_.n_owned_nodes; ++i) sum += state.enthalpy[at(i)];
     if (consistent_) sum += consistent_->enthalpy(state.temperature);
   }
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 double ThermalPhase::mean_temperature(const ThermalState& state, int body) const {
@@ -667,7 +667,7 @@ double ThermalPhase::mean_temperature(const ThermalState& state, int body) const
     volume += v;
     sum += v * state.temperature[at(i)];
   }
-  return algebra::global_sum(sum) / algebra::global_sum(volume);
+  return parallel::global_sum(sum) / parallel::global_sum(volume);
 }
 
 std::size_t ThermalPhase::bytes() const {

@@ -11,7 +11,7 @@
 ///   H* = H_n + (1 − γ)/γ (H¹ − H_n) = H_n + (1 − γ) Δt f(t_n + γ Δt, H¹)
 ///
 /// so plateaus and both rules are as with backward Euler, and the heat of the step is
-/// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by algebra::Stage.
+/// Δt [(1 − γ) f¹ + γ f_{n+1}]. Contributions that store follow by linear::Stage.
 ///
 /// H* is an extrapolation. Where with the closed rule a node's Θ(H*) leaves the range of the temperatures at
 /// t_n and around, or where it makes heat flow back beside nodes that have frozen or melted in the step
@@ -26,15 +26,15 @@
 #include <string>
 #include <vector>
 
-#include "algebra/active_set.hpp"
-#include "algebra/contribution.hpp"
-#include "base/types.hpp"
 #include "heat/conditions.hpp"
 #include "heat/sensible_form.hpp"
 #include "heat/thermal_state.hpp"
 #include "heat/time_error.hpp"
+#include "linear/active_set.hpp"
+#include "linear/contribution.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::heat {
 
@@ -70,7 +70,7 @@ struct HeatOptions {
   /// k_nodal_tolerance where the nodes hold the heat, else k_point_tolerance.
   double tolerance = 0;
   int max_iterations = 50;
-  algebra::SolverKind solver = algebra::SolverKind::automatic;
+  linear::SolverKind solver = linear::SolverKind::automatic;
   double linear_tolerance = 1e-11;  ///< iterative solvers, relative
   /// Limits conduction where the mesh would let temperatures leave the range of those around them
   /// (conduction_limiter.hpp); closed rule only.
@@ -112,7 +112,7 @@ class ThermalPhase {
   /// Throws InputError for a condition that names no group of the mesh.
   ThermalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
                const Conditions& conditions, HeatOptions options = {},
-               std::vector<algebra::Contribution*> contributions = {});
+               std::vector<linear::Contribution*> contributions = {});
   ~ThermalPhase();
 
   /// From here on other conditions hold; the state goes on as it is, but for the heat of bodies that leave or
@@ -127,7 +127,7 @@ class ThermalPhase {
   /// Collective.
   double heat_content(const ThermalState& state) const;
   /// Bodies and nodes that are active in the present stage.
-  const algebra::ActiveSet& active() const;
+  const linear::ActiveSet& active() const;
 
   /// Every body at its temperature [K], one per body. A node of several bodies takes the temperature at which
   /// their heats add up. A body that starts at the temperature of an isothermal change is molten.
@@ -212,20 +212,20 @@ class ThermalPhase {
   /// Makes the matrix anew where a contribution asks for it; then true. Collective.
   bool follow_graph();
   /// Throws StepRejected like require() unless `newton_steps` limits the iteration.
-  algebra::NewtonReport solve_temperature(std::span<double> temperature, int newton_steps = 0);
+  linear::NewtonReport solve_temperature(std::span<double> temperature, int newton_steps = 0);
   void keep_reactions(std::span<const double> residual);
   HeatBalance measure(std::span<const double> temperature, double dt) const;
-  PhaseReport solve_stage(const ThermalState& old, const ThermalState& before, const algebra::Stage& stage,
+  PhaseReport solve_stage(const ThermalState& old, const ThermalState& before, const linear::Stage& stage,
                           const ThermalPass& pass, ThermalState& next);
   PhaseReport solve_two_stages(const ThermalState& old, const ThermalPass& pass, ThermalState& next);
   void start_from(std::span<const double> heat, ThermalState& next) const;
   static ThermalState stage_start(const ThermalState& old, const ThermalState& before,
-                                  const algebra::Stage& stage);
+                                  const linear::Stage& stage);
   /// Into the nodes in a stage that has just been solved, from H* of `from`: for StageFlows.
   std::vector<double> flow(const ThermalState& from, const ThermalState& next,
-                           const algebra::Stage& stage) const;
+                           const linear::Stage& stage) const;
   /// Tells the contributions that store.
-  void begin_stage(const algebra::Stage& stage, std::span<const double> before);
+  void begin_stage(const linear::Stage& stage, std::span<const double> before);
   TemperatureRange limit_conduction(const ThermalState& before, const ThermalState& old);
   void set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const;
   /// Keeps the reactions and measures a solved step.
@@ -244,12 +244,12 @@ class ThermalPhase {
   bool at_nodes(int body) const;
   std::unique_ptr<PointStorage> store_at_points(const mesh::Block& block) const;
   double heat_at(const ThermalState& state, Index node) const;
-  double take_out(const algebra::ActiveSet& active, ThermalState& state) const;
-  double put_in(const algebra::ActiveSet& before, const std::function<double(Index, int)>& fresh,
+  double take_out(const linear::ActiveSet& active, ThermalState& state) const;
+  double put_in(const linear::ActiveSet& before, const std::function<double(Index, int)>& fresh,
                 ThermalState& state) const;
-  void change_bodies(const algebra::ActiveSet& before);
+  void change_bodies(const linear::ActiveSet& before);
   /// Throws StepRejected on all processes unless the report is of a converged iteration.
-  void require(const algebra::NewtonReport& report, std::span<const double> residual,
+  void require(const linear::NewtonReport& report, std::span<const double> residual,
                std::span<const double> temperature) const;
   /// Throws StepRejected on all processes where a temperature is not above zero.
   void require_positive(std::span<const double> temperature) const;
@@ -258,8 +258,8 @@ class ThermalPhase {
   AnalysisKind kind_;
   HeatOptions options_;
   std::vector<material::Material> materials_;
-  std::vector<algebra::Contribution*> contributions_;
-  algebra::GhostExchange ghosts_;
+  std::vector<linear::Contribution*> contributions_;
+  parallel::GhostExchange ghosts_;
   std::unique_ptr<NodalEnthalpy> storage_;
   std::unique_ptr<NodalEnthalpy> at_nodes_;  ///< of bodies that store there, where it is not all of them
   // The last contributions, in this order.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algebra/newton.hpp"
+#include "linear/newton.hpp"
 
 namespace solidus::heat {
 
@@ -54,8 +54,8 @@ struct EntropyChange {
 };
 
 struct PhaseReport {
-  algebra::NewtonReport newton;  ///< sums over the stages of the step
-  int hardest = 0;               ///< the most iterations of one stage
+  linear::NewtonReport newton;  ///< sums over the stages of the step
+  int hardest = 0;              ///< the most iterations of one stage
   HeatBalance balance;
 };
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/forcing.hpp"
-#include "algebra/parallel.hpp"
-#include "base/profile.hpp"
 #include "heat/local_sweeps.hpp"
 #include "heat/plateau_watch.hpp"
+#include "linear/forcing.hpp"
+#include "parallel/parallel.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::heat {
 
@@ -37,7 +37,7 @@ constexpr double k_chord_worth = 0.5;    ///< share of the residual left up to w
 }  // namespace
 
 TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
-                                 HeatSolver& solver, const algebra::GhostExchange& ghosts,
+                                 HeatSolver& solver, const parallel::GhostExchange& ghosts,
                                  TruncatedNewtonOptions options, std::vector<char> relaxed)
     : mesh_(mesh),
       system_(system),
@@ -63,9 +63,9 @@ void TruncatedNewton::evaluate() {
     contents += std::abs(heat_[i]) / dt_;
     (fixed[i] ? moved : norm) += std::abs(r_[i]);
   }
-  norm_ = algebra::global_sum(norm);
-  moved_ = 0.5 * algebra::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
-  round_off_ = k_round_off * (algebra::global_sum(contents) + conductance_);
+  norm_ = parallel::global_sum(norm);
+  moved_ = 0.5 * parallel::global_sum(moved);  // what enters somewhere is stored or leaves somewhere else
+  round_off_ = k_round_off * (parallel::global_sum(contents) + conductance_);
 }
 
 /// A at the temperatures of now.
@@ -78,13 +78,13 @@ void TruncatedNewton::assemble() {
     ghosts_.update(slope_, 1);
   }
   system_.assemble_symmetric(temperature_, slope_);
-  algebra::BlockMatrix& a = system_.matrix();
+  linear::BlockMatrix& a = system_.matrix();
   double conductance = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) {
     diagonal_[i] = *a.diagonal_block(static_cast<Index>(i));
     conductance += std::abs(diagonal_[i] * slope_[i] * temperature_[i]);
   }
-  conductance_ = algebra::global_sum(conductance);
+  conductance_ = parallel::global_sum(conductance);
   if (r_.size() == mesh_.x.size()) return;
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
@@ -125,7 +125,7 @@ double TruncatedNewton::relax(std::size_t i, double residual) {
 }
 
 void TruncatedNewton::sweep(Order order) {
-  const algebra::BlockMatrix& a = system_.matrix();
+  const linear::BlockMatrix& a = system_.matrix();
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
   const double* values = a.block(0);
@@ -165,8 +165,8 @@ void TruncatedNewton::follow(std::span<double> step) {
 /// (D + A) δ = −F, δ in step_ with its ghosts and A δ in product_.
 /// @param chords  D of each node in place of the tangent's where it is not zero; infinite: the node is held.
 ///                Empty: none
-algebra::LinearReport TruncatedNewton::correct(double forcing, std::span<const double> chords) {
-  algebra::BlockMatrix& a = system_.matrix();
+linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const double> chords) {
+  linear::BlockMatrix& a = system_.matrix();
   const auto n = r_.size();
   const NodalPotential& potential = system_.potential();
   std::vector<char> held(n);
@@ -192,7 +192,7 @@ algebra::LinearReport TruncatedNewton::correct(double forcing, std::span<const d
       b_[i] = held[i] ? 0.0 : -r_[i];
     }
   }
-  const algebra::LinearReport report = solver_.solve(a, b_, std::span(step_).first(n), forcing);
+  const linear::LinearReport report = solver_.solve(a, b_, std::span(step_).first(n), forcing);
   for (std::size_t i = 0; i < n; ++i) {
     *a.diagonal_block(static_cast<Index>(i)) = of_a[i];
     if (held[i]) step_[i] = 0;
@@ -226,7 +226,7 @@ void TruncatedNewton::find_chords(std::span<double> chords) const {
 
 /// Solves (D + A) δ = −F with D the slope of the chord of each node's curve over δ itself, by repetition. It
 /// begins without plateaus: their nodes have the capacity of their temperature.
-algebra::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
+linear::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
   const NodalPotential& potential = system_.potential();
   std::vector<double> chords(r_.size()), before(r_.size());
   for (std::size_t i = 0; i < r_.size(); ++i) {
@@ -234,7 +234,7 @@ algebra::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
     if (storage_.point(node, heat_[i]).slope == 0)
       chords[i] = storage_.capacity(node, temperature_[i]) / (dt_ * potential.slope(node, temperature_[i]));
   }
-  algebra::LinearReport report;
+  linear::LinearReport report;
   int iterations = 0;
   for (int round = 0; round < k_chord_rounds; ++round) {
     if (round > 0) find_chords(chords);
@@ -255,7 +255,7 @@ algebra::LinearReport TruncatedNewton::correct_by_chords(double forcing) {
       change += d * std::abs(step_[i] - before[i]);
       all += d * std::abs(step_[i]);
     }
-    if (algebra::global_sum(change) <= k_chord_change * algebra::global_sum(all)) break;
+    if (parallel::global_sum(change) <= k_chord_change * parallel::global_sum(all)) break;
   }
   return report;
 }
@@ -278,7 +278,7 @@ double TruncatedNewton::linear_slope(double alpha) {
   double sum = 0;
   for (std::size_t i = 0; i < r_.size(); ++i)
     if (step_[i] != 0) sum += step_[i] * (r_[i] + (heat_[i] - from_heat_[i]) / dt_ + alpha * product_[i]);
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 /// The same for F itself, which is evaluated.
@@ -292,7 +292,7 @@ double TruncatedNewton::true_slope(double alpha) {
 double TruncatedNewton::slope_along_step() const {
   double sum = 0;
   for (std::size_t i = 0; i < r_.size(); ++i) sum += step_[i] * r_[i];
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 /// Goes to the least E along δ, to a tenth of its slope at the start; leaves F there.
@@ -398,9 +398,9 @@ bool TruncatedNewton::revise_limits(const TemperatureRange& range) {
   return true;
 }
 
-algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
-                                             std::span<double> temperature, std::span<double> heat,
-                                             const TemperatureRange& range, int newton_steps) {
+linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, double dt,
+                                            std::span<double> temperature, std::span<double> heat,
+                                            const TemperatureRange& range, int newton_steps) {
   old_heat_ = old_heat;
   heat_ = heat;
   temperature_ = temperature;
@@ -413,8 +413,8 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
   bool by_chords = false;
   double norm_before = 0;
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
-  algebra::Forcing forcing(true);
-  algebra::NewtonReport report;
+  linear::Forcing forcing(true);
+  linear::NewtonReport report;
   bool revised = false;
   evaluate();
   while (true) {
@@ -447,7 +447,7 @@ algebra::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, d
         storage_.has_plateaus() && !(by_chords && norm_ > k_chord_worth * norm_before);
     norm_before = norm_;
     by_chords = may_use_chords && in_depth;
-    algebra::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
+    linear::LinearReport linear = by_chords ? correct_by_chords(to) : correct(to);
     report.linear_iterations += linear.iterations;
     if (linear.converged && !search(by_chords || !may_use_chords)) {
       by_chords = true;

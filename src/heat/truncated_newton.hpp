@@ -41,10 +41,10 @@
 #include <span>
 #include <vector>
 
-#include "algebra/newton.hpp"
 #include "heat/heat_solver.hpp"
 #include "heat/heat_system.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "linear/newton.hpp"
 
 namespace solidus::heat {
 
@@ -58,7 +58,7 @@ class TruncatedNewton {
   /// @param relaxed  the nodes that sweeps may change, [owned node]; empty: all. Not those where a
   ///                 contribution takes back what the node stores (consistent_heat.hpp)
   TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, const NodalEnthalpy& storage,
-                  HeatSolver& solver, const algebra::GhostExchange& ghosts, TruncatedNewtonOptions options,
+                  HeatSolver& solver, const parallel::GhostExchange& ghosts, TruncatedNewtonOptions options,
                   std::vector<char> relaxed = {});
 
   /// From the start values in `temperature` and `heat` ([local node]), a point of each node's graph;
@@ -67,9 +67,9 @@ class TruncatedNewton {
   /// anew, and it goes on if that changes much. Not if `newton_steps` says when it ends.
   /// @param range         temperatures that nothing should leave [K]
   /// @param newton_steps  at most so many iterations; zero: the limit of the options
-  algebra::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
-                              std::span<double> heat, const TemperatureRange& range = {-HUGE_VAL, HUGE_VAL},
-                              int newton_steps = 0);
+  linear::NewtonReport solve(std::span<const double> old_heat, double dt, std::span<double> temperature,
+                             std::span<double> heat, const TemperatureRange& range = {-HUGE_VAL, HUGE_VAL},
+                             int newton_steps = 0);
   /// F at the end of the last solve, [owned node] [W]: where the temperature is prescribed, the heat that
   /// holds it.
   std::span<const double> residual() const { return r_; }
@@ -87,9 +87,9 @@ class TruncatedNewton {
   /// Adds to F the effect of the change of v since then.
   void follow(std::span<double> step);
   /// @param chords  slopes that stand for those of the tangents, [owned node]; empty: none
-  algebra::LinearReport correct(double forcing, std::span<const double> chords = {});
+  linear::LinearReport correct(double forcing, std::span<const double> chords = {});
   void find_chords(std::span<double> chords) const;
-  algebra::LinearReport correct_by_chords(double forcing);
+  linear::LinearReport correct_by_chords(double forcing);
   bool revise_limits(const TemperatureRange& range);
   bool search(bool short_too);
   double minimise(double start, double longest, double (TruncatedNewton::*slope_at)(double));
@@ -102,7 +102,7 @@ class TruncatedNewton {
   HeatSystem& system_;
   const NodalEnthalpy& storage_;
   HeatSolver& solver_;
-  const algebra::GhostExchange& ghosts_;
+  const parallel::GhostExchange& ghosts_;
   TruncatedNewtonOptions options_;
   std::vector<char> relaxed_;
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "base/column_table.hpp"
-#include "base/document.hpp"
+#include "input/column_table.hpp"
+#include "input/document.hpp"
 #include "material/material.hpp"
 
 namespace solidus::material {

@@ -4,9 +4,9 @@
 /// e^θ(Θ) = 3[α(Θ)(Θ − Θ_ref) − α(Θ_0)(Θ_0 − Θ_ref)] + e^pc(Θ) − e^pc(Θ_0),  e^pc = Σ_k (ΔV/V)_k f_k(Θ).
 #pragma once
 
-#include "base/jet.hpp"
-#include "base/tensor.hpp"
 #include "material/material.hpp"
+#include "numbers/jet.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::material {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "base/jet.hpp"
 #include "material/elasticity.hpp"
+#include "numbers/jet.hpp"
 
 namespace solidus::material {
 namespace detail {

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "base/table.hpp"
 #include "material/phase_change.hpp"
+#include "numbers/table.hpp"
 
 namespace solidus::material {
 

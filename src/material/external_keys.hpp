@@ -1,7 +1,7 @@
 /// The keys of [external] in a material file.
 #pragma once
 
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "material/external_law.hpp"
 
 namespace solidus::material {

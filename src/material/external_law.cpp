@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <type_traits>
 
-#include "base/simd.hpp"
+#include "numbers/simd.hpp"
 
 namespace solidus::material {
 

@@ -25,9 +25,9 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.hpp"
-#include "base/tensor.hpp"
 #include "material/viscoelastic.hpp"
+#include "numbers/tensor.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::material {
 

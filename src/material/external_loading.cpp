@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/types.hpp"
 #include "material/external_law.hpp"
 #include "material/external_trial.hpp"
 #include "material/material.hpp"
 #include "material/mfront_library.hpp"
 #include "material/umat_library.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::material {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "base/table.hpp"
 #include "material/flow_curves.hpp"
 #include "material/laws/parameter.hpp"
+#include "numbers/table.hpp"
 
 namespace solidus::material {
 

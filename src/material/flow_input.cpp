@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "base/units.hpp"
+#include "input/units.hpp"
 #include "material/flow_keys.hpp"
 #include "material/laws/hardening_law.hpp"
 #include "material/library.hpp"

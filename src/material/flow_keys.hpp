@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "material/material.hpp"
 
 namespace solidus::material {

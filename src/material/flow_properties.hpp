@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "base/jet.hpp"
 #include "material/elasticity.hpp"
 #include "material/flow.hpp"
+#include "numbers/jet.hpp"
 
 namespace solidus::material {
 

@@ -9,8 +9,8 @@
 /// Validity: ξ >= 0. Tables are piecewise linear, so K_ΘΘ holds the products of their slopes only.
 #pragma once
 
-#include "base/jet.hpp"
 #include "material/hardening.hpp"
+#include "numbers/jet.hpp"
 
 namespace solidus::material {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/units.hpp"
+#include "input/units.hpp"
 #include "material/hardening.hpp"
 
 namespace solidus::material {

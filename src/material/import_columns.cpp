@@ -8,8 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/keys.hpp"
-#include "base/units.hpp"
+#include "input/keys.hpp"
+#include "input/units.hpp"
 
 namespace solidus::material {
 namespace {

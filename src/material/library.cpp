@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/document.hpp"
+#include "input/document.hpp"
 #include "material/elasticity.hpp"
 #include "material/external_keys.hpp"
 #include "material/laws/fraction_law.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "material/external_law.hpp"
 #include "material/flow_keys.hpp"
 #include "material/material.hpp"

@@ -1,5 +1,5 @@
 /// The keys of a file of `materials/liquidus`.
-#include "base/document.hpp"
+#include "input/document.hpp"
 #include "material/liquidus_system.hpp"
 
 namespace solidus::material {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "base/document.hpp"
+#include "input/document.hpp"
 
 namespace solidus::material {
 namespace {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 
 namespace solidus::material {
 

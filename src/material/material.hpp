@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "base/table.hpp"
-#include "base/types.hpp"
 #include "material/casting.hpp"
 #include "material/enthalpy.hpp"
 #include "material/flow.hpp"
 #include "material/phase_change.hpp"
+#include "numbers/table.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::material {
 

@@ -35,8 +35,8 @@
 
 #include <string>
 
-#include "base/simd.hpp"
 #include "material/material.hpp"
+#include "numbers/simd.hpp"
 
 namespace solidus::material {
 

@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/simd.hpp"
 #include "material/casting.hpp"
+#include "numbers/simd.hpp"
 
 namespace solidus::material {
 

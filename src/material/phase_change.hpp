@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/pieces.hpp"
+#include "numbers/pieces.hpp"
 
 namespace solidus::material {
 

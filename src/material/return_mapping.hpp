@@ -12,8 +12,8 @@
 
 #include <limits>
 
-#include "base/tensor.hpp"
 #include "material/hardening.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::material::return_mapping {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::material {
 

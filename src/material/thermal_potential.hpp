@@ -9,8 +9,8 @@
 /// absorb heat; L takes the liquid fraction (errata). Validity: Θ, Θ_0 > 0.
 #pragma once
 
-#include "base/jet.hpp"
 #include "material/elasticity.hpp"
+#include "numbers/jet.hpp"
 
 namespace solidus::material {
 

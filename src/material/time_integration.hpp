@@ -9,7 +9,7 @@
 /// 2; the two-step method is stable for steps that grow by less than 1 + √2 (Grigorieff 1983).
 #pragma once
 
-#include "base/tensor.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::material {
 

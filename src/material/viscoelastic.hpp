@@ -13,8 +13,8 @@
 /// Cervera, CIMNE monograph 48 (1999).
 #pragma once
 
-#include "base/tensor.hpp"
 #include "material/elasticity.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::material {
 

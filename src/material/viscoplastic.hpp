@@ -22,10 +22,10 @@
 /// Source: Chiumenti, Agelet de Saracibar, Cervera, CIMNE monograph 48 (1999); errata.
 #pragma once
 
-#include "base/tensor.hpp"
 #include "material/hardening.hpp"
 #include "material/return_mapping.hpp"
 #include "material/viscoelastic.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::material {
 

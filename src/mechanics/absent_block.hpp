@@ -17,11 +17,11 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
               const material::Material& material, std::unique_ptr<BlockKernel> kept = nullptr);
 
   bool symmetric() const override { return true; }
-  void bind(const algebra::BlockMatrix&) override {}
+  void bind(const linear::BlockMatrix&) override {}
   BlockHistory initial_history() const override { return {}; }
   double prepare(const StepStart&) override { return 0; }
   double add_forces(std::span<const double>, std::span<double>) override { return 0; }
-  void add_tangent(std::span<const double>, algebra::BlockMatrix&) override {}
+  void add_tangent(std::span<const double>, linear::BlockMatrix&) override {}
   BlockWork finish(std::span<const double>, std::span<const double>, BlockHistory&) override { return {}; }
   void hold_deformation(const StepStart&) override {}
   std::string failure(std::span<const double>) const override { return {}; }
@@ -32,12 +32,12 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
 
   void spread_heat_as_stored(const PackVector<Lane>&) override {}
   void add_structural_heat(StructuralForm, std::span<const double>, bool, std::span<double>) const override {}
-  void begin_heat_stage(const algebra::Stage&, std::span<const double>) override {}
+  void begin_heat_stage(const linear::Stage&, std::span<const double>) override {}
   const StructuralPoints& structural_points() const override { return points_; }
   std::size_t bytes() const override { return 0; }
 
-  void bind_heat(const algebra::BlockMatrix&) override {}
-  void add_coupling(const CoupledIterate&, algebra::CoupledMatrix&) override {}
+  void bind_heat(const linear::BlockMatrix&) override {}
+  void add_coupling(const CoupledIterate&, linear::CoupledMatrix&) override {}
   void carry(double, std::span<const double>) override {}
   void drop_carried() override {}
 

@@ -17,7 +17,7 @@ constexpr double k_internal_share = 1e-6;
 constexpr double k_at_rest = 1e-8;
 
 // Bodies that share a node, directly or by way of others, get the same number.
-std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const algebra::ActiveSet& active) {
+std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const linear::ActiveSet& active) {
   const std::size_t n = mesh.bodies.size();
   std::vector<int> touching(n * n, 0), first_body(mesh.x.size(), -1);
   for (const mesh::Block& block : mesh.blocks) {
@@ -64,7 +64,7 @@ std::vector<double> extents(const mesh::Mesh& mesh, std::span<const std::size_t>
 
 }  // namespace
 
-BodyBalance::BodyBalance(const mesh::Mesh& mesh, const algebra::ActiveSet& active, int components)
+BodyBalance::BodyBalance(const mesh::Mesh& mesh, const linear::ActiveSet& active, int components)
     : components_(components),
       body_group_(groups_of_bodies(mesh, active)),
       node_group_(static_cast<std::size_t>(mesh.n_owned_nodes), 0),

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/active_set.hpp"
+#include "linear/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::mechanics {
@@ -17,7 +17,7 @@ namespace solidus::mechanics {
 class BodyBalance {
  public:
   /// Finds which of the active bodies share nodes. Collective.
-  BodyBalance(const mesh::Mesh& mesh, const algebra::ActiveSet& active, int components);
+  BodyBalance(const mesh::Mesh& mesh, const linear::ActiveSet& active, int components);
 
   void begin();
   /// Squares of the internal forces of a block before they cancel.

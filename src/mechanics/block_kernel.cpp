@@ -1,10 +1,10 @@
 #include "mechanics/block_kernel.hpp"
 
-#include "base/errors.hpp"
 #include "material/external_law.hpp"
 #include "mechanics/block_makers.hpp"
 #include "mechanics/coupled_kernel.hpp"
 #include "mechanics/mixed_kernel.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mechanics {
 

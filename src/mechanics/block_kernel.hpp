@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
+#include "linear/block_matrix.hpp"
 #include "material/material.hpp"
 #include "material/melt.hpp"
 #include "mechanics/mechanical_phase.hpp"
@@ -75,7 +75,7 @@ class BlockKernel {
   /// Whether the tangent is symmetric at every state.
   virtual bool symmetric() const = 0;
   /// Looks up matrix slots.
-  virtual void bind(const algebra::BlockMatrix& matrix) = 0;
+  virtual void bind(const linear::BlockMatrix& matrix) = 0;
   virtual BlockHistory initial_history() const = 0;
   /// Properties at the quadrature points for the temperature of this step, and the entropy that an isentropic
   /// law holds. Returns the square of the nodal
@@ -86,7 +86,7 @@ class BlockKernel {
   /// numbers.
   virtual double add_forces(std::span<const double> u, std::span<double> forces) = 0;
   /// matrix += ∫ B̄ᵀ C B̄ dV at u.
-  virtual void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) = 0;
+  virtual void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) = 0;
   /// Writes the new history, and stores stresses and the data for the thermal phase.
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
   /// Holds the deformation: has the effect of prepare() and finish() for a body that stays at the held
@@ -109,7 +109,7 @@ class BlockKernel {
   /// StructuralHeat: out += its residual, or (tangent) its lumped diagonal; [local node].
   virtual void add_structural_heat(StructuralForm form, std::span<const double> temperature, bool tangent,
                                    std::span<double> out) const = 0;
-  virtual void begin_heat_stage(const algebra::Stage& stage, std::span<const double> temperature) = 0;
+  virtual void begin_heat_stage(const linear::Stage& stage, std::span<const double> temperature) = 0;
   /// Returns the data of the deformation that the heat balance and the audit need, as of the last finish().
   virtual const StructuralPoints& structural_points() const = 0;
   virtual std::size_t bytes() const = 0;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/time_function.hpp"
-#include "base/types.hpp"
+#include "numbers/time_function.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mechanics {
 

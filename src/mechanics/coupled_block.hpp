@@ -21,7 +21,7 @@ class CoupledBlock final : public CoupledPoints<LawBlock<material::Viscoplastic,
  public:
   using Base::Base;
 
-  void add_coupling(const CoupledIterate& at, algebra::CoupledMatrix& matrix) override {
+  void add_coupling(const CoupledIterate& at, linear::CoupledMatrix& matrix) override {
     for (Index batch = 0; batch < this->geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(at.u, batch), old_displacement = gather(at.old_u, batch);
       Element element;
@@ -63,9 +63,9 @@ class CoupledBlock final : public CoupledPoints<LawBlock<material::Viscoplastic,
     }
   };
 
-  void scatter(const Element& element, Index batch, algebra::CoupledMatrix& matrix) const {
-    const algebra::BlockMatrix::Slot *const slots = this->slots_of(batch), *const heat_slots =
-                                                                               this->heat_slots_of(batch);
+  void scatter(const Element& element, Index batch, linear::CoupledMatrix& matrix) const {
+    const linear::BlockMatrix::Slot *const slots = this->slots_of(batch), *const heat_slots =
+                                                                              this->heat_slots_of(batch);
     for (std::size_t a = 0; a < n_nodes; ++a)
       for (std::size_t b = 0; b < n_nodes; ++b) {
         const std::size_t pair = (a * n_nodes + b) * k_lanes;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "algebra/coupled_matrix.hpp"
+#include "linear/coupled_matrix.hpp"
 #include "mechanics/block_kernel.hpp"
 
 namespace solidus::mechanics {
@@ -24,11 +24,11 @@ class CoupledKernel {
  public:
   virtual ~CoupledKernel() = default;
   /// Looks up slots of the thermal matrix.
-  virtual void bind_heat(const algebra::BlockMatrix& matrix) = 0;
+  virtual void bind_heat(const linear::BlockMatrix& matrix) = 0;
   /// Adds the derivatives of forces and volumes with respect to the temperature, and of structural heat with
   /// respect to all fields, consistent with the quadrature of StructuralHeat, at the iterate of the last
   /// prepare() and finish().
-  virtual void add_coupling(const CoupledIterate& at, algebra::CoupledMatrix& matrix) = 0;
+  virtual void add_coupling(const CoupledIterate& at, linear::CoupledMatrix& matrix) = 0;
   /// The second stage of a two-stage method begins: until drop_carried() structural heat counts from
   /// S* = S_n + factor (S − S_n), E* likewise, S and E being those of the last finish() at `temperature`.
   virtual void carry(double factor, std::span<const double> temperature) = 0;

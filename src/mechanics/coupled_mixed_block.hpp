@@ -26,7 +26,7 @@ class CoupledMixedBlock final : public CoupledPoints<MixedBlock<material::Viscop
  public:
   using Base::Base;
 
-  void add_coupling(const CoupledIterate& at, algebra::CoupledMatrix& matrix) override {
+  void add_coupling(const CoupledIterate& at, linear::CoupledMatrix& matrix) override {
     for (Index batch = 0; batch < this->geometry_.n_batches; ++batch) {
       const Operator b = this->at_point(batch);
       const Lane theta = temperature_at(this->geometry_, batch, 0, at.temperature);
@@ -52,12 +52,12 @@ class CoupledMixedBlock final : public CoupledPoints<MixedBlock<material::Viscop
   /// @param pressing   ∫ h_v/k dV times that unit
   /// @param warming    ∫ h_Θ + h_v e_v,Θ dV
   void add(Index batch, const Vectors& pull, const Vectors& heating, const Lane& expansion,
-           const Lane& pressing, const Lane& warming, algebra::CoupledMatrix& matrix) const {
+           const Lane& pressing, const Lane& warming, linear::CoupledMatrix& matrix) const {
     const Nodal mass = this->masses(batch), mean = this->mean_shares(batch);
     const double* const values = this->values_at(0);
     const Lane* const spread = this->points_.spread(batch);
-    const algebra::BlockMatrix::Slot *const slots = this->slots_of(batch), *const heat_slots =
-                                                                               this->heat_slots_of(batch);
+    const linear::BlockMatrix::Slot *const slots = this->slots_of(batch), *const heat_slots =
+                                                                              this->heat_slots_of(batch);
     const auto field = static_cast<std::size_t>(this->field_.field);
     for (std::size_t a = 0; a < n_nodes; ++a) {
       const Lane test = heat_share(values, spread, a);

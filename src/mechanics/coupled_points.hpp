@@ -22,7 +22,7 @@ class CoupledPoints : public Block, public CoupledKernel {
  public:
   using Block::Block;
 
-  void bind_heat(const algebra::BlockMatrix& matrix) override {
+  void bind_heat(const linear::BlockMatrix& matrix) override {
     heat_slots_ = {matrix, this->geometry_.nodes, this->geometry_.n_nodes, this->geometry_.n_elements};
   }
 
@@ -124,7 +124,7 @@ class CoupledPoints : public Block, public CoupledKernel {
     return p;
   }
 
-  const algebra::BlockMatrix::Slot* heat_slots_of(Index batch) const { return heat_slots_.of(batch); }
+  const linear::BlockMatrix::Slot* heat_slots_of(Index batch) const { return heat_slots_.of(batch); }
 
  private:
   /// Cᵀ : a.
@@ -148,7 +148,7 @@ class CoupledPoints : public Block, public CoupledKernel {
   }
 
   std::span<const double> initial_temperature_;  ///< of the phase, which outlives the block
-  algebra::LaneSlots heat_slots_;
+  linear::LaneSlots heat_slots_;
   // Data of the second stage, [batch][point]; else empty.
   PackVector<StructuralDensities> carried_;  ///< S*, E*
   PackVector<StructuralDensities> before_;   ///< S_n, E_n

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "algebra/lane_slots.hpp"
+#include "linear/lane_slots.hpp"
 #include "mechanics/element_matrix.hpp"
 
 namespace solidus::mechanics {
@@ -43,9 +43,9 @@ void scatter(const NodalVectors<Lane, n_nodes, n_components>& f, const Index* no
 /// @tparam mirror 1 for a symmetric element matrix, −1 for a skew one
 /// @param slots   [a][b][lane] of the batch
 template <int mirror, int n_nodes, int n_components>
-void scatter(const ElementMatrix<n_nodes, n_components>& k, const algebra::BlockMatrix::Slot* slots,
-             algebra::BlockMatrix& matrix) {
-  using Slot = algebra::BlockMatrix::Slot;
+void scatter(const ElementMatrix<n_nodes, n_components>& k, const linear::BlockMatrix::Slot* slots,
+             linear::BlockMatrix& matrix) {
+  using Slot = linear::BlockMatrix::Slot;
   constexpr auto dim = static_cast<std::size_t>(n_components);
   constexpr auto size = static_cast<Slot>(dim * dim);
   double* const base = matrix.block(0);

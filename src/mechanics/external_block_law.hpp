@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.hpp"
-#include "base/simd.hpp"
 #include "material/external_law.hpp"
 #include "mechanics/law_parts.hpp"
+#include "numbers/simd.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mechanics {
 

@@ -23,8 +23,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/simd.hpp"
-#include "base/tensor.hpp"
+#include "numbers/simd.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::mechanics {
 

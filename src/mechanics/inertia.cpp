@@ -22,7 +22,7 @@ mesh::Rule mass_rule(mesh::Shape shape, AnalysisKind kind) {
 MassMatrix::MassMatrix(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const double> density,
                        MassKind mass) {
   assert(density.size() == mesh.bodies.size());
-  algebra::NodeGraph graph(mesh);  // with the diagonal of every node
+  linear::NodeGraph graph(mesh);  // with the diagonal of every node
   if (mass == MassKind::consistent)
     for (const mesh::Block& block : mesh.blocks)
       graph.add_cliques(block.nodes, mesh::node_count(block.shape));
@@ -78,7 +78,7 @@ void MassMatrix::add_lumped(const mesh::Mesh& mesh, const mesh::Block& block, An
     }
 }
 
-void MassMatrix::bind(const algebra::BlockMatrix& matrix) {
+void MassMatrix::bind(const linear::BlockMatrix& matrix) {
   slots_.clear();
   slots_.reserve(columns_.size());
   for (std::size_t row = 0; row + 1 < row_start_.size(); ++row)
@@ -97,7 +97,7 @@ void MassMatrix::multiply(std::span<const double> x, int components, std::span<d
     }
 }
 
-void MassMatrix::add_to(algebra::BlockMatrix& matrix, double factor) const {
+void MassMatrix::add_to(linear::BlockMatrix& matrix, double factor) const {
   const int n = matrix.block_size();
   for (std::size_t k = 0; k < values_.size(); ++k) {
     double* block = matrix.block(slots_[k]);
@@ -107,8 +107,7 @@ void MassMatrix::add_to(algebra::BlockMatrix& matrix, double factor) const {
 
 std::size_t MassMatrix::bytes() const {
   return values_.capacity() * sizeof(double) + columns_.capacity() * sizeof(Index) +
-         row_start_.capacity() * sizeof(std::int64_t) +
-         slots_.capacity() * sizeof(algebra::BlockMatrix::Slot);
+         row_start_.capacity() * sizeof(std::int64_t) + slots_.capacity() * sizeof(linear::BlockMatrix::Slot);
 }
 
 }  // namespace solidus::mechanics

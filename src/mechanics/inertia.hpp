@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "algebra/block_matrix.hpp"
-#include "base/types.hpp"
+#include "linear/block_matrix.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mechanics {
 
@@ -25,11 +25,11 @@ class MassMatrix {
   MassMatrix(const mesh::Mesh& mesh, AnalysisKind kind, std::span<const double> density, MassKind mass);
 
   /// Looks up slots; the matrix must couple the nodes of each element.
-  void bind(const algebra::BlockMatrix& matrix);
+  void bind(const linear::BlockMatrix& matrix);
   /// y = M x: x [local node][component] with ghosts up to date, y [owned node][component].
   void multiply(std::span<const double> x, int components, std::span<double> y) const;
   /// matrix += factor M.
-  void add_to(algebra::BlockMatrix& matrix, double factor) const;
+  void add_to(linear::BlockMatrix& matrix, double factor) const;
   std::size_t bytes() const;
 
  private:
@@ -41,7 +41,7 @@ class MassMatrix {
   std::vector<std::int64_t> row_start_;  ///< [owned node]
   std::vector<Index> columns_;           ///< rising within a row
   std::vector<double> values_;           ///< [kg]
-  std::vector<algebra::BlockMatrix::Slot> slots_;
+  std::vector<linear::BlockMatrix::Slot> slots_;
 };
 
 }  // namespace solidus::mechanics

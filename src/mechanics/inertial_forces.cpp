@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
 
@@ -60,7 +60,7 @@ void InertialForces::begin(const MechanicalState& old, double dt) {
   mass_.multiply(increment_, components_, scale);
   double squares = 0;
   for (const double s : scale) squares += s * s;
-  round_off_ = std::numeric_limits<double>::epsilon() * slope() * std::sqrt(algebra::global_sum(squares));
+  round_off_ = std::numeric_limits<double>::epsilon() * slope() * std::sqrt(parallel::global_sum(squares));
 }
 
 void InertialForces::force(std::span<const double> x, std::span<double> j) const {
@@ -70,7 +70,7 @@ void InertialForces::force(std::span<const double> x, std::span<double> j) const
   for (std::size_t i = 0; i < n_owned_; ++i) j[i] = factor * j[i] + constant_[i];
 }
 
-void InertialForces::add_tangent(algebra::BlockMatrix& matrix) const {
+void InertialForces::add_tangent(linear::BlockMatrix& matrix) const {
   mass_.add_to(matrix, slope());
 }
 

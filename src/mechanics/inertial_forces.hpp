@@ -37,7 +37,7 @@ class InertialForces {
 
   const Motion& motion() const { return options_.motion; }
   const MassMatrix& mass() const { return mass_; }
-  void bind(const algebra::BlockMatrix& matrix) { mass_.bind(matrix); }
+  void bind(const linear::BlockMatrix& matrix) { mass_.bind(matrix); }
   /// Initial velocity of the bodies; where they share a node, that of their common momentum. [local
   /// node][component], owned nodes.
   const std::vector<double>& initial_velocity() const { return initial_velocity_; }
@@ -46,7 +46,7 @@ class InertialForces {
   void begin(const MechanicalState& old, double dt);
   /// J at x ([local node][component], ghosts up to date), on owned nodes [N].
   void force(std::span<const double> x, std::span<double> j) const;
-  void add_tangent(algebra::BlockMatrix& matrix) const;
+  void add_tangent(linear::BlockMatrix& matrix) const;
   /// Inertia forces that are rounding of the displacement [N].
   double round_off() const { return round_off_; }
 

@@ -12,9 +12,9 @@
 
 #include <array>
 
-#include "base/simd.hpp"
-#include "base/tensor.hpp"
-#include "base/types.hpp"
+#include "numbers/simd.hpp"
+#include "numbers/tensor.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mechanics {
 

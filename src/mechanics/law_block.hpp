@@ -75,7 +75,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     return sum(total);
   }
 
-  void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) override {
+  void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
       Matrix symmetric;

@@ -18,10 +18,10 @@
 #include <array>
 #include <cstddef>
 
-#include "base/simd.hpp"
-#include "base/types.hpp"
 #include "material/material.hpp"
 #include "material/permeability.hpp"
+#include "numbers/simd.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mechanics {
 

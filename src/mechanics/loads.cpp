@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
 #include "mesh/block_geometry.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mechanics {
 
@@ -24,7 +24,7 @@ const typename Map::mapped_type& find(const Map& groups, const std::string& name
 /// Calls visit(owned node, ∫ N dA, ∫ N n dA) for every node of every active face, n out of the body there.
 /// Closed surfaces of quadratic shapes are integrated with the degree that is exact for straight faces: N
 /// times the radius.
-void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
+void integrate(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
                const mesh::Surface& surface,
                const std::function<void(Index, double, const mesh::Point&)>& visit) {
   for (const mesh::Block& faces : active.part(mesh, surface).faces) {
@@ -59,7 +59,7 @@ int common_coordinate(const mesh::Mesh& mesh, std::span<const Index> nodes) {
       low = std::min(low, mesh.x[static_cast<std::size_t>(node)][i]);
       high = std::max(high, mesh.x[static_cast<std::size_t>(node)][i]);
     }
-    extent[i] = algebra::global_max(high) - algebra::global_min(low);
+    extent[i] = parallel::global_max(high) - parallel::global_min(low);
   }
   const double largest = *std::max_element(extent.begin(), extent.end());
   int common = -1, n = 0;
@@ -86,7 +86,7 @@ void merge(std::vector<std::pair<Index, double>>& force) {
 }  // namespace
 
 Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions,
-             const algebra::ActiveSet& active, std::span<const double> start)
+             const linear::ActiveSet& active, std::span<const double> start)
     : conditions_(std::move(conditions)),
       components_(displacement_components(kind)),
       constant_(static_cast<std::size_t>(mesh.n_owned_nodes * components_), 0.0),
@@ -97,7 +97,7 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions,
   if (kind == AnalysisKind::axisymmetric) {
     double largest = 0;
     for (const mesh::Point& x : mesh.x) largest = std::max(largest, std::abs(x[0]));
-    largest = algebra::global_max(largest);  // a process may have nothing but nodes on the axis
+    largest = parallel::global_max(largest);  // a process may have nothing but nodes on the axis
     Support axis{0.0, {}, {}};
     for (Index node = 0; node < mesh.n_nodes(); ++node)
       if (std::abs(mesh.x[static_cast<std::size_t>(node)][0]) <= 1e-10 * largest)
@@ -114,7 +114,7 @@ Loads::Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions,
     if (!active.node(node)) std::fill_n(fixed_.begin() + node * components_, components_, 1);
 }
 
-void Loads::add_support(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
+void Loads::add_support(const mesh::Mesh& mesh, const linear::ActiveSet& active,
                         const PrescribedDisplacement& condition, std::span<const double> start) {
   if (condition.component < 0 || condition.component >= components_)
     throw InputError({}, "displacement component " + std::to_string(condition.component) + " of '" +
@@ -129,7 +129,7 @@ void Loads::add_support(const mesh::Mesh& mesh, const algebra::ActiveSet& active
   supports_.push_back(std::move(support));
 }
 
-void Loads::add_plane_face(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const PlaneFace& face,
+void Loads::add_plane_face(const mesh::Mesh& mesh, const linear::ActiveSet& active, const PlaneFace& face,
                            std::vector<char>& tied) {
   const std::vector<Index>& nodes = find(mesh.node_sets, face.node_set, "group");
   const int normal = common_coordinate(mesh, nodes);
@@ -148,19 +148,19 @@ void Loads::add_plane_face(const mesh::Mesh& mesh, const algebra::ActiveSet& act
     tied[at] = 1;
     group.push_back(entry);
   }
-  if (algebra::any_process(is_fixed))
+  if (parallel::any_process(is_fixed))
     throw InputError({},
                      "the face '" + face.node_set +
                          "' shall stay plane, but its normal displacement is prescribed at some nodes",
                      "one of the two conditions");
-  if (algebra::any_process(is_tied))
+  if (parallel::any_process(is_tied))
     throw InputError({},
                      "the plane face '" + face.node_set + "' shares nodes with another in the same direction",
                      "one group for both");
   constraint_groups_.push_back(std::move(group));
 }
 
-void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
+void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
                         const Pressure& pressure) {
   Unit unit{pressure.value, {}};
   integrate(mesh, kind, active, find(mesh.surfaces, pressure.surface, "surface"),
@@ -172,7 +172,7 @@ void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra
   units_.push_back(std::move(unit));
 }
 
-void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
+void Loads::add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
                         const Traction& traction) {
   const mesh::Surface& surface = find(mesh.surfaces, traction.surface, "surface");
   for (int i = 0; i < components_; ++i) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/active_set.hpp"
+#include "linear/active_set.hpp"
 #include "mechanics/conditions.hpp"
 #include "mesh/mesh.hpp"
 
@@ -17,7 +17,7 @@ class Loads {
   /// normal to a coordinate, prescribed in that direction or tied to another. Collective.
   /// @param active  that of the conditions' bodies
   /// @param start     displacement that relative ones count from, [local node][component]; empty: zero
-  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, const algebra::ActiveSet& active,
+  Loads(const mesh::Mesh& mesh, AnalysisKind kind, Conditions conditions, const linear::ActiveSet& active,
         std::span<const double> start = {});
 
   /// Adds a load that does not change in time, [local node][component] [N].
@@ -50,13 +50,13 @@ class Loads {
     std::vector<Index> entries;  ///< local degrees of freedom
     std::vector<double> start;   ///< of a relative one, one per entry; else empty
   };
-  void add_support(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
+  void add_support(const mesh::Mesh& mesh, const linear::ActiveSet& active,
                    const PrescribedDisplacement& condition, std::span<const double> start);
-  void add_plane_face(const mesh::Mesh& mesh, const algebra::ActiveSet& active, const PlaneFace& face,
+  void add_plane_face(const mesh::Mesh& mesh, const linear::ActiveSet& active, const PlaneFace& face,
                       std::vector<char>& tied);
-  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
                    const Pressure& pressure);
-  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const algebra::ActiveSet& active,
+  void add_surface(const mesh::Mesh& mesh, AnalysisKind kind, const linear::ActiveSet& active,
                    const Traction& traction);
 
   Conditions conditions_;

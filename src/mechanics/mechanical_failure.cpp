@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "base/errors.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mechanics {
 

@@ -4,8 +4,7 @@
 #include <cassert>
 #include <stdexcept>
 
-#include "algebra/multigrid.hpp"
-#include "base/errors.hpp"
+#include "linear/block_multigrid.hpp"
 #include "material/external_law.hpp"
 #include "mechanics/absent_block.hpp"
 #include "mechanics/block_kernel.hpp"
@@ -14,6 +13,7 @@
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_solver.hpp"
 #include "mechanics/stress_history.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mechanics {
 
@@ -22,7 +22,7 @@ namespace {
 /// Of the linear solver: Newmark's first step takes a_0 for exact.
 constexpr double k_initial_acceleration = 1e-13;
 
-algebra::LinearSolverOptions linear_options(const MechanicsOptions& options) {
+linear::LinearSolverOptions linear_options(const MechanicsOptions& options) {
   return {.prefix = "mechanics_",
           .kind = options.solver,
           .symmetric = options.symmetric,
@@ -42,7 +42,7 @@ std::unique_ptr<BlockKernel> make_kernel(const mesh::Mesh& mesh, const mesh::Blo
 MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
                                  const std::vector<material::Material>& materials,
                                  std::span<const double> initial_temperature, Conditions conditions,
-                                 MechanicsOptions options, std::vector<algebra::Contribution*> contributions)
+                                 MechanicsOptions options, std::vector<linear::Contribution*> contributions)
     : mesh_(mesh),
       kind_(kind),
       materials_(materials),
@@ -116,7 +116,7 @@ void MechanicalPhase::find_weight(const std::array<double, 3>& gravity) {
 
 /// Frees the memory of the elements of removed bodies: at once, or, if results show fields of the last step,
 /// once a step without them is committed. Bodies that come back get new kernels.
-void MechanicalPhase::remove_bodies(const algebra::ActiveSet& active) {
+void MechanicalPhase::remove_bodies(const linear::ActiveSet& active) {
   if (inertia_) throw std::invalid_argument("bodies can leave in quasi-statics only");
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const mesh::Block& block = mesh_.blocks[b];
@@ -135,8 +135,8 @@ void MechanicalPhase::remove_bodies(const algebra::ActiveSet& active) {
   balance_ = BodyBalance(mesh_, active_, components_);
 }
 
-algebra::NodeGraph MechanicalPhase::graph() const {
-  algebra::NodeGraph graph(mesh_);
+linear::NodeGraph MechanicalPhase::graph() const {
+  linear::NodeGraph graph(mesh_);
   // The coupled matrix of the simultaneous scheme has this pattern: what a body that only conducts takes
   // depends on the displacement of those that it touches.
   if (!active_.complete() && options_.mapping != Mapping::simultaneous) {
@@ -146,24 +146,24 @@ algebra::NodeGraph MechanicalPhase::graph() const {
   }
   for (const mesh::Block& block : mesh_.blocks)
     if (active_.body(block.body)) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-  for (const algebra::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
+  for (const linear::Contribution* contribution : contributions_) contribution->add_to_graph(graph);
   return graph;
 }
 
 void MechanicalPhase::create_matrix() {
-  using Storage = algebra::BlockMatrix::Storage;
+  using Storage = linear::BlockMatrix::Storage;
   Storage storage = Storage::whole;
   // The blocks that couple displacements with temperatures share the pattern of this matrix, so it is then
   // stored whole.
   if (options_.mapping != Mapping::simultaneous &&
-      !algebra::any_process(!loads_->constraint_groups().empty())) {
+      !parallel::any_process(!loads_->constraint_groups().empty())) {
     if (!pressure_)
-      storage = algebra::storage_for(linear_options(options_), mesh_, components_,
-                                     algebra::rigid_body_mode_count(components_));
+      storage = linear::storage_for(linear_options(options_), mesh_, components_,
+                                    linear::rigid_body_mode_count(components_));
     else if (options_.symmetric)
       storage = Storage::upper;
   }
-  matrix_ = std::make_unique<algebra::BlockMatrix>(mesh_, components_, graph(), storage);
+  matrix_ = std::make_unique<linear::BlockMatrix>(mesh_, components_, graph(), storage);
   matrix_->set_fixed(loads_->fixed());
   matrix_->constrain(loads_->constraint_groups());
   bind();
@@ -172,7 +172,7 @@ void MechanicalPhase::create_matrix() {
 void MechanicalPhase::bind() {
   for (const auto& block : blocks_) block->bind(*matrix_);
   if (inertia_) inertia_->bind(*matrix_);
-  for (algebra::Contribution* contribution : contributions_) contribution->bind(*matrix_);
+  for (linear::Contribution* contribution : contributions_) contribution->bind(*matrix_);
 }
 
 /// Without mixed elements there is none.
@@ -186,7 +186,7 @@ void MechanicalPhase::create_pressure() {
   pressure_.reset();
   fields_.assign(1, components_);
   if (!any) return;  // every process has every block
-  if (options_.solver == algebra::SolverKind::jacobi || options_.solver == algebra::SolverKind::incomplete)
+  if (options_.solver == linear::SolverKind::jacobi || options_.solver == linear::SolverKind::incomplete)
     throw InputError({}, "this solver of mechanics cannot find the pressure of mixed triangles or tetrahedra",
                      "\"automatic\", \"direct\" or \"multigrid\", or simplices = \"displacement\"");
   const bool orthogonal = options_.stabilisation == Stabilisation::orthogonal;
@@ -223,16 +223,16 @@ void MechanicalPhase::create_solver() {
     solver_ = std::move(solver);
     return;
   }
-  auto solver = std::make_unique<algebra::LinearSolver>(mesh_, linear_options(options_));
+  auto solver = std::make_unique<linear::LinearSolver>(mesh_, linear_options(options_));
   solver->use_rigid_body_modes(components_);
   solver_ = std::move(solver);
 }
 
 void MechanicalPhase::set_conditions(Conditions conditions, std::span<const double> start) {
-  const algebra::ActiveSet active(mesh_, conditions.absent_bodies);
+  const linear::ActiveSet active(mesh_, conditions.absent_bodies);
   auto loads = std::make_unique<Loads>(mesh_, kind_, std::move(conditions), active, start);
   const bool same_matrix =
-      active == active_ && !algebra::any_process(loads->constraint_groups() != loads_->constraint_groups());
+      active == active_ && !parallel::any_process(loads->constraint_groups() != loads_->constraint_groups());
   if (active != active_) {
     remove_bodies(active);
     find_weight(loads->conditions().gravity);
@@ -269,7 +269,7 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
 
   loads_->evaluate(0, external_);
   std::vector<double> net(external_.size(), 0.0);
-  for (algebra::Contribution* contribution : contributions_)
+  for (linear::Contribution* contribution : contributions_)
     contribution->add_residual(state.displacement, net);
   std::vector<double> free(net.size());
   for (std::size_t i = 0; i < net.size(); ++i) {
@@ -280,12 +280,12 @@ void MechanicalPhase::set_in_motion(MechanicalState& state) {
   matrix_->set_zero();
   inertia_->mass().add_to(*matrix_, 1.0);
   // Scaled by its diagonal a mass matrix is well conditioned on every mesh (Wathen 1987).
-  algebra::LinearSolver solver(
+  linear::LinearSolver solver(
       mesh_,
-      {.prefix = "mass_", .kind = algebra::SolverKind::jacobi, .relative_tolerance = k_initial_acceleration});
+      {.prefix = "mass_", .kind = linear::SolverKind::jacobi, .relative_tolerance = k_initial_acceleration});
   state.acceleration.assign(forces_.size(), 0.0);
   const std::span<double> owned = std::span(state.acceleration).first(net.size());
-  const algebra::LinearReport report = solver.solve(*matrix_, free, owned);
+  const linear::LinearReport report = solver.solve(*matrix_, free, owned);
   if (!report.converged) throw StepRejected("mechanics: no initial acceleration, " + report.reason);
   for (std::size_t i = 0; i < owned.size(); ++i)
     if (loads_->fixed()[i] != 0) owned[i] = 0;

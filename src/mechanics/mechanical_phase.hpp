@@ -19,9 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "algebra/contribution.hpp"
-#include "algebra/newton.hpp"
-#include "base/types.hpp"
+#include "linear/contribution.hpp"
+#include "linear/newton.hpp"
 #include "material/material.hpp"
 #include "material/melt.hpp"
 #include "material/time_integration.hpp"
@@ -33,6 +32,7 @@
 #include "mechanics/phase_fields.hpp"
 #include "mechanics/simplices.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mechanics {
 
@@ -52,7 +52,7 @@ enum class Mapping {
 };
 
 struct MechanicsOptions {
-  algebra::NewtonOptions newton;
+  linear::NewtonOptions newton;
   /// Constant volumetric mode (Q1/P0, 6.2) in 4-node quads and 8-node hexes; other shapes use the standard
   /// operator.
   bool b_bar = true;
@@ -60,7 +60,7 @@ struct MechanicsOptions {
   Stabilisation stabilisation = Stabilisation::automatic;
   TimeIntegration integration = TimeIntegration::backward_euler;
   Mapping mapping = Mapping::isothermal;
-  algebra::SolverKind solver = algebra::SolverKind::automatic;
+  linear::SolverKind solver = linear::SolverKind::automatic;
   double linear_tolerance = 1e-8;  ///< iterative solvers, relative
   /// False when a contribution's tangent is not symmetric (friction); a law's is found by itself
   /// (Armstrong–Frederick).
@@ -91,7 +91,7 @@ struct MechanicalWork {
 };
 
 struct PhaseReport {
-  algebra::NewtonReport newton;
+  linear::NewtonReport newton;
   MechanicalWork work;
 };
 
@@ -124,7 +124,7 @@ struct MechanicalPass {
   std::span<const double> guessed_pressure{};  ///< that goes with it [Pa], [local node][field]
 };
 
-class MechanicalPhase : private algebra::NonlinearSystem {
+class MechanicalPhase : private linear::NonlinearSystem {
  public:
   /// @param materials            one per body of the mesh; kept by reference. Those of bodies that are absent
   ///                             from the start need no mechanical properties
@@ -133,7 +133,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// Throws InputError for a condition that names no group of the mesh or contradicts another.
   MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<material::Material>& materials,
                   std::span<const double> initial_temperature, Conditions conditions,
-                  MechanicsOptions options, std::vector<algebra::Contribution*> contributions = {});
+                  MechanicsOptions options, std::vector<linear::Contribution*> contributions = {});
   ~MechanicalPhase() override;
 
   int components() const { return components_; }
@@ -149,7 +149,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   /// Throws InputError as the constructor does, and std::invalid_argument for a body that comes back.
   void set_conditions(Conditions conditions, std::span<const double> start);
   /// Bodies and nodes that are active in the present stage.
-  const algebra::ActiveSet& active() const { return active_; }
+  const linear::ActiveSet& active() const { return active_; }
   /// Zero displacement, no inelastic strain. With inertia at t = 0: the velocities of the bodies and of the
   /// prescribed displacements, and the accelerations that the loads of that time cause. Collective.
   MechanicalState initial_state();
@@ -187,16 +187,16 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::size_t n_residuals() const;
   /// The properties at another temperature of the iterate, after begin().
   void prepare(const MechanicalState& old, const MechanicalPass& pass);
-  /// Implements algebra::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
+  /// Implements linear::NonlinearSystem: the norm of r against the reference is that of Newton's criterion.
   double residual(std::span<const double> x, std::span<double> r) override;
   /// At the x of the last residual().
-  algebra::BlockMatrix& tangent() override;
+  linear::BlockMatrix& tangent() override;
   /// Size of a step relative to the displacement since t_n: BodyBalance::relative_step, of the unknowns x and
   /// of the step d that has led to them.
   double relative_step(const MechanicalState& old, std::span<const double> x,
                        std::span<const double> d) const;
   /// The matrix of the tangent, with its fixed degrees of freedom and multi-point constraints.
-  algebra::BlockMatrix& matrix() { return *matrix_; }
+  linear::BlockMatrix& matrix() { return *matrix_; }
   /// Passes the deformation at x to StructuralHeat and writes the history at x.
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
   /// finish() at the solution, and the state and work that follow from it.
@@ -228,7 +228,7 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   std::vector<double> applied_forces() const;
   /// Fixed degrees of freedom, and multi-point constraints (Loads).
   const std::vector<char>& fixed() const { return matrix_->fixed(); }
-  const algebra::MultiPointConstraints& constraints() const { return matrix_->constraints(); }
+  const linear::MultiPointConstraints& constraints() const { return matrix_->constraints(); }
 
   /// The block kernels, for StructuralHeat.
   std::span<const std::unique_ptr<BlockKernel>> blocks() const { return blocks_; }
@@ -243,9 +243,9 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   double seconds_solver() const;
 
  private:
-  algebra::NodeGraph graph() const;
+  linear::NodeGraph graph() const;
   void create_blocks(const std::vector<material::Material>& materials);
-  void remove_bodies(const algebra::ActiveSet& active);
+  void remove_bodies(const linear::ActiveSet& active);
   /// Mass of the active bodies.
   std::vector<double> nodal_mass() const;
   void find_weight(const std::array<double, 3>& gravity);
@@ -280,20 +280,20 @@ class MechanicalPhase : private algebra::NonlinearSystem {
   const std::vector<material::Material>& materials_;
   int components_;
   MechanicsOptions options_;
-  std::vector<algebra::Contribution*> contributions_;
-  algebra::ActiveSet active_;
+  std::vector<linear::Contribution*> contributions_;
+  linear::ActiveSet active_;
   bool plastic_ = false;
   std::vector<std::unique_ptr<BlockKernel>> blocks_;
   std::unique_ptr<Loads> loads_;
   std::vector<double> weight_;               ///< of the bodies, [local node][component] [N]
   std::vector<material::MeltModulus> melt_;  ///< [body]
-  std::unique_ptr<algebra::BlockMatrix> matrix_;
+  std::unique_ptr<linear::BlockMatrix> matrix_;
   std::unique_ptr<NodalPressure> pressure_;  ///< null without mixed elements
   std::vector<int> fields_;                  ///< of Newton's iteration: components of each
-  std::unique_ptr<algebra::TangentSolver> solver_;
+  std::unique_ptr<linear::TangentSolver> solver_;
   SaddleSolver* saddle_solver_ = nullptr;    ///< the same where elements are mixed
   std::unique_ptr<InertialForces> inertia_;  ///< null in quasi-statics
-  algebra::GhostExchange ghosts_;
+  parallel::GhostExchange ghosts_;
   BodyBalance balance_;
   std::vector<double> initial_temperature_;
   NodalPhases nodal_phases_;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "base/simd.hpp"
+#include "numbers/simd.hpp"
 
 namespace solidus::mechanics {
 

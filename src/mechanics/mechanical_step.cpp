@@ -6,14 +6,14 @@
 #include <cmath>
 #include <limits>
 
-#include "base/profile.hpp"
-#include "base/stopwatch.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_solver.hpp"
 #include "mechanics/stress_history.hpp"
+#include "system/profile.hpp"
+#include "system/stopwatch.hpp"
 
 namespace solidus::mechanics {
 
@@ -81,13 +81,13 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
   if (pressure_) pressure_->begin();
   stress_at_work_ = pass.work;
   residual_is_known_ = false;
-  round_off_ = k_round_off_strain * std::sqrt(algebra::global_sum(stiffness));
+  round_off_ = k_round_off_strain * std::sqrt(parallel::global_sum(stiffness));
   if (inertia_) round_off_ += inertia_->round_off();
 }
 
 double MechanicalPhase::residual(std::span<const double> x, std::span<double> r) {
   const bool known = residual_is_known_ && std::equal(x.begin(), x.end(), x_.begin(), x_.end());
-  if (!algebra::any_process(!known)) {
+  if (!parallel::any_process(!known)) {
     std::copy(residual_.begin(), residual_.end(), r.begin());
     return balance_.reference();
   }
@@ -104,7 +104,7 @@ double MechanicalPhase::residual(std::span<const double> x, std::span<double> r)
   std::fill(net.begin(), net.end(), 0.0);
   {
     const profile::Part of_contact("contact");
-    for (algebra::Contribution* contribution : contributions_) contribution->add_residual(u, net);
+    for (linear::Contribution* contribution : contributions_) contribution->add_residual(u, net);
   }
   balance_.add_exchanged(net);
   balance_.add_exchanged(external_);
@@ -146,10 +146,10 @@ double MechanicalPhase::relative_step(const MechanicalState& old, std::span<cons
   return balance_.relative_step(d.first(increment.size()), increment);
 }
 
-algebra::BlockMatrix& MechanicalPhase::tangent() {
+linear::BlockMatrix& MechanicalPhase::tangent() {
   const Stopwatch watch(seconds_assembly_);
   const profile::Part part("assembly");
-  if (algebra::graph_outdated(contributions_)) {
+  if (linear::graph_outdated(contributions_)) {
     matrix_->set_graph(graph());
     solver_->reset();
     bind();
@@ -160,7 +160,7 @@ algebra::BlockMatrix& MechanicalPhase::tangent() {
   if (inertia_) inertia_->add_tangent(*matrix_);
   {
     const profile::Part of_contact("contact");
-    for (algebra::Contribution* contribution : contributions_) contribution->add_tangent(u, *matrix_);
+    for (linear::Contribution* contribution : contributions_) contribution->add_tangent(u, *matrix_);
   }
   if (saddle_solver_ != nullptr) saddle_solver_->assemble();
   return *matrix_;
@@ -170,18 +170,18 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
                                    const MechanicalPass& pass) {
   begin(old, pass);
   solved_from_ = &old;
-  algebra::NewtonOptions newton_options = options_.newton;
+  linear::NewtonOptions newton_options = options_.newton;
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
   std::vector<double> x = start(old, pass);
   const bool guessed = try_guess(pass, x);
   PhaseReport report;
-  report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
+  report.newton = linear::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
   if (guessed && !report.newton.converged) {
     // A guess may lift a body off its support, which leaves a singular tangent.
-    const algebra::NewtonReport from_guess = std::move(report.newton);
+    const linear::NewtonReport from_guess = std::move(report.newton);
     x = start(old, pass);
-    report.newton = algebra::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
+    report.newton = linear::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
     report.newton.iterations += from_guess.iterations;
     report.newton.linear_iterations += from_guess.linear_iterations;
   }
@@ -199,11 +199,11 @@ double MechanicalPhase::unbalanced(std::span<const double> x) {
   matrix_->constraints().sum(std::span(r).first(n_forces()));
   double squares = 0;
   for (const double value : r) squares += value * value;
-  return std::sqrt(algebra::global_sum(squares));
+  return std::sqrt(parallel::global_sum(squares));
 }
 
 bool MechanicalPhase::try_guess(const MechanicalPass& pass, std::vector<double>& x) {
-  if (!algebra::any_process(!pass.guess.empty())) return false;
+  if (!parallel::any_process(!pass.guess.empty())) return false;
   std::vector<double> guess = x;
   std::copy(pass.guess.begin(), pass.guess.end(), guess.begin());
   loads_->prescribe(pass.time, std::span(guess).first(n_displacements()));
@@ -348,8 +348,8 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
           .plastic_dissipation = all[5],
           .plastic_work = all[6],
           .inelastic_entropy = all[9],
-          .least_dissipation = algebra::global_min(sums.least_dissipation),
-          .largest_dissipation = algebra::global_max(sums.largest_dissipation),
+          .least_dissipation = parallel::global_min(sums.least_dissipation),
+          .largest_dissipation = parallel::global_max(sums.largest_dissipation),
           .kinetic = all[7],
           .numerical = all[8]};
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
 
@@ -22,14 +22,14 @@ double extent_along(const mesh::Mesh& mesh, int body, const std::array<double, 3
       high = std::max(high, along);
     }
   }
-  return algebra::global_max(high) + algebra::global_max(-low);
+  return parallel::global_max(high) + parallel::global_max(-low);
 }
 
 }  // namespace
 
 std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
                                                const std::vector<material::Material>& materials,
-                                               const algebra::ActiveSet& active,
+                                               const linear::ActiveSet& active,
                                                const std::array<double, 3>& gravity) {
   const double g = std::hypot(gravity[0], gravity[1], gravity[2]);
   std::array<double, 3> direction{};

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "algebra/active_set.hpp"
+#include "linear/active_set.hpp"
 #include "material/melt.hpp"
 #include "mesh/mesh.hpp"
 
@@ -16,7 +16,7 @@ namespace solidus::mechanics {
 /// @param gravity    acceleration [m/s²]
 std::vector<material::MeltModulus> melt_moduli(const mesh::Mesh& mesh,
                                                const std::vector<material::Material>& materials,
-                                               const algebra::ActiveSet& active,
+                                               const linear::ActiveSet& active,
                                                const std::array<double, 3>& gravity);
 
 }  // namespace solidus::mechanics

@@ -119,7 +119,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     return sum(total);
   }
 
-  void add_tangent(std::span<const double> u, algebra::BlockMatrix& matrix) override {
+  void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) override {
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
       const Lane w = weight(batch);
@@ -230,7 +230,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   }
 
   void add_augmentation(double factor, std::span<const double> stiffness,
-                        algebra::BlockMatrix& displacement) const override {
+                        linear::BlockMatrix& displacement) const override {
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
       Matrix symmetric;
@@ -243,7 +243,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     }
   }
 
-  void add_saddle(double unit, algebra::SaddleMatrix& matrix) const override {
+  void add_saddle(double unit, linear::SaddleMatrix& matrix) const override {
     const auto fields = static_cast<std::size_t>(this->field_.n_fields),
                field = static_cast<std::size_t>(this->field_.field);
     for (Index batch = 0; batch < n_batches(); ++batch) {

@@ -29,7 +29,7 @@
 #include <memory>
 #include <span>
 
-#include "algebra/saddle_matrix.hpp"
+#include "linear/saddle_matrix.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/simplices.hpp"
 
@@ -56,7 +56,7 @@ class MixedKernel {
   /// The number of this block's field.
   virtual int field() const = 0;
   /// Looks up the slots of a scalar matrix of this field's pressures.
-  virtual void bind_pressure(const algebra::BlockMatrix& matrix) = 0;
+  virtual void bind_pressure(const linear::BlockMatrix& matrix) = 0;
   /// Sets the body force ρ g_0 [N/m³] of the algebraic sub-scales and of the flow of melt (liquid_flow.hpp).
   virtual void set_body_force(const std::array<double, 3>& force) = 0;
 
@@ -73,17 +73,17 @@ class MixedKernel {
 
   /// matrix += scale (∫ N (1/κ + 1/2Ĝ) N dV + (τ + Δt K/μ) V ∇N·∇N), the part with 1/2Ĝ lumped, κ and 2Ĝ at
   /// the start of the step: the Schur complement of a preconditioner. After bind_pressure().
-  virtual void add_schur(double scale, algebra::BlockMatrix& matrix) const = 0;
+  virtual void add_schur(double scale, linear::BlockMatrix& matrix) const = 0;
   /// softness_a += ∫ N_a/(2Ĝ) + Δt K/μ |∇N_a|² dV with 2Ĝ of add_schur() [m³/Pa] and volume_a += ∫ N_a dV
   /// [m³], both [local node][field].
   virtual void add_softness(std::span<double> softness, std::span<double> volume) const = 0;
   /// displacement += ∫ bᵀ s̄ b dV, b = Bᵀ 1: a stiffness against the divergence.
   /// @param stiffness  [local node][field] [Pa], of which an element takes the mean s̄ of its nodes
   virtual void add_augmentation(double factor, std::span<const double> stiffness,
-                                algebra::BlockMatrix& displacement) const = 0;
+                                linear::BlockMatrix& displacement) const = 0;
   /// After add_tangent(): the pressures' part of the tangent, p in units of `unit` [Pa/m], without the
   /// projection: ∂r_u/∂p, ∂r_p/∂u and ∂r_p/∂p = −∫ N 1/κ N dV − (τ + Δt K/μ) V ∇N·∇N with κ of now.
-  virtual void add_saddle(double unit, algebra::SaddleMatrix& matrix) const = 0;
+  virtual void add_saddle(double unit, linear::SaddleMatrix& matrix) const = 0;
 };
 
 /// One maker per analysis kind, each in its own translation unit.

@@ -88,12 +88,12 @@ NodalPressure::NodalPressure(const mesh::Mesh& mesh, PressureFields fields_of_bo
   absent_.resize(n);
   for (std::size_t i = 0; i < n; ++i) absent_[i] = absent[i] != 0;
   const auto owned = static_cast<std::ptrdiff_t>(mesh.n_owned_nodes * fields());
-  n_nodes_ = std::max(1.0, algebra::global_sum(static_cast<double>(
+  n_nodes_ = std::max(1.0, parallel::global_sum(static_cast<double>(
                                std::count(absent_.begin(), absent_.begin() + owned, char{0}))));
 }
 
-algebra::NodeGraph NodalPressure::graph() const {
-  algebra::NodeGraph graph(mesh_);
+linear::NodeGraph NodalPressure::graph() const {
+  linear::NodeGraph graph(mesh_);
   for (const mesh::Block* block : blocks_) graph.add_cliques(block->nodes, mesh::node_count(block->shape));
   return graph;
 }

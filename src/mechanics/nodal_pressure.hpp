@@ -14,9 +14,9 @@
 #include <span>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "mechanics/balance.hpp"
 #include "mechanics/mixed_kernel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::mechanics {
 
@@ -69,7 +69,7 @@ class NodalPressure {
   void add_projection_to(std::span<const double> x, double factor, std::span<double> y);
   /// The sparsity pattern of the pressures of one field: the nodes that couple within the elements that have
   /// them.
-  algebra::NodeGraph graph() const;
+  linear::NodeGraph graph() const;
 
   std::size_t bytes() const;
 
@@ -79,7 +79,7 @@ class NodalPressure {
 
   const mesh::Mesh& mesh_;
   bool orthogonal_;
-  algebra::GhostExchange ghosts_;
+  parallel::GhostExchange ghosts_;
   PressureFields fields_of_body_;
   std::vector<const mesh::Block*> blocks_;  ///< of the kernels
   std::vector<MixedKernel*> kernels_;

@@ -3,8 +3,8 @@
 /// number of local iterations, then depend on elements alone, and are the same in a run that is continued.
 #pragma once
 
-#include "base/simd.hpp"
-#include "base/types.hpp"
+#include "numbers/simd.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mechanics {
 

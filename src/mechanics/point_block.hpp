@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include "base/common_packs.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/element_transfer.hpp"
 #include "mechanics/flow_directions.hpp"
 #include "mechanics/law_parts.hpp"
 #include "mechanics/structural_points.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/common_packs.hpp"
 
 namespace solidus::mechanics {
 
@@ -88,7 +88,7 @@ class PointBlock : public BlockKernel {
 
   bool symmetric() const override { return law_.symmetric(); }
 
-  void bind(const algebra::BlockMatrix& matrix) override {
+  void bind(const linear::BlockMatrix& matrix) override {
     slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
 
@@ -139,7 +139,7 @@ class PointBlock : public BlockKernel {
                            std::span<double> out) const override {
     points_.add_heat(form, temperature, tangent, out);
   }
-  void begin_heat_stage(const algebra::Stage& stage, std::span<const double> temperature) override {
+  void begin_heat_stage(const linear::Stage& stage, std::span<const double> temperature) override {
     points_.begin_stage(stage, temperature);
   }
   const StructuralPoints& structural_points() const override { return points_; }
@@ -178,7 +178,7 @@ class PointBlock : public BlockKernel {
     else
       return Lane(0.0);
   }
-  const algebra::BlockMatrix::Slot* slots_of(Index batch) const { return slots_.of(batch); }
+  const linear::BlockMatrix::Slot* slots_of(Index batch) const { return slots_.of(batch); }
 
   State state_of(const BlockHistory& history, Index batch, int point) const {
     const Lane* from = history.values.data() + index(batch, point) * n_kept_;
@@ -538,7 +538,7 @@ class PointBlock : public BlockKernel {
   std::size_t n_state_;                 ///< of them, with structural heat also those of StructuralBase
   std::size_t n_kept_;                  ///< with n_extra: lanes of a point's history
   CommonPacks<Properties> properties_;  ///< at Θ_n: [batch][point]
-  algebra::LaneSlots slots_;
+  linear::LaneSlots slots_;
   CommonPacks<Values> averages_;  ///< [batch], of the last finish()
   /// Those that are kept, from the next finish() until the one after it is committed.
   std::optional<CommonPacks<Values>> kept_averages_;

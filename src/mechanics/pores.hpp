@@ -24,11 +24,11 @@
 #include <span>
 #include <vector>
 
-#include "base/common_packs.hpp"
-#include "base/simd.hpp"
-#include "base/types.hpp"
 #include "material/material.hpp"
 #include "material/melt.hpp"
+#include "numbers/common_packs.hpp"
+#include "numbers/simd.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mechanics {
 

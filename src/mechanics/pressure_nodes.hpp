@@ -43,7 +43,7 @@ class PressureNodes : public MixedKernel {
   void use_pressure(const PressureField& field) override { field_ = field; }
   int field() const override { return field_.field; }
   bool flows() const override { return flow_.flows(); }
-  void bind_pressure(const algebra::BlockMatrix& matrix) override {
+  void bind_pressure(const linear::BlockMatrix& matrix) override {
     pressure_slots_ = {matrix, geometry_.nodes, n_nodes, geometry_.n_elements};
   }
   void set_body_force(const std::array<double, 3>& force) override { body_force_ = force; }
@@ -97,7 +97,7 @@ class PressureNodes : public MixedKernel {
     }
   }
 
-  void add_schur(double scale, algebra::BlockMatrix& matrix) const override {
+  void add_schur(double scale, linear::BlockMatrix& matrix) const override {
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Nodal mass = masses(batch);
       auto terms = compliance_terms(Lane(scale), compliance_[at(batch)] + pore_compliance_[at(batch)], batch);
@@ -127,7 +127,7 @@ class PressureNodes : public MixedKernel {
   }
 
  protected:
-  using Slot = algebra::BlockMatrix::Slot;
+  using Slot = linear::BlockMatrix::Slot;
   static constexpr bool hoop = kind == AnalysisKind::axisymmetric;
   static constexpr double share = 1.0 / n_nodes;  ///< N_a at the one point
 
@@ -316,7 +316,7 @@ class PressureNodes : public MixedKernel {
 
  private:
   const mesh::BlockGeometry& geometry_;
-  algebra::LaneSlots pressure_slots_;
+  linear::LaneSlots pressure_slots_;
   PackVector<Lane> tau_;     ///< [m²/Pa]
   PackVector<Lane> masses_;  ///< ∫ N_a dV, axisymmetric only: [batch][node]
 };

@@ -15,30 +15,30 @@ constexpr double k_augmentation = 1.0 / 3.0 + 0.5;
 
 }  // namespace
 
-bool SaddlePreconditioner::serves(const algebra::BlockMatrix& displacement) {
+bool SaddlePreconditioner::serves(const linear::BlockMatrix& displacement) {
   const int components = displacement.block_size();
   return displacement.constraints().empty() &&
-         algebra::Multigrid::supports(components, algebra::rigid_body_mode_count(components));
+         linear::BlockMultigrid::supports(components, linear::rigid_body_mode_count(components));
 }
 
-SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, algebra::SaddleMatrix& matrix,
-                                           NodalPressure& pressure, const algebra::GhostExchange& ghosts,
+SaddlePreconditioner::SaddlePreconditioner(const mesh::Mesh& mesh, linear::SaddleMatrix& matrix,
+                                           NodalPressure& pressure, const parallel::GhostExchange& ghosts,
                                            bool symmetric)
     : mesh_(mesh),
       matrix_(matrix),
       pressure_(pressure),
       ghosts_(ghosts),
-      multigrid_(mesh, matrix.components(), algebra::rigid_body_modes, symmetric, k_coarsest) {
+      multigrid_(mesh, matrix.components(), linear::rigid_body_modes, symmetric, k_coarsest) {
   const auto fields = static_cast<std::size_t>(pressure.fields());
   const auto& kernels = pressure.kernels();
   if (std::any_of(kernels.begin(), kernels.end(), [](const MixedKernel* kernel) { return kernel->flows(); }))
     for (std::size_t field = 0; field < fields; ++field)
-      schur_cycles_.push_back(std::make_unique<algebra::Multigrid>(mesh, 1, algebra::constants, true));
+      schur_cycles_.push_back(std::make_unique<linear::BlockMultigrid>(mesh, 1, linear::constants, true));
   else
     factors_.resize(fields);
   for (std::size_t field = 0; field < fields; ++field) {
-    schur_.push_back(std::make_unique<algebra::BlockMatrix>(mesh, 1, pressure.graph(),
-                                                            algebra::BlockMatrix::Storage::upper));
+    schur_.push_back(std::make_unique<linear::BlockMatrix>(mesh, 1, pressure.graph(),
+                                                           linear::BlockMatrix::Storage::upper));
     std::vector<char> absent(mesh.x.size());
     for (std::size_t node = 0; node < absent.size(); ++node)
       absent[node] = pressure.absent()[node * fields + field];
@@ -75,7 +75,7 @@ void SaddlePreconditioner::find_softness() {
 }
 
 void SaddlePreconditioner::set_up_displacement() {
-  algebra::BlockMatrix& a = matrix_.displacement();
+  linear::BlockMatrix& a = matrix_.displacement();
   for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_augmentation(1.0, stiffness_, a);
   multigrid_.set_up(a);
   for (const MixedKernel* kernel : pressure_.kernels()) kernel->add_augmentation(-1.0, stiffness_, a);

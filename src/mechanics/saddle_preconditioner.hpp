@@ -24,9 +24,9 @@
 #include <span>
 #include <vector>
 
-#include "algebra/incomplete_cholesky.hpp"
-#include "algebra/multigrid.hpp"
-#include "algebra/saddle_matrix.hpp"
+#include "linear/block_multigrid.hpp"
+#include "linear/incomplete_cholesky.hpp"
+#include "linear/saddle_matrix.hpp"
 #include "mechanics/nodal_pressure.hpp"
 
 namespace solidus::mechanics {
@@ -34,11 +34,11 @@ namespace solidus::mechanics {
 class SaddlePreconditioner {
  public:
   /// Whether multigrid can be had for this matrix.
-  static bool serves(const algebra::BlockMatrix& displacement);
+  static bool serves(const linear::BlockMatrix& displacement);
   /// @param symmetric  whether A is
   /// Keeps references to the other arguments. Collective.
-  SaddlePreconditioner(const mesh::Mesh& mesh, algebra::SaddleMatrix& matrix, NodalPressure& pressure,
-                       const algebra::GhostExchange& ghosts, bool symmetric);
+  SaddlePreconditioner(const mesh::Mesh& mesh, linear::SaddleMatrix& matrix, NodalPressure& pressure,
+                       const parallel::GhostExchange& ghosts, bool symmetric);
 
   /// New factors or hierarchy of S̃, and W, for the moduli of now. Collective.
   void set_up_schur();
@@ -52,16 +52,16 @@ class SaddlePreconditioner {
   void find_softness();
 
   const mesh::Mesh& mesh_;
-  algebra::SaddleMatrix& matrix_;
+  linear::SaddleMatrix& matrix_;
   NodalPressure& pressure_;
-  const algebra::GhostExchange& ghosts_;
-  algebra::Multigrid multigrid_;
-  std::vector<std::unique_ptr<algebra::BlockMatrix>> schur_;       ///< of each field: fields do not couple
-  std::vector<algebra::IncompleteCholesky> factors_;               ///< of each field where no melt flows
-  std::vector<std::unique_ptr<algebra::Multigrid>> schur_cycles_;  ///< the same where it does
-  std::vector<double> stiffness_;                                  ///< s [Pa], [local node][field]
-  std::vector<double> inverse_softness_;                           ///< W⁻¹, [owned node][field]
-  std::vector<double> right_, part_, result_, local_, local_u_;    ///< scratch
+  const parallel::GhostExchange& ghosts_;
+  linear::BlockMultigrid multigrid_;
+  std::vector<std::unique_ptr<linear::BlockMatrix>> schur_;  ///< of each field: fields do not couple
+  std::vector<linear::IncompleteCholesky> factors_;          ///< of each field where no melt flows
+  std::vector<std::unique_ptr<linear::BlockMultigrid>> schur_cycles_;  ///< the same where it does
+  std::vector<double> stiffness_;                                      ///< s [Pa], [local node][field]
+  std::vector<double> inverse_softness_;                               ///< W⁻¹, [owned node][field]
+  std::vector<double> right_, part_, result_, local_, local_u_;        ///< scratch
 };
 
 }  // namespace solidus::mechanics

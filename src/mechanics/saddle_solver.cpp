@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/profile.hpp"
-#include "base/stopwatch.hpp"
+#include "system/profile.hpp"
+#include "system/stopwatch.hpp"
 
 namespace solidus::mechanics {
 
@@ -19,9 +19,8 @@ constexpr double k_direct_tolerance = 1e-8;
 
 }  // namespace
 
-SaddleSolver::SaddleSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacement,
-                           NodalPressure& pressure, const algebra::GhostExchange& ghosts,
-                           SaddleSolverOptions options)
+SaddleSolver::SaddleSolver(const mesh::Mesh& mesh, linear::BlockMatrix& displacement, NodalPressure& pressure,
+                           const parallel::GhostExchange& ghosts, SaddleSolverOptions options)
     : mesh_(mesh),
       displacement_(displacement),
       pressure_(pressure),
@@ -43,7 +42,7 @@ void SaddleSolver::find_unknowns() {
 
 bool SaddleSolver::factorises() const {
   if (!SaddlePreconditioner::serves(displacement_)) return true;
-  if (options_.kind != algebra::SolverKind::automatic) return options_.kind == algebra::SolverKind::direct;
+  if (options_.kind != linear::SolverKind::automatic) return options_.kind == linear::SolverKind::direct;
   return unknowns_->n_global() < (mesh_.dimension == 2 ? k_direct_limit_2d : k_direct_limit_3d);
 }
 
@@ -55,10 +54,9 @@ void SaddleSolver::make_solver(bool direct) {
   if (direct) {
     preconditioner_.reset();  // the factors need its memory
     iterative_.reset();
-    factorised_.emplace(
-        algebra::KrylovOptions{.prefix = "mechanics_mixed_", .symmetric = options_.symmetric});
+    factorised_.emplace(linear::KrylovOptions{.prefix = "mechanics_mixed_", .symmetric = options_.symmetric});
     operator_ =
-        std::make_unique<algebra::FunctionMatrix>(static_cast<std::int64_t>(unknowns_->size()), product);
+        std::make_unique<linear::FunctionMatrix>(static_cast<std::int64_t>(unknowns_->size()), product);
     return;
   }
   factorised_.reset();
@@ -102,8 +100,8 @@ void SaddleSolver::precondition(std::span<const double> r, std::span<double> z) 
   unknowns_->restrict_to(product_, z);
 }
 
-algebra::LinearReport SaddleSolver::solve(algebra::BlockMatrix&, std::span<const double> b,
-                                          std::span<double> x, double forcing) {
+linear::LinearReport SaddleSolver::solve(linear::BlockMatrix&, std::span<const double> b, std::span<double> x,
+                                         double forcing) {
   set_up();
   return solve_again(b, x, forcing);
 }
@@ -124,14 +122,14 @@ void SaddleSolver::set_up() {
   iterative_->operator_changed();
 }
 
-algebra::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::span<double> x,
-                                                double forcing) {
+linear::LinearReport SaddleSolver::solve_again(std::span<const double> b, std::span<double> x,
+                                               double forcing) {
   const auto n_u = static_cast<std::size_t>(mesh_.n_owned_nodes * matrix_.components());
   // From the monotone form to the symmetric one.
   std::vector<double> whole(b.begin(), b.end());
   for (std::size_t i = n_u; i < whole.size(); ++i) whole[i] = -whole[i];
   unknowns_->restrict_to(whole, right_);
-  algebra::LinearReport report;
+  linear::LinearReport report;
   for (bool again = true; again;) {
     again = false;
     const double relative = direct_ ? std::min(k_direct_tolerance, options_.relative_tolerance)

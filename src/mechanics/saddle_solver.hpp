@@ -18,41 +18,41 @@
 #include <span>
 #include <vector>
 
-#include "algebra/function_matrix.hpp"
-#include "algebra/hierarchy_age.hpp"
-#include "algebra/krylov_solver.hpp"
-#include "algebra/recycling_gmres.hpp"
-#include "algebra/saddle_matrix.hpp"
-#include "algebra/saddle_unknowns.hpp"
+#include "linear/function_matrix.hpp"
+#include "linear/hierarchy_age.hpp"
+#include "linear/krylov_solver.hpp"
+#include "linear/recycling_gmres.hpp"
+#include "linear/saddle_matrix.hpp"
+#include "linear/saddle_unknowns.hpp"
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_preconditioner.hpp"
 
 namespace solidus::mechanics {
 
 struct SaddleSolverOptions {
-  algebra::SolverKind kind = algebra::SolverKind::automatic;  ///< automatic, direct or multigrid
+  linear::SolverKind kind = linear::SolverKind::automatic;  ///< automatic, direct or multigrid
   bool symmetric = true;
   double relative_tolerance = 1e-8;
 };
 
-class SaddleSolver final : public algebra::TangentSolver {
+class SaddleSolver final : public linear::TangentSolver {
  public:
   /// @param displacement  prescribed degrees of freedom and constraints set
   /// Keeps references to all its arguments but the last. Collective.
-  SaddleSolver(const mesh::Mesh& mesh, algebra::BlockMatrix& displacement, NodalPressure& pressure,
-               const algebra::GhostExchange& ghosts, SaddleSolverOptions options);
+  SaddleSolver(const mesh::Mesh& mesh, linear::BlockMatrix& displacement, NodalPressure& pressure,
+               const parallel::GhostExchange& ghosts, SaddleSolverOptions options);
   ~SaddleSolver() override;
 
   /// Adds the pressures' part of the tangent, after the blocks have added theirs to the matrix of
   /// displacements. Collective.
   void assemble();
-  algebra::SaddleMatrix& matrix() { return matrix_; }
+  linear::SaddleMatrix& matrix() { return matrix_; }
 
   /// The right-hand side and the solution are those of the monotone form, [owned node][component] of
   /// displacements and then [owned node][field] of pressures: b = (−r_u, +unit r_p).
-  algebra::LinearReport solve(algebra::BlockMatrix& a, std::span<const double> b, std::span<double> x,
-                              double forcing) override;
-  algebra::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override;
+  linear::LinearReport solve(linear::BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                             double forcing) override;
+  linear::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing) override;
   void forget() override;
   void reset() override;
   double seconds_setup() const override { return seconds_setup_; }
@@ -69,19 +69,19 @@ class SaddleSolver final : public algebra::TangentSolver {
   void precondition(std::span<const double> r, std::span<double> z);
 
   const mesh::Mesh& mesh_;
-  algebra::BlockMatrix& displacement_;
+  linear::BlockMatrix& displacement_;
   NodalPressure& pressure_;
-  const algebra::GhostExchange& ghosts_;
+  const parallel::GhostExchange& ghosts_;
   SaddleSolverOptions options_;
-  algebra::SaddleMatrix matrix_;
-  std::optional<algebra::SaddleUnknowns> unknowns_;
-  algebra::SaddleCopy copy_;
+  linear::SaddleMatrix matrix_;
+  std::optional<linear::SaddleUnknowns> unknowns_;
+  linear::SaddleCopy copy_;
   bool direct_ = true;
-  std::unique_ptr<algebra::FunctionMatrix> operator_;
-  std::optional<algebra::KrylovSolver> factorised_;   ///< where few are unknown
-  std::optional<algebra::RecyclingGmres> iterative_;  ///< where many are
+  std::unique_ptr<linear::FunctionMatrix> operator_;
+  std::optional<linear::KrylovSolver> factorised_;   ///< where few are unknown
+  std::optional<linear::RecyclingGmres> iterative_;  ///< where many are
   std::optional<SaddlePreconditioner> preconditioner_;
-  algebra::HierarchyAge hierarchy_;
+  linear::HierarchyAge hierarchy_;
   double seconds_setup_ = 0, seconds_solve_ = 0;
   std::vector<double> right_, solution_;                     ///< [unknown]
   std::vector<double> whole_, product_, local_u_, local_p_;  ///< scratch

@@ -19,7 +19,7 @@ void StructuralHeat::add_residual(std::span<const double> temperature, std::span
   for (std::size_t i = 0; i < r.size(); ++i) r[i] += work_[i];
 }
 
-void StructuralHeat::add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) {
+void StructuralHeat::add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) {
   if (!has_tangent_) return;
   work_.assign(temperature.size(), 0.0);
   for (const auto& block : phase_.blocks()) block->add_structural_heat(form_, temperature, true, work_);
@@ -29,7 +29,7 @@ void StructuralHeat::add_tangent(std::span<const double> temperature, algebra::B
   }
 }
 
-void StructuralHeat::begin_stage(const algebra::Stage& stage, std::span<const double> temperature) {
+void StructuralHeat::begin_stage(const linear::Stage& stage, std::span<const double> temperature) {
   for (const auto& block : phase_.blocks()) block->begin_heat_stage(stage, temperature);
 }
 
@@ -41,8 +41,8 @@ StructuralChange StructuralHeat::change(std::span<const double> temperature) con
     total.entropy += part.entropy;
     total.transformed += part.transformed;
   }
-  return {algebra::global_sum(total.energy), algebra::global_sum(total.entropy),
-          algebra::global_sum(total.transformed)};
+  return {parallel::global_sum(total.energy), parallel::global_sum(total.entropy),
+          parallel::global_sum(total.transformed)};
 }
 
 double StructuralHeat::energy(MechanicalPhase& phase, const MechanicalState& state,
@@ -51,7 +51,7 @@ double StructuralHeat::energy(MechanicalPhase& phase, const MechanicalState& sta
   phase.hold_deformation(state, temperature, plateau_share);
   double total = 0;
   for (const auto& block : phase.blocks()) total += block->structural_points().energy(temperature);
-  return algebra::global_sum(total);
+  return parallel::global_sum(total);
 }
 
 StructuralChange StructuralHeat::mechanical_change() const {
@@ -61,7 +61,7 @@ StructuralChange StructuralHeat::mechanical_change() const {
     total.energy += part.energy;
     total.entropy += part.entropy;
   }
-  return {algebra::global_sum(total.energy), algebra::global_sum(total.entropy)};
+  return {parallel::global_sum(total.energy), parallel::global_sum(total.entropy)};
 }
 
 }  // namespace solidus::mechanics

@@ -31,7 +31,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/contribution.hpp"
+#include "linear/contribution.hpp"
 #include "mechanics/mechanical_phase.hpp"
 
 namespace solidus::mechanics {
@@ -50,7 +50,7 @@ struct StructuralChange {
 /// that the thermal matrix stays symmetric and of non-negative type. With the open rule, whose capacity is
 /// not lumped, negative entries are left out: C_v is less than C_p, and beside the small eigenvalues of a
 /// consistent capacity a lumped difference of the two would make the matrix indefinite.
-class StructuralHeat : public algebra::Contribution {
+class StructuralHeat : public linear::Contribution {
  public:
   /// @param phase   must outlive this object; its last
   ///                solve() is the configuration; from now
@@ -59,12 +59,12 @@ class StructuralHeat : public algebra::Contribution {
   /// anyway
   StructuralHeat(const MechanicalPhase& phase, StructuralForm form, bool closed = true);
 
-  void add_to_graph(algebra::NodeGraph&) const override {}
-  void bind(const algebra::BlockMatrix&) override {}
+  void add_to_graph(linear::NodeGraph&) const override {}
+  void bind(const linear::BlockMatrix&) override {}
   void add_residual(std::span<const double> temperature, std::span<double> r) override;
-  void add_tangent(std::span<const double> temperature, algebra::BlockMatrix& matrix) override;
+  void add_tangent(std::span<const double> temperature, linear::BlockMatrix& matrix) override;
   bool stores() const override { return true; }
-  void begin_stage(const algebra::Stage& stage, std::span<const double> temperature) override;
+  void begin_stage(const linear::Stage& stage, std::span<const double> temperature) override;
   /// The tangent is another's affair: the simultaneous scheme has the exact one (coupled_kernel.hpp).
   void leave_tangent() { has_tangent_ = false; }
   StructuralForm form() const { return form_; }

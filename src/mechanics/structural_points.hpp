@@ -72,7 +72,7 @@ class StructuralPoints {
     carried_.clear();
   }
   /// StructuralHeat::begin_stage.
-  void begin_stage(const algebra::Stage& stage, std::span<const double> temperature);
+  void begin_stage(const linear::Stage& stage, std::span<const double> temperature);
   /// Heat of the points is spread over the nodes by the basis functions; its mean over an element by these
   /// weights, with which the thermal phase stores heat: [batch][node] [m³]. So uniform heating warms every
   /// node of an element alike whatever the shape and rule.
@@ -138,7 +138,7 @@ class StructuralPoints {
   std::size_t n_points_;         ///< of all batches
   PackVector<Point> points_;
   PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
-  algebra::Stage stage_;
+  linear::Stage stage_;
   struct Start {
     Lane entropy, energy;
   };

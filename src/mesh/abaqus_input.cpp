@@ -9,8 +9,8 @@
 #include <map>
 #include <unordered_map>
 
-#include "base/errors.hpp"
 #include "mesh/abaqus_elements.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/simd.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/quadrature.hpp"
+#include "numbers/simd.hpp"
 
 namespace solidus::mesh {
 

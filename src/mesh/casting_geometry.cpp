@@ -4,14 +4,14 @@
 #include <optional>
 #include <set>
 
-#include "base/errors.hpp"
-#include "base/log.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/reader_process.hpp"
 #include "mesh/shape.hpp"
 #include "mesh/smoothing.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace solidus::mesh {
 

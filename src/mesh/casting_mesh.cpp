@@ -7,11 +7,11 @@
 #include <map>
 #include <set>
 
-#include "base/errors.hpp"
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/geometry_groups.hpp"
 #include "mesh/size_field.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

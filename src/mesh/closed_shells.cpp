@@ -7,7 +7,7 @@
 #include <map>
 #include <unordered_map>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "base/common_failure.hpp"
 #include "mesh/parts.hpp"
 #include "mesh/whole.hpp"
+#include "system/common_failure.hpp"
 
 namespace solidus::mesh {
 

@@ -10,10 +10,10 @@
 #include <numeric>
 #include <set>
 
-#include "base/errors.hpp"
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/skin.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <map>
 
-#include "base/errors.hpp"
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "mesh/closed_shells.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/size_field.hpp"
 #include "mesh/skin.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

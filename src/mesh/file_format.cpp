@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

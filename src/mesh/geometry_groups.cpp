@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "base/errors.hpp"
-#include "base/keys.hpp"
+#include "input/keys.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

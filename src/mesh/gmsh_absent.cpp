@@ -1,8 +1,8 @@
 // Stands in a build without Gmsh for all that needs it.
-#include "base/errors.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/faceted_casting.hpp"
 #include "mesh/gmsh_reader.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

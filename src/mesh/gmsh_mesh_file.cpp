@@ -13,8 +13,8 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "base/errors.hpp"
 #include "mesh/gmsh_elements.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -13,13 +13,13 @@
 #include <sstream>
 #include <unordered_map>
 
-#include "base/errors.hpp"
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_elements.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

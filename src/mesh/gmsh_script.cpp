@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/errors.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_tokens.hpp"
 #include "mesh/gmsh_words.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/errors.hpp"
 #include "mesh/abaqus_input.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/faceted_casting.hpp"
@@ -16,6 +15,7 @@
 #include "mesh/reader_process.hpp"
 #include "mesh/stl_file.hpp"
 #include "mesh/vtu_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

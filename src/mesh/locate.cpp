@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/errors.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/nearest_place.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "base/types.hpp"
 #include "mesh/shape.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mesh {
 

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/errors.hpp"
 #include "mesh/quadrature.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -22,13 +22,13 @@
 #include <string>
 #include <string_view>
 
-#include "base/errors.hpp"
-#include "base/log.hpp"
-#include "base/program_path.hpp"
-#include "base/units.hpp"
+#include "input/units.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/reader_message.hpp"
 #include "mesh/reader_sandbox.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
+#include "system/program_path.hpp"
 
 extern char** environ;  // NOLINT: POSIX declares it nowhere
 

@@ -18,7 +18,7 @@ namespace solidus::mesh {
 std::optional<int> serve_as_reader(int argc, char** argv);
 
 /// From now on read_mesh() starts readers: for a process that is not the program, but knows where it is
-/// (base/program_path.hpp).
+/// (system/program_path.hpp).
 void read_in_processes();
 
 /// Tells read_mesh() when to give up waiting for a reader: it ends it then and throws StepRejected.

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "base/types.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::mesh {
 

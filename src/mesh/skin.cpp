@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/errors.hpp"
 #include "mesh/faces.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

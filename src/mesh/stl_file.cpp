@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

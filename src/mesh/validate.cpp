@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <string>
 
-#include "base/errors.hpp"
 #include "mesh/quadrature.hpp"
 #include "mesh/raw_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -12,8 +12,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "base/errors.hpp"
-#include "base/input_file.hpp"
+#include "system/errors.hpp"
+#include "system/input_file.hpp"
 
 namespace solidus::mesh {
 

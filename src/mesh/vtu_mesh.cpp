@@ -5,9 +5,9 @@
 #include <map>
 #include <optional>
 
-#include "base/errors.hpp"
 #include "mesh/gmsh_elements.hpp"
 #include "mesh/vtu_pieces.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 
-#include "base/errors.hpp"
 #include "mesh/layer_displacement.hpp"
 #include "mesh/layer_elements.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/wall_topology.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "base/errors.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/partition.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/types.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::point {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/errors.hpp"
-#include "base/tensor.hpp"
+#include "numbers/tensor.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::point {
 

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "base/input_file.hpp"
-#include "base/keys.hpp"
-#include "base/units.hpp"
+#include "input/keys.hpp"
+#include "input/units.hpp"
+#include "system/input_file.hpp"
 
 namespace solidus::point {
 

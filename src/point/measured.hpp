@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.hpp"
 #include "point/record.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::point {
 

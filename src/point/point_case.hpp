@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/document.hpp"
+#include "input/document.hpp"
 #include "material/material.hpp"
 #include "point/measured.hpp"
 #include "point/run.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "base/units.hpp"
+#include "input/units.hpp"
 
 namespace solidus::point {
 

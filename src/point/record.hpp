@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/tensor.hpp"
+#include "numbers/tensor.hpp"
 
 namespace solidus::point {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/types.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::point {
 

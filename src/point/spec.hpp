@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "point/material_point.hpp"
 
 namespace solidus::point {

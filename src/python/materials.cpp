@@ -3,14 +3,14 @@
 #include <memory>
 #include <stdexcept>
 
-#include "base/errors.hpp"
+#include "case/case_materials.hpp"
 #include "material/external_law.hpp"
 #include "material/library.hpp"
 #include "material/melt.hpp"
 #include "material/viscoplastic.hpp"
-#include "model/case_materials.hpp"
 #include "point/material_point.hpp"
 #include "python/bindings.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::python {
 

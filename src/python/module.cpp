@@ -5,13 +5,13 @@
 #include <memory>
 #include <utility>
 
-#include "algebra/interruption.hpp"
-#include "base/errors.hpp"
-#include "base/log.hpp"
-#include "base/program_path.hpp"
+#include "case/case_file.hpp"
+#include "linear/interruption.hpp"
 #include "mesh/reader_process.hpp"
-#include "model/case_file.hpp"
 #include "python/bindings.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
+#include "system/program_path.hpp"
 
 namespace solidus::python {
 
@@ -38,7 +38,7 @@ void initialize(std::optional<int> communicator, const std::vector<std::string>&
   if (PetscInitialize(&argc, &argv, nullptr, nullptr) != 0)
     throw InputError({}, "PETSc cannot start; its message stands above", "options that PETSc knows");
   sigaction(SIGINT, &python, nullptr);  // MPI may have put its own in place
-  algebra::interrupt_when(interrupted);
+  linear::interrupt_when(interrupted);
 }
 
 void finalize() {
@@ -91,7 +91,7 @@ void translate(std::exception_ptr thrown) {
     raise("InputError", "from_text", error.what());
   } catch (const StepRejected& error) {
     raise("RunStopped", nullptr, error.what());
-  } catch (const algebra::Interrupted& error) {
+  } catch (const linear::Interrupted& error) {
     try {
       raise_if_interrupted(error.what());
     } catch (py::error_already_set& exception) {

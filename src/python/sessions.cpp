@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/errors.hpp"
+#include "build/assembly.hpp"
 #include "material/external_law.hpp"
 #include "mesh/vtk_cells.hpp"
-#include "model/assembly.hpp"
-#include "model/run.hpp"
 #include "python/bindings.hpp"
 #include "results/state_fields.hpp"
 #include "results/vtu.hpp"
+#include "run/run.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::python {
 
@@ -200,7 +200,7 @@ class Driver {
   template <class Use>
   void for_cells(Use use) {
     const mesh::Mesh& m = session_->assembly().mesh;
-    const algebra::ActiveSet* active = state_fields().bodies().active();
+    const linear::ActiveSet* active = state_fields().bodies().active();
     std::size_t first = 0;
     for (const mesh::Block& block : m.blocks) {
       if (active == nullptr || active->body(block.body))

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <string_view>
 
-#include "algebra/parallel.hpp"
-#include "base/types.hpp"
-#include "base/units.hpp"
 #include "criteria/gather.hpp"
 #include "criteria/pools.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "input/units.hpp"
 #include "mesh/block_geometry.hpp"
+#include "numbers/types.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::results {
 
@@ -200,8 +200,8 @@ std::optional<Answers::Pores> pores(const mesh::Mesh& mesh, AnalysisKind kind, c
     first += static_cast<std::size_t>(block.size());
   }
   const std::optional<ValueAt> largest = densest.over_processes();
-  volume = algebra::global_sum(volume);
-  whole = algebra::global_sum(whole);
+  volume = parallel::global_sum(volume);
+  whole = parallel::global_sum(whole);
   if (!largest || !(largest->value > 0)) return {};
   return Answers::Pores{.volume = volume, .share = volume / whole, .densest = *largest};
 }
@@ -408,7 +408,7 @@ double solid_fraction(const coupling::Phases& phases, const coupling::State& sta
   for (const CastBody& cast : castings) {
     double own = 0;
     for (Index i = 0; i < mesh.n_owned_nodes; ++i) own += phases.heat->storage().volume(i, cast.body);
-    const double volume = algebra::global_sum(own);
+    const double volume = parallel::global_sum(own);
     if (volume == 0) continue;  // it has left
     whole += volume;
     solid += volume * phases.heat->mean_solid_fraction(state.heat, cast.body);

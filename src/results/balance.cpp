@@ -2,14 +2,14 @@
 
 #include <petscsys.h>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::results {
 
 double largest_over_mean(double mine) {
   int n_processes = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
-  const double largest = algebra::global_max(mine), sum = algebra::global_sum(mine);
+  const double largest = parallel::global_max(mine), sum = parallel::global_sum(mine);
   return sum > 0 ? largest * n_processes / sum : 1;
 }
 
@@ -24,8 +24,8 @@ Balance balance(const mesh::Mesh& mesh, const std::vector<std::pair<std::string,
   even.emplace_back("nodes", largest_over_mean(mesh.n_owned_nodes));
   even.emplace_back("elements", largest_over_mean(held));
   for (const auto& [phase, mine] : seconds) even.emplace_back(phase, largest_over_mean(mine));
-  const double all = algebra::global_sum(counted);
-  balance.computed_again = all > 0 ? (algebra::global_sum(held) - all) / all : 0;
+  const double all = parallel::global_sum(counted);
+  balance.computed_again = all > 0 ? (parallel::global_sum(held) - all) / all : 0;
   return balance;
 }
 

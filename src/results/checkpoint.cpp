@@ -9,13 +9,13 @@
 #include <type_traits>
 #include <unordered_map>
 
-#include "algebra/parallel.hpp"
-#include "base/log.hpp"
 #include "mechanics/padding.hpp"
+#include "parallel/parallel.hpp"
 #include "results/checkpoint_contacts.hpp"
 #include "results/checkpoint_criteria.hpp"
 #include "results/checkpoint_tables.hpp"
 #include "results/output_error.hpp"
+#include "system/log.hpp"
 
 namespace solidus::results {
 
@@ -88,7 +88,7 @@ Places places_of(const std::vector<GlobalIndex>& numbers) {
 
 // Fills a nodal field from a table by the nodes' numbers. Every node this process holds gets its value.
 void take_nodes(TableReader& in, const std::string& name, const Places& places, std::vector<double>& field) {
-  if (!algebra::any_process(!field.empty())) return;
+  if (!parallel::any_process(!field.empty())) return;
   const std::size_t width = field.size() / std::max<std::size_t>(places.size(), 1);
   std::size_t taken = 0;
   in.each("node", name, [&](std::int64_t number, std::span<const double> row) {
@@ -261,22 +261,22 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   nodal("net_force", c.state.mechanics.net_force);
   nodal("load", c.state.mechanics.load);
   if (c.continuation.stage.number > 0) nodal("stage_displacement", c.continuation.stage.displacement);
-  out.text("first_guess", algebra::any_process(!c.state.displacement_rate.empty()) ? k_known : "unknown");
+  out.text("first_guess", parallel::any_process(!c.state.displacement_rate.empty()) ? k_known : "unknown");
   nodal("rate_of_last_step", c.state.displacement_rate);
   nodal("pressure_rate_of_last_step", c.state.pressure_rate);
   const coupling::Rates& rates = c.continuation.rates;
   out.text("rates", rates.known() ? k_known : "unknown");
   if (rates.known()) {
-    const bool flows = algebra::any_process(!rates.heat_flow.empty());
+    const bool flows = parallel::any_process(!rates.heat_flow.empty());
     out.text("flows", flows ? k_known : "unknown");
     nodal(flows ? "heat_flow" : "temperature_rate", flows ? rates.heat_flow : rates.temperature);
     nodal("displacement_rate", rates.displacement);
-    const bool melts = algebra::any_process(!rates.coherency.empty());
+    const bool melts = parallel::any_process(!rates.coherency.empty());
     out.text("rates_of_melt", melts ? k_known : "unknown");
     if (melts) nodal("coherency", rates.coherency);
   }
   const coupling::ShotHistory& shots = c.continuation.shots;
-  out.text("shots", algebra::any_process(!shots.start.empty()) ? k_known : "unknown");
+  out.text("shots", parallel::any_process(!shots.start.empty()) ? k_known : "unknown");
   out.text("shot_iterates", std::to_string(shots.iterates.size()));
   nodal("shot_start", shots.start);
   for (std::size_t j = 0; j < shots.iterates.size(); ++j) {

@@ -14,7 +14,7 @@
 #include <system_error>
 #include <utility>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 #include "results/file_checksum.hpp"
 #include "results/output_error.hpp"
 
@@ -180,7 +180,7 @@ void TableReader::each(const std::string& keys, const std::string& values,
 }
 
 void TableReader::require(bool complete, const std::string& name) const {
-  if (algebra::any_process(!complete))
+  if (parallel::any_process(!complete))
     throw OutputError(path_.string(), "its '" + name + "' does not fit this mesh");
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/types.hpp"
 #include "mesh/shape.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::results {
 

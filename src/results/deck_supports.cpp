@@ -49,7 +49,7 @@ class Held {
 };
 
 /// For each node the least node of its connected part; −1 where nothing is.
-std::vector<Index> connected_parts(const mesh::Mesh& mesh, const algebra::ActiveSet& active) {
+std::vector<Index> connected_parts(const mesh::Mesh& mesh, const linear::ActiveSet& active) {
   std::vector<Index> part(mesh.x.size(), -1);
   const auto root = [&part](Index node) {
     while (part[static_cast<std::size_t>(node)] != node) node = part[static_cast<std::size_t>(node)];
@@ -135,7 +135,7 @@ std::map<Index, Part> parts_of(const mesh::Mesh& mesh, const std::vector<Index>&
 
 }  // namespace
 
-std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
+std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::ActiveSet& active,
                                     AnalysisKind kind, std::span<const char> fixed,
                                     std::span<const std::vector<Index>> constraints) {
   const auto components = static_cast<std::size_t>(displacement_components(kind));

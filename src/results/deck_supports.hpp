@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "algebra/active_set.hpp"
+#include "linear/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
@@ -16,7 +16,7 @@ namespace solidus::results {
 /// take nothing.
 /// @param fixed  [node][component]: held
 /// @param constraints   degrees of freedom that move as one
-std::vector<Index> missing_supports(const mesh::Mesh& mesh, const algebra::ActiveSet& active,
+std::vector<Index> missing_supports(const mesh::Mesh& mesh, const linear::ActiveSet& active,
                                     AnalysisKind kind, std::span<const char> fixed,
                                     std::span<const std::vector<Index>> constraints);
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 

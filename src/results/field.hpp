@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "algebra/active_set.hpp"
+#include "linear/active_set.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::results {
@@ -49,12 +49,12 @@ class FieldSet {
 
   /// Sets the active bodies. Cells of other bodies are hidden, and take no part in minima and maxima. Null:
   /// all bodies are active. Must outlive the set.
-  void set_active(const algebra::ActiveSet* active) { active_ = active; }
-  const algebra::ActiveSet* active() const { return active_; }
+  void set_active(const linear::ActiveSet* active) { active_ = active; }
+  const linear::ActiveSet* active() const { return active_; }
 
  private:
   std::vector<Field> fields_;
-  const algebra::ActiveSet* active_ = nullptr;
+  const linear::ActiveSet* active_ = nullptr;
 };
 
 /// Number of values a field of this place and number of components has on this process.

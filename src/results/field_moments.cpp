@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "base/types.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::results {
 

@@ -8,9 +8,9 @@
 #include <map>
 #include <span>
 
-#include "base/errors.hpp"
 #include "results/field_moments.hpp"
 #include "results/output_error.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 

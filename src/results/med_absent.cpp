@@ -1,6 +1,6 @@
 // Stands for med.cpp where the MED library is not there.
-#include "base/errors.hpp"
 #include "results/med.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 

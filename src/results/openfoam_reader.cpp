@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 
 namespace solidus::results {
 

@@ -1,6 +1,6 @@
 #include "results/output_error.hpp"
 
-#include "base/common_failure.hpp"
+#include "system/common_failure.hpp"
 
 namespace solidus::results {
 

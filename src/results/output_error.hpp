@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "base/types.hpp"
 #include "mesh/shape.hpp"
+#include "numbers/types.hpp"
 #include "results/json.hpp"
 
 namespace solidus::results {
@@ -40,7 +40,7 @@ struct SkinOverview {
   std::string law;                               ///< "1000 W/m2/K, in the gap 420 to 600 W/m2/K"
 };
 
-/// Overview of a poured body, with the estimate of its freezing (model/freezing_estimate.hpp).
+/// Overview of a poured body, with the estimate of its freezing (check/freezing_estimate.hpp).
 struct PourOverview {
   std::string body;
   double pouring = 0, liquidus = 0, solidus = 0;  ///< temperatures [K]

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "base/types.hpp"
 #include "criteria/pools.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::results {
 

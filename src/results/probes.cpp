@@ -10,9 +10,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "algebra/parallel.hpp"
 #include "mesh/block_geometry.hpp"
 #include "mesh/locate.hpp"
+#include "parallel/parallel.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::results {
@@ -77,7 +77,7 @@ std::vector<std::pair<std::size_t, double>> cell_weights(const Mesh& mesh, Analy
       all += volume;
     }
   }
-  all = algebra::global_sum(all);
+  all = parallel::global_sum(all);
   for (auto& [cell, weight] : weights) weight /= all;
   return weights;
 }
@@ -131,7 +131,7 @@ std::vector<std::pair<std::size_t, double>> face_weights(const Mesh& mesh, Analy
       }
     }
   }
-  all = algebra::global_sum(all);
+  all = parallel::global_sum(all);
   for (auto& [cell, weight] : weights) weight /= all;
   return weights;
 }
@@ -147,7 +147,7 @@ std::vector<std::pair<std::size_t, double>> weights_around(const Mesh& mesh,
       weights.emplace_back(element.cell, 1.0 / static_cast<double>(elements.size()));
     ++n;
   }
-  n = algebra::global_sum(n);
+  n = parallel::global_sum(n);
   for (auto& [cell, weight] : weights) weight /= n;
   return weights;
 }
@@ -231,7 +231,7 @@ Probes::Sample Probes::point_sample(const Mesh& mesh, const PointProbe& probe, c
   const mesh::LocatedPoint place = mesh::locate(mesh, probe.at, probe.body);
   const auto block = static_cast<std::size_t>(std::max(place.block, Index{0}));
   const double size =
-      algebra::global_max(place.here ? element_size(mesh, mesh.blocks[block], place.element) : 0.0);
+      parallel::global_max(place.here ? element_size(mesh, mesh.blocks[block], place.element) : 0.0);
   if (!(place.distance <= k_slack * size)) {
     const std::string body =
         probe.body < 0 ? "the mesh" : "body '" + mesh.bodies[static_cast<std::size_t>(probe.body)].name + "'";
@@ -258,7 +258,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
   const auto nodes = mesh.node_sets.find(probe.group);
   if (nodes == mesh.node_sets.end())
     refuse(fmt::format("there is no group '{}'", probe.group), "groups: " + group_names(mesh));
-  const bool surface = algebra::any_process(mesh.surfaces.contains(probe.group));
+  const bool surface = parallel::any_process(mesh.surfaces.contains(probe.group));
   const auto of_elements = [&] {
     return body >= 0 ? cell_weights(mesh, kind, body)
            : surface ? face_weights(mesh, kind, probe.group)
@@ -277,7 +277,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
     } else {
       sample.weights = of_elements();
     }
-    if (!algebra::any_process(!sample.weights.empty()))
+    if (!parallel::any_process(!sample.weights.empty()))
       refuse(fmt::format("the group '{}' is empty", probe.group), {});
   } else if (field.place == Place::cell) {
     sample.weights = of_elements();
@@ -353,7 +353,7 @@ Probes::Sample Probes::global_sample(const GlobalProbe& probe, const std::vector
 }
 
 void Probes::take(const Sample& sample, const Field& field, std::span<const double> values,
-                  const algebra::ActiveSet* active, Totals to) {
+                  const linear::ActiveSet* active, Totals to) {
   const double sign = sample.reduce == Reduce::minimum ? -1.0 : 1.0;
   for (const auto& [entity, weight] : sample.weights) {
     const double value = component_of(field, values, entity, sample.component);
@@ -375,7 +375,7 @@ std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Rea
   // half of the peaks counts bodies that have left too: for groups that are theirs alone.
   const std::size_t n_samples = samples_.size();
   std::vector<double> sums(n_samples, 0.0), peaks(2 * n_samples, 0.0);
-  const algebra::ActiveSet* active = fields.active();
+  const linear::ActiveSet* active = fields.active();
   std::map<const Field*, std::vector<std::size_t>> samples_of;  // a field is read once, one at a time
   for (std::size_t s = 0; s < n_samples; ++s) {
     const Sample& sample = samples_[s];

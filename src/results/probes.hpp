@@ -7,12 +7,12 @@
 #include <variant>
 #include <vector>
 
-#include "base/errors.hpp"
-#include "base/types.hpp"
-#include "base/units.hpp"
+#include "input/units.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
 #include "results/csv.hpp"
 #include "results/field.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 
@@ -103,7 +103,7 @@ class Probes {
     double &sum, &peak, &peak_of_all;
   };
   static void take(const Sample& sample, const Field& field, std::span<const double> values,
-                   const algebra::ActiveSet* active, Totals to);
+                   const linear::ActiveSet* active, Totals to);
   static Sample global_sample(const GlobalProbe& probe, const std::vector<Reading>& globals);
 
   std::vector<Column> columns_;

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <span>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 #include "results/output_error.hpp"
 #include "results/output_file.hpp"
 
@@ -61,7 +61,7 @@ ProfileTable::ProfileTable(const mesh::Mesh& mesh, AnalysisKind kind, Profile pr
   }
   for (const Index node : group->second)
     if (node < mesh.n_owned_nodes) nodes_.push_back(node);
-  if (!algebra::any_process(!nodes_.empty()))
+  if (!parallel::any_process(!nodes_.empty()))
     throw InputError(profile_.where, fmt::format("{}: the group '{}' is empty", what, profile_.group));
   length_ = shown_in(profile_.length_unit, "m", what, profile_.where);
   for (const Sampled& column : profile_.columns) {

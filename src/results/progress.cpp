@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "base/terminal.hpp"
 #include "coupling/energy_scale.hpp"
+#include "system/terminal.hpp"
 
 namespace solidus::results {
 

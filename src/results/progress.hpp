@@ -37,7 +37,7 @@ class Progress {
   /// A line on a shot that is over.
   void shot(const std::string& text) { line(text); }
   /// Removes the bar and says how it ended: "finished", "stopped: …", with the time it took.
-  /// @param profile  lines that say where the time went (base/profile.hpp)
+  /// @param profile  lines that say where the time went (system/profile.hpp)
   void end(const std::string& outcome, const std::string& profile = {});
 
  private:

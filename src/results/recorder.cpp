@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "base/log.hpp"
-#include "base/profile.hpp"
 #include "coupling/energy_scale.hpp"
 #include "coupling/internal_energy.hpp"
 #include "results/output_error.hpp"
 #include "results/vtkhdf.hpp"
+#include "system/log.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::results {
 

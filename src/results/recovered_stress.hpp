@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
-#include "algebra/parallel.hpp"
-#include "base/types.hpp"
 #include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::results {
 
@@ -41,7 +41,7 @@ class StressRecovery {
   void spread(Patch& patch) const;
 
   const mesh::Mesh& mesh_;
-  algebra::GhostExchange ghosts_;
+  parallel::GhostExchange ghosts_;
   std::vector<mesh::Point> centroid_;  ///< [cell]
   std::vector<std::array<double, 9>>
       moment_;                  ///< mean of d dᵀ, d from the centroid to the nodes, [cell] [m²]

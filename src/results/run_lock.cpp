@@ -13,8 +13,8 @@
 #include <sstream>
 #include <string>
 
-#include "base/log.hpp"
 #include "results/output_error.hpp"
+#include "system/log.hpp"
 
 namespace solidus::results {
 

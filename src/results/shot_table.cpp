@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "algebra/parallel.hpp"
-#include "base/types.hpp"
+#include "numbers/types.hpp"
+#include "parallel/parallel.hpp"
 #include "results/answers.hpp"
 
 namespace solidus::results {
@@ -101,8 +101,8 @@ std::optional<double> time_to_solidify(const mesh::Mesh& mesh, const FieldSet& f
       last = std::max(last, at);
     }
   }
-  last = algebra::global_max(last);
-  return algebra::any_process(liquid) ? std::nullopt : std::optional(last);
+  last = parallel::global_max(last);
+  return parallel::any_process(liquid) ? std::nullopt : std::optional(last);
 }
 
 ShotTable::ShotTable(const std::filesystem::path& path, std::optional<double> from)

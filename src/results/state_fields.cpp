@@ -266,9 +266,9 @@ void StateFields::update_criteria(const coupling::State& state) {
 }
 
 void StateFields::update(const coupling::State& state) {
-  const algebra::ActiveSet& there =
+  const linear::ActiveSet& there =
       phases_.heat != nullptr ? phases_.heat->active() : phases_.mechanics->active();
-  const algebra::ActiveSet* active = there.complete() ? nullptr : &there;
+  const linear::ActiveSet* active = there.complete() ? nullptr : &there;
   bodies_.set_active(active);
   for (auto& [name, fields] : surfaces_) fields.set_active(active);
   if (phases_.heat != nullptr) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "coupling/phases.hpp"
+#include "parallel/parallel.hpp"
 #include "results/field.hpp"
 #include "results/recovered_stress.hpp"
 
@@ -68,7 +68,7 @@ class StateFields {
   const coupling::Phases& phases_;
   AnalysisKind kind_;
   std::unique_ptr<StressRecovery> recovery_;  ///< from its first use on
-  algebra::GhostExchange ghosts_;
+  parallel::GhostExchange ghosts_;
   std::vector<std::unique_ptr<Values>> values_;  // stable addresses: the sets hold views
   std::map<std::string, std::vector<double>*> by_name_;
   /// Nodal areas of the sides of each pair, slave and master: ∫ N_a dA, [local node], owned ones complete

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/types.hpp"
 #include "coupling/energy_scale.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::results {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/types.hpp"
 #include "coupling/observer.hpp"
+#include "numbers/types.hpp"
 #include "results/csv.hpp"
 
 namespace solidus::results {

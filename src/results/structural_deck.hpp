@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "algebra/active_set.hpp"
+#include "linear/active_set.hpp"
 #include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
@@ -34,7 +34,7 @@ struct StructuralDeck {
   std::string title;
   AnalysisKind kind = AnalysisKind::solid;
   const mesh::Mesh& mesh;
-  const algebra::ActiveSet& active;  ///< only active bodies are written
+  const linear::ActiveSet& active;  ///< only active bodies are written
   std::span<const material::Material> materials;
   std::span<const double> displacement;  ///< [node][component] [m], added to the coordinates; empty: not
   std::span<const double> temperature;   ///< [node] [K]

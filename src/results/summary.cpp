@@ -5,10 +5,10 @@
 
 #include <array>
 
-#include "algebra/parallel.hpp"
-#include "base/version.hpp"
+#include "parallel/parallel.hpp"
 #include "results/json.hpp"
 #include "results/output_file.hpp"
+#include "system/version.hpp"
 
 namespace solidus::results {
 
@@ -57,7 +57,7 @@ Json left_walls(const std::vector<LeftWall>& left) {
 }
 
 GlobalIndex sum(Index counted) {
-  return static_cast<GlobalIndex>(algebra::global_sum(counted));
+  return static_cast<GlobalIndex>(parallel::global_sum(counted));
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ PeakMemory peak_memory() {
   const double bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in kilobytes
   double first = bytes;
   MPI_Bcast(&first, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
-  return {algebra::global_max(bytes), first, algebra::global_sum(bytes)};
+  return {parallel::global_max(bytes), first, parallel::global_sum(bytes)};
 }
 
 std::string summary_json(const Summary& s) {

@@ -59,7 +59,8 @@ struct Summary {
   int steps = 0, rejected = 0;
   double end_time = 0;                                  ///< time reached [s]
   std::vector<std::pair<std::string, double>> seconds;  ///< by phase; "total" is the wall time
-  /// Wall time of process 0 by parts of the program, which add up to `profile_total` (base/profile.hpp) [s].
+  /// Wall time of process 0 by parts of the program, which add up to `profile_total` (system/profile.hpp)
+  /// [s].
   std::vector<std::pair<std::string, double>> profile;
   double profile_total = 0;
   PeakMemory memory;

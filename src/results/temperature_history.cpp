@@ -4,9 +4,9 @@
 #include <string>
 #include <unordered_map>
 
-#include "base/errors.hpp"
 #include "mesh/vtu_pieces.hpp"
 #include "results/pvd.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 
@@ -42,7 +42,7 @@ void read_file(const fs::path& path, const LocalNodes& local, std::vector<double
 }  // namespace
 
 std::vector<TemperatureMoment> read_temperature_history(const fs::path& collection, const mesh::Mesh& mesh,
-                                                        const algebra::ActiveSet& active) {
+                                                        const linear::ActiveSet& active) {
   if (!fs::exists(collection))
     throw InputError({collection.string()}, "the run has left no fields", "[output] with `every` or `times`");
   LocalNodes local;

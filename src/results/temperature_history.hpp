@@ -16,6 +16,6 @@ namespace solidus::results {
 /// Throws InputError for files that are missing or damaged, have no temperature, or lack a node.
 std::vector<TemperatureMoment> read_temperature_history(const std::filesystem::path& collection,
                                                         const mesh::Mesh& mesh,
-                                                        const algebra::ActiveSet& active);
+                                                        const linear::ActiveSet& active);
 
 }  // namespace solidus::results

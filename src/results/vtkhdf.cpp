@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.hpp"
 #include "results/field_moments.hpp"
 #include "results/hdf5_file.hpp"
 #include "results/output_error.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 

@@ -190,7 +190,7 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   });
   xml += add_of_cells<std::int32_t>(data, part, "body", [](const Block& block, Index) { return block.body; });
   xml += add_of_cells<std::int32_t>(data, part, "process", [rank](const Block&, Index) { return rank; });
-  if (const algebra::ActiveSet* active_set = fields.active())
+  if (const linear::ActiveSet* active_set = fields.active())
     xml += add_of_cells<std::uint8_t>(data, part, k_ghost_type, [active_set](const Block& block, Index) {
       return block.body < 0 || active_set->body(block.body) ? std::uint8_t{0} : k_hidden_cell;
     });

@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-#include "base/keys.hpp"
+#include "input/keys.hpp"
 #include "mesh/vtu_arrays.hpp"
 #include "mesh/vtu_pieces.hpp"
 

@@ -10,9 +10,9 @@
 #include "../laws/halved_split.hpp"
 #include "../laws/hyperbolic_coefficient.hpp"
 #include "../laws/power_fraction.hpp"
-#include "base/key_docs.hpp"
+#include "case/case_keys.hpp"
 #include "case_folder.hpp"
-#include "model/case_keys.hpp"
+#include "input/key_docs.hpp"
 
 namespace solidus::testing {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/errors.hpp"
 #include "case_run.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

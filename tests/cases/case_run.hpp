@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "base/log.hpp"
-#include "model/run.hpp"
+#include "run/run.hpp"
+#include "system/log.hpp"
 
 namespace solidus::testing {
 
@@ -50,7 +50,7 @@ struct CaseRun {
 };
 
 /// Checks on the way that the isentropic split never raises the functional 𝓛 where the conditions are
-/// admissible (2.26; model/audit_watch.hpp).
+/// admissible (2.26; run/audit_watch.hpp).
 /// @param case_path relative to the repository
 inline CaseRun run(const std::string& case_path, const std::string& name,
                    const std::vector<std::string>& overrides = {}) {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/log.hpp"
-#include "model/run.hpp"
 #include "results/overview.hpp"
+#include "run/run.hpp"
+#include "system/log.hpp"
 
 namespace {
 

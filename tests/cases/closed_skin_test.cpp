@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "build/assembly.hpp"
+#include "build/mesh_input.hpp"
+#include "build/scheme_input.hpp"
+#include "case/case_file.hpp"
+#include "case/case_materials.hpp"
 #include "case_folder.hpp"
 #include "coupling/contact_states.hpp"
-#include "model/assembly.hpp"
-#include "model/case_file.hpp"
-#include "model/case_materials.hpp"
-#include "model/mesh_input.hpp"
-#include "model/scheme_input.hpp"
 
 namespace solidus {
 namespace {

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "case_folder.hpp"
-#include "model/export.hpp"
+#include "run/export.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <chrono>
 
-#include "base/profile.hpp"
 #include "case_run.hpp"
+#include "system/profile.hpp"
 
 namespace solidus::testing {
 namespace {

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "case_run.hpp"
-#include "model/new_case.hpp"
+#include "new_case/new_case.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 /// Any bytes as a table of points in space and time, and as measured points beside a curve.
-#include "base/point_table.hpp"
 #include "input.hpp"
+#include "input/point_table.hpp"
 #include "point/measured.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

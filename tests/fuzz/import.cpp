@@ -1,6 +1,6 @@
 /// Any bytes as a table of a thermodynamic program that becomes a material card.
-#include "base/column_table.hpp"
 #include "input.hpp"
+#include "input/column_table.hpp"
 #include "material/card_import.hpp"
 #include "material/library.hpp"
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::fuzz {
 

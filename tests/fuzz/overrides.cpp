@@ -2,8 +2,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "case/case_file.hpp"
 #include "input.hpp"
-#include "model/case_file.hpp"
 
 namespace {
 

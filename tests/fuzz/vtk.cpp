@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     mesh.input_node.push_back(i);
   }
   mesh.n_owned_nodes = static_cast<Index>(mesh.x.size());
-  fuzz::answer([&] { results::read_temperature_history(collection, mesh, algebra::ActiveSet(mesh)); });
+  fuzz::answer([&] { results::read_temperature_history(collection, mesh, linear::ActiveSet(mesh)); });
   fuzz::answer([&] { results::read_vtu(file, "temperature", 0, 0.001, {}); });
   return fuzz::answer([&] {
     try {

@@ -41,7 +41,7 @@ struct QuenchedBar {
   static heat::HeatOptions strict() {
     heat::HeatOptions options;
     options.tolerance = 1e-12;
-    options.solver = algebra::SolverKind::direct;
+    options.solver = linear::SolverKind::direct;
     return options;
   }
   coupling::Phases phases() {

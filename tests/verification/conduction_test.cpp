@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "analytic/conduction.hpp"
-#include "base/types.hpp"
+#include "numbers/types.hpp"
 #include "strip.hpp"
 
 namespace solidus {
@@ -32,7 +32,7 @@ AnalysisKind kind_of(Shape shape) {
 heat::HeatOptions options_of(bool closed) {
   heat::HeatOptions options;
   options.integration = closed ? heat::Integration::closed : heat::Integration::open;
-  options.solver = algebra::SolverKind::direct;
+  options.solver = linear::SolverKind::direct;
   return options;
 }
 std::string name_of(Shape shape, bool closed) {

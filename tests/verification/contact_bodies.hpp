@@ -40,7 +40,7 @@ inline mechanics::MechanicsOptions strict_mechanics() {
   mechanics::MechanicsOptions options;
   options.newton.tolerance = 1e-12;
   options.newton.max_iterations = 40;
-  options.solver = algebra::SolverKind::direct;
+  options.solver = linear::SolverKind::direct;
   return options;
 }
 

@@ -69,7 +69,7 @@ double warmed(const Coupled& c, const char* body, const std::vector<double>& tem
       for (int i = 0; i < 4; ++i) mean += 0.25 * temperature[static_cast<std::size_t>(nodes[i])];
       sum += std::abs((b[0] - a[0]) * (b[1] - a[1])) * k_capacity * (mean - start);
     }
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 double surface(const mesh::Mesh& mesh, const char* name, const std::vector<double>& temperature) {
@@ -79,7 +79,7 @@ double surface(const mesh::Mesh& mesh, const char* name, const std::vector<doubl
       sum += temperature[static_cast<std::size_t>(node)];
       n += 1;
     }
-  return algebra::global_sum(sum) / algebra::global_sum(n);
+  return parallel::global_sum(sum) / parallel::global_sum(n);
 }
 
 // A scheme of the run: a split, both fields at once in one stage or two, or the double pass.

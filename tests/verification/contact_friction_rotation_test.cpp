@@ -91,9 +91,9 @@ TEST_P(StickingFriction, TurnsWithTheBodies) {
         s += r[k];
         size += std::abs(r[k]);
       }
-      sum += std::abs(algebra::global_sum(s));
+      sum += std::abs(parallel::global_sum(s));
     }
-    EXPECT_LT(sum, 1e-12 * algebra::global_sum(size));
+    EXPECT_LT(sum, 1e-12 * parallel::global_sum(size));
     state = pair.state();
     displacement = to;
     time += 1;

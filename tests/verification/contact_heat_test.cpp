@@ -45,7 +45,7 @@ Steady steady(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactPair& p
   heat::HeatOptions options;
   options.integration = integration;
   options.tolerance = 1e-12;
-  options.solver = algebra::SolverKind::direct;
+  options.solver = linear::SolverKind::direct;
   heat::ThermalPhase phase(mesh, kind, bars(), ends(mesh), options, {pair.heat()});
   Steady result{phase.initial_state(std::vector<double>{600, 600}), {}};
   const heat::ThermalState start = result.state;
@@ -63,7 +63,7 @@ double deviation(const mesh::Mesh& mesh, const heat::ThermalState& state, double
   };
   scan("lower_top", lower);
   scan("upper_bottom", upper);
-  return algebra::global_max(worst);
+  return parallel::global_max(worst);
 }
 
 contact::ContactSpec conducting(double h) {

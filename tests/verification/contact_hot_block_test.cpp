@@ -93,7 +93,7 @@ double warmed(const Coupled& c, const char* body, const std::vector<double>& tem
       for (int i = 0; i < 4; ++i) mean += 0.25 * temperature[static_cast<std::size_t>(nodes[i])];
       sum += std::abs((b[0] - a[0]) * (b[1] - a[1])) * k_capacity * (mean - start);
     }
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 /// Square cells; an explicit step moves the block on by one cell.
@@ -178,10 +178,10 @@ Spot spot(const Coupled& c, const coupling::State& state) {
     if (t > s.hottest) s = {t, x, s.ahead};
     if (x > left + k_block + 2 * k_face) s.ahead = std::max(s.ahead, std::abs(t - k_cold));
   }
-  const double hottest = algebra::global_max(s.hottest);
-  s.at = algebra::global_max(s.hottest == hottest ? s.at : 0.0);
+  const double hottest = parallel::global_max(s.hottest);
+  s.at = parallel::global_max(s.hottest == hottest ? s.at : 0.0);
   s.hottest = hottest;
-  s.ahead = algebra::global_max(s.ahead);
+  s.ahead = parallel::global_max(s.ahead);
   return s;
 }
 
@@ -194,7 +194,7 @@ double trail_error(const Coupled& c, const std::vector<double>& temperature, con
     const double t = temperature[static_cast<std::size_t>(node)];
     worst = std::max(worst, std::abs(t - exact.base_surface(x)));
   }
-  return algebra::global_max(worst);
+  return parallel::global_max(worst);
 }
 
 TEST(HotBlock, GivesTheBaseTheHeatOfATwoDimensionalProgram) {
@@ -247,7 +247,7 @@ TEST(HotBlock, ClosesTheFirstLawAndWarmsTheBaseWhereItIs) {
       });
   double hottest = 0;
   for (const double t : run.end.heat.temperature) hottest = std::max(hottest, t);
-  hottest = algebra::global_max(hottest);
+  hottest = parallel::global_max(hottest);
   RecordProperty("first_law", fmt::format("{:.1e}", worst));
   RecordProperty("heat", fmt::format("{:.12g} J/m, hottest {:.12g} K", heat, hottest));
   RecordProperty("ahead", fmt::format("{:.2e} K", ahead));

@@ -70,7 +70,7 @@ Deviation press(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactSpec 
   for (const auto& block : test::element_fields(run.phase))
     for (const auto& sigma : block.stress) d.stress = std::max(d.stress, std::abs(sigma[axis] / p + 1));
   for (double* value : {&d.pressure, &d.stress, &d.penetration, &d.left})
-    *value = algebra::global_max(*value);
+    *value = parallel::global_max(*value);
   return d;
 }
 

@@ -104,7 +104,7 @@ double surface(const mesh::Mesh& mesh, const char* name, const std::vector<doubl
       sum += temperature[static_cast<std::size_t>(node)];
       n += 1;
     }
-  return algebra::global_sum(sum) / algebra::global_sum(n);
+  return parallel::global_sum(sum) / parallel::global_sum(n);
 }
 
 contact::ContactSpec through(contact::Formulation formulation) {

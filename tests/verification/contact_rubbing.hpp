@@ -76,7 +76,7 @@ class Rubbing {
     options.symmetric = options.symmetric && pair.symmetric();
     phase = std::make_unique<mechanics::MechanicalPhase>(
         mesh, analysis, materials, temperature, std::move(conditions), options,
-        std::vector<algebra::Contribution*>{&pair.mechanics()});
+        std::vector<linear::Contribution*>{&pair.mechanics()});
     state = phase->initial_state();
     contact = pair.initial_state();
     pair.restore(contact, state.displacement, 0);
@@ -132,7 +132,7 @@ class Rubbing {
       const auto particle = pair.kinematics().particle(static_cast<Index>(p));
       if (particle.counted) sum += particle.weight * f(contact.points[p]);
     }
-    return algebra::global_sum(sum);
+    return parallel::global_sum(sum);
   }
   /// ½ u · f_int of the bodies: their elastic energy, where all materials are elastic and all loads are
   /// prescribed displacements [J].
@@ -142,7 +142,7 @@ class Rubbing {
     double energy = 0;
     for (std::size_t i = 0; i < of_contact.size(); ++i)
       energy += 0.5 * state.displacement[i] * (phase->reactions()[i] - of_contact[i]);
-    return algebra::global_sum(energy);
+    return parallel::global_sum(energy);
   }
   /// The average over the slave.
   double mean(const std::function<double(const contact::PointState&)>& f) const {

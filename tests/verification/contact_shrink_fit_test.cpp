@@ -96,7 +96,7 @@ Fit shrink(Shape shape, int n, bool swapped) {
   fit.mean_error = std::abs(sums.force / sums.closed_area / p - 1);
   for (double t_n : pair.nodal_fields({}).pressure)
     fit.worst_error = std::max(fit.worst_error, std::abs(t_n / p - 1));
-  fit.worst_error = algebra::global_max(fit.worst_error);
+  fit.worst_error = parallel::global_max(fit.worst_error);
   return fit;
 }
 

@@ -14,18 +14,18 @@
 namespace solidus::test {
 
 /// A pair's term, and how many of its points changed between open, sticking and slipping at each residual.
-class WatchedTerm : public algebra::Contribution {
+class WatchedTerm : public linear::Contribution {
  public:
   explicit WatchedTerm(contact::ContactPair& pair) : pair_(pair), term_(pair.mechanics()) {}
   bool graph_may_change() const override { return term_.graph_may_change(); }
   bool graph_outdated() const override { return term_.graph_outdated(); }
-  void add_to_graph(algebra::NodeGraph& graph) const override { term_.add_to_graph(graph); }
-  void bind(const algebra::BlockMatrix& matrix) override { term_.bind(matrix); }
+  void add_to_graph(linear::NodeGraph& graph) const override { term_.add_to_graph(graph); }
+  void bind(const linear::BlockMatrix& matrix) override { term_.bind(matrix); }
   void add_residual(std::span<const double> x, std::span<double> r) override {
     term_.add_residual(x, r);
     changes.push_back(pair_.changes());
   }
-  void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override {
+  void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override {
     term_.add_tangent(x, matrix);
   }
 
@@ -33,7 +33,7 @@ class WatchedTerm : public algebra::Contribution {
 
  private:
   contact::ContactPair& pair_;
-  algebra::Contribution& term_;
+  linear::Contribution& term_;
 };
 
 /// Record of Newton's iteration in one turn of a step.

@@ -48,7 +48,7 @@ double surface(const mesh::Mesh& mesh, const char* name, const std::vector<doubl
       sum += temperature[static_cast<std::size_t>(node)];
       n += 1;
     }
-  return algebra::global_sum(sum) / algebra::global_sum(n);
+  return parallel::global_sum(sum) / parallel::global_sum(n);
 }
 
 contact::ContactSpec through(const HeatLaw& law) {
@@ -233,7 +233,7 @@ Trace simulated(double dt) {
     trace.lower.push_back(surface(mesh, "lower_top", state.heat.temperature));
     trace.upper.push_back(surface(mesh, "upper_bottom", state.heat.temperature));
     const auto opening = pair.nodal_fields(state.heat.temperature).opening;
-    trace.opening.push_back(std::max(algebra::global_max(opening.empty() ? -1.0 : opening.front()), 0.0));
+    trace.opening.push_back(std::max(parallel::global_max(opening.empty() ? -1.0 : opening.front()), 0.0));
   }
   return trace;
 }

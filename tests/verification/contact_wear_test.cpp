@@ -84,12 +84,13 @@ void wears(mesh::Shape shape, double share) {
   });
   // Steps of an eighth of a face, so that the sum over them is exact on straight pieces of the profile and
   // counts a place up to half a step early.
-  EXPECT_LT(algebra::global_max(worst), share * rate * 0.51 * k_way / k_steps);
+  EXPECT_LT(parallel::global_max(worst), share * rate * 0.51 * k_way / k_steps);
   double volume = 0;
   for (const contact::WornNode& node : r.contact.master)
     if (node.counted) volume += node.volume;
   const double width = mesh::dimension(shape) == 3 ? 0.02 : 1;
-  EXPECT_NEAR(algebra::global_sum(volume), share * rate * k_way * k_pin * width, 1e-9 * rate * k_way * k_pin);
+  EXPECT_NEAR(parallel::global_sum(volume), share * rate * k_way * k_pin * width,
+              1e-9 * rate * k_way * k_pin);
   each_depth(r, "upper_bottom", [&](double, double depth, double) {
     EXPECT_NEAR(depth, (1 - share) * rate * k_way, 1e-9 * rate * k_way);
   });

@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "base/errors.hpp"
 #include "casting_bodies.hpp"
+#include "system/errors.hpp"
 #include "thick_cylinder.hpp"
 
 namespace solidus {

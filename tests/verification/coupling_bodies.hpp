@@ -86,7 +86,7 @@ class Assembly {
                            : admissible_ambient(c.thermal, c.mechanical, c.contact, c.start, end)),
         falls_(c.form && c.mapping == mechanics::Mapping::isentropic && !c.iteration && !c.dynamics &&
                !c.double_pass) {
-    std::vector<algebra::Contribution*> mechanical, thermal;
+    std::vector<linear::Contribution*> mechanical, thermal;
     if (c.contact) {
       std::vector<double> moduli;
       for (const auto& m : c.materials) moduli.push_back(m.young_modulus.max_value());
@@ -117,7 +117,7 @@ class Assembly {
     heat_options.sensible = c.sensible;
     heat_options.stepping = c.stepping;
     heat_options.tolerance = 1e-12;
-    heat_options.solver = algebra::SolverKind::direct;
+    heat_options.solver = linear::SolverKind::direct;
     heat_options.symmetric = !pair_ || pair_->symmetric_heat();
     heat_.emplace(c.mesh, c.kind, c.materials, c.thermal, heat_options, thermal);
 

@@ -4,8 +4,8 @@
 /// heated smoothly.
 #include <gtest/gtest.h>
 
-#include "base/errors.hpp"
 #include "linear_strip.hpp"
+#include "system/errors.hpp"
 #include "thick_cylinder.hpp"
 
 namespace solidus {

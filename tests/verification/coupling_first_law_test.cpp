@@ -191,7 +191,7 @@ TEST(BothForms, TendToTheSameTemperaturesAtFirstOrder) {
     double worst = 0;
     for (std::size_t i = 0; i < a.end.heat.temperature.size(); ++i)
       worst = std::max(worst, std::abs(a.end.heat.temperature[i] - b.end.heat.temperature[i]));
-    difference.push_back(algebra::global_max(worst));
+    difference.push_back(parallel::global_max(worst));
   }
   EXPECT_LT(difference.back(), 0.1);  // [K], of 500
   for (std::size_t i = 1; i < difference.size(); ++i)

@@ -38,7 +38,7 @@ double edge(const Coupled& c, int n_steps) {
   double u = 0;
   for (std::size_t i = 0; i < c.mesh.x.size(); ++i)
     if (c.mesh.x[i][0] > 0.0999 && c.mesh.x[i][1] > 0.0499) u = run.end.mechanics.displacement[2 * i];
-  return -algebra::global_max(-u);
+  return -parallel::global_max(-u);
 }
 
 TEST(HeatFirst, ShrinksWithTheTemperaturesThatItEndsWith) {

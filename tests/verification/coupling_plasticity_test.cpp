@@ -89,7 +89,7 @@ TEST(EntropyForm, HasADefectOfFirstOrderInSumWithPlasticFlow) {
     double worst = 0;
     for (std::size_t i = 0; i < a.end.heat.temperature.size(); ++i)
       worst = std::max(worst, std::abs(a.end.heat.temperature[i] - b.end.heat.temperature[i]));
-    difference.push_back(algebra::global_max(worst));
+    difference.push_back(parallel::global_max(worst));
     out << k_end / n << "," << defect.back() << "," << difference.back() << "\n";
   }
   for (std::size_t i = 1; i < defect.size(); ++i) {

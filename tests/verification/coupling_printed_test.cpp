@@ -3,8 +3,8 @@
 /// run ends that the coupling is too strong for.
 #include <gtest/gtest.h>
 
-#include "base/errors.hpp"
 #include "coupling/simulation.hpp"
+#include "system/errors.hpp"
 #include "thick_cylinder.hpp"
 
 namespace solidus {

@@ -74,8 +74,8 @@ double uniform_temperature(const Coupled& c, const verification::CoupledRun& run
     low = std::min(low, run.end.heat.temperature[static_cast<std::size_t>(i)]);
     high = std::max(high, run.end.heat.temperature[static_cast<std::size_t>(i)]);
   }
-  low = algebra::global_min(low);
-  high = algebra::global_max(high);
+  low = parallel::global_min(low);
+  high = parallel::global_max(high);
   EXPECT_NEAR(low, high, 1e-8);
   return 0.5 * (low + high);
 }

@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 #include "thick_cylinder.hpp"
 
 namespace solidus {
@@ -136,8 +136,8 @@ BlowUp blow_up(const Variant& v) {
             sums[1] += 1;
             coldest = std::min(coldest, state.heat.temperature[static_cast<std::size_t>(node)]);
           }
-          if (algebra::global_min(coldest) < 0) throw StepRejected("temperature below zero");
-          const double mean = algebra::global_sum(sums[0]) / algebra::global_sum(sums[1]);
+          if (parallel::global_min(coldest) < 0) throw StepRejected("temperature below zero");
+          const double mean = parallel::global_sum(sums[0]) / parallel::global_sum(sums[1]);
           r.changes.push_back(mean - before);
           before = mean;
           ++r.steps;

@@ -57,7 +57,7 @@ Impact impact(const Method& m) {
     const auto work = phase->solve(old, state, body.temperature, n * dt, dt).work;
     double force = 0;
     for (std::size_t i = 0; i < phase->reactions().size(); i += 2) force += phase->reactions()[i];
-    result.wall.push_back(algebra::global_sum(force) / k_height / k_stress);
+    result.wall.push_back(parallel::global_sum(force) / k_height / k_stress);
     if (2 * n <= k_steps)
       result.numerical += work.numerical / (0.5 * k_density * k_length * k_height * k_speed * k_speed);
     if (2 * n != k_steps) continue;
@@ -67,7 +67,7 @@ Impact impact(const Method& m) {
       result.stress[static_cast<std::size_t>(block.input_element[static_cast<std::size_t>(e)] - 1)] =
           -fields.stress[static_cast<std::size_t>(e)][0] / k_stress;
   }
-  for (double& s : result.stress) s = algebra::global_sum(s);
+  for (double& s : result.stress) s = parallel::global_sum(s);
   return result;
 }
 

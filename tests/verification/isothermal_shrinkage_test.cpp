@@ -74,7 +74,7 @@ double difference(const Coupled& c, const coupling::State& state, double volume_
     for (std::size_t k = 0; k < n; ++k)
       worst = std::max(
           worst, std::abs(state.mechanics.displacement[i * n + k] - volume_change / 3 * c.mesh.x[i][k]));
-  return algebra::global_max(worst) / std::abs(k_volume_change / 3 * k_size);
+  return parallel::global_max(worst) / std::abs(k_volume_change / 3 * k_size);
 }
 
 /// Error of the block's size, largest over the steps, and the sum of the defects over the heat drawn.

@@ -35,7 +35,7 @@ inline double displacement_at(const test::Body& body, const test::Solved& solved
     if (std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]) < 1e-9)
       value = solved.u(body, node, component);
   }
-  return algebra::global_max(value);
+  return parallel::global_max(value);
 }
 
 /// ‖u_h − u‖/‖u‖ in L2 over the body.
@@ -62,7 +62,7 @@ inline double relative_l2_error(const test::Body& body, const std::vector<double
         }
       }
   }
-  return std::sqrt(algebra::global_sum(error) / algebra::global_sum(size));
+  return std::sqrt(parallel::global_sum(error) / parallel::global_sum(size));
 }
 
 }  // namespace solidus::verification

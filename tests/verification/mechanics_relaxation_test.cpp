@@ -38,9 +38,9 @@ Body mush(bool b_bar, const Table& shear) {
       x = body.mesh.x[static_cast<std::size_t>(node)];
       boundary = boundary || body.on_boundary(node);
     }
-    if (!algebra::any_process(boundary)) continue;
-    body.hold(name, 0, shear.scaled(algebra::global_max(x[1])));
-    body.hold(name, 1, shear.scaled(algebra::global_max(x[0])));
+    if (!parallel::any_process(boundary)) continue;
+    body.hold(name, 0, shear.scaled(parallel::global_max(x[1])));
+    body.hold(name, 1, shear.scaled(parallel::global_max(x[0])));
   }
   return body;
 }
@@ -62,7 +62,7 @@ History march(const Body& body, double dt, int steps) {
         sum += stress[3];
         count += 1;
       }
-    const double mean = algebra::global_sum(sum) / algebra::global_sum(count);
+    const double mean = parallel::global_sum(sum) / parallel::global_sum(count);
     for (const auto& fields : test::element_fields(*phase))
       for (const auto& stress : fields.stress) EXPECT_NEAR(stress[3], mean, 1e-9 * std::abs(mean));
     h.stress.push_back(mean);

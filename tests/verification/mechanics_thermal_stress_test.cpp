@@ -60,7 +60,7 @@ Spread spread(const Body& body, const std::vector<std::vector<std::array<double,
       count += 1;
       worst = std::max(worst, std::abs(value - exact));
     }
-  return {algebra::global_sum(sum) / algebra::global_sum(count), algebra::global_max(worst)};
+  return {parallel::global_sum(sum) / parallel::global_sum(count), parallel::global_max(worst)};
 }
 
 struct Fields {

@@ -11,11 +11,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "build/assembly.hpp"
+#include "build/mesh_input.hpp"
+#include "case/case_file.hpp"
+#include "case/case_materials.hpp"
 #include "csv.hpp"
-#include "model/assembly.hpp"
-#include "model/case_file.hpp"
-#include "model/case_materials.hpp"
-#include "model/mesh_input.hpp"
 
 namespace solidus {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "base/errors.hpp"
 #include "mechanics_bodies.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::verification {
 

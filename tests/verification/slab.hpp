@@ -113,7 +113,7 @@ inline SlabResult freeze(const Strip& strip, const SlabRun& run) {
   options.mapping = run.mapping;
   mechanics::MechanicalPhase mechanics(strip.mesh, strip.kind, materials, initial, strip.conditions, options);
   std::optional<mechanics::StructuralHeat> structural;
-  std::vector<algebra::Contribution*> stored;
+  std::vector<linear::Contribution*> stored;
   if (run.form) stored.push_back(&structural.emplace(mechanics, *run.form));
   heat::Conditions thermal;
   thermal.temperatures.push_back({"wall", strip.depth == 0 ? "left" : "bottom", Table(slab.wall)});

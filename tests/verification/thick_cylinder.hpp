@@ -96,8 +96,8 @@ inline Surfaces surfaces(const mesh::Mesh& mesh, const coupling::State& state) {
       u = state.mechanics.displacement[2 * n] * 1e3;
       t = state.heat.temperature[n];
     }
-    s.u[i] = algebra::global_max(u);
-    s.temperature[i] = algebra::global_max(t);
+    s.u[i] = parallel::global_max(u);
+    s.temperature[i] = parallel::global_max(t);
   }
   return s;
 }

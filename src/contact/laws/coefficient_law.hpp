@@ -27,9 +27,9 @@
 
 #include <algorithm>
 
-#include "base/jet.hpp"
-#include "base/kinds.hpp"
 #include "contact/friction_coefficient.hpp"
+#include "input/kinds.hpp"
+#include "numbers/jet.hpp"
 
 namespace solidus::contact {
 

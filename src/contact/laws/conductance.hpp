@@ -24,10 +24,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/errors.hpp"
-#include "base/jet.hpp"
-#include "base/objection.hpp"
-#include "base/table.hpp"
+#include "numbers/jet.hpp"
+#include "numbers/table.hpp"
+#include "system/errors.hpp"
+#include "system/objection.hpp"
 
 namespace solidus::contact {
 

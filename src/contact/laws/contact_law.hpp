@@ -22,8 +22,8 @@
 /// Validity: h >= 0 and finite for t_N >= 0 and Θ_g >= 0.
 #pragma once
 
-#include "base/kinds.hpp"
 #include "contact/laws/conductance.hpp"
+#include "input/kinds.hpp"
 
 namespace solidus::contact {
 

@@ -16,8 +16,8 @@
 /// Validity: h >= 0 and finite for g >= 0 and Θ_g >= 0; h(0) meets the closed interface without pressure.
 #pragma once
 
-#include "base/kinds.hpp"
 #include "contact/laws/conductance.hpp"
+#include "input/kinds.hpp"
 
 namespace solidus::contact {
 

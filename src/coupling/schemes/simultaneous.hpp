@@ -16,7 +16,7 @@ struct SimultaneousKeys : SimultaneousOptions {
           {"sdirk2", Integration::sdirk2, "two implicit stages, second order, L-stable (Alexander 1977)"}})
         .initially("backward_euler")
         .doc("Integration in time of the simultaneous scheme.");
-    using Solver = algebra::CoupledSolverKind;
+    using Solver = linear::CoupledSolverKind;
     s.choice("solver", static_cast<Solver SimultaneousKeys::*>(&SimultaneousOptions::solver),
              {{"automatic", Solver::automatic,
                "direct in two dimensions and below 20 000 unknowns, 3 000 where elements are mixed; "

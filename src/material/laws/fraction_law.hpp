@@ -17,7 +17,7 @@
 #include <functional>
 #include <utility>
 
-#include "base/kinds.hpp"
+#include "input/kinds.hpp"
 #include "material/phase_change.hpp"
 
 namespace solidus::material {

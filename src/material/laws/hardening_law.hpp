@@ -24,9 +24,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/jet.hpp"
 #include "material/flow_properties.hpp"
 #include "material/laws/parameter.hpp"
+#include "numbers/jet.hpp"
 
 namespace solidus::material {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::report {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::report {
 

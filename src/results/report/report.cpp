@@ -6,12 +6,12 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "base/version.hpp"
 #include "results/output_file.hpp"
 #include "results/report/pack.hpp"
 #include "results/report/run_data.hpp"
 #include "results/report/viewer.hpp"
 #include "results/vtk_data.hpp"
+#include "system/version.hpp"
 
 namespace solidus::report {
 

@@ -11,13 +11,13 @@
 #include <set>
 #include <sstream>
 
-#include "base/document.hpp"
-#include "base/errors.hpp"
-#include "base/input_file.hpp"
+#include "input/document.hpp"
 #include "results/output_error.hpp"
 #include "results/pvd.hpp"
 #include "results/report/moments.hpp"
 #include "results/report/table.hpp"
+#include "system/errors.hpp"
+#include "system/input_file.hpp"
 
 namespace solidus::report {
 

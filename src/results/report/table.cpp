@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/errors.hpp"
-#include "base/input_file.hpp"
+#include "system/errors.hpp"
+#include "system/input_file.hpp"
 
 namespace solidus::report {
 

@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "bodies.hpp"
 #include "contact/laws/power_contact.hpp"
 #include "contact/laws/tabulated.hpp"
 #include "contact/pair.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 namespace {
@@ -66,10 +66,10 @@ void slide(const mesh::Mesh& mesh, ContactPair& pair, std::span<const double> te
   pair.update(sliding(mesh));
 }
 
-double tangent_defect(const mesh::Mesh& mesh, algebra::Contribution& term, const std::vector<double>& x) {
-  algebra::NodeGraph graph(mesh);
+double tangent_defect(const mesh::Mesh& mesh, linear::Contribution& term, const std::vector<double>& x) {
+  linear::NodeGraph graph(mesh);
   term.add_to_graph(graph);
-  algebra::BlockMatrix matrix(mesh, 1, std::move(graph));
+  linear::BlockMatrix matrix(mesh, 1, std::move(graph));
   term.bind(matrix);
   term.add_tangent(x, matrix);
   const double h = 1e-2;
@@ -89,7 +89,7 @@ double tangent_defect(const mesh::Mesh& mesh, algebra::Contribution& term, const
     defect = std::max(defect, std::abs((r_up[i] - r_down[i]) / (2 * h) - product[i]));
     size = std::max(size, std::abs(product[i]));
   }
-  return algebra::global_max(defect) / algebra::global_max(size);
+  return parallel::global_max(defect) / parallel::global_max(size);
 }
 
 TEST(FrictionalHeat, HasTheTangentThatFiniteDifferencesShow) {
@@ -125,8 +125,8 @@ TEST(FrictionalHeat, ReachesTheBodiesButForWhatTheInterfaceStores) {
         const InterfaceSums sums = pair.commit_heat(temperature);
         EXPECT_GT(sums.dissipated, 0);
         EXPECT_NE(sums.stored, 0) << "hardening stores entropy";
-        EXPECT_NEAR(algebra::global_sum(heat), sums.dissipated - sums.stored,
-                    1e-12 * algebra::global_sum(size));
+        EXPECT_NEAR(parallel::global_sum(heat), sums.dissipated - sums.stored,
+                    1e-12 * parallel::global_sum(size));
       }
 }
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "base/types.hpp"
 #include "contact/laws/constant_gap.hpp"
 #include "contact/laws/gas_gap.hpp"
 #include "contact/laws/power_contact.hpp"
 #include "contact/laws/spots_contact.hpp"
 #include "contact/laws/tabulated.hpp"
+#include "numbers/types.hpp"
 
 namespace solidus::contact {
 namespace {

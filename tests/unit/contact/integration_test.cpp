@@ -6,9 +6,9 @@
 #include <map>
 #include <numbers>
 
-#include "algebra/parallel.hpp"
 #include "bodies.hpp"
 #include "mesh/quadrature.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 namespace {
@@ -69,7 +69,7 @@ double largest_miss(const mesh::Mesh& mesh, AnalysisKind kind, const std::string
     miss = std::max(miss, std::abs(sums[node] - integral));
   for (const auto& [node, integral] : exact_integrals(mesh, master, kind))
     miss = std::max(miss, std::abs(sums[node] + integral));
-  miss = algebra::global_max(miss) / points.slave_measure;
+  miss = parallel::global_max(miss) / points.slave_measure;
   ::testing::Test::RecordProperty(std::string(mesh::name(slave.shape(0))), fmt::format("{:.1e}", miss));
   return miss;
 }
@@ -91,8 +91,8 @@ TEST(Mortar, IntegratesAsSegmentsDoWithOnePointForEveryVertexOfTheSlave) {
         if (node < mesh.n_owned_nodes) vertices[node] = 1;
     GlobalIndex counted = 0;
     for (const Pairing& pairing : points.pairings) counted += pairing.counted ? 1 : 0;
-    EXPECT_EQ(algebra::global_sum(static_cast<double>(counted)),
-              algebra::global_sum(static_cast<double>(vertices.size())));
+    EXPECT_EQ(parallel::global_sum(static_cast<double>(counted)),
+              parallel::global_sum(static_cast<double>(vertices.size())));
     for (const Point& n : points.normal) EXPECT_NEAR(norm(n), 1, 1e-14);
   }
 }
@@ -224,7 +224,7 @@ TEST(ContactPoints, AreCountedOnceOverAllProcessesAndCompleteForOwnedRows) {
     for (const Pairing& p : points.pairings)
       for (Index i = 0; p.counted && i < p.n_points; ++i)
         counted += points.weight[static_cast<std::size_t>(p.first_point + i)];
-    EXPECT_NEAR(algebra::global_sum(counted), slave.measure(), 1e-14);
+    EXPECT_NEAR(parallel::global_sum(counted), slave.measure(), 1e-14);
   }
 }
 

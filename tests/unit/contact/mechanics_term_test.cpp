@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "bodies.hpp"
 #include "contact/pair.hpp"
 #include "friction_laws.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 namespace {
@@ -53,16 +53,16 @@ std::vector<double> pressed(const mesh::Mesh& mesh, double aside) {
 }
 
 /// The matrix of a term, bound to it.
-std::unique_ptr<algebra::BlockMatrix> matrix_of(const mesh::Mesh& mesh, algebra::Contribution& term) {
-  algebra::NodeGraph graph(mesh);
+std::unique_ptr<linear::BlockMatrix> matrix_of(const mesh::Mesh& mesh, linear::Contribution& term) {
+  linear::NodeGraph graph(mesh);
   term.add_to_graph(graph);
-  auto matrix = std::make_unique<algebra::BlockMatrix>(mesh, mesh.dimension, std::move(graph));
+  auto matrix = std::make_unique<linear::BlockMatrix>(mesh, mesh.dimension, std::move(graph));
   term.bind(*matrix);
   return matrix;
 }
 
 /// max |(r(x + h d) − r(x − h d))/2h − K d| / max |K d| over the owned rows.
-double tangent_defect(const mesh::Mesh& mesh, algebra::Contribution& term, const std::vector<double>& x,
+double tangent_defect(const mesh::Mesh& mesh, linear::Contribution& term, const std::vector<double>& x,
                       double h) {
   const auto matrix = matrix_of(mesh, term);
   std::vector<double> d(x.size()), up = x, down = x;
@@ -85,7 +85,7 @@ double tangent_defect(const mesh::Mesh& mesh, algebra::Contribution& term, const
     defect = std::max(defect, std::abs((r_up[i] - r_down[i]) / (2 * h) - product[i]));
     size = std::max(size, std::abs(product[i]));
   }
-  return algebra::global_max(defect) / algebra::global_max(size);
+  return parallel::global_max(defect) / parallel::global_max(size);
 }
 
 /// A pair whose points hold tangential tractions, and a second step from there.
@@ -137,9 +137,9 @@ TEST_P(FrictionForces, AreTheLawsAndBalanceInSum) {
   EXPECT_GT(mean_mu, 0.3);
   EXPECT_LT(mean_mu, 0.5);
   for (std::size_t i = 0; i < dim; ++i) {
-    EXPECT_NEAR(algebra::global_sum(all[i]), 0, 1e-12 * sums.force);
+    EXPECT_NEAR(parallel::global_sum(all[i]), 0, 1e-12 * sums.force);
     // The residual is what a body resists with: minus the force on it.
-    EXPECT_NEAR(-algebra::global_sum(on_upper[i]), sums.resultant[i], 1e-12 * sums.force);
+    EXPECT_NEAR(-parallel::global_sum(on_upper[i]), sums.resultant[i], 1e-12 * sums.force);
   }
   // The upper body is the master and moves in +x: friction holds it back.
   EXPECT_LT(sums.resultant[0], 0);
@@ -170,8 +170,8 @@ TEST_P(FrictionForces, HaveASymmetricTangentWhenAskedTo) {
             size = std::max(size, std::abs(a[i * mesh.dimension + j]));
           }
       }
-    skew = algebra::global_max(skew);
-    size = algebra::global_max(size);
+    skew = parallel::global_max(skew);
+    size = parallel::global_max(size);
     if (symmetric)
       EXPECT_LE(skew, 1e-13 * size);
     else

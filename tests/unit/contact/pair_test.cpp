@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "algebra/parallel.hpp"
 #include "bodies.hpp"
 #include "contact/laws/gas_gap.hpp"
 #include "contact/laws/power_contact.hpp"
 #include "contact/laws/tabulated.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 namespace {
@@ -52,16 +52,16 @@ std::vector<double> rocking(const mesh::Mesh& mesh, double lift = 0) {
   });
 }
 
-algebra::BlockMatrix make_matrix(const mesh::Mesh& mesh, int block, algebra::Contribution& term) {
-  algebra::NodeGraph graph(mesh);
+linear::BlockMatrix make_matrix(const mesh::Mesh& mesh, int block, linear::Contribution& term) {
+  linear::NodeGraph graph(mesh);
   term.add_to_graph(graph);
   return {mesh, block, std::move(graph)};
 }
 
 // max |(r(x + h d) − r(x − h d)) / 2h − K d| / max |K d| over the owned rows, for a smooth d.
-double tangent_defect(const mesh::Mesh& mesh, algebra::Contribution& term, int block,
+double tangent_defect(const mesh::Mesh& mesh, linear::Contribution& term, int block,
                       const std::vector<double>& x, double h) {
-  algebra::BlockMatrix matrix = make_matrix(mesh, block, term);
+  linear::BlockMatrix matrix = make_matrix(mesh, block, term);
   term.bind(matrix);
   term.add_tangent(x, matrix);
   std::vector<double> d(x.size()), up = x, down = x;
@@ -82,7 +82,7 @@ double tangent_defect(const mesh::Mesh& mesh, algebra::Contribution& term, int b
     defect = std::max(defect, std::abs((r_up[i] - r_down[i]) / (2 * h) - product[i]));
     size = std::max(size, std::abs(product[i]));
   }
-  return algebra::global_max(defect) / algebra::global_max(size);
+  return parallel::global_max(defect) / parallel::global_max(size);
 }
 
 TEST(ContactForces, HaveTheTangentThatFiniteDifferencesShow) {
@@ -122,11 +122,11 @@ TEST(ContactForces, BalanceBetweenTheBodiesInSumAndMoment) {
         moment[i] += m[i];
       }
     }
-    size = algebra::global_sum(size);
+    size = parallel::global_sum(size);
     EXPECT_GT(size, 0);
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(algebra::global_sum(force[i]), 0, 1e-13 * size);
-      EXPECT_NEAR(algebra::global_sum(moment[i]), 0, 1e-13 * size);
+      EXPECT_NEAR(parallel::global_sum(force[i]), 0, 1e-13 * size);
+      EXPECT_NEAR(parallel::global_sum(moment[i]), 0, 1e-13 * size);
     }
   }
 }
@@ -148,7 +148,7 @@ TEST(ContactForces, OfBodiesThatJustTouchAreZeroWithAStiffTangent) {
   matrix.multiply(v, product);
   double work = 0;
   for (std::size_t i = 0; i < product.size(); ++i) work += v[i] * product[i];
-  EXPECT_NEAR(algebra::global_sum(work), 1e10 * 0.3, 1e-13 * 3e9);
+  EXPECT_NEAR(parallel::global_sum(work), 1e10 * 0.3, 1e-13 * 3e9);
 }
 
 TEST(ContactSums, OfAnInclinedApproachAreTheClosedFormOnAnyNumberOfProcesses) {
@@ -212,10 +212,10 @@ TEST(InterfaceHeat, HasTheTangentThatFiniteDifferencesShow) {
 // The heat of a temperature field that stays, along a displacement that moves every gap.
 double gap_tangent_defect(const mesh::Mesh& mesh, ContactPair& pair, const std::vector<double>& temperature,
                           const std::vector<double>& u, double h) {
-  algebra::BlockMatrix of_u = make_matrix(mesh, mesh.dimension, pair.mechanics());
-  algebra::BlockMatrix of_t = make_matrix(mesh, 1, *pair.heat());
+  linear::BlockMatrix of_u = make_matrix(mesh, mesh.dimension, pair.mechanics());
+  linear::BlockMatrix of_t = make_matrix(mesh, 1, *pair.heat());
   pair.mechanics().bind(of_u);
-  algebra::CoupledMatrix matrix(mesh, of_u, of_t);
+  linear::CoupledMatrix matrix(mesh, of_u, of_t);
   pair.update(u);
   pair.add_coupling(temperature, matrix);
   std::vector<double> d(u.size());
@@ -238,7 +238,7 @@ double gap_tangent_defect(const mesh::Mesh& mesh, ContactPair& pair, const std::
     defect = std::max(defect, std::abs(difference[i] - product[i]));
     size = std::max(size, std::abs(product[i]));
   }
-  return algebra::global_max(defect) / algebra::global_max(size);
+  return parallel::global_max(defect) / parallel::global_max(size);
 }
 
 TEST(InterfaceHeat, FollowsTheGapAsFiniteDifferencesShow) {
@@ -298,8 +298,8 @@ TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
       for (std::size_t n = 0; n < heat.size(); ++n) (is_upper[n] ? in : out) += heat[n];
       const double sum = pair.sums(temperature).heat;
       EXPECT_GT(sum, 0);
-      EXPECT_NEAR(algebra::global_sum(out), sum, 1e-12 * sum);
-      EXPECT_NEAR(algebra::global_sum(in), -sum, 1e-12 * sum);
+      EXPECT_NEAR(parallel::global_sum(out), sum, 1e-12 * sum);
+      EXPECT_NEAR(parallel::global_sum(in), -sum, 1e-12 * sum);
     }
 }
 

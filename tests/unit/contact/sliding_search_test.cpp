@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "algebra/parallel.hpp"
+#include "parallel/parallel.hpp"
 #include "sliding_bodies.hpp"
 
 namespace solidus::contact {
@@ -187,8 +187,8 @@ TEST(SlidingKinematics, AsksForANewGraphOnlyWhenNodesMeetThatAreNotInIt) {
   const mesh::Mesh mesh = test::distribute_blocks(test::raw_blocks(blocks, mesh::Shape::quad4));
   for (bool smoothing : {false, true}) {
     const Sliding sliding(mesh, smoothing);
-    // Each process asks for its own rows: matrices are made anew when one does (algebra::graph_outdated).
-    const auto outdated = [&] { return algebra::any_process(sliding->graph_outdated()); };
+    // Each process asks for its own rows: matrices are made anew when one does (linear::graph_outdated).
+    const auto outdated = [&] { return parallel::any_process(sliding->graph_outdated()); };
     EXPECT_TRUE(outdated());
     Cliques cliques;
     sliding->add_to_graph(cliques);

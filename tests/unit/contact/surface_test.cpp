@@ -4,9 +4,9 @@
 
 #include <numbers>
 
-#include "base/errors.hpp"
 #include "bodies.hpp"
 #include "contact/surface_curvature.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::contact {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "bodies.hpp"
 #include "contact/laws/gas_gap.hpp"
 #include "contact/laws/power_contact.hpp"
 #include "contact/pair.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::contact {
 namespace {
@@ -116,8 +116,8 @@ TEST_P(Wet, PullsOnBothBodiesAlike) {
     sum += r[i];
     size += std::abs(r[i]);
   }
-  EXPECT_GT(algebra::global_sum(size), 0.1 * k_atmosphere * area(mesh_));
-  EXPECT_LT(std::abs(algebra::global_sum(sum)), 1e-12 * algebra::global_sum(size));
+  EXPECT_GT(parallel::global_sum(size), 0.1 * k_atmosphere * area(mesh_));
+  EXPECT_LT(std::abs(parallel::global_sum(sum)), 1e-12 * parallel::global_sum(size));
 }
 
 TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
@@ -125,10 +125,10 @@ TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
   const std::vector<double> u = lifted(mesh_, -0.5 * k_reach, 3.17 * k_reach);  // closed, pulled, void
   run.step(lifted(mesh_, 0), liquid());
   run.pair.begin(run.state, {.time = 2, .dt = 1, .displacement = u, .coherency = liquid()});
-  algebra::NodeGraph graph(mesh_);
-  algebra::Contribution& term = run.pair.mechanics();
+  linear::NodeGraph graph(mesh_);
+  linear::Contribution& term = run.pair.mechanics();
   term.add_to_graph(graph);
-  algebra::BlockMatrix matrix(mesh_, mesh_.dimension, std::move(graph));
+  linear::BlockMatrix matrix(mesh_, mesh_.dimension, std::move(graph));
   term.bind(matrix);
   term.add_tangent(u, matrix);
   const double h = 1e-3 * k_reach;
@@ -150,7 +150,7 @@ TEST_P(Wet, HasTheTangentThatFiniteDifferencesShow) {
     defect = std::max(defect, std::abs((r_up[i] - r_down[i]) / (2 * h) - product[i]));
     size = std::max(size, std::abs(product[i]));
   }
-  EXPECT_LT(algebra::global_max(defect), 1e-5 * algebra::global_max(size));
+  EXPECT_LT(parallel::global_max(defect), 1e-5 * parallel::global_max(size));
 }
 
 TEST_P(Wet, ConductsAsClosedContactWhateverGapOpens) {

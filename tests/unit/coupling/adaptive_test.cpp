@@ -13,10 +13,10 @@
 #include <utility>
 
 #include "../mechanics/lattice.hpp"
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
-#include "base/log.hpp"
 #include "coupling/simulation.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace solidus {
 namespace {
@@ -384,7 +384,7 @@ TEST(BodyNorm, OfADistortionTakesRigidMotionsAway) {
 struct HalfMolten {
   mesh::Mesh mesh = test::make_mesh({.shape = mesh::Shape::quad4, .cells = {8, 2, 1}, .size = {2, 1, 1}});
   std::vector<material::Material> materials = {freezes()};
-  coupling::Coherency coherency{mesh, materials, algebra::ActiveSet(mesh, {})};
+  coupling::Coherency coherency{mesh, materials, linear::ActiveSet(mesh, {})};
   coupling::Phases phases;
 
   static material::Material freezes() {

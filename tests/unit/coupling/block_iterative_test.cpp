@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "../mechanics/body.hpp"
-#include "base/errors.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {
@@ -60,9 +60,9 @@ struct Block {
       thermal.sources.push_back({"heater", "body", 0.1 * k_capacity});
     heat::HeatOptions options;
     options.tolerance = 1e-13;
-    options.solver = algebra::SolverKind::direct;
+    options.solver = linear::SolverKind::direct;
     heat = std::make_unique<heat::ThermalPhase>(body.mesh, body.kind, body.materials, thermal, options,
-                                                std::vector<algebra::Contribution*>{structural.get()});
+                                                std::vector<linear::Contribution*>{structural.get()});
     phases.heat = heat.get();
     phases.mechanics = mechanics.get();
     phases.structural = structural.get();

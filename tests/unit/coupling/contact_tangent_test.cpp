@@ -76,7 +76,7 @@ TEST(CoupledTangentOfContact, HasRoomForTheNodesOfAveragedNormals) {
     std::size_t most = 0;
     for (Index p = 0; p < b.pair->partners().n_points(); ++p)
       most = std::max(most, b.pair->partners().nodes_of(p).size());
-    EXPECT_GT(algebra::global_max(static_cast<double>(most)), 2 * contact::k_max_face_nodes);
+    EXPECT_GT(parallel::global_max(static_cast<double>(most)), 2 * contact::k_max_face_nodes);
     expect_exact(iterate, b.mesh, k_rounding);
   }
 }

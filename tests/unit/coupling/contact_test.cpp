@@ -6,12 +6,12 @@
 
 #include "../../verification/contact_bodies.hpp"
 #include "../contact/friction_laws.hpp"
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
-#include "base/log.hpp"
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/isothermal.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
 
 namespace solidus {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "coupling/coupled_newton.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::test {
 
@@ -22,7 +22,7 @@ inline std::vector<double> noise(const mesh::Mesh& mesh, int components, double 
 inline double global_norm(std::span<const double> a) {
   double s = 0;
   for (const double x : a) s += x * x;
-  return std::sqrt(algebra::global_sum(s));
+  return std::sqrt(parallel::global_sum(s));
 }
 
 /// Of forces, of heat, and of the volumes of mixed elements where there are any.
@@ -36,7 +36,7 @@ struct OfAll {
 ///            newton.thermal(), which stays
 /// @param du  a change of them
 /// @param dt  [local node] [K]
-inline OfAll<double> tangent_errors(coupling::CoupledNewton& newton, algebra::CoupledMatrix& a,
+inline OfAll<double> tangent_errors(coupling::CoupledNewton& newton, linear::CoupledMatrix& a,
                                     const mechanics::MechanicalState& old,
                                     const mechanics::MechanicalPass& pass, const std::vector<double>& u,
                                     std::span<const double> du, std::vector<double> dt, double h) {

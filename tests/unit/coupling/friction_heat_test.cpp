@@ -41,7 +41,7 @@ TEST_P(FrictionalHeat, HasTheTangentThatFiniteDifferencesShow) {
 TEST_P(FrictionalHeat, ConvergesQuadratically) {
   RubbingBlocks b(GetParam(), true);
   coupling::SimultaneousOptions options;
-  options.solver = algebra::CoupledSolverKind::direct;
+  options.solver = linear::CoupledSolverKind::direct;
   coupling::SimultaneousScheme scheme(b.phases, options);
   scheme.synchronise(b.state);
   coupling::State now = b.state;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "../heat/block.hpp"
-#include "base/errors.hpp"
 #include "coupling/simulation.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {

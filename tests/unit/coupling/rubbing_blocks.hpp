@@ -119,14 +119,14 @@ struct RubbingBlocks {
     const std::vector<double> initial(mesh.x.size(), k_rubbing_start);
     mechanics =
         std::make_unique<mechanics::MechanicalPhase>(mesh, kind, materials, initial, conditions, options,
-                                                     std::vector<algebra::Contribution*>{&pair->mechanics()});
+                                                     std::vector<linear::Contribution*>{&pair->mechanics()});
     structural.emplace(*mechanics, mechanics::StructuralForm::energy, true);
     structural->leave_tangent();
     heat::HeatOptions of_heat;
     of_heat.tolerance = 1e-11;
     of_heat.symmetric = false;
     heat.emplace(mesh, kind, materials, heat::Conditions{}, of_heat,
-                 std::vector<algebra::Contribution*>{pair->heat(), &*structural});
+                 std::vector<linear::Contribution*>{pair->heat(), &*structural});
     phases.heat = &*heat;
     phases.mechanics = mechanics.get();
     phases.structural = &*structural;
@@ -166,7 +166,7 @@ inline std::vector<double> rubbed(const mesh::Mesh& mesh, const std::string& sti
 class Iterate {
  public:
   explicit Iterate(RubbingBlocks& blocks, double dt = 1e-3)
-      : newton(blocks.phases, algebra::CoupledSolverKind::direct), blocks_(blocks) {
+      : newton(blocks.phases, linear::CoupledSolverKind::direct), blocks_(blocks) {
     const coupling::State& from = blocks.state;
     pass_.time = pass_.dt = dt;
     pass_.temperature = from.heat.temperature;
@@ -193,7 +193,7 @@ class Iterate {
   /// Of the tangent here along a direction.
   OfAll<double> tangent_errors(std::span<const double> du, std::vector<double> dt, double h) {
     const mechanics::MechanicalState& old = blocks_.state.mechanics;
-    algebra::CoupledMatrix& a = newton.assemble(old, u_, 0);
+    linear::CoupledMatrix& a = newton.assemble(old, u_, 0);
     return test::tangent_errors(newton, a, old, pass_, u_, du, std::move(dt), h);
   }
 

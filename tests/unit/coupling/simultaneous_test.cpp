@@ -65,7 +65,7 @@ struct Model {
     options.integration = rule;
     options.tolerance = 1e-11;
     heat.emplace(body.mesh, kind, body.materials, std::move(thermal), options,
-                 std::vector<algebra::Contribution*>{&*structural});
+                 std::vector<linear::Contribution*>{&*structural});
     phases.heat = &*heat;
     phases.mechanics = mechanics.get();
     phases.structural = &*structural;
@@ -87,7 +87,7 @@ std::vector<double> unknowns(Model& m, double seed, double size) {
 /// The errors of A d against central differences, in parts of ‖A d‖ of each field.
 double tangent_error(Model& m, double strain) {
   m.structural->leave_tangent();
-  coupling::CoupledNewton newton(m.phases, algebra::CoupledSolverKind::direct);
+  coupling::CoupledNewton newton(m.phases, linear::CoupledSolverKind::direct);
   heat::ThermalIteration& thermal = newton.thermal();
   constexpr double k_dt = 0.5;
   mechanics::MechanicalPass pass{.time = k_dt, .dt = k_dt, .temperature = m.state.heat.temperature};
@@ -104,7 +104,7 @@ double tangent_error(Model& m, double strain) {
   thermal.set_direction(warmer, {});
   thermal.move(1.0);
   newton.evaluate(m.state.mechanics, pass, u);
-  algebra::CoupledMatrix& a = newton.assemble(m.state.mechanics, u, 0);
+  linear::CoupledMatrix& a = newton.assemble(m.state.mechanics, u, 0);
 
   constexpr double k_h = 1e-5;  // error h² of the differences, rounding 1e-16/h: 1e-10 of either
   const auto error = test::tangent_errors(newton, a, m.state.mechanics, pass, u,
@@ -242,8 +242,8 @@ TEST(SimultaneousScheme, ConvergesQuadratically) {
 void expect_the_same_way_with_a_field_split(const Elements& e) {
   Model a = pulled(StructuralForm::energy, 1e-4, e.shape, e.stabilisation),
         b = pulled(StructuralForm::energy, 1e-4, e.shape, e.stabilisation);
-  coupling::SimultaneousScheme direct(a.phases, {.solver = algebra::CoupledSolverKind::direct});
-  coupling::SimultaneousScheme split(b.phases, {.solver = algebra::CoupledSolverKind::field_split});
+  coupling::SimultaneousScheme direct(a.phases, {.solver = linear::CoupledSolverKind::direct});
+  coupling::SimultaneousScheme split(b.phases, {.solver = linear::CoupledSolverKind::field_split});
   coupling::State of_direct = a.state, of_split = b.state;
   for (int n = 1; n <= 3; ++n) {
     coupling::State trial = of_direct;
@@ -294,10 +294,10 @@ void expect_the_same(const std::vector<double>& a, const std::vector<double>& b,
 TEST(SimultaneousScheme, ContinuesFromAStateBitByBit) {
   for (const auto integration :
        {SimultaneousOptions::Integration::backward_euler, SimultaneousOptions::Integration::sdirk2})
-    for (const auto& [shape, solver] : {std::pair{Shape::quad4, algebra::CoupledSolverKind::direct},
-                                        {Shape::quad4, algebra::CoupledSolverKind::field_split},
-                                        {Shape::tri3, algebra::CoupledSolverKind::direct},
-                                        {Shape::tet4, algebra::CoupledSolverKind::field_split}}) {
+    for (const auto& [shape, solver] : {std::pair{Shape::quad4, linear::CoupledSolverKind::direct},
+                                        {Shape::quad4, linear::CoupledSolverKind::field_split},
+                                        {Shape::tri3, linear::CoupledSolverKind::direct},
+                                        {Shape::tet4, linear::CoupledSolverKind::field_split}}) {
       Model a = pulled(StructuralForm::energy, 1e-4, shape), b = pulled(StructuralForm::energy, 1e-4, shape);
       coupling::SimultaneousScheme whole(a.phases, {integration, solver}),
           rest(b.phases, {integration, solver});
@@ -323,8 +323,7 @@ TEST(SimultaneousScheme, ContinuesFromAStateBitByBit) {
 // A face that stays plane ties its displacements together, whatever process they are of.
 TEST(SimultaneousScheme, KeepsAFacePlaneWithAPressure) {
   for (const Shape shape : {Shape::tri3, Shape::tet4})
-    for (const auto solver :
-         {algebra::CoupledSolverKind::automatic, algebra::CoupledSolverKind::field_split}) {
+    for (const auto solver : {linear::CoupledSolverKind::automatic, linear::CoupledSolverKind::field_split}) {
       SCOPED_TRACE(mesh::name(shape));
       const auto kind = shape == Shape::tet4 ? AnalysisKind::solid : AnalysisKind::plane_strain;
       heat::Conditions thermal;
@@ -350,8 +349,8 @@ TEST(SimultaneousScheme, KeepsAFacePlaneWithAPressure) {
         least = std::min(least, u);
         most = std::max(most, u);
       }
-      EXPECT_LT(algebra::global_max(most), 0);  // it cools
-      EXPECT_LE(algebra::global_max(most) - algebra::global_min(least), 1e-18);
+      EXPECT_LT(parallel::global_max(most), 0);  // it cools
+      EXPECT_LE(parallel::global_max(most) - parallel::global_min(least), 1e-18);
     }
 }
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "algebra/parallel.hpp"
 #include "criteria/criterion.hpp"
 #include "heat/nodal_enthalpy.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus::test {
 
@@ -129,7 +129,7 @@ class Casting {
     time_ = time;
   }
 
-  algebra::GhostExchange ghosts_;
+  parallel::GhostExchange ghosts_;
   mechanics::MechanicalState mechanics_;
   Snapshot next_;
   double time_ = 0;

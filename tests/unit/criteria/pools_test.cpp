@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "base/errors.hpp"
 #include "bodies.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {

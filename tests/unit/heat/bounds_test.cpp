@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <random>
 
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
 #include "block.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {
@@ -320,7 +320,7 @@ double cosine_error(Shape shape, int cells, bool bounds) {
     const double error = state.temperature[n] - 600 - factor * (start[n] - 600);
     sum += error * error;
   }
-  return std::sqrt(algebra::global_sum(sum) / static_cast<double>(mesh.n_global_nodes));
+  return std::sqrt(parallel::global_sum(sum) / static_cast<double>(mesh.n_global_nodes));
 }
 
 TEST(Bounds, KeepTheSecondOrderOfSmoothTransients) {

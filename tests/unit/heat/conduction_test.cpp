@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "algebra/parallel.hpp"
-#include "base/errors.hpp"
 #include "block.hpp"
 #include "heat/heat_system.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {
@@ -58,7 +58,7 @@ TEST_P(EveryShape, ReproducesALinearTemperatureOnBentElements) {
   conditions.fluxes.push_back({"hot", "x_max", Table(2e4)});  // gradient 200 K/m
   heat::HeatOptions options;
   options.integration = closed ? heat::Integration::closed : heat::Integration::open;
-  options.solver = algebra::SolverKind::direct;
+  options.solver = linear::SolverKind::direct;
   heat::ThermalPhase phase(mesh, kind_of(shape), {conductor(Table(100.0))}, conditions, options);
   heat::ThermalState state = phase.initial_state(std::vector<double>{350.0});
   const heat::PhaseReport report = phase.solve_steady(state, state, 0.0);
@@ -109,7 +109,7 @@ TEST_P(EveryShape, AddsUpSourcesAndFluxesExactly) {
   system.residual(std::vector<double>(mesh.x.size(), 500.0), r);
   double sum = 0;
   for (double value : r) sum -= value;
-  EXPECT_NEAR(algebra::global_sum(sum), 30 + 7, 1e-8);  // unit area, unit volume
+  EXPECT_NEAR(parallel::global_sum(sum), 30 + 7, 1e-8);  // unit area, unit volume
   EXPECT_NEAR(system.powers()[0].value, 30, 1e-9);
   EXPECT_NEAR(system.powers()[1].value, 7, 1e-9);
 }
@@ -141,7 +141,7 @@ TEST(ClosedRule, MakesTheMatrixOfNonNegativeTypeOnRectanglesAndBoxes) {
           if (i != j) worst = std::max(worst, column[i]);
         unit[j] = 0;
       }
-      worst = algebra::global_max(worst);
+      worst = parallel::global_max(worst);
       if (closed || shape == Shape::tri3)
         EXPECT_LE(worst, 1e-10) << mesh::name(shape);
       else

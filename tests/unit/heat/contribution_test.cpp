@@ -7,14 +7,14 @@ namespace solidus {
 namespace {
 
 /// A conductance between facing nodes of two bodies, as a contact would add it. One process only.
-class Bridge : public algebra::Contribution {
+class Bridge : public linear::Contribution {
  public:
   Bridge(std::vector<std::array<Index, 2>> pairs, double conductance)
       : pairs_(std::move(pairs)), conductance_(conductance) {}
-  void add_to_graph(algebra::NodeGraph& graph) const override {
+  void add_to_graph(linear::NodeGraph& graph) const override {
     for (const auto& pair : pairs_) graph.add_cliques(pair, 2);
   }
-  void bind(const algebra::BlockMatrix& matrix) override {
+  void bind(const linear::BlockMatrix& matrix) override {
     for (const auto& pair : pairs_) slots_.push_back(matrix.clique_slots(pair, 2));
   }
   void add_residual(std::span<const double> x, std::span<double> r) override {
@@ -24,14 +24,14 @@ class Bridge : public algebra::Contribution {
       r[static_cast<std::size_t>(b)] -= q;
     }
   }
-  void add_tangent(std::span<const double>, algebra::BlockMatrix& matrix) override {
+  void add_tangent(std::span<const double>, linear::BlockMatrix& matrix) override {
     for (const auto& s : slots_)
       for (std::size_t i = 0; i < 4; ++i) *matrix.block(s[i]) += (i == 0 || i == 3 ? 1 : -1) * conductance_;
   }
 
  private:
   std::vector<std::array<Index, 2>> pairs_;
-  std::vector<std::vector<algebra::BlockMatrix::Slot>> slots_;
+  std::vector<std::vector<linear::BlockMatrix::Slot>> slots_;
   double conductance_;
 };
 

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "base/errors.hpp"
 #include "block.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {

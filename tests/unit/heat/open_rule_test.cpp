@@ -54,7 +54,7 @@ TEST(OpenRuleBesides, HoldsAnIsothermalChangeAtItsTemperature) {
       EXPECT_EQ(state.temperature[node], 900);
     }
   }
-  EXPECT_TRUE(algebra::any_process(freezing > 0));
+  EXPECT_TRUE(parallel::any_process(freezing > 0));
 }
 
 /// A body beside another one, unconnected: it stores its heat at Gauss points as before when the other one
@@ -71,7 +71,7 @@ TEST(OpenRuleBesides, StoresOtherBodiesAtGaussPointsBesideOneThatFreezesIsotherm
         heat::HeatOptions options;
         options.integration = heat::Integration::open;
         options.tolerance = 1e-12;
-        options.solver = algebra::SolverKind::direct;
+        options.solver = linear::SolverKind::direct;
         const AnalysisKind kind = test::is_3d(shape) ? AnalysisKind::solid : AnalysisKind::plane_strain;
         std::vector<std::vector<double>> lower;
         for (const double range : {0.0, 20.0}) {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/errors.hpp"
 #include "block.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {

@@ -45,7 +45,7 @@ TEST(NodalPotential, IsInvertedAlsoWhereSeveralMaterialsMeet) {
     for (const Table& b : conductivities()) {
       const std::vector<heat::KirchhoffPotential> potentials{heat::KirchhoffPotential(a),
                                                              heat::KirchhoffPotential(b)};
-      const heat::NodalPotential v(mesh, potentials, algebra::ActiveSet(mesh));
+      const heat::NodalPotential v(mesh, potentials, linear::ActiveSet(mesh));
       EXPECT_EQ(v.identity(), a.constant() && b.constant());
       for (Index node = 0; node < 4; ++node)
         for (double t = 310; t < 1190; t += 21.3) {

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "base/errors.hpp"
 #include "block.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {
@@ -57,7 +57,7 @@ double difference(const Bar::Run& a, const Bar::Run& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.end.temperature.size(); ++i)
     sum += std::pow(a.end.temperature[i] - b.end.temperature[i], 2);
-  return std::sqrt(algebra::global_sum(sum));
+  return std::sqrt(parallel::global_sum(sum));
 }
 
 // At a surface with a film the order of SDIRK2 is 1.75 at first, because its stages are of order one: hence

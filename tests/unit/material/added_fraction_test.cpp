@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "../../laws/power_fraction.hpp"
-#include "base/document.hpp"
+#include "input/document.hpp"
 #include "material/library.hpp"
 
 namespace solidus::material {

@@ -5,8 +5,8 @@
 
 #include "../../laws/consistency.hpp"
 #include "../../laws/logarithmic.hpp"
-#include "base/document.hpp"
-#include "base/key_docs.hpp"
+#include "input/document.hpp"
+#include "input/key_docs.hpp"
 #include "material/library.hpp"
 #include "thermal_cases.hpp"
 

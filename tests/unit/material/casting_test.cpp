@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "base/document.hpp"
-#include "base/errors.hpp"
+#include "input/document.hpp"
 #include "material/library.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::material {
 namespace {

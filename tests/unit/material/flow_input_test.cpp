@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "base/document.hpp"
-#include "base/key_docs.hpp"
+#include "input/document.hpp"
+#include "input/key_docs.hpp"
 #include "material/hardening.hpp"
 #include "material/library.hpp"
 

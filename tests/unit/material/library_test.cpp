@@ -9,7 +9,7 @@
 #include <array>
 #include <fstream>
 
-#include "base/document.hpp"
+#include "input/document.hpp"
 #include "material/hardening.hpp"
 
 namespace solidus::material {

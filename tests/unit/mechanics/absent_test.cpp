@@ -35,14 +35,14 @@ double at_plane(const test::Body& body, const test::Solved& solved) {
   for (Index i = 0; i < body.mesh.n_owned_nodes; ++i)
     if (std::abs(body.mesh.x[static_cast<std::size_t>(i)][0] - k_plane) < 1e-9)
       u = std::max(u, solved.u(body, i, 0));
-  return algebra::global_max(u);
+  return parallel::global_max(u);
 }
 
 double largest_stress(const test::Solved& solved) {
   double s = 0;
   for (const test::ElementFields& fields : test::element_fields(*solved.phase))
     for (const auto& stress : fields.stress) s = std::max(s, std::abs(stress[0]));
-  return algebra::global_max(s);
+  return parallel::global_max(s);
 }
 
 class Springback : public ::testing::TestWithParam<mesh::Shape> {};
@@ -96,7 +96,7 @@ TEST_P(Springback, KeptFieldsStayUntilTheNextOnesAreKept) {
   solved.phase->keep_fields();
   EXPECT_NEAR(largest_stress(solved), 3e-5 / (k_plane / k_young + (k_length - k_plane) / k_soft), 1e2);
   const auto next = fields();
-  EXPECT_TRUE(algebra::any_process(next != committed));
+  EXPECT_TRUE(parallel::any_process(next != committed));
 
   mechanics::Conditions later = body.conditions;
   later.absent_bodies = {"right"};
@@ -133,7 +133,7 @@ TEST(AbsentBodies, LeaveTheOthersAsIfTheyWereAlone) {
     all.conditions.gravity = {3, -5, 0};
     const test::Solved everywhere(all);
     const auto bytes = [](const mechanics::MechanicalPhase& phase) {
-      return algebra::global_sum(static_cast<double>(phase.bytes()));
+      return parallel::global_sum(static_cast<double>(phase.bytes()));
     };
     // Half of the elements keep nothing; the rows of their nodes stay in the matrix.
     EXPECT_LT(bytes(*here.phase), 0.9 * bytes(*everywhere.phase));

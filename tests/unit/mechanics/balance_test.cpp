@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 
 namespace {
 
@@ -27,12 +27,12 @@ std::vector<double> vertical_force(const mesh::Mesh& mesh, bool upper, double va
 double norm(const std::vector<double>& a) {
   double s = 0;
   for (const double v : a) s += v * v;
-  return std::sqrt(algebra::global_sum(s));
+  return std::sqrt(parallel::global_sum(s));
 }
 
 TEST(BodyBalance, ALightBodyIsNotMeasuredAgainstAHeavilyLoadedOne) {
   const mesh::Mesh mesh = two_bodies();
-  mechanics::BodyBalance balance(mesh, algebra::ActiveSet(mesh), 2);
+  mechanics::BodyBalance balance(mesh, linear::ActiveSet(mesh), 2);
   const std::vector<double> heavy = vertical_force(mesh, false, 1e6),
                             weight = vertical_force(mesh, true, 1.0);
   std::vector<double> floating = vertical_force(mesh, true, -1.0);  // nothing carries the weight
@@ -46,7 +46,7 @@ TEST(BodyBalance, ALightBodyIsNotMeasuredAgainstAHeavilyLoadedOne) {
 
 TEST(BodyBalance, SupportForcesAreExchangedAndTheAxisIsNot) {
   const mesh::Mesh mesh = two_bodies();
-  mechanics::BodyBalance balance(mesh, algebra::ActiveSet(mesh), 2);
+  mechanics::BodyBalance balance(mesh, linear::ActiveSet(mesh), 2);
   const std::vector<double> r = vertical_force(mesh, true, 2.0);
   const std::vector<char> all(r.size(), 1), none(r.size(), 0);
   balance.begin();
@@ -59,7 +59,7 @@ TEST(BodyBalance, SupportForcesAreExchangedAndTheAxisIsNot) {
 
 TEST(BodyBalance, AStepIsMeasuredByTheIncrementOfItsOwnBody) {
   const mesh::Mesh mesh = two_bodies();
-  const mechanics::BodyBalance balance(mesh, algebra::ActiveSet(mesh), 2);
+  const mechanics::BodyBalance balance(mesh, linear::ActiveSet(mesh), 2);
   std::vector<double> increment = vertical_force(mesh, false, 1e-3);
   const std::vector<double> upper = vertical_force(mesh, true, 1e-6), step = vertical_force(mesh, true, 1e-7);
   for (std::size_t i = 0; i < increment.size(); ++i) increment[i] += upper[i];
@@ -72,11 +72,11 @@ TEST(BodyBalance, AStepIsMeasuredByTheIncrementOfItsOwnBody) {
 
 TEST(BodyBalance, WithoutExchangeASmallShareOfTheInternalForcesIsTheReference) {
   const mesh::Mesh mesh = two_bodies();
-  mechanics::BodyBalance balance(mesh, algebra::ActiveSet(mesh), 2);
+  mechanics::BodyBalance balance(mesh, linear::ActiveSet(mesh), 2);
   const std::vector<double> r = vertical_force(mesh, true, 1e-3);
   const std::vector<char> none(r.size(), 0);
   balance.begin();
-  balance.add_internal(1, 1e6 / algebra::global_sum(1));  // squares: forces of 1e3 N in all
+  balance.add_internal(1, 1e6 / parallel::global_sum(1));  // squares: forces of 1e3 N in all
   balance.add_residual(r, none, none);
   EXPECT_NEAR(norm(r) / balance.reference(), norm(r) / 1e-3, 1e-9);
 }
@@ -84,7 +84,7 @@ TEST(BodyBalance, WithoutExchangeASmallShareOfTheInternalForcesIsTheReference) {
 // Newton's iteration asks again where the residual is known already.
 TEST(BodyBalance, TheReferenceIsTheSameWhenAskedTwice) {
   const mesh::Mesh mesh = two_bodies();
-  mechanics::BodyBalance balance(mesh, algebra::ActiveSet(mesh), 2);
+  mechanics::BodyBalance balance(mesh, linear::ActiveSet(mesh), 2);
   const std::vector<double> load = vertical_force(mesh, true, 3.0), r = vertical_force(mesh, true, 1e-3);
   const std::vector<char> none(r.size(), 0);
   balance.begin();

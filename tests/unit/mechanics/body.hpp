@@ -26,7 +26,7 @@ inline material::Material elastic_material(double young, double poisson, double 
 inline mechanics::MechanicsOptions strict() {
   mechanics::MechanicsOptions options;
   options.newton.tolerance = 1e-11;
-  options.solver = algebra::SolverKind::direct;
+  options.solver = linear::SolverKind::direct;
   return options;
 }
 
@@ -37,7 +37,7 @@ struct Body {
   mechanics::Conditions conditions;
   mechanics::MechanicsOptions options = strict();
   std::vector<double> initial_temperature, temperature;
-  std::vector<algebra::Contribution*> contributions;
+  std::vector<linear::Contribution*> contributions;
 
   Body(mesh::Mesh m, AnalysisKind k, material::Material material)
       : mesh(std::move(m)),
@@ -62,9 +62,9 @@ struct Body {
         u = f(mesh.x[static_cast<std::size_t>(node)]);
         boundary = boundary || on_boundary(node);
       }
-      if (!algebra::any_process(boundary)) continue;
+      if (!parallel::any_process(boundary)) continue;
       for (int i = 0; i < displacement_components(kind); ++i)
-        hold(name, i, algebra::global_max(u[static_cast<std::size_t>(i)]));
+        hold(name, i, parallel::global_max(u[static_cast<std::size_t>(i)]));
     }
   }
   bool on_boundary(Index node) const {

@@ -43,7 +43,7 @@ double largest(const std::vector<double>& field, int components, int component) 
   for (std::size_t i = static_cast<std::size_t>(component); i < field.size();
        i += static_cast<std::size_t>(components))
     value = std::max(value, field[i]);
-  return algebra::global_max(value);
+  return parallel::global_max(value);
 }
 
 constexpr double k_young = 2e11, k_density = 7800, k_length = 0.1, k_speed = 3;
@@ -146,7 +146,7 @@ double strain_energy(const Body& body, const mechanics::MechanicalPhase& phase) 
     for (std::size_t i = 0; i < 6; ++i) density += (i < 3 ? 0.5 : 1.0) * s[i] * strain[i];
     energy += density * g.weight_at(e / k_lanes, 0)[e % k_lanes];
   }
-  return algebra::global_sum(energy);
+  return parallel::global_sum(energy);
 }
 
 double kinetic_energy(const Body& body, const MechanicalState& state) {
@@ -155,7 +155,7 @@ double kinetic_energy(const Body& body, const MechanicalState& state) {
   mass.multiply(state.velocity, 2, momentum);
   double energy = 0;
   for (std::size_t i = 0; i < momentum.size(); ++i) energy += 0.5 * momentum[i] * state.velocity[i];
-  return algebra::global_sum(energy);
+  return parallel::global_sum(energy);
 }
 
 TEST(TrapezoidalRule, KeepsTheEnergyOfALinearElasticBodyToRoundOff) {

@@ -5,8 +5,8 @@
 
 #include <numbers>
 
-#include "algebra/parallel.hpp"
 #include "lattice.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus {
 namespace {
@@ -51,7 +51,7 @@ double form(const mesh::Mesh& mesh, const MassMatrix& mass, const std::vector<do
   mass.multiply(b, 1, y);
   double sum = 0;
   for (std::size_t i = 0; i < y.size(); ++i) sum += a[i] * y[i];
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 struct Fields {
@@ -107,10 +107,10 @@ TEST(MassMatrix, AddsToATangentWhatItMultipliesWith) {
   for (const MassKind kind : {MassKind::consistent, MassKind::lumped}) {
     const mesh::Mesh mesh = box(Shape::tri6);
     MassMatrix mass(mesh, AnalysisKind::plane_strain, std::vector{k_density}, kind);
-    algebra::NodeGraph graph(mesh);
+    linear::NodeGraph graph(mesh);
     for (const mesh::Block& block : mesh.blocks)
       graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-    algebra::BlockMatrix tangent(mesh, 2, std::move(graph));
+    linear::BlockMatrix tangent(mesh, 2, std::move(graph));
     mass.bind(tangent);
     tangent.set_zero();
     mass.add_to(tangent, 3.0);

@@ -97,9 +97,9 @@ struct Kernel {
   }
   /// K d by the tangent for both directions, [owned node][component].
   std::array<std::vector<double>, 2> products() {
-    algebra::NodeGraph graph(mesh);
+    linear::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-    algebra::BlockMatrix matrix(mesh, components, std::move(graph));
+    linear::BlockMatrix matrix(mesh, components, std::move(graph));
     kernel->bind(matrix);
     // The second tangent at one iterate is the consistent one: the directions of flow are known by then.
     for (int i = 0; i < 2; ++i) {
@@ -122,7 +122,7 @@ struct Kernel {
 };
 
 double dot(const std::vector<double>& owned, const std::vector<double>& local) {
-  return algebra::global_sum(std::inner_product(owned.begin(), owned.end(), local.begin(), 0.0));
+  return parallel::global_sum(std::inner_product(owned.begin(), owned.end(), local.begin(), 0.0));
 }
 
 TEST(IsentropicTangent, IsTheDerivativeOfTheForcesAndSymmetricButForArmstrongFrederick) {

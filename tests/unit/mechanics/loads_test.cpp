@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "algebra/parallel.hpp"
 #include "mesh/distribute.hpp"
+#include "parallel/parallel.hpp"
 
 namespace solidus {
 namespace {
@@ -38,7 +38,7 @@ mesh::RawMesh rod_with_disc(int n_along, double off_axis) {
 // its nodes at 5e-12 m would be beside the axis for a process that has nothing of the disc.
 TEST(Loads, NodesOnTheAxisAreHeldWhateverProcessHasThem) {
   const mesh::Mesh mesh = mesh::distribute(rod_with_disc(40, 5e-12), {"rod"}, {});
-  const algebra::ActiveSet active(mesh);
+  const linear::ActiveSet active(mesh);
   const std::vector<double> start(2 * mesh.x.size(), 0.0);
   const mechanics::Loads loads(mesh, AnalysisKind::axisymmetric, {}, active, start);
   double held = 0;
@@ -48,7 +48,7 @@ TEST(Loads, NodesOnTheAxisAreHeldWhateverProcessHasThem) {
     EXPECT_EQ(loads.fixed()[2 * i + 1], 0);
     if (node < mesh.n_owned_nodes && loads.fixed()[2 * i]) held += 1;
   }
-  EXPECT_EQ(algebra::global_sum(held), 41);
+  EXPECT_EQ(parallel::global_sum(held), 41);
 }
 
 }  // namespace

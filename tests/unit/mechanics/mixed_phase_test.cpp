@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "base/errors.hpp"
 #include "mechanics/simplices.hpp"
 #include "plastic_material.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {
@@ -177,7 +177,7 @@ TEST(Simplices, AreMixedWhereTheVolumeIsNearlyKept) {
 
 TEST(MixedPhase, RefusesSolversThatCannotFindThePressure) {
   Body body(lattice(AnalysisKind::plane_strain), AnalysisKind::plane_strain, test::plastic_material());
-  body.options.solver = algebra::SolverKind::jacobi;
+  body.options.solver = linear::SolverKind::jacobi;
   EXPECT_THROW(body.phase(), InputError);
 }
 

@@ -48,11 +48,11 @@ struct Mixed {
   std::vector<material::Material> materials;
   std::vector<double> temperature, x;  ///< x: displacements, then pressures in their unit
   std::vector<double> at_rest;         ///< displacements at t_n, to which the kernels keep a reference
-  algebra::GhostExchange ghosts;
+  parallel::GhostExchange ghosts;
   std::vector<std::unique_ptr<mechanics::BlockKernel>> blocks;
   mechanics::BlockHistory history;
   std::unique_ptr<mechanics::NodalPressure> pressure;
-  std::unique_ptr<algebra::BlockMatrix> matrix;
+  std::unique_ptr<linear::BlockMatrix> matrix;
   std::unique_ptr<mechanics::SaddleSolver> solver;
   mechanics::BodyBalance balance;
 
@@ -68,7 +68,7 @@ struct Mixed {
         materials{s.plastic ? mushy() : test::elastic_material(2e11, 0.49, 1e-5)},
         temperature(mesh.x.size(), 350.0),
         ghosts(mesh),
-        balance(mesh, algebra::ActiveSet(mesh), components) {
+        balance(mesh, linear::ActiveSet(mesh), components) {
     for (Index node = 0; node < mesh.n_nodes(); ++node)
       for (int i = 0; i < components; ++i) x.push_back(1e-3 * std::sin(1.3 * number(node, i)));
     for (const mesh::Block& block : mesh.blocks)
@@ -77,9 +77,9 @@ struct Mixed {
     pressure = std::make_unique<mechanics::NodalPressure>(
         mesh, mechanics::pressure_fields(mesh, materials, blocks), blocks,
         stabilisation == Stabilisation::orthogonal, std::vector<std::array<double, 3>>{{0, -7e4, 0}});
-    algebra::NodeGraph graph(mesh);
+    linear::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-    matrix = std::make_unique<algebra::BlockMatrix>(mesh, components, std::move(graph));
+    matrix = std::make_unique<linear::BlockMatrix>(mesh, components, std::move(graph));
     at_rest.assign(x.size(), 0.0);
     std::vector<char> fixed(x.size(), 0);
     for (Index node = 0; node < mesh.n_nodes(); ++node)  // what a rigid body can do
@@ -90,7 +90,7 @@ struct Mixed {
     solver = std::make_unique<mechanics::SaddleSolver>(
         mesh, *matrix, *pressure, ghosts,
         mechanics::SaddleSolverOptions{
-            .kind = direct ? algebra::SolverKind::direct : algebra::SolverKind::multigrid,
+            .kind = direct ? linear::SolverKind::direct : linear::SolverKind::multigrid,
             .relative_tolerance = 1e-11});
     history = blocks[0]->initial_history();
     mechanics::NodalPhases nodal(mesh, materials, temperature);
@@ -136,7 +136,7 @@ struct Mixed {
     }
     solver->assemble();
     std::vector<double> d(n_owned());
-    const algebra::LinearReport report = solver->solve(*matrix, b, d, 0);
+    const linear::LinearReport report = solver->solve(*matrix, b, d, 0);
     EXPECT_TRUE(report.converged) << report.reason;
     return d;
   }
@@ -168,7 +168,7 @@ struct Mixed {
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 class MixedTangent : public ::testing::TestWithParam<Setting> {};
@@ -188,7 +188,7 @@ TEST_P(MixedTangent, TheDirectionIsThatInWhichTheForcesMoveByTheLoad) {
     const std::vector<double> plus = moved(step), minus = moved(-step);
     double error = 0;
     for (std::size_t i = 0; i < b.size(); ++i) error += std::pow((plus[i] - minus[i]) / (2 * step) - b[i], 2);
-    EXPECT_LT(std::sqrt(algebra::global_sum(error)), 1e-5 * std::sqrt(dot(b, b)));
+    EXPECT_LT(std::sqrt(parallel::global_sum(error)), 1e-5 * std::sqrt(dot(b, b)));
   }
 }
 
@@ -200,7 +200,7 @@ TEST_P(MixedTangent, IsSymmetric) {
   const auto product = [&](const std::vector<double>& d, const std::vector<double>& of) {
     double sum = 0;
     for (std::size_t i = 0; i < d.size(); ++i) sum += (i < m.n_owned_u() ? 1 : -1) * d[i] * of[i];
-    return algebra::global_sum(sum);
+    return parallel::global_sum(sum);
   };
   EXPECT_NEAR(product(of_b, c), product(of_c, b), 1e-7 * std::sqrt(dot(of_b, of_b) * dot(c, c)));
 }

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "base/errors.hpp"
 #include "body.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {
@@ -23,7 +23,7 @@ double reaction(const Solved& solved, int component) {
   double sum = 0;
   for (std::size_t i = static_cast<std::size_t>(component); i < solved.phase->reactions().size(); i += 3)
     sum += solved.phase->reactions()[i];
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 void stand(Body& body) {
@@ -62,7 +62,7 @@ TEST(Loads, PressureOnATubeActsOnTheWholeCircumference) {
   double sum = 0;
   for (std::size_t i = 1; i < solved.phase->reactions().size(); i += 2) sum += solved.phase->reactions()[i];
   const double area = std::acos(-1.0) * (0.3 * 0.3 - 0.2 * 0.2);
-  EXPECT_NEAR(algebra::global_sum(sum), 1e6 * area, 1e-9 * 1e6 * area);
+  EXPECT_NEAR(parallel::global_sum(sum), 1e6 * area, 1e-9 * 1e6 * area);
 }
 
 TEST(Loads, NodesOnTheAxisStayThereWithoutBeingTold) {
@@ -153,8 +153,8 @@ TEST(Phase, AGuessIsTheStartWhereItIsNearerToEquilibriumAndOnlyThere) {
 
 TEST(Phase, SolversAgree) {
   std::vector<double> reference;
-  for (auto kind : {algebra::SolverKind::direct, algebra::SolverKind::multigrid, algebra::SolverKind::jacobi,
-                    algebra::SolverKind::incomplete}) {
+  for (auto kind : {linear::SolverKind::direct, linear::SolverKind::multigrid, linear::SolverKind::jacobi,
+                    linear::SolverKind::incomplete}) {
     Body body = cube(Shape::tet4);
     stand(body);
     body.conditions.gravity = {0, -9.81, 0};
@@ -174,7 +174,7 @@ TEST(Phase, InexactStepsEndWithinNewtonsTolerance) {
     Body body = cube(Shape::tet4);
     stand(body);
     body.conditions.gravity = {0, -9.81, 0};
-    body.options.solver = algebra::SolverKind::jacobi;
+    body.options.solver = linear::SolverKind::jacobi;
     body.options.newton.tolerance = 1e-6;
     body.options.newton.inexact = inexact;
     const Solved solved(body);
@@ -192,15 +192,15 @@ TEST(Phase, InexactStepsEndWithinNewtonsTolerance) {
 }
 
 /// Springs to ground at every node in y; NaN when told.
-class Springs : public algebra::Contribution {
+class Springs : public linear::Contribution {
  public:
   explicit Springs(double stiffness) : stiffness_(stiffness) {}
-  void add_to_graph(algebra::NodeGraph&) const override {}
-  void bind(const algebra::BlockMatrix& matrix) override { n_ = matrix.block_size(); }
+  void add_to_graph(linear::NodeGraph&) const override {}
+  void bind(const linear::BlockMatrix& matrix) override { n_ = matrix.block_size(); }
   void add_residual(std::span<const double> x, std::span<double> r) override {
     for (std::size_t i = 1; i < r.size(); i += static_cast<std::size_t>(n_)) r[i] += stiffness_ * x[i];
   }
-  void add_tangent(std::span<const double> x, algebra::BlockMatrix& matrix) override {
+  void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override {
     for (Index node = 0; static_cast<std::size_t>(node) < x.size() / static_cast<std::size_t>(n_); ++node)
       if (node < n_owned) matrix.diagonal_block(node)[n_ + 1] += stiffness_;
   }
@@ -222,7 +222,7 @@ TEST(Phase, ContributionsCarryLoad) {
   const Solved solved(body);
   double force = 0;
   for (Index node = 0; node < body.mesh.n_owned_nodes; ++node) force -= 1e6 * solved.u(body, node, 1);
-  EXPECT_NEAR(algebra::global_sum(force), 7800 * 9.81, 1e-8 * 7800 * 9.81);
+  EXPECT_NEAR(parallel::global_sum(force), 7800 * 9.81, 1e-8 * 7800 * 9.81);
 }
 
 TEST(Phase, AFailureIsRejectedOnEveryProcessWithItsPlaceAndLeavesTheTrialAlone) {
@@ -251,7 +251,7 @@ TEST(Phase, TheSameStepFromTheSameStateGivesTheSameBits) {
   stand(body);
   body.conditions.gravity = {0, -9.81, 0};
   // MUMPS on several processes adds in the order in which messages come.
-  body.options.solver = algebra::SolverKind::multigrid;
+  body.options.solver = linear::SolverKind::multigrid;
   const auto phase = body.phase();
   const auto old = phase->initial_state();
   mechanics::MechanicalState first, second;

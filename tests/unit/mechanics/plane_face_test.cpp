@@ -1,8 +1,8 @@
 /// Faces that stay plane: one common displacement, found by equilibrium, exactly eliminated.
 #include <gtest/gtest.h>
 
-#include "base/errors.hpp"
 #include "body.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {
@@ -34,8 +34,8 @@ double common(const Body& body, const Solved& solved, const std::string& group, 
     low = std::min(low, solved.u(body, node, component));
     high = std::max(high, solved.u(body, node, component));
   }
-  low = algebra::global_min(low);
-  high = algebra::global_max(high);
+  low = parallel::global_min(low);
+  high = parallel::global_max(high);
   EXPECT_EQ(low, high);
   return high;
 }
@@ -47,7 +47,7 @@ double reaction(const Body& body, const Solved& solved, const std::string& group
       sum +=
           solved.phase
               ->reactions()[static_cast<std::size_t>(node * displacement_components(body.kind) + component)];
-  return algebra::global_sum(sum);
+  return parallel::global_sum(sum);
 }
 
 TEST(PlaneFace, MovesAsASupportThatCarriesNoForceWould) {
@@ -114,7 +114,7 @@ TEST(PlaneFace, WorksWithMultigridToo) {
   Body body = warm_cube(Shape::hex8, AnalysisKind::solid);
   body.conditions.plane_faces = {{"front"}, {"right"}};
   const Solved direct(body);
-  body.options.solver = algebra::SolverKind::multigrid;
+  body.options.solver = linear::SolverKind::multigrid;
   body.options.newton.tolerance = 1e-10;
   const Solved iterative(body);
   EXPECT_NEAR(common(body, iterative, "front", 2), common(body, direct, "front", 2), 1e-8 * k_alpha * 100);

@@ -55,7 +55,7 @@ std::vector<double> residual(StructuralHeat& heat, const Body& body, const std::
 double total(const std::vector<double>& r) {
   double s = 0;
   for (double value : r) s += value;
-  return algebra::global_sum(s);
+  return parallel::global_sum(s);
 }
 
 constexpr std::pair<material::IsotropicHardening, KinematicHardening> k_kinds[] = {
@@ -70,7 +70,7 @@ TEST(PlasticHeat, TheTangentIsTheDerivativeOfTheResidual) {
       const Pulled p(material_of(isotropic, kinematic));
       const Solved solved(p.body);
       StructuralHeat heat(*solved.phase, form);
-      algebra::BlockMatrix matrix(p.body.mesh, 1, algebra::NodeGraph(p.body.mesh));
+      linear::BlockMatrix matrix(p.body.mesh, 1, linear::NodeGraph(p.body.mesh));
       heat.bind(matrix);
       matrix.set_zero();
       heat.add_tangent(p.uniform(321), matrix);
@@ -140,7 +140,7 @@ TEST(PlasticHeat, TheEnergyStoredIsThatOfTheStateReached) {
         energy = material::thermal_state(law, v, theta, 320.0).internal_energy - sensible;
       }
     // Of the sensible heat that is subtracted: 1e-16 × 2e8 against some 1e5.
-    EXPECT_NEAR(stored, algebra::global_max(energy), 1e-9 * std::abs(stored));
+    EXPECT_NEAR(stored, parallel::global_max(energy), 1e-9 * std::abs(stored));
   }
 }
 

@@ -1,9 +1,9 @@
 /// Plastic materials in the mechanical phase: what the elements make of the law, failures, two-step method.
 #include <gtest/gtest.h>
 
-#include "base/errors.hpp"
 #include "material/viscoplastic.hpp"
 #include "plastic_material.hpp"
+#include "system/errors.hpp"
 
 namespace solidus {
 namespace {
@@ -93,7 +93,7 @@ TEST(PlasticPhase, WithoutHardeningPlasticWorkIsDissipationAndFlowStressTimesEqu
   double xi = 0;
   for (const auto& fields : test::element_fields(*solved.phase))
     if (!fields.equivalent_plastic_strain.empty()) xi = fields.equivalent_plastic_strain.front();
-  xi = algebra::global_max(xi);
+  xi = parallel::global_max(xi);
   const double volume = 1.0 * 1.2 * 0.8;
   EXPECT_NEAR(work.plastic_work, 5e7 * xi * volume, 1e-9 * work.plastic_work);
   EXPECT_NEAR(work.plastic_dissipation, work.plastic_work, 1e-12 * work.plastic_work);
@@ -184,7 +184,7 @@ struct Pull {
     double stress = -1e300;
     for (const auto& fields : test::element_fields(*phase))
       for (const auto& s : fields.stress) stress = s[0];
-    return algebra::global_max(stress);
+    return parallel::global_max(stress);
   }
 };
 

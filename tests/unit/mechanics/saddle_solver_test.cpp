@@ -31,15 +31,15 @@ enum class Frozen { nowhere, shell, corners };
 struct Casting {
   mesh::Mesh mesh;
   std::vector<material::Material> materials;
-  algebra::GhostExchange ghosts;
+  parallel::GhostExchange ghosts;
   std::vector<std::unique_ptr<mechanics::BlockKernel>> blocks;
   mechanics::BlockHistory history;
   std::unique_ptr<mechanics::NodalPressure> pressure;
-  std::unique_ptr<algebra::BlockMatrix> matrix;
+  std::unique_ptr<linear::BlockMatrix> matrix;
   std::unique_ptr<mechanics::SaddleSolver> solver;
   std::vector<double> temperature, at_rest;
 
-  Casting(int cells, double viscosity, algebra::SolverKind kind, Frozen frozen = Frozen::shell)
+  Casting(int cells, double viscosity, linear::SolverKind kind, Frozen frozen = Frozen::shell)
       : mesh(
             test::make_mesh({.shape = mesh::Shape::tet4, .cells = {cells, cells, cells}, .distortion = 0.1})),
         materials{alloy(viscosity)},
@@ -52,10 +52,10 @@ struct Casting {
     pressure = std::make_unique<mechanics::NodalPressure>(
         mesh, mechanics::pressure_fields(mesh, materials, blocks), blocks, false,
         std::vector<std::array<double, 3>>{{0, 0, -7e4}});
-    algebra::NodeGraph graph(mesh);
+    linear::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-    matrix = std::make_unique<algebra::BlockMatrix>(mesh, 3, std::move(graph),
-                                                    algebra::BlockMatrix::Storage::upper);
+    matrix =
+        std::make_unique<linear::BlockMatrix>(mesh, 3, std::move(graph), linear::BlockMatrix::Storage::upper);
     std::vector<char> fixed(at_rest.size(), 0);
     for (std::size_t node = 0; node < mesh.x.size(); ++node)
       if (mesh.x[node][2] < 1e-9) std::fill_n(fixed.begin() + static_cast<std::ptrdiff_t>(3 * node), 3, 1);
@@ -103,7 +103,7 @@ struct Casting {
   }
 
   /// K⁻¹ of the weight and of an even shrinking, to a share of their norm.
-  algebra::LinearReport solve(double share, std::vector<double>& d) {
+  linear::LinearReport solve(double share, std::vector<double>& d) {
     const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
     std::vector<double> volume(mesh.x.size(), 0.0), b(4 * n, 0.0);
     for (const auto& block : blocks) block->add_nodal_volume(1.0, volume);
@@ -116,7 +116,7 @@ struct Casting {
   }
   int iterations(double share) {
     std::vector<double> d;
-    const algebra::LinearReport report = solve(share, d);
+    const linear::LinearReport report = solve(share, d);
     EXPECT_TRUE(report.converged) << report.reason;
     return report.iterations;
   }
@@ -128,7 +128,7 @@ TEST(SaddleSolver, IterationsHardlyDependOnTheViscosityOfTheMelt) {
   for (const Frozen frozen : {Frozen::shell, Frozen::nowhere, Frozen::corners}) {
     std::vector<int> counts;
     for (const double viscosity : {1e5, 1e6, 1e7, 1e8, 1e9})
-      counts.push_back(Casting(8, viscosity, algebra::SolverKind::multigrid, frozen).iterations(1e-6));
+      counts.push_back(Casting(8, viscosity, linear::SolverKind::multigrid, frozen).iterations(1e-6));
     const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
     EXPECT_LE(*most, 2.5 * *least) << ::testing::PrintToString(counts);
     EXPECT_LE(*most, 60) << ::testing::PrintToString(counts);
@@ -137,43 +137,43 @@ TEST(SaddleSolver, IterationsHardlyDependOnTheViscosityOfTheMelt) {
 
 TEST(SaddleSolver, AFactorisationTakesOverWhereTheMeltIsTooThinForTheIteration) {
   std::vector<double> exact, found;
-  EXPECT_TRUE(Casting(6, 1.0, algebra::SolverKind::direct).solve(1e-8, exact).converged);
-  EXPECT_TRUE(Casting(6, 1.0, algebra::SolverKind::multigrid).solve(1e-8, found).converged);
+  EXPECT_TRUE(Casting(6, 1.0, linear::SolverKind::direct).solve(1e-8, exact).converged);
+  EXPECT_TRUE(Casting(6, 1.0, linear::SolverKind::multigrid).solve(1e-8, found).converged);
   double difference = 0, size = 0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
     difference += std::pow(found[i] - exact[i], 2);
     size += exact[i] * exact[i];
   }
-  EXPECT_LT(std::sqrt(algebra::global_sum(difference)), 1e-4 * std::sqrt(algebra::global_sum(size)));
+  EXPECT_LT(std::sqrt(parallel::global_sum(difference)), 1e-4 * std::sqrt(parallel::global_sum(size)));
 }
 
 TEST(SaddleSolver, IterationsHardlyDependOnTheMesh) {
   std::vector<int> counts;
   for (const int cells : {6, 12, 24})
-    counts.push_back(Casting(cells, 1e5, algebra::SolverKind::multigrid).iterations(1e-6));
+    counts.push_back(Casting(cells, 1e5, linear::SolverKind::multigrid).iterations(1e-6));
   EXPECT_LE(counts.back(), 1.6 * counts.front()) << ::testing::PrintToString(counts);
 }
 
 // A hierarchy that was made for the melt took 500 iterations in vain once metal had frozen.
 TEST(SaddleSolver, AHierarchyIsMadeAnewWhereMetalHasFrozenSince) {
-  Casting casting(8, 1e5, algebra::SolverKind::multigrid, Frozen::nowhere);
+  Casting casting(8, 1e5, linear::SolverKind::multigrid, Frozen::nowhere);
   casting.iterations(1e-6);
   casting.freeze(Frozen::shell, 1.0 / 8);
   casting.assemble();
   EXPECT_LE(casting.iterations(1e-6),
-            Casting(8, 1e5, algebra::SolverKind::multigrid, Frozen::shell).iterations(1e-6) + 5);
+            Casting(8, 1e5, linear::SolverKind::multigrid, Frozen::shell).iterations(1e-6) + 5);
 }
 
 TEST(SaddleSolver, BothSolversFindTheSameDirection) {
   std::vector<double> exact, found;
-  EXPECT_TRUE(Casting(6, 1e5, algebra::SolverKind::direct).solve(1e-10, exact).converged);
-  EXPECT_TRUE(Casting(6, 1e5, algebra::SolverKind::multigrid).solve(1e-10, found).converged);
+  EXPECT_TRUE(Casting(6, 1e5, linear::SolverKind::direct).solve(1e-10, exact).converged);
+  EXPECT_TRUE(Casting(6, 1e5, linear::SolverKind::multigrid).solve(1e-10, found).converged);
   double difference = 0, size = 0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
     difference += std::pow(found[i] - exact[i], 2);
     size += exact[i] * exact[i];
   }
-  EXPECT_LT(std::sqrt(algebra::global_sum(difference)), 1e-5 * std::sqrt(algebra::global_sum(size)));
+  EXPECT_LT(std::sqrt(parallel::global_sum(difference)), 1e-5 * std::sqrt(parallel::global_sum(size)));
 }
 
 // The melt that is too thin for the iteration is solved by the factorisation that comes to the rescue.
@@ -181,7 +181,7 @@ TEST(SaddleSolver, GivesTheSameBitsInWhateverOrderMessagesArrive) {
   for (const double viscosity : {1e5, 1.0})
     test::expect_same_bits([&] {
       std::vector<double> d;
-      EXPECT_TRUE(Casting(6, viscosity, algebra::SolverKind::multigrid).solve(1e-8, d).converged);
+      EXPECT_TRUE(Casting(6, viscosity, linear::SolverKind::multigrid).solve(1e-8, d).converged);
       return d;
     });
 }

@@ -57,7 +57,7 @@ std::vector<double> residual(StructuralHeat& heat, const Body& body, const std::
 double total(const std::vector<double>& r) {
   double s = 0;
   for (double value : r) s += value;
-  return algebra::global_sum(s);
+  return parallel::global_sum(s);
 }
 
 TEST(StructuralHeat, StretchingAtConstantTemperatureTakesThermoelasticHeat) {
@@ -78,7 +78,7 @@ TEST(StructuralHeat, TheTangentIsTheRowSumOfTheDerivative) {
       Stretched s(shape, kind, false);
       const Solved solved(s.body);
       StructuralHeat heat(*solved.phase, form);
-      algebra::BlockMatrix matrix(s.body.mesh, 1, algebra::NodeGraph(s.body.mesh));
+      linear::BlockMatrix matrix(s.body.mesh, 1, linear::NodeGraph(s.body.mesh));
       heat.bind(matrix);
       matrix.set_zero();
       heat.add_tangent(s.warm(0), matrix);

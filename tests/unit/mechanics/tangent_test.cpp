@@ -69,9 +69,9 @@ struct Setting {
   /// K d by the tangent, on owned rows.
   std::vector<double> product(BlockKernel& kernel) {
     const int nc = displacement_components(kind);
-    algebra::NodeGraph graph(mesh);
+    linear::NodeGraph graph(mesh);
     for (const auto& block : mesh.blocks) graph.add_cliques(block.nodes, mesh::node_count(block.shape));
-    algebra::BlockMatrix matrix(mesh, nc, std::move(graph));
+    linear::BlockMatrix matrix(mesh, nc, std::move(graph));
     kernel.bind(matrix);
     const mechanics::BlockHistory history = kernel.initial_history();
     kernel.prepare({temperature, temperature, temperature, u, u, &history, &history, &history, 0.5, 0.5});

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/errors.hpp"
 #include "mesh/abaqus_elements.hpp"
 #include "sample_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

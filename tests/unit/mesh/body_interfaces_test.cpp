@@ -8,13 +8,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/errors.hpp"
 #include "mesh/face_rules.hpp"
 #include "mesh/hot_spots.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/size_field.hpp"
 #include "mesh/skin.hpp"
 #include "split_block.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::mesh {
 namespace {

@@ -9,10 +9,10 @@
 #include <fstream>
 #include <string>
 
-#include "base/errors.hpp"
 #include "mesh/closed_shells.hpp"
 #include "mesh/stl_file.hpp"
 #include "sample_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
-#include "base/common_failure.hpp"
-#include "base/errors.hpp"
 #include "mesh/distribute.hpp"
 #include "sample_mesh.hpp"
+#include "system/common_failure.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

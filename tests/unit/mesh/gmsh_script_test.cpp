@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.hpp"
 #include "mesh/file_format.hpp"
 #include "sample_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

@@ -8,11 +8,11 @@
 #include <functional>
 #include <sstream>
 
-#include "base/errors.hpp"
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_mesh_file.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "sample_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/errors.hpp"
 #include "sample_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

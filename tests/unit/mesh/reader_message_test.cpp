@@ -12,10 +12,10 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "base/errors.hpp"
 #include "mesh/reader_process.hpp"
 #include "mesh/reader_sandbox.hpp"
 #include "mesh/shapes.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

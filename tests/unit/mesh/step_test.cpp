@@ -12,10 +12,10 @@
 #include <set>
 #include <sstream>
 
-#include "base/errors.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "sample_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "base/errors.hpp"
 #include "sample_mesh.hpp"
+#include "system/errors.hpp"
 
 namespace {
 

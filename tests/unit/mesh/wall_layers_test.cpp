@@ -11,10 +11,10 @@
 #include <map>
 #include <set>
 
-#include "base/errors.hpp"
 #include "mesh/quality.hpp"
 #include "sample_mesh.hpp"
 #include "split_block.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::test {
 namespace {

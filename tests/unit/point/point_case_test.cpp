@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "base/key_docs.hpp"
+#include "input/key_docs.hpp"
 #include "samples.hpp"
 
 namespace solidus::point {

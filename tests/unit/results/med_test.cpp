@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.hpp"
 #include "mesh/distribute.hpp"
 #include "mesh/shapes.hpp"
 #include "results/field_output.hpp"
 #include "results/output_error.hpp"
 #include "sample.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::results {
 namespace {

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <limits>
 
-#include "base/errors.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
 #include "results/csv.hpp"
@@ -22,6 +21,7 @@
 #include "results/run_folder.hpp"
 #include "results/vtu.hpp"
 #include "sample.hpp"
+#include "system/errors.hpp"
 #include "vtu_reader.hpp"
 
 namespace solidus::report {

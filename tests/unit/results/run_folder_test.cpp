@@ -256,7 +256,7 @@ TEST_F(Distributed, OneFileOfVtkHdfHoldsAllMoments) {
     EXPECT_EQ(table(file, "VTKHDF/CellData/vtkGhostType").size(), 48U);
 
     if (size == 1) {
-      const algebra::ActiveSet active(mesh, {});
+      const linear::ActiveSet active(mesh, {});
       const std::vector<TemperatureMoment> history = read_temperature_history(run.collection(), mesh, active);
       ASSERT_EQ(history.size(), 2U);
       EXPECT_EQ(history[1].time, 2.5);

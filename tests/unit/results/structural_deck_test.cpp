@@ -29,7 +29,7 @@ struct Sample {
   mesh::RawMesh raw;
   mesh::Mesh mesh;
   std::vector<std::string> absent;
-  algebra::ActiveSet active;
+  linear::ActiveSet active;
   std::vector<material::Material> materials;
   std::vector<double> displacement, temperature;
   std::vector<char> fixed;

@@ -118,7 +118,7 @@ TEST_F(Vtu, HidesTheCellsOfBodiesThatHaveLeft) {
   int size = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   if (size > 1) return;  // the sample is the mesh of one process
-  const algebra::ActiveSet active(mesh, std::vector<std::string>{mesh.bodies[1].name});
+  const linear::ActiveSet active(mesh, std::vector<std::string>{mesh.bodies[1].name});
   const auto pressure = count_up(3);
   FieldSet fields;
   fields.add({"pressure", "Pa", 1, Place::cell, pressure});

@@ -1,0 +1,149 @@
+#include "build/contact_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "build/body_input.hpp"
+#include "build/friction_input.hpp"
+#include "build/rigid_surface_input.hpp"
+#include "material/elasticity.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// ε_N over the stiffness of the elements behind a surface. Points of segments are more than faces that do
+/// not match can follow: with 100 the pressure of a cylinder on quads varies from node to node by a quarter
+/// of its largest one. Means around nodes do not mind (docs/decisions/0029-contact-at-means-around-nodes.md).
+constexpr double k_penalty_factor = 10, k_penalty_factor_of_means = 100;
+/// Displacement by the atmosphere of a liquid skin that it holds on its wall, over the gap that counts as
+/// leaving it.
+constexpr double k_wet_share = 0.1;
+
+contact::NormalKind normal_kind(ContactSpec::Normal normal, bool dynamic) {
+  using Normal = ContactSpec::Normal;
+  switch (normal) {
+    case Normal::penalty:
+      return contact::NormalKind::penalty;
+    case Normal::augmented_lagrangian:
+      return contact::NormalKind::augmented_lagrangian;
+    case Normal::energy_conserving:
+      return contact::NormalKind::energy_conserving;
+    case Normal::automatic:
+      break;
+  }
+  return dynamic ? contact::NormalKind::energy_conserving : contact::NormalKind::penalty;
+}
+
+void add_friction(const ContactSpec& c, Physics physics, contact::ContactSpec& pair) {
+  if (c.friction && physics == Physics::heat)
+    throw InputError(c.friction->where, "friction in an analysis of heat alone",
+                     "physics = \"thermomechanical\" or \"mechanics\", or no [contact.friction]");
+  if (c.wear && !c.friction)
+    throw InputError(c.wear->where, "wear without friction: nothing slides against a resistance",
+                     "a section [contact.friction] beside [contact.wear]");
+  if (c.wear && c.wear->master_share > 0 && !c.surfaces.empty())
+    throw InputError(c.wear->where, "'master_share' where the program chooses which surface is the master",
+                     "'slave' and 'master' in place of 'surfaces'");
+  if (c.friction) pair.friction = friction_spec(*c.friction);
+  if (c.wear) pair.wear = wear_spec(*c.wear);
+  pair.interface_heat_capacity = c.interface.heat_capacity;
+}
+
+/// Whether a body has nodes on a surface of the pair. Collective.
+bool meets(const mesh::Mesh& mesh, int body, const contact::ContactSpec& pair) {
+  std::vector<char> on(mesh.x.size(), 0);
+  for (const std::string& name : {pair.slave, pair.master})
+    if (const auto found = mesh.surfaces.find(name); found != mesh.surfaces.end())
+      for (const Index node : found->second.nodes) on[static_cast<std::size_t>(node)] = 1;
+  const bool here = std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const mesh::Block& block) {
+    return block.body == body && std::any_of(block.nodes.begin(), block.nodes.end(), [&](Index node) {
+             return on[static_cast<std::size_t>(node)] != 0;
+           });
+  });
+  return parallel::any_process(here);
+}
+
+/// The longest side of a body's bounding box [m]. Collective.
+double extent(const mesh::Mesh& mesh, int body) {
+  double longest = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (const mesh::Block& block : mesh.blocks) {
+      if (block.body != body) continue;
+      for (const Index node : block.nodes) {
+        low = std::min(low, mesh.x[static_cast<std::size_t>(node)][k]);
+        high = std::max(high, mesh.x[static_cast<std::size_t>(node)][k]);
+      }
+    }
+    longest = std::max(longest, parallel::global_max(high) + parallel::global_max(-low));
+  }
+  return longest;
+}
+
+}  // namespace
+
+std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec) {
+  std::vector<contact::ContactSpec> result;
+  for (const ContactSpec& c : spec.contacts) {
+    contact::ContactSpec pair;
+    pair.name = c.name;
+    pair.slave = c.sides()[0];
+    pair.master = c.sides()[1];
+    if (const RigidSurfaceSpec* master = spec.rigid_surface(c.master))
+      pair.rigid_master = rigid_surface(*master, spec.analysis.kind);
+    pair.choose_roles = !c.surfaces.empty();
+    pair.formulation = c.formulation;
+    pair.smoothing = c.smoothing;
+    pair.normal = normal_kind(c.normal, spec.dynamics.has_value());
+    pair.penetration_tolerance = c.penetration_tolerance;
+    pair.penalty_is_factor = !c.penalty;
+    const double factor =
+        c.integration == contact::IntegrationRule::mortar ? k_penalty_factor_of_means : k_penalty_factor;
+    pair.penalty = c.penalty.value_or(c.penalty_factor.value_or(factor));
+    pair.stabilisation = c.stabilisation;
+    pair.integration = c.integration;
+    pair.gauss_degree = c.gauss_degree;
+    pair.search_distance = c.search_distance;
+    pair.touching = c.touching;
+    pair.atmosphere = c.wet ? c.atmosphere : 0.0;
+    pair.heat = c.heat;
+    add_friction(c, spec.analysis.physics, pair);
+    pair.nodal_heat = spec.heat.integration == heat::Integration::closed;
+    pair.where = c.where;
+    result.push_back(std::move(pair));
+  }
+  return result;
+}
+
+std::vector<double> contact_moduli(const std::vector<material::Material>& materials) {
+  constexpr double k_room_temperature = 293.15, k_any = 1e9;
+  std::vector<double> moduli;
+  for (const auto& m : materials)
+    moduli.push_back(m.mechanical() ? m.young_modulus.value(k_room_temperature) : k_any);
+  return moduli;
+}
+
+void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
+                     const std::vector<material::Material>& materials, contact::ContactSpec& pair) {
+  constexpr double k_leaving_share = 0.01, k_room_temperature = 293.15;
+  double least = 0;
+  for (std::size_t b = 0; b < materials.size(); ++b) {
+    const material::Material& m = materials[b];
+    if (only_conducts(spec.bodies[b]) || !m.mechanical() || m.solidification() == nullptr) continue;
+    if (!meets(mesh, static_cast<int>(b), pair)) continue;
+    const double liquidus = m.solidification()->fraction.liquidus();
+    const double contraction =
+        std::abs(material::properties_at(m, liquidus, k_room_temperature).thermal_strain) / 3;
+    const double gap = k_leaving_share * contraction * extent(mesh, static_cast<int>(b));
+    if (gap > 0 && (least == 0 || gap < least)) least = gap;
+  }
+  pair.leaving_gap = least;
+  const ContactSpec& c = *std::ranges::find(spec.contacts, pair.name, &ContactSpec::name);
+  if (least > 0 && pair.atmosphere > 0 && !c.penalty_factor)
+    pair.largest_penalty = pair.atmosphere / (k_wet_share * least);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,27 @@
+/// Builds the contact pairs of a case.
+#pragma once
+
+#include <vector>
+
+#include "case/case_spec.hpp"
+#include "contact/spec.hpp"
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::model {
+
+/// One per [[contact]]. Heat passes between nodes only when heat content is integrated there too (closed
+/// rule).
+std::vector<contact::ContactSpec> contact_specs(const CaseSpec& spec);
+
+/// Young's modulus of every body at room temperature [Pa], for penalties given as a factor; of bodies without
+/// one, 1 GPa (in an analysis of heat alone it is never used).
+std::vector<double> contact_moduli(const std::vector<material::Material>& materials);
+
+/// Sets from which gap on a liquid skin has left its wall: k_leaving_share of the free linear contraction,
+/// from the liquidus to room temperature, of the extent of the castings on the pair's surfaces, the smallest
+/// of them. Collective.
+void set_leaving_gap(const CaseSpec& spec, const mesh::Mesh& mesh,
+                     const std::vector<material::Material>& materials, contact::ContactSpec& pair);
+
+}  // namespace solidus::model

@@ -1,0 +1,21 @@
+/// Builds inertia and its time integrator from the case.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "case/case_spec.hpp"
+#include "mechanics/inertial_forces.hpp"
+
+namespace solidus::model {
+
+/// Nothing without [dynamics].
+std::optional<mechanics::DynamicsOptions> dynamics_options(const CaseSpec& spec);
+
+/// "newmark", for messages; the trapezoidal rule is one of Newmark's methods.
+std::string method_name(const DynamicsSpec& dynamics);
+
+/// Throws InputError for settings that contradict each other.
+void check_dynamics(const CaseSpec& spec);
+
+}  // namespace solidus::model

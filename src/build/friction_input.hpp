@@ -1,0 +1,16 @@
+/// Makes the specifications of friction and wear (contact/) from [contact.friction] and [contact.wear].
+#pragma once
+
+#include "case/friction_spec.hpp"
+#include "contact/friction.hpp"
+#include "contact/wear.hpp"
+
+namespace solidus::model {
+
+/// Throws InputError for errors that the check of a single key cannot find: a unit of the wrong dimension,
+/// curves that do not fit, coefficients that make no law (contact/friction_coefficient.hpp).
+contact::FrictionSpec friction_spec(const FrictionSpec& spec);
+
+contact::WearSpec wear_spec(const WearSpec& spec);
+
+}  // namespace solidus::model

@@ -1,0 +1,73 @@
+#include "build/heat_input.hpp"
+
+#include "build/body_input.hpp"
+#include "build/place_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+heat::Coefficient coefficient(const Function& f, Clock clock, const StageRun* stage, AnalysisKind kind) {
+  if (f.of == Argument::temperature) return {f.table, true};
+  return {place_function(f, clock, stage, kind), false};
+}
+
+}  // namespace
+
+heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage) {
+  using Kind = ThermalConditionSpec::Kind;
+  heat::Conditions conditions;
+  conditions.absent_bodies = gone_bodies(spec, stage);
+  for (const auto& c : spec.thermal_conditions) {
+    if (!holds(c.stages, stage)) continue;
+    const AnalysisKind kind = spec.analysis.kind;
+    const auto placed = [&](const Function& f) { return place_function(f, c.clock, stage, kind); };
+    switch (c.kind) {
+      case Kind::temperature:
+        conditions.temperatures.push_back({c.name, c.group, placed(c.temperature)});
+        break;
+      case Kind::flux:
+        conditions.fluxes.push_back({c.name, c.group, placed(c.flux), placed(c.factor)});
+        break;
+      case Kind::film:
+        conditions.films.push_back({c.name, c.group, coefficient(c.coefficient, c.clock, stage, kind),
+                                    placed(c.ambient), placed(c.factor)});
+        break;
+      case Kind::radiation:
+        conditions.radiations.push_back({c.name, c.group, coefficient(c.emissivity, c.clock, stage, kind),
+                                         placed(c.ambient), placed(c.factor)});
+        break;
+      case Kind::source:
+        conditions.sources.push_back({c.name, c.group, placed(c.power), placed(c.factor)});
+        break;
+    }
+  }
+  return conditions;
+}
+
+std::string against_two_stages(const CaseSpec& spec) {
+  using Heating = CouplingSpec::StructuralHeating;
+  if (!spec.coupled()) return {};
+  const CouplingSpec& c = spec.coupling;
+  if (!c.scheme->traits().leaves_stepping) return "the scheme has an integration of its own";
+  if (c.structural_heating != Heating::energy && c.structural_heating != Heating::none)
+    return "this form of structural heat is of first order";
+  return {};
+}
+
+heat::HeatOptions heat_options(const CaseSpec& spec) {
+  heat::HeatOptions options = spec.heat;
+  options.alone = !spec.simultaneous();
+  if (!options.stepping)
+    options.stepping = !spec.dynamics && against_two_stages(spec).empty()
+                           ? heat::ThermalStepping::sdirk2
+                           : heat::ThermalStepping::backward_euler;
+  if (!spec.coupled()) return options;
+  if (spec.coupling.as_printed)
+    options.sensible = spec.coupling.structural_heating == CouplingSpec::StructuralHeating::temperature
+                           ? heat::SensibleForm::temperature
+                           : heat::SensibleForm::entropy;
+  return options;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,54 @@
+/// The temperatures that bodies start with: one for all of a body, or a function of position.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "case/case_spec.hpp"
+#include "material/enthalpy.hpp"
+#include "material/material.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::model {
+
+/// Lowest and highest temperature of a body at the start [K].
+struct TemperatureRange {
+  double low = 0, high = 0;
+};
+
+/// A field of a file that sets the temperature of a body is mapped by its enthalpy: h of the file's points is
+/// interpolated to the nodes of the body, then moved toward the file's highest or lowest value, everywhere by
+/// the same share α of the distance,
+///   h_i ← h_i + α (h_max − h_i)  or  h_i + α (h_min − h_i),   Σ w_i h_i / Σ w_i as in the file,
+/// so that the body has the file's enthalpy per volume, to rounding, and leaves none of its bounds. w are the
+/// weights of the closed rule on either mesh. Where the volumes differ by more than a hundredth the body has
+/// another shape: nothing is moved then, and a warning says so.
+class InitialTemperatures {
+ public:
+  /// Reads the files that the case names. Collective. Throws InputError on every process.
+  InitialTemperatures(const CaseSpec& spec, const std::vector<material::Material>& materials,
+                      const mesh::Mesh& mesh);
+  /// Returns the initial temperature of a body at one of its nodes [K]; at the temperature of an isothermal
+  /// change it is molten unless the file says otherwise.
+  double temperature(Index node, int body) const;
+  /// The same as enthalpy per volume, by the material's curve [J/m³].
+  double enthalpy(Index node, int body) const;
+  /// Whether a body has one temperature.
+  bool uniform(int body) const { return bodies_[static_cast<std::size_t>(body)].enthalpies.empty(); }
+  std::vector<TemperatureRange> ranges() const;
+
+ private:
+  struct Body {
+    double temperature = 0, enthalpy = 0;          ///< of a uniform one
+    std::vector<double> temperatures, enthalpies;  ///< [local node], of the body's nodes; else empty
+    TemperatureRange range;
+  };
+  Body evaluated(const PlaceSpec& place, const mesh::Mesh& mesh, int body, AnalysisKind kind,
+                 const material::Material& material, const std::string& name) const;
+
+  std::vector<Body> bodies_;
+};
+
+}  // namespace solidus::model

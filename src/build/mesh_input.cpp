@@ -1,0 +1,194 @@
+#include "build/mesh_input.hpp"
+
+#include <petscsys.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+
+#include "build/interfaces.hpp"
+#include "build/mesh_checks.hpp"
+#include "input/units.hpp"
+#include "mesh/casting_geometry.hpp"
+#include "mesh/distribute.hpp"
+#include "mesh/message.hpp"
+#include "mesh/shapes.hpp"
+#include "mesh/wall_layers.hpp"
+#include "results/output_error.hpp"
+#include "system/log.hpp"
+#include "system/profile.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+mesh::Shape shape_named(const std::string& wanted) {
+  using mesh::Shape;
+  for (const Shape shape : {Shape::tri3, Shape::tri6, Shape::quad4, Shape::quad8, Shape::tet4, Shape::tet10,
+                            Shape::hex8, Shape::hex20})
+    if (mesh::name(shape) == wanted) return shape;
+  throw std::logic_error("the declaration of mesh.element allows an unknown element");
+}
+
+mesh::RawMesh built_in_shape(const MeshSpec& m) {
+  const mesh::Shape shape = shape_named(m.element);
+  if (m.block) return mesh::make_block({m.block->size, m.block->origin, m.block->divisions}, shape);
+  if (m.two_blocks) {
+    const TwoBlocksSpec& t = *m.two_blocks;
+    return mesh::make_two_blocks({t.lower, t.upper, t.lower_divisions, t.upper_divisions, t.gap}, shape);
+  }
+  const CylinderInMouldSpec& c = *m.cylinder_in_mould;
+  return mesh::make_cylinder_in_mould({c.radius, c.height, c.mould_wall, c.mould_bottom, c.mould_height,
+                                       c.element_size, c.mould_element_size, c.interface_ratio},
+                                      shape);
+}
+
+mesh::GeometryChoice geometry_choice(const MeshSpec& m) {
+  mesh::GeometryChoice choice;
+  choice.conforming = m.conforming;
+  for (const MeshGroupSpec& g : m.groups) {
+    if (g.by_rule()) continue;
+    mesh::GeometryGroup& group = choice.groups.emplace_back();
+    group.name = g.name;
+    group.bodies = g.kind == MeshGroupSpec::Kind::body;
+    group.numbers = g.numbers;
+    group.label = g.label;
+    if (g.lowest.empty()) continue;
+    group.box.emplace();
+    std::copy_n(g.lowest.begin(), 3, (*group.box)[0].begin());
+    std::copy_n(g.highest.begin(), 3, (*group.box)[1].begin());
+  }
+  return choice;
+}
+
+mesh::CastingGeometry casting_geometry(const MeshSpec& m) {
+  mesh::CastingGeometry geometry;
+  for (const MeshSizeSpec& s : m.sizes)
+    geometry.sizes.push_back({s.body, s.size, s.smallest.value_or(s.size / 4), s.across, s.growth});
+  if (m.mould) {
+    mesh::MouldBlock& mould = geometry.mould.emplace();
+    mould.name = m.mould->name;
+    mould.core = m.mould->core;
+    for (std::size_t i = 0; i < 6; ++i)
+      mould.walls[i] = m.mould->walls.size() == 6 ? m.mould->walls[i] : m.mould->walls[0];
+  }
+  if (m.riser) {
+    const std::vector<double>& foot = m.riser->foot;
+    geometry.riser = {m.riser->name, {foot[0], foot[1], foot[2]}, m.riser->diameter, m.riser->height};
+  }
+  if (m.symmetry) geometry.symmetry = {m.symmetry->axis[0] - 'x', m.symmetry->at};
+  return geometry;
+}
+
+void add_layers(const MeshLayersSpec& l, const std::string& source, mesh::RawMesh& mesh) {
+  const mesh::WallLayerReport report =
+      mesh::add_wall_layers(mesh, {l.surface, l.body, l.number, l.growth, l.first}, source);
+  logging::info("layers of '{}' on '{}': {} of {:.3g} mm, the first {:.3g} mm", l.body, l.surface, l.number,
+                1e3 * report.whole, 1e3 * report.first);
+  if (report.mean < 0.7 * report.whole)
+    logging::warn(
+        "layers of '{}' on '{}' have room for {:.2g} of {:.2g} mm in the mean; {} of {} vertices have none",
+        l.body, l.surface, 1e3 * report.mean, 1e3 * report.whole, report.n_bare,
+        report.n_bare + report.n_columns);
+}
+
+/// The mesh of a case on process 0, and the contacts that its interfaces make.
+mesh::RawMesh make_raw_mesh(CaseSpec& spec, std::vector<FoundInterface>& found) {
+  const MeshSpec& m = spec.mesh;
+  const std::string name = m.file ? *m.file : *m.shape;
+  mesh::RawMesh result;
+  if (m.file) {
+    mesh::MeshSource source{*m.file, units::convert(1, m.unit, "m"), m.element_size.value_or(0), m.order};
+    for (const MeshConstantSpec& constant : m.constants) source.constants[constant.name] = constant.value;
+    source.geometry = geometry_choice(m);
+    source.trust_script = m.trust_script;
+    result = m.sizes.empty() && !m.mould && !m.riser && !m.symmetry
+                 ? mesh::read_mesh(source)
+                 : mesh::mesh_casting(source, casting_geometry(m));
+  } else {
+    try {
+      result = built_in_shape(m);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(m.where, "the shape '" + *m.shape + "': " + error.what());
+    }
+  }
+  if (!spec.interfaces.empty() || std::ranges::any_of(m.groups, &MeshGroupSpec::by_rule)) {
+    check_bodies_of(spec, result);
+    add_rule_groups(spec, result, name);
+    found = find_interfaces(spec, result, name);
+    add_contacts(found, spec);
+  }
+  check_groups(spec, result);
+  for (const MeshLayersSpec& layers : m.layers)
+    if (layers.number > 0) add_layers(layers, name, result);
+  mesh::validate_and_orient(result, name);
+  return result;
+}
+
+/// Distributes the interfaces that process 0 has found to all processes.
+std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found) {
+  mesh::Packer packer;
+  packer.put_size(found.size());
+  for (const FoundInterface& f : found) {
+    packer.put(std::vector<GlobalIndex>{static_cast<GlobalIndex>(f.section), f.a, f.b});
+    packer.put(f.surface_a);
+    packer.put(f.surface_b);
+    packer.put(std::vector<double>{f.distance, f.facets});
+  }
+  std::vector<char> buffer = std::move(packer).buffer();
+  long size = static_cast<long>(buffer.size());
+  MPI_Bcast(&size, 1, MPI_LONG, 0, PETSC_COMM_WORLD);
+  buffer.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(buffer.data(), static_cast<int>(size), MPI_CHAR, 0, PETSC_COMM_WORLD);
+  mesh::Unpacker unpacker(buffer);
+  std::vector<FoundInterface> all(unpacker.size());
+  for (FoundInterface& f : all) {
+    const auto numbers = unpacker.vector<GlobalIndex>();
+    f.section = static_cast<std::size_t>(numbers[0]);
+    f.a = static_cast<int>(numbers[1]);
+    f.b = static_cast<int>(numbers[2]);
+    f.surface_a = unpacker.string();
+    f.surface_b = unpacker.string();
+    const auto lengths = unpacker.vector<double>();
+    f.distance = lengths[0];
+    f.facets = lengths[1];
+  }
+  return all;
+}
+
+}  // namespace
+
+mesh::RawMesh raw_mesh(CaseSpec spec) {
+  std::vector<FoundInterface> found;
+  return make_raw_mesh(spec, found);
+}
+
+mesh::Mesh load_mesh(CaseSpec& spec) {
+  mesh::RawMesh raw;
+  if (!spec.interfaces.empty()) {
+    const profile::Part part("reading and meshing");
+    std::vector<FoundInterface> found;
+    results::on_first_process([&] {
+      CaseSpec own = spec;
+      raw = make_raw_mesh(own, found);
+    });
+    add_contacts(everywhere(found), spec);
+  } else {
+    const profile::Part part("reading and meshing");
+    results::on_first_process([&] { raw = raw_mesh(spec); });
+  }
+  const profile::Part part("partition");
+  std::vector<std::string> bodies, replicated;
+  std::vector<mesh::BodyWork> work;
+  for (const BodySpec& body : spec.bodies) {
+    bodies.push_back(body.mesh_group());
+    work.push_back(body.physics == BodySpec::Physics::heat ? mesh::BodyWork::heat : mesh::BodyWork::all);
+  }
+  for (const ContactSpec& contact : spec.contacts)
+    for (const std::string& surface : contact.sides())
+      if (spec.rigid_surface(surface) == nullptr) replicated.push_back(surface);
+  return mesh::distribute(raw, bodies, replicated, work);
+}
+
+}  // namespace solidus::model

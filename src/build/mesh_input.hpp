@@ -1,0 +1,18 @@
+/// Makes the mesh of a case.
+#pragma once
+
+#include "case/case_spec.hpp"
+#include "mesh/raw_mesh.hpp"
+
+namespace solidus::model {
+
+/// Reads the file or makes the built-in shape, finds its interfaces, orients it and checks it against the
+/// case. On process 0 only. Throws InputError.
+mesh::RawMesh raw_mesh(CaseSpec spec);
+
+/// The part of the mesh that this process holds; the surfaces in contact are on all of them. Collective: what
+/// goes wrong on process 0 is thrown on all. The contacts that interfaces make are added to those of the
+/// case.
+mesh::Mesh load_mesh(CaseSpec& spec);
+
+}  // namespace solidus::model

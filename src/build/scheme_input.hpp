@@ -1,0 +1,28 @@
+/// The coupling scheme that a case asks for.
+#pragma once
+
+#include <memory>
+
+#include "case/case_spec.hpp"
+#include "coupling/phases.hpp"
+#include "coupling/scheme.hpp"
+#include "coupling/scheme_kind.hpp"
+#include "mechanics/structural_heat.hpp"
+
+namespace solidus::model {
+
+/// The case as schemes see it.
+/// @param melts  something that deforms does
+coupling::SchemeContext scheme_context(const CaseSpec& spec, bool melts);
+/// Whether displacements and stresses of a step belong to the temperatures at its start: a sequential split
+/// that does mechanics first, without inertia.
+bool lags_a_step(const CaseSpec& spec, bool melts);
+
+/// @param phases must outlive the scheme
+std::unique_ptr<coupling::CouplingScheme> coupling_scheme(const CaseSpec& spec,
+                                                          const coupling::Phases& phases);
+
+/// The form of structural heat; not for structural_heating = "none".
+mechanics::StructuralForm structural_form(const CaseSpec& spec);
+
+}  // namespace solidus::model

@@ -1,0 +1,20 @@
+/// Makes the options of the simulation from the section [time], and checks that its keys agree.
+#pragma once
+
+#include "case/case_spec.hpp"
+#include "coupling/simulation.hpp"
+
+namespace solidus::model {
+
+/// Throws InputError for keys that are missing or contradict each other or the analysis.
+void check_time(const CaseSpec& spec);
+
+/// End, step sizes and limits, and all output times of a transient run; the limit of the displacement error
+/// is that of displacement_error().
+coupling::TimeOptions time_options(const CaseSpec& spec);
+
+/// The error of the displacement that a step may commit [m].
+/// @param diagonal  of the mesh, corner to corner [m]
+double displacement_error(const TimeSpec& t, double diagonal);
+
+}  // namespace solidus::model

@@ -1,0 +1,107 @@
+#include "case/roles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "case/case_materials.hpp"
+#include "material/library.hpp"
+#include "system/errors.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Role>, 24> k_words = {{
+    {"riser", Role::riser},        {"feeder", Role::riser}, {"speiser", Role::riser},
+    {"sleeve", Role::sleeve},      {"chill", Role::chill},  {"insulation", Role::insulation},
+    {"insulat", Role::insulation}, {"core", Role::core},    {"kern", Role::core},
+    {"mould", Role::mould},        {"mold", Role::mould},   {"sand", Role::mould},
+    {"drag", Role::mould},         {"cope", Role::mould},   {"shell", Role::mould},
+    {"kokille", Role::die},        {"die", Role::die},      {"tool_steel", Role::die},
+    {"cast", Role::casting},       {"part", Role::casting}, {"guss", Role::casting},
+    {"runner", Role::casting},     {"gate", Role::casting}, {"sprue", Role::casting},
+}};
+
+/// Of letters alone, so that "die" is no part of "diesel".
+bool has_word(const std::string& text, std::string_view word) {
+  const auto letter = [&](std::size_t i) { return std::isalpha(static_cast<unsigned char>(text[i])) != 0; };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const bool begins = at == 0 || !letter(at - 1);
+    const bool ends = at + word.size() == text.size() || !letter(at + word.size());
+    if (word.size() > 4 ? begins || ends : begins && ends) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view name(Role role) {
+  constexpr std::array<std::string_view, 8> names = {"casting", "riser",  "mould", "core",
+                                                     "chill",   "sleeve", "die",   "insulation"};
+  return names[static_cast<std::size_t>(role)];
+}
+
+std::optional<Role> role_in_name(const std::string& name) {
+  std::string low = name;
+  std::transform(low.begin(), low.end(), low.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const auto& [word, role] : k_words)
+    if (has_word(low, word)) return role;
+  return {};
+}
+
+Role role_of(const BodySpec& body, const material::Material& material) {
+  if (body.role) return *body.role;
+  if (material.solidification() != nullptr) return Role::casting;
+  const auto solid = [](std::optional<Role> role) {
+    return role && *role != Role::casting && *role != Role::riser;
+  };
+  if (const auto told = role_in_name(body.name); solid(told)) return *told;
+  const std::string of_material = std::filesystem::path(body.material).stem().string();
+  if (const auto told = role_in_name(of_material); solid(told)) return *told;
+  return Role::mould;
+}
+
+void decide_physics(CaseSpec& spec) {
+  std::vector<std::size_t> conductors;
+  bool deforms = false;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    BodySpec& body = spec.bodies[b];
+    const bool open = body.physics == BodySpec::Physics::automatic;
+    if (open) body.physics = BodySpec::Physics::all;
+    bool conducts = body.physics == BodySpec::Physics::heat;
+    if (open && spec.coupled()) {
+      try {
+        const material::Material material =
+            material::find_material(body.material, material_folders(), body.where);
+        const Role role = role_of(body, material);
+        if (!material.mechanical() && role != Role::casting && role != Role::riser) {
+          conductors.push_back(b);
+          conducts = true;
+        }
+      } catch (const InputError&) {  // NOLINT: load_materials() says it
+      }
+    }
+    deforms = deforms || !conducts;
+  }
+  if (conductors.empty() || !deforms) return;
+  std::string said;
+  for (const std::size_t b : conductors) {
+    spec.bodies[b].physics = BodySpec::Physics::heat;
+    said += fmt::format("{}'{}' ({})", said.empty() ? "" : ", ", spec.bodies[b].name,
+                        std::filesystem::path(spec.bodies[b].material).stem().string());
+  }
+  logging::info("without elastic properties, and so only conducting heat: {}", said);
+}
+
+bool only_conducts(const BodySpec& body) {
+  return body.physics == BodySpec::Physics::heat;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,32 @@
+/// Volumes, skins and sizes of elements of the bodies of a case, over all processes.
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "numbers/types.hpp"
+
+namespace solidus::model {
+
+/// Measures of one body. In plane strain they are of one metre of thickness, in axisymmetry of the whole
+/// revolution.
+struct BodyMeasures {
+  mesh::Point low{}, high{};   ///< corners of the bounding box [m]
+  double volume = 0;           ///< [m³]
+  double skin = 0;             ///< area of the boundary [m²]
+  std::vector<double> shared;  ///< [other body] part of it that is a face of both bodies [m²]
+  double shortest_edge = 0, longest_edge = 0;  ///< between vertices of elements [m]
+  double mean_edge = 0;                        ///< [m]
+  GlobalIndex nodes = 0, elements = 0;
+  std::vector<GlobalIndex> shared_nodes;  ///< [other body]
+};
+
+/// [body]. Collective. In bounded memory: faces are looked at a part at a time.
+std::vector<BodyMeasures> measure_bodies(const mesh::Mesh& mesh, AnalysisKind kind);
+
+/// The share of a body's volume in elements all of whose nodes are marked: they reach from skin to skin where
+/// the nodes of the skin are. Collective.
+/// @param marked  [local node], ghosts included
+double share_between(const mesh::Mesh& mesh, AnalysisKind kind, int body, const std::vector<char>& marked);
+
+}  // namespace solidus::model

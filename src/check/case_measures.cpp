@@ -1,0 +1,17 @@
+#include "check/case_measures.hpp"
+
+namespace solidus::model {
+
+CaseMeasures measure(const CaseSpec& spec, const Assembly& a) {
+  CaseMeasures m;
+  m.bodies = measure_bodies(a.mesh, spec.analysis.kind);
+  for (const auto& pair : a.contacts)
+    m.contacts.push_back(measure_contact(a.mesh, *pair, spec.analysis.kind));
+  for (const ThermalConditionSpec& condition : spec.thermal_conditions)
+    m.surfaces.push_back(measure_surface(a.mesh, condition.group, spec.analysis.kind));
+  if (spec.has_heat()) m.pours = pours(spec, a, m);
+  m.effort = estimate_effort(spec, a, m);
+  return m;
+}
+
+}  // namespace solidus::model

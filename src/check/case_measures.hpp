@@ -1,0 +1,52 @@
+/// Measures of a case on its mesh: bodies, skins, pours with an estimate of their freezing time, and an
+/// estimate of the cost of the run. Findings and the table of `check` read them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "build/assembly.hpp"
+#include "build/skin_measures.hpp"
+#include "check/body_measures.hpp"
+#include "check/freezing_estimate.hpp"
+
+namespace solidus::model {
+
+/// A body that can freeze and is liquid at the start.
+struct Pour {
+  std::size_t body = 0;
+  double cooled_area = 0;  ///< A: skin that a contact, film, radiation, shared face or temperature cools [m²]
+  double depth = 0;        ///< greatest distance of a node from the cooled skin [m]
+  double spanned = 0;      ///< share of its volume in elements that reach from cooled skin to cooled skin
+  double conductance = 0;  ///< mean over A at the start, closed [W/(m² K)]; zero: nothing cools
+  /// Why there is no estimate; empty: there is one.
+  std::string no_estimate;
+  FreezingEstimate freezing;
+};
+
+/// Estimate of time and memory of a run, from the number of its steps and nodes (docs/guide/findings.md
+/// states its accuracy).
+struct Effort {
+  double steps = 0;
+  bool steps_known = true;
+  double seconds = 0, bytes = 0;
+};
+
+struct CaseMeasures {
+  std::vector<BodyMeasures> bodies;       ///< [body]
+  std::vector<ContactMeasures> contacts;  ///< [contact]
+  std::vector<SurfaceMeasures> surfaces;  ///< [thermal condition]
+  std::vector<Pour> pours;
+  Effort effort;
+};
+
+/// Measures a case that has been built. Collective.
+CaseMeasures measure(const CaseSpec& spec, const Assembly& a);
+
+/// The bodies that are poured, with estimates; `m` has bodies, contacts and surfaces. Collective.
+std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+
+/// `m` has all but the effort. Collective.
+Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+
+}  // namespace solidus::model

@@ -1,0 +1,107 @@
+#include "check/coupling_estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "build/body_input.hpp"
+#include "build/dynamics_input.hpp"
+#include "parallel/parallel.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+TemperatureRange temperatures(const CaseSpec& spec, const std::vector<TemperatureRange>& start) {
+  TemperatureRange r = start.front();
+  const auto add = [&r](double low, double high) { r = {std::min(r.low, low), std::max(r.high, high)}; };
+  for (const TemperatureRange& body : start) add(body.low, body.high);
+  const auto add_table = [&](const Function& f) {
+    if (f.place == nullptr) add(f.table.min_value(), f.table.max_value());
+  };
+  using Kind = ThermalConditionSpec::Kind;
+  for (const auto& c : spec.thermal_conditions) {
+    if (c.kind == Kind::temperature) add_table(c.temperature);
+    if (c.kind == Kind::film || c.kind == Kind::radiation) add_table(c.ambient);
+  }
+  return r;
+}
+
+/// Supports hold every node in the axial direction.
+bool axially_held(const CaseSpec& spec, const mesh::Mesh& mesh) {
+  std::vector<char> held(mesh.x.size(), 0);
+  for (const auto& c : spec.mechanical_conditions) {
+    const bool axial = c.kind == MechanicalConditionSpec::Kind::displacement && (c.uy || c.uz);
+    const auto nodes = mesh.node_sets.find(c.group);
+    if (!axial || nodes == mesh.node_sets.end()) continue;
+    for (const Index node : nodes->second) held[static_cast<std::size_t>(node)] = 1;
+  }
+  const auto owned = held.begin() + mesh.n_owned_nodes;
+  return !parallel::any_process(std::find(held.begin(), owned, 0) != owned);
+}
+
+}  // namespace
+
+std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
+                                                 const std::vector<material::Material>& materials,
+                                                 const mesh::Mesh& mesh,
+                                                 const std::vector<TemperatureRange>& start) {
+  const auto [low, high] = temperatures(spec, start);
+  const bool plane = spec.analysis.kind == AnalysisKind::plane_strain ||
+                     (spec.analysis.kind == AnalysisKind::axisymmetric && axially_held(spec, mesh));
+  std::vector<CouplingEstimate> estimates;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (only_conducts(spec.bodies[b])) continue;
+    CouplingEstimate e;
+    e.body = spec.bodies[b].name;
+    e.plane = plane;
+    e.initial = start[b].high;
+    e.worst = material::strongest_coupling(materials[b], low, high);
+    e.at_initial = material::coupling_number(materials[b], e.initial);
+    e.at_worst = material::coupling_number(materials[b], e.worst);
+    estimates.push_back(std::move(e));
+  }
+  return estimates;
+}
+
+std::string text(const CouplingEstimate& e) {
+  std::string most;
+  if (e.at_worst.uniaxial > e.at_initial.uniaxial)
+    most = fmt::format(", at most {:.4f} at {:.6g} degC", e.at_worst.uniaxial, e.worst - k_zero_celsius);
+  return fmt::format("{}: delta = {:.4f} at {:.6g} degC{}; isothermal split quasi-statically {}: {} = {:.4f}",
+                     e.body, e.at_initial.uniaxial, e.initial - k_zero_celsius, most,
+                     e.decisive() < 1 ? "stable" : (e.plane ? "unstable" : "unstable in the worst case"),
+                     e.plane ? "2 (1 - nu) delta" : "3 (1 - nu)/(1 + nu) delta", e.decisive());
+}
+
+void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates) {
+  const bool isothermal = spec.coupling.scheme->traits().mapping == mechanics::Mapping::isothermal;
+  if (!isothermal || estimates.empty()) return;
+  const CouplingEstimate& worst = *std::max_element(
+      estimates.begin(), estimates.end(),
+      [](const CouplingEstimate& a, const CouplingEstimate& b) { return a.decisive() < b.decisive(); });
+  const std::string advice =
+      fmt::format("scheme = \"{}\" in [coupling] has no such limit", coupling::k_stable_scheme);
+  if (spec.dynamics && spec.dynamics->method != DynamicsSpec::Method::backward_euler) {
+    logging::warn(
+        "isothermal passes with inertia by {}: no strength of coupling is known to be stable, and high "
+        "frequencies grow in a weak one too ({}); {}",
+        method_name(*spec.dynamics), text(worst), advice);
+  } else if (worst.decisive() < 1) {
+    logging::info("isothermal passes: the coupling is weak enough for every step; {}", text(worst));
+  } else if (spec.dynamics) {
+    logging::warn(
+        "isothermal passes with inertia: stable only for steps dt with delta_K < 1 + 4/(omega dt)^2, omega "
+        "the "
+        "frequency of a mode, in the quasi-static limit delta_K < 1; {}; {}",
+        text(worst), advice);
+  } else {
+    logging::warn(
+        "isothermal passes: {}; temperatures and displacements will oscillate and grow in every "
+        "step that conduction does not damp; {}",
+        text(worst), advice);
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,40 @@
+/// Estimate of the stability of the isothermal split for a case, before it runs (monograph 4.2.4;
+/// docs/theory/coupling_stability.md, 5).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "build/initial_temperature.hpp"
+#include "case/case_spec.hpp"
+#include "material/coupling_number.hpp"
+#include "mesh/mesh.hpp"
+
+namespace solidus::model {
+
+/// Estimate of one body.
+struct CouplingEstimate {
+  std::string body;
+  double initial = 0, worst = 0;  ///< temperatures [K]: at the start, and where the coupling is strongest
+  material::CouplingNumber at_initial, at_worst;
+  bool plane = false;  ///< no strain in one direction: CouplingNumber::plane is the one that counts
+  /// δ_K of the worst temperature: the quasi-static isothermal split is stable for every step below one.
+  double decisive() const { return plane ? at_worst.plane : at_worst.bound; }
+};
+
+/// Estimates of a thermo-mechanical case, one per body. The range of temperatures is that of all initial,
+/// ambient and prescribed ones but those of conditions that vary with position. Collective.
+/// @param start  of each body; `initial` is the highest
+std::vector<CouplingEstimate> coupling_estimates(const CaseSpec& spec,
+                                                 const std::vector<material::Material>& materials,
+                                                 const mesh::Mesh& mesh,
+                                                 const std::vector<TemperatureRange>& start);
+
+/// "casting: delta = 0.0400 at 319.85 degC, ...".
+std::string text(const CouplingEstimate& estimate);
+
+/// Prints the expected stability at the start of a run with isothermal passes, as a warning where they will
+/// be unstable. Prints nothing for other schemes.
+void announce_isothermal(const CaseSpec& spec, const std::vector<CouplingEstimate>& estimates);
+
+}  // namespace solidus::model

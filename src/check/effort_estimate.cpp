@@ -1,0 +1,93 @@
+// Estimates the effort of a run. The figures are those of one core of a server of 2020, measured on the
+// project's cases (docs/guide/findings.md); another machine differs by its speed.
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "build/body_input.hpp"
+#include "case/stage_input.hpp"
+#include "check/case_measures.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// By node: of a step [s], and of memory [bytes].
+struct Cost {
+  double heat, mechanics, heat_bytes, mechanics_bytes;
+};
+constexpr Cost k_plane{2.2e-6, 6e-6, 0.7e3, 5.5e3};
+constexpr Cost k_solid_direct{6e-6, 80e-6, 1.2e3, 65e3};
+constexpr Cost k_solid_iterative{6e-6, 150e-6, 1.2e3, 48e3};
+
+Cost cost(const CaseSpec& spec, double nodes_of_mechanics) {
+  if (spec.analysis.kind != AnalysisKind::solid) return k_plane;
+  constexpr double k_direct_unknowns = 50000;  // where linear::SolverKind::automatic changes
+  const bool direct =
+      spec.mechanics.solver == linear::SolverKind::direct ||
+      (spec.mechanics.solver == linear::SolverKind::automatic && 3 * nodes_of_mechanics < k_direct_unknowns);
+  return direct ? k_solid_direct : k_solid_iterative;
+}
+
+/// How much more a scheme does in a step than one pass of each phase.
+double passes(const CaseSpec& spec) {
+  return spec.coupled() ? spec.coupling.scheme->traits().effort : 1;
+}
+
+double fixed_steps(const CaseSpec& spec, const Assembly& a) {
+  if (a.stages.empty()) return std::ceil(*spec.time.end / *spec.time.step - 1e-9);
+  double steps = 0;
+  for (const StageRun& run : a.stages)
+    steps += std::ceil(run.stage->duration / first_step(*run.stage, spec.time) - 1e-9);
+  return steps;
+}
+
+/// Errors go with the square of a step, so that steps go with the root of what the run passes through over
+/// the error allowed: measured 6 to 10 times that.
+double adaptive_steps(const CaseSpec& spec, const Assembly& a) {
+  double high = 0, low = 1e300;
+  for (const TemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
+  using Kind = ThermalConditionSpec::Kind;
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    const Function& f = c.kind == Kind::temperature ? c.temperature : c.ambient;
+    if ((c.kind == Kind::temperature || c.kind == Kind::film || c.kind == Kind::radiation) &&
+        f.place == nullptr)
+      low = std::min(low, f.table.min_value()), high = std::max(high, f.table.max_value());
+  }
+  constexpr double k_of_root = 7.5, k_least = 20;
+  const double error = spec.time.temperature_error.value_or(1.0);
+  const double n_stages = std::max(1.0, static_cast<double>(a.stages.size()));
+  double steps = spec.has_heat() ? k_of_root * std::sqrt(std::max(0.0, high - low) / error) : 5 * k_least;
+  steps = std::max(steps, k_least * n_stages);
+  if (spec.time.max_step) steps = std::max(steps, *spec.time.end / *spec.time.max_step);
+  return steps;
+}
+
+}  // namespace
+
+Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+  Effort effort;
+  if (spec.time.steady) {
+    effort.steps = 1;
+  } else {
+    effort.steps_known = !spec.time.adaptive;
+    effort.steps = effort.steps_known ? fixed_steps(spec, a) : adaptive_steps(spec, a);
+  }
+  int n_processes = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  double heat = 0, mechanics = 0;  // nodes
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    const auto nodes = static_cast<double>(m.bodies[b].nodes);
+    if (spec.has_heat()) heat += nodes;
+    if (spec.has_mechanics() && !only_conducts(spec.bodies[b])) mechanics += nodes;
+  }
+  const Cost by_node = cost(spec, mechanics);
+  constexpr double k_start = 0.5, k_output = 1e-3, k_program = 95e6;  // [s], [s] a step, [bytes]
+  const double step = by_node.heat * heat + by_node.mechanics * mechanics;
+  effort.seconds = k_start + effort.steps * (k_output + passes(spec) * step / n_processes);
+  effort.bytes = n_processes * k_program + by_node.heat_bytes * heat + by_node.mechanics_bytes * mechanics;
+  return effort;
+}
+
+}  // namespace solidus::model

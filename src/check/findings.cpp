@@ -1,0 +1,30 @@
+#include "check/findings.hpp"
+
+#include "system/errors.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
+  Findings found;
+  find_in_interfaces(spec, a, found);
+  find_in_materials(spec, a, found);
+  find_in_pour(spec, a, found);
+  find_in_conditions(spec, a, found);
+  find_in_geometry(spec, a, m, found);
+  find_in_freezing(spec, a, m, found);
+  find_in_mechanics(spec, a, m, found);
+  find_in_effort(spec, m, found);
+  return found;
+}
+
+void report(const Findings& findings) {
+  for (const Finding& finding : findings)
+    if (finding.is_error) throw InputError(finding.where, finding.what, finding.usual);
+  for (const Finding& finding : findings) {
+    const std::string place = finding.where.text();
+    logging::warn("{}{}{}; {}", place, place.empty() ? "" : ": ", finding.what, finding.usual);
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,58 @@
+/// Findings: values of a case that are possible but not sensible, and that no check of a single key detects.
+/// One file per family.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "build/assembly.hpp"
+#include "case/case_spec.hpp"
+#include "check/case_measures.hpp"
+
+namespace solidus::model {
+
+struct Finding {
+  bool is_error = false;  ///< no sensible case looks so; else a warning
+  SourceLocation where;
+  std::string what;   ///< the finding, with its number
+  std::string usual;  ///< the usual range, or the value that was perhaps meant
+};
+using Findings = std::vector<Finding>;
+
+/// Whether a quantity is one number, everywhere and always.
+inline bool is_number(const Function& f) {
+  return f.place == nullptr && f.of == Argument::constant;
+}
+
+/// Whether a condition is there from the start to the end with one strength.
+inline bool always_on(const ThermalConditionSpec& c) {
+  return is_number(c.coefficient) && is_number(c.factor) && c.stages.empty();
+}
+
+/// Contacts that are given twice, that no heat passes, or that are missing; films on surfaces in contact and
+/// several films on one surface; conductances. Collective.
+void find_in_interfaces(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// Properties that no metal, mould or gas has.
+void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// Pouring temperature, and bodies that are poured.
+void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings);
+/// Surroundings, coefficients and gravity; the length of the run in steps. Collective: size of the mesh.
+void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings);
+
+/// Bodies that overlap, share nodes or are too coarsely meshed.
+void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Conditions that keep a casting from freezing, runs that end before it has frozen, steps that are too long
+/// for it, feeders and chills. Collective.
+void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Supports and loads. Collective.
+void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Runs that do not fit into the machine or the year, and outputs without number.
+void find_in_effort(const CaseSpec& spec, const CaseMeasures& m, Findings& findings);
+
+/// All of them, of a case that is built. Collective.
+Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
+
+/// Warns of each finding; throws InputError for the first error.
+void report(const Findings& findings);
+
+}  // namespace solidus::model

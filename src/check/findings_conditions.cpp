@@ -1,0 +1,214 @@
+// Findings on surroundings, gravity, steps and the size of everything.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "check/findings.hpp"
+#include "input/units.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// A table that begins near 20 K was meant in degrees Celsius: surfaces are not so cold.
+void cold_arguments(const ThermalConditionSpec& t, const char* key, const Table& table, Findings& findings) {
+  constexpr double k_coldest = 150;  // [K]
+  if (const double first = table.x().front(); first < k_coldest)
+    findings.push_back({false, t.where,
+                        fmt::format("the table of '{}' of '{}' begins at {:g} K ({:.0f} degC)", key, t.name,
+                                    first, units::to_display(first, "K", "degC")),
+                        "are its temperatures in degC? argument_unit = \"degC\""});
+}
+
+void surroundings(const CaseSpec& spec, Findings& findings) {
+  using Kind = ThermalConditionSpec::Kind;
+  constexpr double k_coldest = 70, k_hottest = 1900;  // [K]: liquid nitrogen to furnaces
+  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
+    const bool surrounded = t.kind == Kind::film || t.kind == Kind::radiation;
+    if (surrounded && is_number(t.ambient))
+      if (const double ambient = t.ambient.table.value(0); ambient < k_coldest || ambient > k_hottest)
+        findings.push_back({false, t.where,
+                            fmt::format("'{}' has surroundings of {:.0f} degC ({:.0f} K)", t.name,
+                                        units::to_display(ambient, "K", "degC"), ambient),
+                            "room temperature is 20 degC, 293 K"});
+    if (t.kind == Kind::source && is_number(t.power) && std::abs(t.power.table.value(0)) > 1e11)
+      findings.push_back({false, t.where,
+                          fmt::format("the source '{}' has {:g} W/m3", t.name, t.power.table.value(0)),
+                          "usual are 1e3 to 1e9 W/m3, under a laser 1e11"});
+    if (t.kind == Kind::radiation && is_number(t.emissivity) && is_number(t.factor) &&
+        t.emissivity.table.value(0) < 0.02)
+      findings.push_back({false, t.where,
+                          fmt::format("the emissivity of '{}' is {:g}", t.name, t.emissivity.table.value(0)),
+                          "polished metal has 0.03 to 0.1, oxidised metal, sand and coatings 0.3 to 0.95"});
+    for (const auto& [function, key] :
+         {std::pair(&t.coefficient, "coefficient"), std::pair(&t.emissivity, "emissivity")})
+      if (surrounded && function->place == nullptr && function->of == Argument::temperature)
+        cold_arguments(t, key, function->table, findings);
+    if (t.kind == Kind::flux && is_number(t.flux) && std::abs(t.flux.table.value(0)) > 2e7)
+      findings.push_back({false, t.where,
+                          fmt::format("the flux '{}' has {:g} W/m2", t.name, t.flux.table.value(0)),
+                          "usual are 1e2 to 1e7 W/m2"});
+    if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor) &&
+        t.coefficient.table.value(0) < 0.5)
+      findings.push_back({false, t.where,
+                          fmt::format("the film '{}' has {:g} W/m2/K", t.name, t.coefficient.table.value(0)),
+                          "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+    if (t.kind == Kind::film && t.coefficient.place == nullptr && !is_number(t.coefficient) &&
+        t.coefficient.table.max_value() > 1e8)
+      findings.push_back(
+          {true, t.where,
+           fmt::format("the film '{}' comes to {:g} W/m2/K", t.name, t.coefficient.table.max_value()),
+           "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+    if (t.kind == Kind::film && is_number(t.coefficient) && is_number(t.factor))
+      if (const double h = t.coefficient.table.value(0); h > 1e6)
+        findings.push_back({h > 1e8, t.where, fmt::format("the film '{}' has {:g} W/m2/K", t.name, h),
+                            "usual are 5 to 100 W/m2/K in air, up to 50000 in water"});
+  }
+}
+
+/// Room temperature in K is a slip where it is read in degrees Celsius.
+bool looks_like_kelvins(double temperature) {
+  const double celsius = temperature - k_zero_celsius;
+  return std::abs(celsius - 293.1) < 0.2 || std::abs(celsius - 298.1) < 0.2;
+}
+
+void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  const auto compare = [&](const SourceLocation& where, const std::string& what, double temperature) {
+    if (looks_like_kelvins(temperature))
+      findings.push_back({false, where, fmt::format("{} of {:g} degC", what, temperature - k_zero_celsius),
+                          "is it in K? 293 K are 20 degC"});
+  };
+  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
+    using Kind = ThermalConditionSpec::Kind;
+    if ((t.kind == Kind::film || t.kind == Kind::radiation) && t.ambient.place == nullptr)
+      compare(t.where, fmt::format("'{}' has surroundings", t.name), t.ambient.table.min_value());
+  }
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const std::string body = fmt::format("the body '{}' has an initial temperature", spec.bodies[b].name);
+    compare(spec.bodies[b].where, body, a.start[b].low);
+    if (a.start[b].low < 200)
+      findings.push_back({false, spec.bodies[b].where,
+                          fmt::format("{} of {:.0f} degC", body, a.start[b].low - k_zero_celsius),
+                          "moulds start at 0 to 400 degC"});
+  }
+}
+
+/// Heat that a body does not have.
+void sinks(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  if (spec.time.steady || !spec.time.end) return;
+  for (const ThermalConditionSpec& t : spec.thermal_conditions) {
+    if (t.kind != ThermalConditionSpec::Kind::source || !is_number(t.power) || !is_number(t.factor)) continue;
+    const double power = t.power.table.value(0) * t.factor.table.value(0);
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+      if (spec.bodies[b].mesh_group() != t.group || power >= 0) continue;
+      const material::EnthalpyCurve enthalpy = a.materials[b].enthalpy();
+      const double lasts = (enthalpy.upper(a.start[b].high) - enthalpy.lower(1.0)) / -power;
+      if (lasts < *spec.time.end && t.stages.empty())
+        findings.push_back(
+            {false, t.where,
+             fmt::format("the source '{}' of {:g} W/m3 takes all the heat that '{}' has within {:.3g} s",
+                         t.name, power, spec.bodies[b].name, lasts),
+             "a source is positive into the body; films and contacts cool"});
+    }
+  }
+}
+
+/// Residuals that are left in every step.
+void residuals(const CaseSpec& spec, Findings& findings) {
+  constexpr double k_loose = 2e-3;
+  const auto compare = [&](const char* key, double tolerance, const char* of) {
+    if (tolerance > k_loose)
+      findings.push_back({false, spec.time.where,
+                          fmt::format("{} = {:g}: each step may leave {:.3g} % of its {} unaccounted for",
+                                      key, tolerance, 100 * tolerance, of),
+                          "1e-4 and less, or without the key"});
+  };
+  if (spec.has_heat()) compare("heat.tolerance", spec.heat.tolerance, "heat");
+  if (spec.has_mechanics()) compare("mechanics.tolerance", spec.mechanics.tolerance, "forces");
+}
+
+void periodic_states(const CaseSpec& spec, Findings& findings) {
+  for (const CycleSpec& cycle : spec.cycles)
+    if (cycle.periodic && (*cycle.periodic < 1e-3 || *cycle.periodic > 50))
+      findings.push_back({false, cycle.where,
+                          fmt::format("the cycle '{}' counts as periodic where its rounds differ by {:g} K",
+                                      cycle.name, *cycle.periodic),
+                          "0.1 to 5 K: below are errors of steps and mesh, above dies that still warm up"});
+}
+
+void outputs(const CaseSpec& spec, Findings& findings) {
+  if (spec.time.steady || !spec.time.end) return;
+  const double end = *spec.time.end;
+  double last = spec.output.every.value_or(0);
+  for (const double time : spec.output.times) last = std::max(last, time);
+  if (last > end * (1 + 1e-9))
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("an output is asked for at {:g} s, but the run ends at {:g} s", last, end),
+         "output.every and output.times up to the end"});
+}
+
+void gravity(const CaseSpec& spec, Findings& findings) {
+  const double g = spec.analysis.gravity;
+  if (g != 0 && (g < 1 || g > 30))
+    findings.push_back(
+        {false, spec.analysis.where, fmt::format("gravity is {:g} m/s2", g), "9.81 m/s2 on earth"});
+}
+
+void steps(const CaseSpec& spec, Findings& findings) {
+  if (spec.time.steady || spec.time.adaptive || !spec.stages.empty() || !spec.time.end || !spec.time.step)
+    return;
+  if (*spec.time.step > 0.99 * *spec.time.end)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("one step of {:g} s is the whole run", *spec.time.step),
+                        "some hundred steps; time.adaptive chooses them"});
+}
+
+/// Compares the error allowed per step with the range of temperatures of the run.
+void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  double high = 0, low = std::numeric_limits<double>::max();
+  for (const TemperatureRange& r : a.start) high = std::max(high, r.high), low = std::min(low, r.low);
+  if (const double allowed = spec.time.temperature_error.value_or(0);
+      high - low > 100 && allowed > 0.1 * (high - low))
+    findings.push_back({false, spec.time.where,
+                        fmt::format("each step may be wrong by {:g} K, where bodies start {:.0f} K apart",
+                                    allowed, high - low),
+                        "time.temperature_error of 0.5 to 10 K"});
+  if (const double allowed = spec.time.temperature_error.value_or(1); allowed < 1e-3)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("each step may be wrong by {:g} K alone", allowed),
+                        "time.temperature_error of 0.5 to 10 K"});
+}
+
+void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (const mesh::Point& x : a.mesh.x) low = std::min(low, x[i]), high = std::max(high, x[i]);
+    largest = std::max(largest, parallel::global_max(high) - parallel::global_min(low));
+  }
+  if (largest > 30 || largest < 1e-4)
+    findings.push_back({false, spec.mesh.where, fmt::format("the mesh is {:.3g} m large", largest),
+                        "is mesh.unit right? It is \"m\" unless the case says \"mm\""});
+}
+
+}  // namespace
+
+void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  if (spec.has_heat()) surroundings(spec, findings);
+  if (spec.has_heat()) sinks(spec, a, findings);
+  residuals(spec, findings);
+  periodic_states(spec, findings);
+  gravity(spec, findings);
+  steps(spec, findings);
+  if (spec.has_heat()) tolerance(spec, a, findings);
+  if (spec.has_heat()) rooms_in_kelvins(spec, a, findings);
+  outputs(spec, findings);
+  size(spec, a, findings);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,249 @@
+// Findings on the freezing of the casting: conditions that prevent it, and whether the run is long and fine
+// enough.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "build/mechanics_input.hpp"
+#include "case/roles.hpp"
+#include "check/findings.hpp"
+#include "input/units.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+double celsius(double kelvin) {
+  return kelvin - k_zero_celsius;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 120) return fmt::format("{:.3g} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.3g} min", seconds / 60);
+  if (seconds < 172800) return fmt::format("{:.3g} h", seconds / 3600);
+  return fmt::format("{:.3g} days", seconds / 86400);
+}
+
+double solidus_of(const Assembly& a, const Pour& pour) {
+  return a.materials[pour.body].solidification()->fraction.solidus();
+}
+
+/// The longest step that a run with fixed steps takes.
+double fixed_step(const CaseSpec& spec, const Assembly& a) {
+  if (spec.time.adaptive || spec.time.steady) return 0;
+  if (a.stages.empty()) return spec.time.step.value_or(0);
+  return first_step(*a.stages.front().stage, spec.time);
+}
+
+/// When a body that is poured leaves for the first time, or the run ends [s].
+double time_there(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+  double pour = 0;
+  bool there = false;
+  for (const StageRun& stage : a.stages) {
+    const bool now = holds(spec.bodies[body].stages, &stage);
+    if (now && !there) pour = stage.start;
+    if (there && !now) return stage.start - pour;
+    there = now;
+  }
+  return *spec.time.end - pour;
+}
+
+/// Over all processes the same.
+void nothing_to_wait_for(const CaseSpec& spec, const std::vector<Pour>& pours, Findings& findings) {
+  if (spec.time.until == TimeSpec::Until::solid && pours.empty())
+    findings.push_back({true, spec.time.where, "the run lasts until all is solid, but nothing is poured",
+                        "until = \"end\", or a body that starts above its solidus"});
+}
+
+void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Findings& findings) {
+  const std::string& name = spec.bodies[pour.body].name;
+  if (spec.time.steady) {
+    findings.push_back({false, spec.time.where,
+                        fmt::format("a steady analysis has no time in which '{}' freezes: it gives the "
+                                    "temperatures that conditions hold for ever, whatever was poured",
+                                    name),
+                        "time.end and time.step in place of time.steady"});
+    return;
+  }
+  if (pour.no_estimate == "nothing cools it") {
+    findings.push_back({false, spec.bodies[pour.body].where, fmt::format("nothing cools the body '{}'", name),
+                        "a contact with [contact.heat], a film, radiation or a temperature on its skin"});
+    return;
+  }
+  if (!pour.no_estimate.empty() || spec.time.steady) return;
+  if (!pour.freezing.time) {
+    findings.push_back(
+        {false, spec.bodies[pour.body].where,
+         fmt::format(
+             "the body '{}' does not freeze: with what is around it, it stays near {:.0f} degC, above its "
+             "solidus of {:.0f} degC",
+             name, celsius(pour.freezing.rest), celsius(solidus_of(a, pour))),
+         "moulds and surroundings that are colder, and have room for its heat"});
+    return;
+  }
+  // An estimate is good to a factor of two.
+  constexpr double k_early = 0.25, k_fine = 4, k_days = 15 * 86400.0;
+  const double time = *pour.freezing.time;
+  if (*spec.time.end < k_early * time)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("the run ends after {}, but '{}' takes some {} to freeze",
+                                    duration(*spec.time.end), name, duration(time)),
+                        "a later time.end; is its unit right?"});
+  else if (const double there = time_there(spec, a, pour.body); there < k_early * time)
+    findings.push_back({false, spec.bodies[pour.body].where,
+                        fmt::format("'{}' leaves {} after its pour, but takes some {} to freeze", name,
+                                    duration(there), duration(time)),
+                        "longer stages before it leaves"});
+  if (const double step = fixed_step(spec, a); k_fine * step > time && step < 0.99 * *spec.time.end)
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("steps of {}, but '{}' freezes within some {}", duration(step), name, duration(time)),
+         "twenty steps and more while it freezes; time.adaptive chooses them"});
+  if (time > k_days)
+    findings.push_back({false, spec.mesh.where,
+                        fmt::format("'{}' takes some {} to freeze", name, duration(time)),
+                        "seconds to hours; are mesh.unit, the conductances and conductivities right?"});
+}
+
+/// Rounds of a cycle in which no casting leaves go on with the one that was poured before. Where everything
+/// stays, nothing is poured again.
+void rounds_without_a_shot(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m,
+                           Findings& findings) {
+  for (const CycleSpec& cycle : spec.cycles) {
+    const auto is_of_it = [&](const StageRun& stage) {
+      return std::find(cycle.stages.begin(), cycle.stages.end(), stage.stage->name) != cycle.stages.end();
+    };
+    const bool leaves = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& pour) {
+      return std::any_of(a.stages.begin(), a.stages.end(), [&](const StageRun& stage) {
+        return is_of_it(stage) && !holds(spec.bodies[pour.body].stages, &stage);
+      });
+    });
+    if (m.pours.empty() || cycle.repeat < 2 || leaves) continue;
+    const std::string& name = spec.bodies[m.pours.front().body].name;
+    findings.push_back(
+        {false, cycle.where,
+         fmt::format("the cycle '{}' comes round {} times, but '{}' is poured once: it is there in all "
+                     "stages of the cycle",
+                     cycle.name, cycle.repeat, name),
+         "'stages' of its [[body]] without the last one of the cycle: then every round is a shot"});
+  }
+}
+
+/// Conditions on the skin of the body that keep it hot.
+void heating(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const Pour& pour,
+             Findings& findings) {
+  using Kind = ThermalConditionSpec::Kind;
+  const std::string& name = spec.bodies[pour.body].name;
+  const double solidus = solidus_of(a, pour);
+  for (std::size_t i = 0; i < spec.thermal_conditions.size(); ++i) {
+    const ThermalConditionSpec& c = spec.thermal_conditions[i];
+    if (m.surfaces[i].body != static_cast<int>(pour.body)) continue;
+    if (c.kind == Kind::temperature && is_number(c.temperature) && c.temperature.table.value(0) > solidus &&
+        pour.freezing.time.value_or(1e300) > spec.time.end.value_or(0))
+      findings.push_back(
+          {false, c.where,
+           fmt::format(
+               "'{}' holds the skin '{}' of '{}' at {:.0f} degC, above its solidus of {:.0f} degC: it "
+               "does not freeze there",
+               c.name, c.group, name, celsius(c.temperature.table.value(0)), celsius(solidus)),
+           "a film or contact; the pouring temperature is initial_temperature"});
+    if (c.kind == Kind::flux && is_number(c.flux) && c.flux.table.value(0) > 0)
+      findings.push_back(
+          {false, c.where,
+           fmt::format("the flux '{}' of {:g} W/m2 heats '{}'", c.name, c.flux.table.value(0), name),
+           "a flux is positive into the body: cooling is negative"});
+    if ((c.kind == Kind::film || c.kind == Kind::radiation) && is_number(c.ambient) &&
+        c.ambient.table.value(0) > solidus && c.ambient.table.value(0) < 1900 && always_on(c))
+      findings.push_back(
+          {false, c.where,
+           fmt::format("the surroundings of '{}' have {:.0f} degC, above the solidus of '{}' at "
+                       "{:.0f} degC: it does not freeze there",
+                       c.name, celsius(c.ambient.table.value(0)), name, celsius(solidus)),
+           "room temperature, or that of the cooling water"});
+  }
+}
+
+/// A body that can melt, but starts cold beside one that is poured.
+void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (m.pours.empty() || !spec.criteria.follow) return;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const material::PhaseChange* freezing = a.materials[b].solidification();
+    if (freezing == nullptr || a.start[b].high >= freezing->fraction.solidus()) continue;
+    const Role role = role_of(spec.bodies[b], a.materials[b]);
+    if (role != Role::casting && role != Role::riser) continue;  // the case says that it is a chill
+    findings.push_back(
+        {false, spec.bodies[b].where,
+         fmt::format(
+             "the body '{}' starts solid at {:.0f} degC, but its material '{}' freezes: it counts as a "
+             "casting in the solid fraction, the steps and the criteria",
+             spec.bodies[b].name, celsius(a.start[b].high), spec.bodies[b].material),
+         "a material without solidification for chills and moulds, such as 'iron_chill', 'copper_chill' or "
+         "'steel_mould'"});
+  }
+}
+
+/// Feeders that touch no melt, or that lie where melt does not flow down from. Collective.
+void feeders(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (m.pours.empty()) return;
+  std::vector<int> poured(a.mesh.x.size(), -1);
+  for (const mesh::Block& block : a.mesh.blocks)
+    for (const Pour& pour : m.pours)
+      if (static_cast<int>(pour.body) == block.body)
+        for (const Index node : block.nodes) poured[static_cast<std::size_t>(node)] = block.body;
+  const std::array<double, 3> g = gravity(spec.analysis);
+  for (const std::string& group : spec.criteria.feeders) {
+    double n = 0, height = 0, lowest = 0, highest = 0;  // against gravity
+    double all = 0;                                     // nodes of what it is a part of
+    for (const Pour& pour : m.pours) all += static_cast<double>(m.bodies[pour.body].nodes);
+    if (const auto nodes = a.mesh.node_sets.find(group); nodes != a.mesh.node_sets.end())
+      for (const Index node : nodes->second) {
+        const auto i = static_cast<std::size_t>(node);
+        if (node >= a.mesh.n_owned_nodes || poured[i] < 0) continue;
+        const BodyMeasures& body = m.bodies[static_cast<std::size_t>(poured[i])];
+        n += 1;
+        for (std::size_t d = 0; d < 3; ++d) {
+          height -= g[d] * a.mesh.x[i][d];
+          lowest += std::min(-g[d] * body.low[d], -g[d] * body.high[d]);
+          highest += std::max(-g[d] * body.low[d], -g[d] * body.high[d]);
+        }
+      }
+    n = parallel::global_sum(n);
+    height = parallel::global_sum(height);
+    lowest = parallel::global_sum(lowest);
+    highest = parallel::global_sum(highest);
+    if (n == 0)
+      findings.push_back({true, spec.criteria.where,
+                          fmt::format("the feeder '{}' has no node of a body that is poured", group),
+                          "a surface or volume of the casting: melt that it touches is fed"});
+    else if (n > 0.9 * all)
+      findings.push_back({false, spec.criteria.where,
+                          fmt::format("the feeder '{}' is all that is poured: no pore is looked for", group),
+                          "the riser, or the surface through which the casting is fed"});
+    else if (height < lowest + 0.25 * (highest - lowest))
+      findings.push_back(
+          {false, spec.criteria.where,
+           fmt::format("the feeder '{}' lies in the lowest quarter of its casting, by the direction "
+                       "of gravity",
+                       group),
+           "feeders above what they feed; is gravity_direction right?"});
+  }
+}
+
+}  // namespace
+
+void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (!spec.has_heat()) return;
+  for (const Pour& pour : m.pours) {
+    heating(spec, a, m, pour, findings);
+    length_of_run(spec, a, pour, findings);
+  }
+  rounds_without_a_shot(spec, a, m, findings);
+  nothing_to_wait_for(spec, m.pours, findings);
+  cold_castings(spec, a, m, findings);
+  feeders(spec, a, m, findings);
+}
+
+}  // namespace solidus::model

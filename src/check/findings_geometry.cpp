@@ -1,0 +1,159 @@
+// Findings on bodies and their meshes: bodies that overlap or are glued together, and meshes that are too
+// coarse.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "build/body_input.hpp"
+#include "check/findings.hpp"
+#include "input/units.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Bodies whose temperatures differ by less may share nodes with good reason [K].
+constexpr double k_same_temperature = 50;
+
+/// In quotes.
+std::string name_of(const CaseSpec& spec, int body) {
+  if (body == k_several_bodies) return "several bodies";
+  return body >= 0 ? "'" + spec.bodies[static_cast<std::size_t>(body)].name + "'" : "a tool";
+}
+
+/// Facets of two meshes on one curved skin overlap by a tenth of a face at most.
+void overlaps(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_of_face = 0.15;
+  for (std::size_t c = 0; c < m.contacts.size(); ++c) {
+    const ContactMeasures& contact = m.contacts[c];
+    const double depth = -contact.least_gap;
+    if (contact.paired > 0 && depth > k_of_face * contact.face_size &&
+        depth > spec.contacts[c].touching.value_or(0.0))
+      findings.push_back({false, spec.contacts[c].where,
+                          fmt::format("{} and {} of the contact '{}' overlap by up to {:.3g} mm at the start",
+                                      name_of(spec, contact.slave_body), name_of(spec, contact.master_body),
+                                      spec.contacts[c].name, 1e3 * depth),
+                          "surfaces that touch; do the two geometries have the same size, place and unit?"});
+  }
+}
+
+void far_apart(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (std::size_t c = 0; c < m.contacts.size(); ++c) {
+    const ContactMeasures& contact = m.contacts[c];
+    if (!(contact.paired > 0) || contact.slave_body < 0 || !spec.contacts[c].heat) continue;
+    const BodyMeasures& body = m.bodies[static_cast<std::size_t>(contact.slave_body)];
+    const double size = std::cbrt(body.volume), allowed = spec.contacts[c].touching.value_or(0.0);
+    if (contact.least_gap > 2e-3 && contact.least_gap > 0.02 * size && contact.least_gap > allowed)
+      findings.push_back(
+          {false, spec.contacts[c].where,
+           fmt::format("the surfaces '{}' and '{}' of the contact '{}' are {:.3g} mm apart or more",
+                       contact.slave, contact.master, spec.contacts[c].name, 1e3 * contact.least_gap),
+           "surfaces that touch, or a gap below a millimetre; is it the right pair?"});
+  }
+}
+
+void same_body(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (std::size_t c = 0; c < m.contacts.size(); ++c)
+    if (m.contacts[c].slave_body >= 0 && m.contacts[c].slave_body == m.contacts[c].master_body)
+      findings.push_back({false, spec.contacts[c].where,
+                          fmt::format("both surfaces of the contact '{}' belong to the body {}",
+                                      spec.contacts[c].name, name_of(spec, m.contacts[c].slave_body)),
+                          "surfaces of two bodies, unless this one has a slit"});
+}
+
+void shared_nodes(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  for (std::size_t c = 0; c < m.contacts.size(); ++c)
+    if (m.contacts[c].shared_nodes > 0)
+      findings.push_back(
+          {false, spec.contacts[c].where,
+           fmt::format("the surfaces of the contact '{}' share {} nodes: there the bodies are one, no gap "
+                       "opens and heat passes without resistance",
+                       spec.contacts[c].name, m.contacts[c].shared_nodes),
+           "bodies with nodes of their own: no mesh.conforming, no common faces in the geometry"});
+  if (!spec.has_heat()) return;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b)
+    for (std::size_t other = 0; other < b; ++other) {
+      const GlobalIndex n = m.bodies[b].shared_nodes[other];
+      if (n == 0 || std::abs(a.start[b].high - a.start[other].low) < k_same_temperature ||
+          std::abs(a.start[b].low - a.start[other].high) < k_same_temperature)
+        continue;
+      const bool told = std::any_of(m.contacts.begin(), m.contacts.end(),
+                                    [](const ContactMeasures& c) { return c.shared_nodes > 0; });
+      if (told) continue;
+      findings.push_back(
+          {false, spec.bodies[b].where,
+           fmt::format(
+               "the bodies '{}' and '{}', which start {:.0f} K apart, share {} nodes: no gap opens and "
+               "heat passes without resistance",
+               spec.bodies[other].name, spec.bodies[b].name, std::abs(a.start[b].high - a.start[other].high),
+               n),
+           "between casting and mould bodies with nodes of their own and a [[contact]]"});
+    }
+}
+
+void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (const Pour& pour : m.pours) {
+    if (!pour.no_estimate.empty()) continue;
+    const BodyMeasures& body = m.bodies[pour.body];
+    const std::string& name = spec.bodies[pour.body].name;
+    const double modulus = body.volume / pour.cooled_area;
+    const char* usual = "four elements through a wall, or two of second order: mesh.element_size";
+    if (pour.spanned > 0.5)
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format(
+               "{:.0f} % of the body '{}' are elements that reach from one cooled skin to another, of "
+               "{:.3g} to {:.3g} mm; twice its volume over its cooled skin is {:.3g} mm",
+               100 * pour.spanned, name, 1e3 * body.shortest_edge, 1e3 * body.longest_edge, 2e3 * modulus),
+           usual});
+    else if (body.mean_edge > 2 * std::max(pour.depth, modulus))
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format(
+               "the elements of the body '{}' have {:.3g} mm on average, but its deepest place is {:.3g} mm "
+               "below the cooled skin",
+               name, 1e3 * body.mean_edge, 1e3 * std::max(pour.depth, modulus)),
+           usual});
+  }
+}
+
+/// The mould's first element against the depth that heat reaches until the casting is solid.
+void coarse_moulds(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  for (const Pour& pour : m.pours) {
+    if (!pour.freezing.time || !(pour.freezing.mould_reach > 0)) continue;
+    for (std::size_t c = 0; c < m.contacts.size(); ++c) {
+      const ContactMeasures& contact = m.contacts[c];
+      const auto body = static_cast<int>(pour.body);
+      const int other = contact.slave_body == body    ? contact.master_body
+                        : contact.master_body == body ? contact.slave_body
+                                                      : -1;
+      if (other < 0) continue;
+      const BodyMeasures& mould = m.bodies[static_cast<std::size_t>(other)];
+      if (mould.shortest_edge < 2 * pour.freezing.mould_reach) continue;
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format(
+               "the elements of the body '{}' have {:.3g} mm and more, but heat goes only {:.3g} mm deep "
+               "until '{}' is solid",
+               spec.bodies[static_cast<std::size_t>(other)].name, 1e3 * mould.shortest_edge,
+               1e3 * pour.freezing.mould_reach, spec.bodies[pour.body].name),
+           "smaller elements at the cavity, or [[mesh.layers]] on it"});
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  overlaps(spec, m, findings);
+  far_apart(spec, m, findings);
+  same_body(spec, m, findings);
+  shared_nodes(spec, a, m, findings);
+  coarse_castings(spec, m, findings);
+  coarse_moulds(spec, m, findings);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,119 @@
+// Findings on properties: factors of a thousand between units.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "build/body_input.hpp"
+#include "check/findings.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+struct Usual {
+  const char* property;
+  const char* unit;
+  double low, high;
+};
+
+void compare(const BodySpec& body, const Usual& usual, double low, double high, Findings& findings) {
+  if (low >= usual.low && high <= usual.high) return;
+  findings.push_back({false, body.where,
+                      fmt::format("body '{}', material '{}': {} of {:g} {}", body.name, body.material,
+                                  usual.property, high > usual.high ? high : low, usual.unit),
+                      fmt::format("usual are {:g} to {:g} {}", usual.low, usual.high, usual.unit)});
+}
+
+/// Whether a point of the table is as many kelvins as the liquidus or solidus, but was read in degrees
+/// Celsius.
+bool has_shifted_point(const material::Property& property, const material::PhaseChange* freezing) {
+  if (freezing == nullptr) return false;
+  const auto x = property.table->x();
+  return std::any_of(x.begin(), x.end(), [&](double t) {
+    return std::abs(t - k_zero_celsius - freezing->fraction.liquidus()) < 0.6 ||
+           std::abs(t - k_zero_celsius - freezing->fraction.solidus()) < 0.6;
+  });
+}
+
+/// A table of temperature whose first point is a room's in K, or that would reach far below any casting's.
+void compare_argument(const BodySpec& body, const material::Property& property, double coldest,
+                      const material::PhaseChange* freezing, Findings& findings) {
+  if (property.table->constant()) return;
+  const double first = property.table->x().front(), last = property.table->x().back();
+  const double celsius = first - k_zero_celsius;
+  const auto near = [](double p, double q) { return std::abs(p - q) < 0.6; };
+  const bool room = near(celsius, 273) || near(celsius, 293) || near(celsius, 298);
+  const bool shifted = celsius > 270 && celsius < 330 && has_shifted_point(property, freezing);
+  if ((room || shifted) && coldest < first - 150)
+    findings.push_back(
+        {false, body.where,
+         fmt::format("body '{}', material '{}': the table of {} begins at {:.6g} degC, but the case "
+                     "goes down to {:.0f} degC",
+                     body.name, body.material, property.name, celsius, coldest - k_zero_celsius),
+         "are its temperatures in K? argument_unit = \"K\""});
+  if (first < 150 && last < 1800 && last > 300)
+    findings.push_back(
+        {false, body.where,
+         fmt::format("body '{}', material '{}': the table of {} runs from {:.6g} K to {:.6g} K", body.name,
+                     body.material, property.name, first, last),
+         "are its temperatures in degC? argument_unit = \"degC\""});
+}
+
+/// Elastic properties and expansion.
+void compare_solid(const BodySpec& body, const material::Material& m, Findings& findings) {
+  if (const double stiffest = m.young_modulus.max_value(); m.solidification() != nullptr && stiffest < 1e9)
+    findings.push_back({false, body.where,
+                        fmt::format("body '{}', material '{}': young_modulus of {:g} Pa at most", body.name,
+                                    body.material, stiffest),
+                        "cold metals have 10 to 400 GPa"});
+  compare(body, {"young_modulus", "Pa", 1e5, 2e12}, m.young_modulus.min_value(), m.young_modulus.max_value(),
+          findings);
+  compare(body, {"expansion", "1/K", -1e-5, 1.2e-4}, m.expansion.min_value(), m.expansion.max_value(),
+          findings);
+  const double largest = std::max(std::abs(m.expansion.min_value()), std::abs(m.expansion.max_value()));
+  if (largest > 0 && largest < 1e-8)
+    findings.push_back(
+        {false, body.where,
+         fmt::format("body '{}', material '{}': expansion of {:g} 1/K", body.name, body.material, largest),
+         "usual are 5e-7 to 3e-5 1/K, or zero"});
+}
+
+/// The lowest temperature that starts, surroundings and prescribed ones name [K].
+double coldest(const CaseSpec& spec, const Assembly& a) {
+  double low = a.coldest_start();
+  for (const ThermalConditionSpec& c : spec.thermal_conditions) {
+    using Kind = ThermalConditionSpec::Kind;
+    const bool ambient = c.kind == Kind::film || c.kind == Kind::radiation;
+    const Function& f = ambient ? c.ambient : c.temperature;
+    if ((ambient || c.kind == Kind::temperature) && f.place == nullptr)
+      low = std::min(low, f.table.min_value());
+  }
+  return low;
+}
+
+}  // namespace
+
+void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  const double low = coldest(spec, a);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const material::Material& m = a.materials[b];
+    const bool metal = m.solidification() != nullptr;
+    for (const material::Property& property : m.properties())
+      if (spec.has_heat()) compare_argument(spec.bodies[b], property, low, m.solidification(), findings);
+    if (spec.has_mechanics() && m.mechanical() && !only_conducts(spec.bodies[b]))
+      compare_solid(spec.bodies[b], m, findings);
+    compare(spec.bodies[b], {"density", "kg/m3", metal ? 1000.0 : 10.0, 25000}, m.density, m.density,
+            findings);
+    if (!spec.has_heat()) continue;
+    compare(spec.bodies[b], {"conductivity", "W/m/K", metal ? 3 : 0.01, 1000}, m.conductivity.min_value(),
+            m.conductivity.max_value(), findings);
+    compare(spec.bodies[b], {"specific heat", "J/kg/K", 80, 20000}, m.specific_heat.min_value(),
+            m.specific_heat.max_value(), findings);
+    if (metal)
+      compare(spec.bodies[b], {"latent heat", "J/kg", 1e4, 2e6}, m.solidification()->latent_heat,
+              m.solidification()->latent_heat, findings);
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,67 @@
+// Findings on the pour: is it liquid, and is it the right body?
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/findings.hpp"
+#include "input/units.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+double celsius(double kelvin) {
+  return units::to_display(kelvin, "K", "degC");
+}
+
+/// The hottest body, where one is hotter than the others by a casting's measure; −1: none is.
+int hottest(const Assembly& a) {
+  constexpr double k_apart = 100;  // [K]
+  const auto hot = std::max_element(a.start.begin(), a.start.end(),
+                                    [](const auto& x, const auto& y) { return x.high < y.high; });
+  const auto cold = std::min_element(a.start.begin(), a.start.end(),
+                                     [](const auto& x, const auto& y) { return x.low < y.low; });
+  if (hot == a.start.end() || hot->high - cold->low < k_apart) return -1;
+  return static_cast<int>(hot - a.start.begin());
+}
+
+}  // namespace
+
+void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+  constexpr double k_most_superheat = 400;  // [K]
+  // A case that switches the criteria of castings off states that nothing freezes in it.
+  if (!spec.has_heat() || !spec.criteria.follow || hottest(a) < 0) return;
+  const auto poured = static_cast<std::size_t>(hottest(a));
+  const BodySpec& body = spec.bodies[poured];
+  const double start = a.start[poured].high;
+  if (const material::PhaseChange* freezing = a.materials[poured].solidification()) {
+    const double liquidus = freezing->fraction.liquidus();
+    if (start < liquidus)
+      findings.push_back(
+          {false, body.where,
+           fmt::format(
+               "the hottest body, '{}', starts at {:.0f} degC, below the liquidus of '{}' at {:.0f} degC: {}",
+               body.name, celsius(start), body.material, celsius(liquidus),
+               start < freezing->fraction.solidus() ? "nothing is liquid" : "it is partly solid"),
+           "castings are poured 20 to 150 K above the liquidus; is the number in K?"});
+    else if (start > liquidus + k_most_superheat)
+      findings.push_back({false, body.where,
+                          fmt::format("body '{}' starts {:.0f} K above the liquidus of '{}'", body.name,
+                                      start - liquidus, body.material),
+                          "castings are poured 20 to 150 K above the liquidus"});
+    return;
+  }
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    if (const material::PhaseChange* freezing = a.materials[b].solidification();
+        freezing != nullptr && a.start[b].high < freezing->fraction.solidus() &&
+        start > freezing->fraction.liquidus())
+      findings.push_back(
+          {false, body.where,
+           fmt::format(
+               "the hottest body, '{}', is of '{}', which does not freeze, and '{}' of '{}', which would be "
+               "liquid at {:.0f} degC, starts cold",
+               body.name, body.material, spec.bodies[b].name, spec.bodies[b].material, celsius(start)),
+           "are the materials of casting and mould swapped?"});
+}
+
+}  // namespace solidus::model

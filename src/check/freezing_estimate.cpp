@@ -1,0 +1,278 @@
+#include "check/freezing_estimate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace solidus::model {
+
+namespace {
+
+constexpr int k_metal_cells = 16, k_mould_cells = 24;
+/// Between a bar and a ball: the thick place of a casting of several thicknesses.
+constexpr double k_thick_place = 2.5;
+
+/// A cell of the line: joined to `parent` alone, which comes later in the list. The last is the metal's skin.
+struct Cell {
+  const material::EnthalpyCurve* curve = nullptr;
+  const Table* conductivity = nullptr;
+  double volume = 0;                     ///< per area of the cooled skin [m]
+  int parent = -1;                       ///< −1: the skin
+  double area = 0;                       ///< of the face to the parent, over that of the cooled skin
+  double own_half = 0, parent_half = 0;  ///< distances from the face to the two centres [m]
+  int mould = -1;       ///< number of the mould whose skin this is, which meets the metal; else −1
+  int outside = -1;     ///< number of the mould whose outer side this is; else −1
+  double enthalpy = 0;  ///< [J/m³]
+};
+
+/// The metal and its moulds on a line, by finite volumes and backward Euler.
+class Line {
+ public:
+  explicit Line(const FreezingProblem& problem) : problem_(problem), metal_(problem.metal->enthalpy()) {
+    exponent_ = std::clamp(problem.depth / problem.modulus, 1.0, k_thick_place);
+    radius_ = std::max(problem.depth, problem.modulus);
+    for (const MouldSide& mould : problem.moulds) curves_.push_back(mould.material->enthalpy());
+    for (std::size_t m = 0; m < problem.moulds.size(); ++m) add_mould(m);
+    add_metal();
+    for (Cell& cell : cells_) {
+      if (cell.parent < 0 && &cell != &cells_.back()) cell.parent = static_cast<int>(cells_.size()) - 1;
+      if (cell.mould >= 0) cell.parent_half = skin_half_;
+    }
+    old_.resize(cells_.size());
+  }
+
+  double radius() const { return radius_; }
+  double skin() const { return temperature(cells_.size() - 1); }
+  double centre() const { return temperature(centre_); }
+  double mould_skin(std::size_t mould) const { return temperature(mould_skin_[mould]); }
+  /// The gap that shrinkage of the skin opens [m].
+  double gap() const {
+    const material::PhaseChange* freezing = problem_.metal->solidification();
+    const double cooled = freezing->fraction.solidus() - skin();
+    return cooled > 0 && problem_.metal->mechanical()
+               ? radius_ * problem_.metal->expansion.value(skin()) * cooled
+               : 0.0;
+  }
+  /// The hottest cell of the metal.
+  double hottest() const {
+    double hottest = 0;
+    for (std::size_t i = centre_; i < cells_.size(); ++i) hottest = std::max(hottest, temperature(i));
+    return hottest;
+  }
+  bool frozen() const {
+    const double solidus = problem_.metal->solidification()->fraction.solidus();
+    const double solid = metal_.lower(solidus) * (1 + 1e-9);
+    return std::all_of(cells_.begin() + static_cast<std::ptrdiff_t>(centre_), cells_.end(),
+                       [&](const Cell& cell) { return cell.enthalpy <= solid; });
+  }
+  bool step(double time, double dt) {
+    for (std::size_t i = 0; i < cells_.size(); ++i) old_[i] = cells_[i].enthalpy;
+    constexpr int k_most = 40;
+    for (int iteration = 0; iteration < k_most; ++iteration)
+      if (newton(time, dt)) return true;
+    for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].enthalpy = old_[i];
+    return false;
+  }
+
+ private:
+  double temperature(std::size_t i) const { return cells_[i].curve->temperature(cells_[i].enthalpy); }
+  /// Volume inside of a radius, over the area of the cooled skin.
+  double volume(double r) const { return radius_ / exponent_ * std::pow(r / radius_, exponent_); }
+  double area(double r) const { return std::pow(r / radius_, exponent_ - 1); }
+
+  void add_mould(std::size_t number) {
+    const MouldSide& mould = problem_.moulds[number];
+    // The shell of the right volume, in cells that grow outward.
+    const double outer = radius_ * std::pow(1 + mould.volume_ratio / mould.share, 1 / exponent_);
+    const double thickness = outer - radius_, growth = 1.2;
+    double cell = thickness * (growth - 1) / (std::pow(growth, k_mould_cells) - 1);
+    std::array<double, k_mould_cells + 1> r{};
+    r[0] = radius_;
+    for (std::size_t i = 0; i < k_mould_cells; ++i, cell *= growth) r[i + 1] = r[i] + cell;
+    for (std::size_t i = k_mould_cells; i-- > 0;) {  // the outermost first
+      Cell c;
+      c.curve = &curves_[number];
+      c.conductivity = &mould.material->conductivity;
+      c.volume = mould.share * (volume(r[i + 1]) - volume(r[i]));
+      c.area = mould.share * area(r[i]);
+      c.own_half = (r[i + 1] - r[i]) / 2;
+      c.parent_half = i > 0 ? (r[i] - r[i - 1]) / 2 : 0;
+      c.parent = i > 0 ? static_cast<int>(cells_.size()) + 1 : -1;
+      c.mould = i > 0 ? -1 : static_cast<int>(number);
+      c.outside = i + 1 < k_mould_cells ? -1 : static_cast<int>(number);
+      c.enthalpy = c.curve->upper(mould.start);
+      cells_.push_back(c);
+    }
+    mould_skin_.push_back(cells_.size() - 1);
+  }
+
+  void add_metal() {
+    centre_ = cells_.size();
+    const double width = radius_ / k_metal_cells;
+    skin_half_ = width / 2;
+    for (int i = 0; i < k_metal_cells; ++i) {
+      const double inner = i * width, outer = (i + 1) * width;
+      Cell c;
+      c.curve = &metal_;
+      c.conductivity = &problem_.metal->conductivity;
+      c.volume = volume(outer) - volume(inner);
+      c.own_half = c.parent_half = width / 2;
+      c.area = area(outer);
+      c.parent = i + 1 < k_metal_cells ? static_cast<int>(cells_.size()) + 1 : -1;
+      c.enthalpy = metal_.upper(problem_.start);
+      cells_.push_back(c);
+    }
+  }
+
+  double conductance(const Cell& cell, const Cell& parent, double own, double other) const {
+    double resistance =
+        cell.own_half / cell.conductivity->value(own) + cell.parent_half / parent.conductivity->value(other);
+    if (cell.mould >= 0) {
+      const MouldSide& mould = problem_.moulds[static_cast<std::size_t>(cell.mould)];
+      double h = mould.conductance(0, other, own);
+      // Half of a skin rests on its mould, by weight or because it shrinks onto a core.
+      if (mould.may_open) h = (h + mould.conductance(gap(), other, own)) / 2;
+      resistance += 1 / std::max(h, 1e-9);
+    }
+    return cell.area / resistance;
+  }
+
+  /// One iteration; true where it has converged.
+  bool newton(double time, double dt) {
+    const std::size_t n = cells_.size();
+    std::vector<double> t(n), d(n), diagonal(n), residual(n), up(n, 0.0), down(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      t[i] = temperature(i);
+      d[i] = cells_[i].curve->inverse_slope(cells_[i].enthalpy);
+      diagonal[i] = cells_[i].volume / dt;
+      residual[i] = cells_[i].volume / dt * (cells_[i].enthalpy - old_[i]);
+    }
+    const auto load = [&](std::size_t i, const auto& heat) {
+      constexpr double k_difference = 0.1;  // [K]
+      const double q = heat(t[i], time + dt);
+      residual[i] -= q;
+      diagonal[i] -= std::min(0.0, (heat(t[i] + k_difference, time + dt) - q) / k_difference) * d[i];
+    };
+    for (const OpenSide& side : problem_.open) load(n - 1, side.heat);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Cell& cell = cells_[i];
+      if (cell.outside >= 0)
+        if (const auto& heat = problem_.moulds[static_cast<std::size_t>(cell.outside)].outer_heat)
+          load(i, heat);
+      if (cell.parent < 0) continue;
+      const auto p = static_cast<std::size_t>(cell.parent);
+      const double g = conductance(cell, cells_[p], t[i], t[p]), q = g * (t[i] - t[p]);
+      residual[i] += q;
+      residual[p] -= q;
+      diagonal[i] += g * d[i];
+      diagonal[p] += g * d[p];
+      up[i] = -g * d[p];    // row of the cell, column of its parent
+      down[i] = -g * d[i];  // row of the parent
+    }
+    // Children come before their parents: one sweep eliminates, one solves.
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const auto p = static_cast<std::size_t>(cells_[i].parent);
+      diagonal[p] -= down[i] * up[i] / diagonal[i];
+      residual[p] -= down[i] * residual[i] / diagonal[i];
+    }
+    double change = 0;
+    std::vector<double> step(n);
+    for (std::size_t i = n; i-- > 0;) {
+      const double from_parent = i + 1 < n ? up[i] * step[static_cast<std::size_t>(cells_[i].parent)] : 0.0;
+      step[i] = (-residual[i] - from_parent) / diagonal[i];
+      cells_[i].enthalpy += step[i];
+      change = std::max(change, std::abs(step[i]));
+    }
+    constexpr double k_tolerance = 1e3;  // [J/m³], a thousandth of a kelvin
+    return change < k_tolerance;
+  }
+
+  const FreezingProblem& problem_;
+  material::EnthalpyCurve metal_;
+  std::vector<material::EnthalpyCurve> curves_;
+  double radius_ = 0, exponent_ = 1, skin_half_ = 0;
+  std::vector<Cell> cells_;
+  std::vector<double> old_;
+  std::vector<std::size_t> mould_skin_;
+  std::size_t centre_ = 0;
+};
+
+/// Drops of temperature on the way out: within the metal, at the interface, in the mould [K].
+struct Drops {
+  double metal = 0, interface = 0, mould = 0;
+};
+
+Drops drops(const Line& line, const FreezingProblem& problem) {
+  Drops d;
+  d.metal = line.centre() - line.skin();
+  if (problem.moulds.empty()) {
+    d.interface = 1e9;
+    return d;
+  }
+  const auto main =
+      std::max_element(problem.moulds.begin(), problem.moulds.end(),
+                       [](const MouldSide& a, const MouldSide& b) { return a.share < b.share; });
+  const double skin = line.mould_skin(static_cast<std::size_t>(main - problem.moulds.begin()));
+  d.interface = line.skin() - skin;
+  d.mould = skin - main->start;
+  return d;
+}
+
+std::string largest(const Drops& d, bool has_mould) {
+  if (d.metal > d.interface && d.metal > d.mould) return "the metal";
+  if (!has_mould) return "the surroundings";
+  return d.interface > d.mould ? "the interface" : "the mould";
+}
+
+double reach(const FreezingProblem& problem, double time) {
+  if (problem.moulds.empty()) return 0;
+  const auto main =
+      std::max_element(problem.moulds.begin(), problem.moulds.end(),
+                       [](const MouldSide& a, const MouldSide& b) { return a.share < b.share; });
+  const material::Material& m = *main->material;
+  const double hot = (main->start + problem.metal->solidification()->fraction.solidus()) / 2;
+  return std::sqrt(m.conductivity.value(hot) / (m.density * m.specific_heat.value(hot)) * time);
+}
+
+}  // namespace
+
+FreezingEstimate estimate_freezing(const FreezingProblem& problem) {
+  constexpr double k_growth = 1.05, k_longest = 3e9;  // a century [s]
+  // Hundreds are usual. Where contact under pressure conducts otherwise than a gap of zero, the skin may go
+  // to and fro between both without end.
+  constexpr int k_most_steps = 5000;
+  FreezingEstimate estimate;
+  Line line(problem);
+  const material::Material& metal = *problem.metal;
+  const double solidus = metal.solidification()->fraction.solidus();
+  const double diffusivity =
+      metal.conductivity.value(solidus) / (metal.density * metal.specific_heat.value(solidus));
+  double time = 0, dt = 1e-3 * line.radius() * line.radius() / diffusivity;
+  Drops sum;
+  for (int n = 0; !line.frozen(); ++n) {
+    if (n == k_most_steps) {
+      estimate.gave_up = true;
+      return estimate;
+    }
+    if (time > k_longest || !(dt > 1e-12)) {
+      estimate.rest = line.hottest();
+      return estimate;
+    }
+    if (!line.step(time, dt)) {
+      dt /= 4;
+      continue;
+    }
+    time += dt;
+    const Drops now = drops(line, problem);
+    sum.metal += dt * now.metal;
+    sum.interface += dt * now.interface;
+    sum.mould += dt * now.mould;
+    dt *= k_growth;
+  }
+  estimate.time = time;
+  estimate.governed_by = largest(sum, !problem.moulds.empty());
+  estimate.mould_reach = reach(problem, time);
+  return estimate;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,77 @@
+#include "linear/active_set.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <unordered_set>
+
+#include "mesh/faces.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::linear {
+
+namespace {
+
+mesh::FaceKey face_of_element(const mesh::Block& block, Index element, int face) {
+  const auto local = mesh::face_nodes(block.shape, face);
+  std::array<Index, 4> vertices{};
+  const int n = mesh::vertex_count(mesh::face_shape(block.shape));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+    vertices[i] = block.element(element)[local[i]];
+  return mesh::face_key(vertices.data(), n);
+}
+
+}  // namespace
+
+ActiveSet::ActiveSet(const mesh::Mesh& mesh, std::span<const std::string> absent)
+    : complete_(absent.empty()), bodies_(mesh.bodies.size(), 1), nodes_(mesh.x.size(), 1) {
+  if (complete_) return;
+  for (const std::string& name : absent) {
+    const auto found = std::find_if(mesh.bodies.begin(), mesh.bodies.end(),
+                                    [&](const mesh::Body& body) { return body.name == name; });
+    if (found == mesh.bodies.end())
+      throw std::invalid_argument("no body '" + name + "' in the mesh that could be absent");
+    bodies_[static_cast<std::size_t>(found - mesh.bodies.begin())] = 0;
+  }
+  // A process holds every element at the nodes it owns; their owners know the ghosts.
+  std::vector<double> touched(mesh.x.size(), 0.0);
+  for (const mesh::Block& block : mesh.blocks)
+    if (body(block.body))
+      for (const Index node : block.nodes) touched[static_cast<std::size_t>(node)] = 1;
+  parallel::GhostExchange(mesh).update(touched, 1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i] = touched[i] > 0 ? 1 : 0;
+}
+
+mesh::Surface ActiveSet::part(const mesh::Mesh& mesh, const mesh::Surface& surface) const {
+  using Faces = std::unordered_set<mesh::FaceKey, mesh::FaceKeyHash>;
+  const auto key = [](const mesh::Block& faces, Index f) {
+    return mesh::face_key(faces.element(f), mesh::vertex_count(faces.shape));
+  };
+  Faces asked, found;
+  for (const mesh::Block& faces : surface.faces)
+    for (Index f = 0; reversed(faces) && f < faces.size(); ++f) asked.insert(key(faces, f));
+  for (const mesh::Block& block : mesh.blocks) {
+    if (asked.empty() || !body(block.body)) continue;
+    for (Index e = 0; e < block.size(); ++e)
+      for (int k = 0; k < mesh::face_count(block.shape); ++k) {
+        const mesh::FaceKey face = face_of_element(block, e, k);
+        if (asked.contains(face)) found.insert(face);
+      }
+  }
+  mesh::Surface part;
+  for (const mesh::Block& faces : surface.faces) {
+    mesh::Block& to = part.faces.emplace_back();
+    to.shape = faces.shape;
+    to.body = faces.body;
+    for (Index f = 0; f < faces.size(); ++f) {
+      if (reversed(faces) && !found.contains(key(faces, f))) continue;
+      const Index* nodes = faces.element(f);
+      to.nodes.insert(to.nodes.end(), nodes, nodes + mesh::node_count(faces.shape));
+      to.input_element.push_back(faces.input_element[static_cast<std::size_t>(f)]);
+      if (f < faces.n_counted) ++to.n_counted;
+    }
+  }
+  return part;
+}
+
+}  // namespace solidus::linear

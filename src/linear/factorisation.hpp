@@ -1,0 +1,37 @@
+/// Factorisation by MUMPS as a preconditioner of PETSc.
+#pragma once
+
+#include <petscksp.h>
+
+#include <string>
+
+#include "numbers/types.hpp"
+
+namespace solidus::linear {
+
+/// MUMPS in a PC. A small matrix is factorised by every process for itself: faster than by all of them
+/// together, which for so few unknowns wait for each other, and with the same bits in every run.
+class Factorisation {
+ public:
+  /// @param workspace  MUMPS ICNTL(14), per cent beyond what the analysis foresees
+  explicit Factorisation(int workspace) : workspace_(workspace) {}
+  /// @param prefix      of PETSc's options
+  /// @param n_unknowns  of all processes
+  /// Before KSPSetFromOptions. Collective.
+  void set_type(PC pc, const std::string& prefix, bool symmetric, GlobalIndex n_unknowns);
+  /// After a failure, whether it is worth another attempt: MUMPS may need more workspace than its analysis
+  /// foresaw, as pivoting is not known beforehand. Then it gets it. Collective.
+  bool try_again(PC pc, Mat matrix);
+  /// After try_again() has found no other way, in words, why there are no factors. Collective.
+  std::string failure(Mat matrix) const;
+  /// A new matrix, or one that has been factorised.
+  void begin() { attempts_ = 0; }
+
+ private:
+  int workspace_;
+  std::string option_;  ///< that sets it
+  int attempts_ = 0;
+  bool lacks_workspace_ = false;  ///< in the last failure
+};
+
+}  // namespace solidus::linear

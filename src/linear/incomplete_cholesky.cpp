@@ -1,0 +1,87 @@
+#include "linear/incomplete_cholesky.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace solidus::linear {
+
+namespace {
+
+/// A pivot below this share of the diagonal it came from has lost its digits.
+constexpr float k_least_pivot = 1e-4F;
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+/// Columns of other processes stand last.
+std::int64_t IncompleteCholesky::end_of_owned(std::size_t row) const {
+  std::int64_t end = start_[row + 1];
+  while (column_[at(end) - 1] >= static_cast<Index>(work_.size())) --end;
+  return end;
+}
+
+void IncompleteCholesky::set_up(BlockMatrix& a) {
+  assert(a.block_size() == 1 && a.storage() == BlockMatrix::Storage::upper);
+  start_ = a.row_start();
+  column_ = a.columns();
+  work_.resize(start_.size() - 1);
+  factor_.resize(column_.size());
+  a.constrained([&] { factorise(a.block(0)); });
+}
+
+void IncompleteCholesky::factorise(const double* values) {
+  std::transform(values, values + column_.size(), factor_.begin(),
+                 [](double v) { return static_cast<float>(v); });
+  for (std::size_t row = 0; row < work_.size(); ++row) {
+    const std::int64_t diagonal = start_[row], end = end_of_owned(row);
+    const auto original = static_cast<float>(values[diagonal]);
+    float& pivot = factor_[at(diagonal)];
+    if (!(pivot > k_least_pivot * original)) pivot = original;
+    eliminate(static_cast<Index>(row), end);
+    const float inverse = pivot != 0.0F ? 1.0F / pivot : 1.0F;
+    for (std::int64_t s = diagonal + 1; s < end; ++s) factor_[at(s)] *= inverse;
+    pivot = inverse;
+  }
+}
+
+/// Takes the row out of those below it that it couples with, where they have a place.
+void IncompleteCholesky::eliminate(Index row, std::int64_t end) {
+  const std::int64_t diagonal = start_[at(row)];
+  const float pivot = factor_[at(diagonal)];
+  if (pivot == 0.0F) return;
+  for (std::int64_t s = diagonal + 1; s < end; ++s) {
+    const float share = factor_[at(s)] / pivot;
+    const std::size_t below = at(column_[at(s)]);
+    std::int64_t to = start_[below];
+    const std::int64_t last = start_[below + 1];
+    for (std::int64_t t = s; t < end; ++t) {
+      const Index column = column_[at(t)];
+      while (to < last && column_[at(to)] < column) ++to;
+      if (to == last) break;
+      if (column_[at(to)] == column) factor_[at(to)] -= share * factor_[at(t)];
+    }
+  }
+}
+
+void IncompleteCholesky::apply(std::span<const double> r, std::span<double> z) {
+  const std::size_t n = work_.size();
+  std::transform(r.begin(), r.end(), work_.begin(), [](double v) { return static_cast<float>(v); });
+  for (std::size_t row = 0; row < n; ++row) {
+    const std::int64_t diagonal = start_[row], end = end_of_owned(row);
+    const float value = work_[row];
+    for (std::int64_t s = diagonal + 1; s < end; ++s) work_[at(column_[at(s)])] -= factor_[at(s)] * value;
+    work_[row] = factor_[at(diagonal)] * value;
+  }
+  for (std::size_t row = n; row-- > 0;) {
+    float value = work_[row];
+    for (std::int64_t s = start_[row] + 1, end = end_of_owned(row); s < end; ++s)
+      value -= factor_[at(s)] * work_[at(column_[at(s)])];
+    work_[row] = value;
+  }
+  std::copy(work_.begin(), work_.end(), z.begin());
+}
+
+}  // namespace solidus::linear

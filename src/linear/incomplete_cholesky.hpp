@@ -1,0 +1,36 @@
+/// Incomplete Cholesky factors without fill, in single precision, of a process's part of a symmetric matrix:
+/// the preconditioner of a step of transient heat, which is diagonally strong.
+///
+/// Made from half a BlockMatrix as it stands, whose pattern the factors share: a sixth of the memory of
+/// PETSc's copy and factors. Meijerink and van der Vorst, Math. Comp. 31 (1977) 148.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "linear/block_matrix.hpp"
+
+namespace solidus::linear {
+
+class IncompleteCholesky {
+ public:
+  /// A pivot that is not positive gives way to the diagonal it came from. Collective.
+  /// @param a  of one component, by half, with its fixed rows; must outlive the factors and keep its pattern
+  void set_up(BlockMatrix& a);
+  /// z = (Uᵀ D U)⁻¹ r on owned rows.
+  void apply(std::span<const double> r, std::span<double> z);
+  std::size_t bytes() const { return (factor_.capacity() + work_.capacity()) * sizeof(float); }
+
+ private:
+  void factorise(const double* values);
+  void eliminate(Index row, std::int64_t end);
+  std::int64_t end_of_owned(std::size_t row) const;
+
+  std::span<const std::int64_t> start_;
+  std::span<const Index> column_;
+  std::vector<float> factor_;  ///< [slot] of U, with 1/D on the diagonal
+  std::vector<float> work_;    ///< [owned row]
+};
+
+}  // namespace solidus::linear

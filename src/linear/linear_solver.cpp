@@ -1,0 +1,146 @@
+#include "linear/linear_solver.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "linear/linear_solver_implementation.hpp"
+
+namespace solidus::linear {
+
+BlockMatrix::Storage storage_for(const LinearSolverOptions& options, const mesh::Mesh& mesh, int block_size,
+                                 int modes) {
+  const bool half = options.symmetric &&
+                    (is_ours(options, mesh, block_size, modes) || is_our_factor(options, mesh, block_size));
+  return half ? BlockMatrix::Storage::upper : BlockMatrix::Storage::whole;
+}
+
+LinearSolver::LinearSolver(const mesh::Mesh& mesh, LinearSolverOptions options)
+    : implementation_(std::make_unique<Implementation>(mesh, std::move(options))) {}
+
+LinearSolver::~LinearSolver() = default;
+
+void LinearSolver::use_rigid_body_modes(int components) {
+  implementation_->rigid_components = components;
+}
+
+void LinearSolver::use_blocks_of_first_field(BlockMatrix& blocks, double scale) {
+  implementation_->blocks = &blocks;
+  implementation_->of_first_field.scale = scale;
+}
+
+LinearReport LinearSolver::solve(BlockMatrix& a, std::span<const double> b, std::span<double> x,
+                                 double forcing) {
+  Implementation& my = *implementation_;
+  if (my.factor_of_blocks(a)) {
+    my.create_shell(a);
+    my.stale = true;
+    return solve(my.shell, b, x, forcing);
+  }
+  if (!my.multigrid_of_blocks(a)) return solve(a.matrix(), b, x, forcing);
+  if (my.rescue) return my.rescue->solve(a, b, x, forcing);
+  my.create_shell(a);
+  LinearReport report = solve(my.shell, b, x, forcing);
+  if (report.converged) return report;
+  // Single precision does not see a body that next to nothing holds; double precision does.
+  LinearSolverOptions other = my.options;
+  const bool factorise = my.factorisation_serves(a);
+  other.kind = factorise ? SolverKind::direct : SolverKind::multigrid;
+  my.rescue = std::make_unique<LinearSolver>(my.mesh, std::move(other));
+  if (!factorise) {
+    my.rescue->implementation_->petsc_multigrid = true;
+    if (my.rigid_components > 0) my.rescue->use_rigid_body_modes(a.block_size());
+  }
+  const int spent = report.iterations;
+  report = my.rescue->solve(a, b, x, forcing);
+  report.iterations += spent;
+  return report;
+}
+
+LinearReport LinearSolver::solve(Mat matrix, std::span<const double> b, std::span<double> x, double forcing) {
+  Implementation& my = *implementation_;
+  if (!my.ksp) my.create(matrix);
+  if (my.matrix != matrix) {
+    petsc::check(MatSetOption(matrix, MAT_SYMMETRIC, my.options.symmetric ? PETSC_TRUE : PETSC_FALSE),
+                 "MatSetOption");
+    petsc::check(MatSetOption(matrix, MAT_SYMMETRY_ETERNAL, PETSC_TRUE), "MatSetOption");
+    my.attach_modes(matrix);
+    my.matrix = matrix;
+    my.stale = true;
+  }
+  petsc::check(KSPSetOperators(my.ksp, matrix, matrix), "KSPSetOperators");
+  LinearReport report = solve_again(b, x, forcing);
+  if (report.converged || my.kind != SolverKind::field_split || !my.multigrid) return report;
+  const int spent = report.iterations;
+  reset();
+  my.split_failed = true;
+  report = solve(matrix, b, x, forcing);
+  report.iterations += spent;
+  return report;
+}
+
+LinearReport LinearSolver::solve_again(std::span<const double> b, std::span<double> x, double forcing) {
+  Implementation& my = *implementation_;
+  if (my.rescue) return my.rescue->solve_again(b, x, forcing);
+  my.set_tolerance(forcing);
+  assert(my.matrix != nullptr);
+  const std::size_t n = [&] {
+    const WriteArray to(my.b);
+    std::copy_n(b.data(), to.values().size(), to.values().data());
+    return to.values().size();
+  }();
+
+  LinearReport report;
+  const bool was_fresh = my.stale;
+  KSPConvergedReason reason = my.run(my.b, my.x, report.iterations);
+  if (reason < 0 && my.reuse_hierarchy && !was_fresh) reason = my.run(my.b, my.x, report.iterations);
+  const bool direct = my.is_direct();
+  my.factorisation.begin();
+  while (direct && reason == KSP_DIVERGED_PC_FAILED && my.try_again())
+    reason = my.run(my.b, my.x, report.iterations);
+  report.converged = reason > 0 || (direct && reason == KSP_CONVERGED_ITERATING);
+  if (!report.converged) {
+    report.reason = direct && reason == KSP_DIVERGED_PC_FAILED ? my.factorisation.failure(my.matrix)
+                                                               : KSPConvergedReasons[reason];
+  } else if (direct) {
+    report.converged = my.refine(report);
+  }
+  std::copy_n(ReadArray(my.x).values().data(), n, x.data());
+  // MUMPS refuses the next factorisation once one has met a singular matrix: the next step gets a new one.
+  if (direct && reason == KSP_DIVERGED_PC_FAILED) reset();
+  return report;
+}
+
+void LinearSolver::forget() {
+  Implementation& my = *implementation_;
+  // The analysis of LDLᵀ looks at the pattern alone, and so stays. A hierarchy that is only set up again
+  // keeps its interpolation and goes on with its random numbers; LU permutes by values: these are made anew.
+  if (!my.ksp || (my.kind == SolverKind::direct && my.options.symmetric)) return;
+  reset();
+}
+
+void LinearSolver::reset() {
+  Implementation& my = *implementation_;
+  my.ksp.reset();
+  my.multigrid.reset();
+  my.incomplete.reset();
+  my.shell.reset();
+  my.rescue.reset();
+  my.split_failed = false;
+  my.matrix = nullptr;
+  my.stale = true;
+}
+
+bool LinearSolver::stale() const {
+  return implementation_->stale;
+}
+
+double LinearSolver::seconds_setup() const {
+  const Implementation& my = *implementation_;
+  return my.seconds_setup + (my.rescue ? my.rescue->seconds_setup() : 0);
+}
+double LinearSolver::seconds_solve() const {
+  const Implementation& my = *implementation_;
+  return my.seconds_solve + (my.rescue ? my.rescue->seconds_solve() : 0);
+}
+
+}  // namespace solidus::linear

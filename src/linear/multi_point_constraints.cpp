@@ -1,0 +1,67 @@
+#include "linear/multi_point_constraints.hpp"
+
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace solidus::linear {
+
+MultiPointConstraints::MultiPointConstraints(const mesh::Mesh& mesh, int block_size,
+                                             std::vector<std::vector<Index>> groups) {
+  if (groups.empty()) return;
+  const auto global = [&](Index entry) {
+    return mesh.global_node[static_cast<std::size_t>(entry / block_size)] * block_size + entry % block_size;
+  };
+  unknown_.resize(mesh.x.size() * static_cast<std::size_t>(block_size));
+  for (std::size_t i = 0; i < unknown_.size(); ++i) unknown_[i] = global(static_cast<Index>(i));
+
+  std::vector<GlobalIndex> leaders(groups.size(), std::numeric_limits<GlobalIndex>::max());
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Index entry : groups[g]) leaders[g] = std::min(leaders[g], global(entry));
+  static_assert(sizeof(GlobalIndex) == sizeof(std::int64_t));
+  MPI_Allreduce(MPI_IN_PLACE, leaders.data(), static_cast<int>(leaders.size()), MPI_INT64_T, MPI_MIN,
+                PETSC_COMM_WORLD);
+
+  const Index n_owned = mesh.n_owned_nodes * block_size;
+  groups_.resize(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Index entry : groups[g]) {
+      assert(unknown_[static_cast<std::size_t>(entry)] == global(entry) && "a member of two groups");
+      unknown_[static_cast<std::size_t>(entry)] = leaders[g];
+      if (entry >= n_owned) continue;
+      groups_[g].members.push_back(entry);
+      if (global(entry) == leaders[g])
+        groups_[g].leader = entry;
+      else
+        followers_.push_back(entry);
+    }
+}
+
+void MultiPointConstraints::sum(std::span<double> r) const {
+  if (empty()) return;
+  std::vector<double> sums(groups_.size(), 0.0);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (const Index entry : groups_[g].members) {
+      sums[g] += r[static_cast<std::size_t>(entry)];
+      r[static_cast<std::size_t>(entry)] = 0;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    if (groups_[g].leader >= 0) r[static_cast<std::size_t>(groups_[g].leader)] = sums[g];
+}
+
+void MultiPointConstraints::share(std::span<double> x) const {
+  if (empty()) return;
+  std::vector<double> values(groups_.size(), 0.0);  // one process owns the leader, the others add zero
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    if (groups_[g].leader >= 0) values[g] = x[static_cast<std::size_t>(groups_[g].leader)];
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (const Index entry : groups_[g].members) x[static_cast<std::size_t>(entry)] = values[g];
+}
+
+}  // namespace solidus::linear

@@ -1,0 +1,38 @@
+#include "linear/near_null_space.hpp"
+
+namespace solidus::linear {
+
+using multigrid::NearNullSpace;
+
+NearNullSpace rigid_body_modes(const mesh::Mesh& mesh, int components) {
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes), nc = static_cast<std::size_t>(components);
+  const auto modes = static_cast<std::size_t>(rigid_body_mode_count(components));
+  NearNullSpace space{static_cast<int>(modes), std::vector<double>(n * nc * modes, 0.0)};
+  for (std::size_t node = 0; node < n; ++node) {
+    const mesh::Point& x = mesh.x[node];
+    double* const rows = space.values.data() + node * nc * modes;
+    for (std::size_t i = 0; i < nc; ++i) rows[i * modes + i] = 1;
+    // Rotations about z, x and y.
+    rows[0 * modes + nc] = -x[1];
+    rows[1 * modes + nc] = x[0];
+    if (nc < 3) continue;
+    rows[1 * modes + 4] = -x[2];
+    rows[2 * modes + 4] = x[1];
+    rows[2 * modes + 5] = -x[0];
+    rows[0 * modes + 5] = x[2];
+  }
+  return space;
+}
+
+int rigid_body_mode_count(int components) {
+  return components == 3 ? 6 : 3;
+}
+
+NearNullSpace constants(const mesh::Mesh& mesh, int components) {
+  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes), nc = static_cast<std::size_t>(components);
+  NearNullSpace space{components, std::vector<double>(n * nc * nc, 0.0)};
+  for (std::size_t i = 0; i < n * nc; ++i) space.values[i * nc + i % nc] = 1;
+  return space;
+}
+
+}  // namespace solidus::linear

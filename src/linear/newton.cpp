@@ -1,0 +1,244 @@
+#include "linear/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "linear/forcing.hpp"
+#include "linear/interruption.hpp"
+
+namespace solidus::linear {
+
+namespace {
+
+// A body that is plastic all through has next to no stiffness: its full step can be a hundred times too long.
+constexpr double k_smallest_step = 1e-3;  ///< of the line search
+constexpr int k_line_search_trials = 12;  ///< residuals after the full step
+/// A full Newton step that contracts the residual by ρ to r₁ has used up the tangent's error F'' e₀ once: a
+/// second step with the same tangent leaves 2ρ r₁ to leading order. It is taken where five times that is
+/// enough.
+constexpr double k_chord_residual = 10;
+/// A residual so far below the goal ends the iteration whatever the size of its steps: what moves under such
+/// forces has no place of its own.
+constexpr double k_no_force = 1e-3;
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  double s = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) s += a[i] * b[i];
+  return parallel::global_sum(s);
+}
+
+/// One solve: the vectors and the data shared by the iteration and its line search.
+class Iteration {
+ public:
+  Iteration(NonlinearSystem& system, TangentSolver& solver, const parallel::GhostExchange& ghosts,
+            std::span<const int> components, std::span<double> x, const NewtonOptions& options)
+      : system_(system),
+        solver_(solver),
+        ghosts_(ghosts),
+        components_(components),
+        x_(x),
+        options_(options),
+        start_(x.size()),
+        local_step_(x.size()) {
+    std::size_t n = 0;
+    for (const int of_field : components) n += owned(of_field);
+    n_first_ = owned(components.front());
+    r_.resize(n);
+    step_.resize(n);
+  }
+
+  NewtonReport run();
+
+ private:
+  std::size_t owned(int components) const {
+    return static_cast<std::size_t>(ghosts_.n_owned_nodes()) * static_cast<std::size_t>(components);
+  }
+  void evaluate();
+  void constrain();
+  /// The step on local nodes, ghosts included, from that on owned ones.
+  void spread_step();
+  /// The norm that ends the iteration.
+  double goal() const { return std::max(options_.tolerance * reference_, options_.absolute_tolerance); }
+  bool balanced() const { return norm_ <= goal(); }
+  bool converged() const;
+  bool chord_converges(double norm_before) const {
+    return norm_ * (k_chord_residual * norm_ / norm_before) <= goal();
+  }
+  void measure_next_step(double alpha, double norm_before);
+  double measured() const { return reference_ > 0 ? norm_ / reference_ : norm_; }
+  /// x = start + alpha × step and the residual there; returns step · r.
+  double slope_at(double alpha);
+  double search(double slope);
+
+  NonlinearSystem& system_;
+  TangentSolver& solver_;
+  const parallel::GhostExchange& ghosts_;
+  std::span<const int> components_;
+  std::size_t n_first_ = 0;  ///< owned entries of the first field
+  std::span<double> x_;
+  const NewtonOptions& options_;
+  std::vector<double> r_, step_;            ///< on owned nodes
+  std::vector<double> start_, local_step_;  ///< on local nodes
+  const std::vector<char>* fixed_ = nullptr;
+  const MultiPointConstraints* constraints_ = nullptr;
+  double norm_ = 0, reference_ = 0;
+  double next_step_ = std::numeric_limits<double>::infinity();  ///< its estimated relative size
+};
+
+bool Iteration::converged() const {
+  if (options_.step_tolerance <= 0 || norm_ <= options_.absolute_tolerance) return balanced();
+  if (!std::isfinite(next_step_)) return false;  // no step has been taken
+  return balanced() && (next_step_ <= options_.step_tolerance || norm_ <= k_no_force * goal());
+}
+
+void Iteration::measure_next_step(double alpha, double norm_before) {
+  if (options_.step_tolerance <= 0) return;
+  for (double& value : local_step_) value *= alpha;
+  const double contraction = alpha == 1 && norm_before > 0 ? std::min(1.0, norm_ / norm_before) : 1.0;
+  next_step_ = contraction * system_.relative_step(x_, local_step_);
+}
+
+void Iteration::evaluate() {
+  reference_ = system_.residual(x_, r_);
+  if (fixed_) constrain();
+}
+
+/// Reduces the residual to the free unknowns: zero where prescribed, the sum over the members of a
+/// constraint.
+void Iteration::constrain() {
+  for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
+    if ((*fixed_)[i]) r_[i] = 0;
+  constraints_->sum(std::span(r_).first(n_first_));
+  norm_ = std::sqrt(dot(r_, r_));
+}
+
+void Iteration::spread_step() {
+  std::size_t from = 0, to = 0;
+  const std::size_t n_nodes =
+      x_.size() / static_cast<std::size_t>(std::accumulate(components_.begin(), components_.end(), 0));
+  for (const int components : components_) {
+    const std::size_t n_owned = owned(components), n = n_nodes * static_cast<std::size_t>(components);
+    std::copy_n(step_.begin() + static_cast<std::ptrdiff_t>(from), n_owned,
+                local_step_.begin() + static_cast<std::ptrdiff_t>(to));
+    ghosts_.update(std::span(local_step_).subspan(to, n), components);
+    from += n_owned;
+    to += n;
+  }
+}
+
+double Iteration::slope_at(double alpha) {
+  for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + alpha * local_step_[i];
+  evaluate();
+  return dot(step_, r_);
+}
+
+/// Finds alpha with |s(alpha)| <= line_search_slope |s(0)|, s(alpha) = d · r(x + alpha d): the full step if
+/// it will do, else the root between a bracket by the Illinois rule. Leaves x and the residual at the alpha
+/// it returns.
+double Iteration::search(double slope) {
+  const double enough = options_.line_search_slope * std::abs(slope);
+  double trial = slope_at(1.0);
+  // The same sign means that the energy still falls at the full step: no reason to shorten it.
+  const auto good = [&](double s) { return std::isfinite(s) && (std::abs(s) <= enough || balanced()); };
+  if (good(trial) || (std::isfinite(trial) && trial * slope > 0)) return 1.0;
+
+  double low = 0, low_slope = slope, high = 1, high_slope = trial;
+  double best = 1, best_slope = trial, alpha = 1;
+  int side = 0;
+  for (int k = 0; k < k_line_search_trials; ++k) {
+    alpha = std::isfinite(high_slope) ? (low * high_slope - high * low_slope) / (high_slope - low_slope)
+                                      : 0.5 * (low + high);
+    // Stay inside the bracket: far overshoots make the secant creep.
+    alpha = std::clamp(alpha, low + 0.1 * (high - low), high - 0.1 * (high - low));
+    alpha = std::max(alpha, k_smallest_step);
+    trial = slope_at(alpha);
+    if (std::isfinite(trial) && (!std::isfinite(best_slope) || std::abs(trial) < std::abs(best_slope))) {
+      best = alpha;
+      best_slope = trial;
+    }
+    if (good(trial) || alpha <= k_smallest_step) break;
+    if (std::isfinite(trial) && trial * low_slope > 0) {
+      low = alpha;
+      low_slope = trial;
+      if (side == 1 && std::isfinite(high_slope)) high_slope *= 0.5;
+      side = 1;
+    } else {
+      high = alpha;
+      high_slope = trial;
+      if (side == -1) low_slope *= 0.5;
+      side = -1;
+    }
+  }
+  if (alpha != best) slope_at(best);
+  return best;
+}
+
+NewtonReport Iteration::run() {
+  NewtonReport report;
+  evaluate();
+  BlockMatrix* tangent = &system_.tangent();  // knows what is fixed, and serves the first solve
+  fixed_ = &tangent->fixed();
+  constraints_ = &tangent->constraints();
+  constrain();
+  bool chord = false;
+  Forcing forcing(options_.inexact);
+  while (true) {
+    check_interruption();
+    report.residuals.push_back(measured());
+    if (!std::isfinite(norm_)) {
+      report.reason = "the residual is not a number";
+      return report;
+    }
+    if (converged()) {
+      report.converged = true;
+      return report;
+    }
+    if (report.iterations == options_.max_iterations) {
+      report.out_of_iterations = true;
+      report.reason = "no convergence in " + std::to_string(options_.max_iterations) + " iterations";
+      return report;
+    }
+    if (!tangent && !chord) tangent = &system_.tangent();
+    for (double& value : r_) value = -value;
+    const double eta = forcing.next(norm_, goal() / norm_);
+    const LinearReport linear =
+        chord ? solver_.solve_again(r_, step_, eta) : solver_.solve(*tangent, r_, step_, eta);
+    for (double& value : r_) value = -value;
+    tangent = nullptr;
+    ++report.iterations;
+    report.linear_iterations += linear.iterations;
+    if (!linear.converged) {
+      report.reason = "linear solver: " + linear.reason;
+      return report;
+    }
+    for (std::size_t i = 0; i < n_first_ && i < fixed_->size(); ++i)
+      if ((*fixed_)[i]) step_[i] = 0;
+    constraints_->share(std::span(step_).first(n_first_));
+    spread_step();
+
+    const double norm_before = norm_;
+    double alpha = 1;
+    std::copy(x_.begin(), x_.end(), start_.begin());
+    if (options_.line_search) {
+      alpha = search(dot(step_, r_));
+      system_.accept(x_, local_step_, alpha);
+    } else {
+      for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += local_step_[i];
+      system_.accept(x_, local_step_, 1.0);
+      evaluate();
+    }
+    measure_next_step(alpha, norm_before);
+    chord = options_.chords && !chord && alpha == 1.0 && chord_converges(norm_before);
+  }
+}
+
+}  // namespace
+
+NewtonReport newton(NonlinearSystem& system, TangentSolver& solver, const parallel::GhostExchange& ghosts,
+                    std::span<const int> components, std::span<double> x, const NewtonOptions& options) {
+  return Iteration(system, solver, ghosts, components, x, options).run();
+}
+
+}  // namespace solidus::linear

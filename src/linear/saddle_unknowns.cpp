@@ -1,0 +1,101 @@
+#include "linear/saddle_unknowns.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+
+namespace solidus::linear {
+
+namespace {
+
+/// Marks entries of the whole before they are numbered: unknowns, and degrees of freedom that are none.
+constexpr double k_unknown = 1, k_none = -1;
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+std::vector<PetscInt> rounded(std::span<const double> numbers) {
+  std::vector<PetscInt> result(numbers.size());
+  std::transform(numbers.begin(), numbers.end(), result.begin(),
+                 [](double number) { return static_cast<PetscInt>(number); });
+  return result;
+}
+
+}  // namespace
+
+SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matrix,
+                               std::span<const char> no_pressure, const parallel::GhostExchange& ghosts)
+    : components_(matrix.components()),
+      fields_(matrix.fields()),
+      constraints_(matrix.displacement().constraints()) {
+  n_displacements_ = at(mesh.n_owned_nodes) * at(components_);
+  const std::size_t n_pressures = at(mesh.n_owned_nodes) * at(fields_);
+  std::vector<double> u(mesh.x.size() * at(components_), k_none), p(mesh.x.size() * at(fields_), k_none);
+  const std::vector<char>& fixed = matrix.displacement().fixed();
+  for (std::size_t i = 0; i < n_displacements_; ++i)
+    if (!fixed[i]) u[i] = k_unknown;
+  for (const Index follower : constraints_.followers()) u[at(follower)] = k_none;
+  for (std::size_t i = 0; i < n_pressures; ++i)
+    if (!no_pressure[i]) p[i] = k_unknown;
+
+  for (std::size_t i = 0; i < n_displacements_; ++i)
+    if (u[i] == k_unknown) entries_.push_back(i);
+  for (std::size_t i = 0; i < n_pressures; ++i)
+    if (p[i] == k_unknown) entries_.push_back(n_displacements_ + i);
+  std::int64_t mine = static_cast<std::int64_t>(entries_.size()), first = 0;
+  MPI_Exscan(&mine, &first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
+  MPI_Allreduce(&mine, &n_global_, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
+  auto number = static_cast<double>(first);
+  for (const std::size_t entry : entries_)
+    (entry < n_displacements_ ? u[entry] : p[entry - n_displacements_]) = number++;
+  constraints_.share(std::span(u).first(n_displacements_));
+  ghosts.update(u, components_);
+  ghosts.update(p, fields_);
+  displacements_ = rounded(u);
+  pressures_ = rounded(p);
+}
+
+void SaddleUnknowns::expand(std::span<const double> unknowns, std::span<double> whole) const {
+  std::fill(whole.begin(), whole.end(), 0.0);
+  for (std::size_t k = 0; k < entries_.size(); ++k) whole[entries_[k]] = unknowns[k];
+  constraints_.share(whole.first(n_displacements_));
+}
+
+void SaddleUnknowns::restrict_to(std::span<const double> whole, std::span<double> unknowns) const {
+  if (constraints_.empty()) {
+    for (std::size_t k = 0; k < entries_.size(); ++k) unknowns[k] = whole[entries_[k]];
+    return;
+  }
+  std::vector<double> summed(whole.begin(), whole.end());
+  constraints_.sum(std::span(summed).first(n_displacements_));
+  for (std::size_t k = 0; k < entries_.size(); ++k) unknowns[k] = summed[entries_[k]];
+}
+
+void SaddleCopy::create(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns) {
+  std::vector<PetscInt> rows, columns;
+  each_saddle_entry(mesh.n_owned_nodes, matrix, unknowns, [&](PetscInt i, PetscInt j, double) {
+    rows.push_back(i);
+    columns.push_back(j);
+  });
+  values_.resize(rows.size());
+  const auto n = static_cast<PetscInt>(unknowns.size());
+  petsc::check(MatCreate(PETSC_COMM_WORLD, matrix_.out()), "MatCreate");
+  petsc::check(MatSetSizes(matrix_, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
+  petsc::check(MatSetType(matrix_, MATAIJ), "MatSetType");
+  // Entries with a negative number are left out, those of the same place are added up.
+  petsc::check(
+      MatSetPreallocationCOO(matrix_, static_cast<PetscCount>(rows.size()), rows.data(), columns.data()),
+      "MatSetPreallocationCOO");
+}
+
+Mat SaddleCopy::copy(const mesh::Mesh& mesh, const SaddleMatrix& matrix, const SaddleUnknowns& unknowns) {
+  if (!matrix_) create(mesh, matrix, unknowns);
+  auto to = values_.begin();
+  each_saddle_entry(mesh.n_owned_nodes, matrix, unknowns,
+                    [&](PetscInt, PetscInt, double value) { *to++ = value; });
+  petsc::check(MatSetValuesCOO(matrix_, values_.data(), INSERT_VALUES), "MatSetValuesCOO");
+  return matrix_;
+}
+
+}  // namespace solidus::linear

@@ -1,0 +1,427 @@
+#include "multigrid/aggregation.hpp"
+
+#include <mpi.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "multigrid/aggregates.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::multigrid {
+
+namespace {
+
+constexpr double k_smoothing = 4.0 / 3.0;  ///< ω times the largest eigenvalue of D⁻¹ A
+constexpr Index k_none = k_no_aggregate;
+constexpr double k_dependent = 1e-8;      ///< a mode that keeps less of its length depends on those before
+constexpr double k_no_stiffness = 1e-12;  ///< a coarse diagonal below this share of the mean is no mode
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Modified Gram-Schmidt, twice, on the rows of one aggregate: Q over the modes, R to the coarse level.
+/// Columns that depend on others become zero.
+void orthonormalise(std::vector<double>& q, std::size_t n_rows, int modes, double* r) {
+  const auto n = static_cast<std::size_t>(modes);
+  const auto dot = [&](std::size_t a, std::size_t b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n_rows; ++i) sum += q[i * n + a] * q[i * n + b];
+    return sum;
+  };
+  std::fill_n(r, n * n, 0.0);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double length = std::sqrt(dot(k, k));
+    for (int pass = 0; pass < 2; ++pass)
+      for (std::size_t j = 0; j < k; ++j) {
+        const double share = dot(j, k);
+        r[j * n + k] += share;
+        for (std::size_t i = 0; i < n_rows; ++i) q[i * n + k] -= share * q[i * n + j];
+      }
+    const double left = std::sqrt(dot(k, k));
+    const bool depends = !(left > k_dependent * length);
+    r[k * n + k] = depends ? 0.0 : left;
+    for (std::size_t i = 0; i < n_rows; ++i) q[i * n + k] = depends ? 0.0 : q[i * n + k] / left;
+  }
+}
+
+/// P₀ as one block a row, [owned row × size][modes], and the near-null space of the coarse level.
+std::vector<float> tentative(const std::vector<Index>& of_row, Index n_aggregates, int size,
+                             std::span<const double> near_null, int modes, std::span<const char> fixed,
+                             std::vector<double>& coarse_modes) {
+  const auto n = static_cast<std::size_t>(modes), bs = static_cast<std::size_t>(size);
+  std::vector<std::int64_t> start(at(n_aggregates) + 1, 0);
+  for (const Index aggregate : of_row)
+    if (aggregate != k_none) ++start[at(aggregate) + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  std::vector<Index> rows(at(start.back()));
+  std::vector<std::int64_t> next(start.begin(), start.end() - 1);
+  for (std::size_t row = 0; row < of_row.size(); ++row)
+    if (of_row[row] != k_none) rows[at(next[at(of_row[row])]++)] = static_cast<Index>(row);
+
+  std::vector<float> p(of_row.size() * bs * n);
+  coarse_modes.assign(at(n_aggregates) * n * n, 0.0);
+  std::vector<double> q;
+  for (std::size_t aggregate = 0; aggregate < at(n_aggregates); ++aggregate) {
+    const std::span<const Index> members(rows.data() + start[aggregate],
+                                         at(start[aggregate + 1] - start[aggregate]));
+    q.clear();
+    for (const Index row : members)
+      q.insert(q.end(), near_null.begin() + row * size * modes, near_null.begin() + (row + 1) * size * modes);
+    orthonormalise(q, members.size() * bs, modes, coarse_modes.data() + aggregate * n * n);
+    for (std::size_t i = 0; i < members.size(); ++i)
+      for (std::size_t k = 0; k < bs; ++k) {
+        const std::size_t row = at(members[i]) * bs + k;
+        if (!fixed.empty() && fixed[row] != 0) continue;
+        for (std::size_t m = 0; m < n; ++m) p[row * n + m] = static_cast<float>(q[(i * bs + k) * n + m]);
+      }
+  }
+  return p;
+}
+
+/// Blocks gathered by column: a row of a product while it is made.
+class RowSum {
+ public:
+  RowSum(Index n_columns, int entries) : entries_(entries), place_(at(n_columns), k_none) {}
+  void clear() {
+    for (const Index column : columns_) place_[at(column)] = k_none;
+    columns_.clear();
+    values_.clear();
+  }
+  double* block(Index column) {
+    Index& place = place_[at(column)];
+    if (place == k_none) {
+      place = static_cast<Index>(columns_.size());
+      columns_.push_back(column);
+      values_.resize(values_.size() + static_cast<std::size_t>(entries_), 0.0);
+    }
+    return values_.data() + std::int64_t{place} * entries_;
+  }
+  const std::vector<Index>& columns() const { return columns_; }
+
+ private:
+  int entries_;
+  std::vector<Index> place_, columns_;
+  std::vector<double> values_;
+};
+
+/// c += a b of row-major blocks, or aᵀ b.
+template <int size, int modes>
+void add_product(const double* a, bool transposed, const float* b, double* c) {
+  const int row = transposed ? 1 : size, column = transposed ? size : 1;
+  for (int r = 0; r < size; ++r)
+    for (int k = 0; k < size; ++k)
+      for (int m = 0; m < modes; ++m)
+        c[r * modes + m] += a[r * row + k * column] * static_cast<double>(b[k * modes + m]);
+}
+
+/// c += aᵀ b of row-major blocks.
+template <int size, int modes>
+void add_transposed_product(const float* a, const double* b, double* c) {
+  for (int k = 0; k < modes; ++k)
+    for (int r = 0; r < size; ++r)
+      for (int m = 0; m < modes; ++m)
+        c[k * modes + m] += static_cast<double>(a[r * modes + k]) * b[r * modes + m];
+}
+
+/// Reserves the memory that smooth() needs, and no more.
+void reserve_smoothed(const MatrixView& a, const std::vector<Index>& of_row, Index n_coarse,
+                      BlockRows<float>& p) {
+  RowSum reached(n_coarse, 0);
+  std::size_t n_slots = 0;
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    reached.clear();
+    a.each(row, [&](Index j, std::int64_t, bool) {
+      if (of_row[at(j)] != k_none) reached.block(of_row[at(j)]);
+    });
+    n_slots += reached.columns().size();
+  }
+  p.start.reserve(at(a.n_rows()) + 1);
+  p.column.reserve(n_slots);
+  p.value.reserve(n_slots * at(p.block_entries()) + PackedRows::k_overhang);
+}
+
+template <int size, int modes>
+void smooth(const MatrixView& a, const std::vector<Index>& of_row, Index n_coarse,
+            const std::vector<float>& tentative, std::span<const char> fixed,
+            std::span<const float> inverse_diagonal, double omega, BlockRows<float>& p) {
+  constexpr int k_entries = size * modes;
+  reserve_smoothed(a, of_row, n_coarse, p);
+  RowSum sum(n_coarse, k_entries);
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    sum.clear();
+    const float* const own = tentative.data() + at(row) * k_entries;
+    a.each(row, [&](Index j, std::int64_t s, bool mirrored) {
+      if (of_row[at(j)] == k_none) return;
+      add_product<size, modes>(a.block(s), mirrored, tentative.data() + at(j) * k_entries,
+                               sum.block(of_row[at(j)]));
+    });
+    std::vector<Index> columns = sum.columns();
+    std::sort(columns.begin(), columns.end());
+    for (const Index column : columns) {
+      const double* const from = sum.block(column);
+      p.column.push_back(column);
+      for (int r = 0; r < size; ++r) {
+        const std::size_t entry = at(row) * size + static_cast<std::size_t>(r);
+        const bool zero = !fixed.empty() && fixed[entry] != 0;
+        const double factor = zero ? 0.0 : omega * static_cast<double>(inverse_diagonal[entry]);
+        for (int m = 0; m < modes; ++m) {
+          const double start = column == of_row[at(row)] ? static_cast<double>(own[r * modes + m]) : 0.0;
+          p.value.push_back(static_cast<float>(start - factor * from[r * modes + m]));
+        }
+      }
+    }
+    p.start.push_back(static_cast<std::int64_t>(p.column.size()));
+  }
+}
+
+/// The columns of this process's part of Pᵀ A P, sorted; rows of other processes too.
+void galerkin_pattern(const MatrixView& a, const BlockRows<float>& p, Index n_local,
+                      BlockRows<double>& coarse) {
+  std::vector<std::vector<Index>> rows(at(n_local));
+  std::vector<std::size_t> compressed(at(n_local), 64);
+  RowSum reached(n_local, 0);
+  const auto compress = [](std::vector<Index>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    reached.clear();
+    a.each(row, [&](Index j, std::int64_t, bool) {
+      for (std::int64_t t = p.start[at(j)]; t < p.start[at(j) + 1]; ++t) reached.block(p.column[at(t)]);
+    });
+    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t) {
+      const std::size_t to = at(p.column[at(t)]);
+      rows[to].insert(rows[to].end(), reached.columns().begin(), reached.columns().end());
+      if (rows[to].size() < compressed[to]) continue;
+      compress(rows[to]);
+      compressed[to] = std::max<std::size_t>(64, 2 * rows[to].size());
+    }
+  }
+  for (auto& list : rows) {
+    compress(list);
+    coarse.column.insert(coarse.column.end(), list.begin(), list.end());
+    coarse.start.push_back(static_cast<std::int64_t>(coarse.column.size()));
+    std::vector<Index>().swap(list);
+  }
+  coarse.value.assign(coarse.column.size() * at(coarse.block_entries()), 0.0);
+}
+
+template <int size, int modes>
+void galerkin(const MatrixView& a, const BlockRows<float>& p, Index n_local, BlockRows<double>& coarse) {
+  RowSum product(n_local, size * modes);
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    product.clear();
+    a.each(row, [&](Index j, std::int64_t s, bool mirrored) {
+      for (std::int64_t t = p.start[at(j)]; t < p.start[at(j) + 1]; ++t)
+        add_product<size, modes>(a.block(s), mirrored, p.block(t), product.block(p.column[at(t)]));
+    });
+    for (std::int64_t t = p.start[at(row)]; t < p.start[at(row) + 1]; ++t) {
+      const std::size_t to = at(p.column[at(t)]);
+      const auto begin = coarse.column.begin() + coarse.start[to],
+                 end = coarse.column.begin() + coarse.start[to + 1];
+      for (const Index column : product.columns()) {
+        const auto slot = std::lower_bound(begin, end, column) - coarse.column.begin();
+        add_transposed_product<size, modes>(p.block(t), product.block(column), coarse.block(slot));
+      }
+    }
+  }
+}
+
+/// A mode without stiffness, or one that its aggregate does not have, gets a diagonal of its own.
+void hold_empty_modes(BlockRows<double>& a) {
+  const auto n = static_cast<std::size_t>(a.rows);
+  std::vector<double*> diagonal;
+  double sums[2] = {0, 0};
+  for (Index row = 0; row < a.n_rows(); ++row) {
+    const auto begin = a.column.begin() + a.start[at(row)], end = a.column.begin() + a.start[at(row) + 1];
+    double* const block = a.block(std::lower_bound(begin, end, row) - a.column.begin());
+    for (std::size_t m = 0; m < n; ++m) {
+      diagonal.push_back(block + m * n + m);
+      sums[0] += std::abs(*diagonal.back());
+      sums[1] += 1;
+    }
+  }
+  const double mean = sums[1] > 0 && sums[0] > 0 ? sums[0] / sums[1] : 1.0;
+  for (double* const d : diagonal)
+    if (std::abs(*d) <= k_no_stiffness * mean) *d = mean;
+}
+
+/// Local numbers of coarse rows: this process's own, then ghosts as they turn up; k_none stays that.
+class CoarseNumbers {
+ public:
+  explicit CoarseNumbers(Numbering& numbering) : numbering_(numbering) {}
+  Index local(double global) {
+    const auto g = static_cast<GlobalIndex>(global);
+    if (g == k_none) return k_none;
+    if (g >= numbering_.first && g < numbering_.first + numbering_.n_owned)
+      return static_cast<Index>(g - numbering_.first);
+    const auto [place, is_new] = places_.emplace(g, numbering_.n_local());
+    if (is_new) numbering_.ghosts.push_back(g);
+    return place->second;
+  }
+  double global(Index local) const {
+    if (local == k_none) return k_none;
+    return static_cast<double>(local < numbering_.n_owned
+                                   ? numbering_.first + local
+                                   : numbering_.ghosts[at(local - numbering_.n_owned)]);
+  }
+
+ private:
+  Numbering& numbering_;
+  std::unordered_map<GlobalIndex, Index> places_;
+};
+
+/// A row as messages hold it: of every block its column's number over all processes, then its entries.
+template <class Number>
+void pack_row(const BlockRows<Number>& rows, Index row, const CoarseNumbers& numbers,
+              std::vector<double>& to) {
+  for (std::int64_t t = rows.start[at(row)]; t < rows.start[at(row) + 1]; ++t) {
+    to.push_back(numbers.global(rows.column[at(t)]));
+    to.insert(to.end(), rows.block(t), rows.block(t) + rows.block_entries());
+  }
+}
+
+/// Appends the rows of P that other processes made for ghosts.
+void append_ghost_rows(const parallel::RowExchange& ghosts, Index n_local, CoarseNumbers& numbers,
+                       BlockRows<float>& p) {
+  const Index n_rows = p.n_rows();
+  const auto stride = at(p.block_entries()) + 1;
+  std::vector<std::vector<double>> rows(at(n_local - n_rows));
+  ghosts.update([&](Index row, std::vector<double>& to) { pack_row(p, row, numbers, to); },
+                [&](Index ghost, std::span<const double> row) {
+                  rows[at(ghost - n_rows)].assign(row.begin(), row.end());
+                });
+  for (const std::vector<double>& row : rows) {
+    for (std::size_t i = 0; i < row.size(); i += stride) {
+      p.column.push_back(numbers.local(row[i]));
+      for (std::size_t k = 1; k < stride; ++k) p.value.push_back(static_cast<float>(row[i + k]));
+    }
+    p.start.push_back(static_cast<std::int64_t>(p.column.size()));
+  }
+}
+
+/// Adds up the contributions of the processes to each other's coarse rows; own rows stay.
+void sum_over_processes(CoarseNumbers& numbers, const Numbering& numbering, BlockRows<double>& coarse) {
+  if (!parallel::any_process(!numbering.ghosts.empty())) return;
+  struct Block {
+    Index column;
+    const double* values;
+  };
+  const auto entries = at(coarse.block_entries());
+  std::vector<std::vector<Block>> rows(at(numbering.n_owned));
+  for (Index row = 0; row < numbering.n_owned; ++row)
+    for (std::int64_t t = coarse.start[at(row)]; t < coarse.start[at(row) + 1]; ++t)
+      rows[at(row)].push_back({coarse.column[at(t)], coarse.block(t)});
+  std::vector<std::pair<Index, std::vector<double>>> from_others;
+  const parallel::RowExchange exchange(numbering.n_owned, numbering.first, numbering.ghosts);
+  exchange.give_back([&](Index row, std::vector<double>& to) { pack_row(coarse, row, numbers, to); },
+                     [&](Index row, std::span<const double> values) {
+                       from_others.emplace_back(row, std::vector<double>(values.begin(), values.end()));
+                     });
+  for (const auto& [row, values] : from_others)
+    for (std::size_t i = 0; i < values.size(); i += entries + 1)
+      rows[at(row)].push_back({numbers.local(values[i]), values.data() + i + 1});
+
+  BlockRows<double> sum;
+  sum.rows = coarse.rows;
+  sum.columns = coarse.columns;
+  for (std::vector<Block>& blocks : rows) {
+    // Stable: blocks of one place are added in the order of the processes.
+    std::stable_sort(blocks.begin(), blocks.end(),
+                     [](const Block& l, const Block& r) { return l.column < r.column; });
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      if (b == 0 || blocks[b].column != blocks[b - 1].column) {
+        sum.column.push_back(blocks[b].column);
+        sum.value.insert(sum.value.end(), blocks[b].values, blocks[b].values + entries);
+        continue;
+      }
+      double* const to = sum.value.data() + sum.value.size() - entries;
+      for (std::size_t k = 0; k < entries; ++k) to[k] += blocks[b].values[k];
+    }
+    sum.start.push_back(static_cast<std::int64_t>(sum.column.size()));
+  }
+  coarse = std::move(sum);
+}
+
+/// Tentative interpolation: for each local row of the fine level, ghosts too, its aggregate, if any, and its
+/// block of P₀.
+struct Tentative {
+  std::vector<Index> of_row;
+  std::vector<float> values;
+};
+
+template <int size, int modes>
+void make_level(const MatrixView& a, const parallel::RowExchange& ghosts, Tentative start,
+                std::span<const char> fixed, std::span<const float> inverse_diagonal, double omega,
+                CoarseNumbers& numbers, Coarsening& next) {
+  BlockRows<float>& p = next.interpolation;
+  smooth<size, modes>(a, start.of_row, next.numbering.n_local(), start.values, fixed, inverse_diagonal, omega,
+                      p);
+  std::vector<float>().swap(start.values);
+  append_ghost_rows(ghosts, static_cast<Index>(start.of_row.size()), numbers, p);
+  galerkin_pattern(a, p, next.numbering.n_local(), next.matrix);
+  galerkin<size, modes>(a, p, next.numbering.n_local(), next.matrix);
+  sum_over_processes(numbers, next.numbering, next.matrix);
+}
+
+}  // namespace
+
+std::vector<float> inverse_diagonal(const MatrixView& a) {
+  const auto n = static_cast<std::size_t>(a.size);
+  std::vector<float> inverse(at(a.n_rows()) * n, 1.0F);
+  for (Index row = 0; row < a.n_rows(); ++row)
+    for (std::int64_t s = a.start[at(row)]; s < a.start[at(row) + 1]; ++s) {
+      if (a.column[at(s)] != row) continue;
+      for (std::size_t r = 0; r < n; ++r)
+        if (const double d = a.block(s)[r * n + r]; d != 0)
+          inverse[at(row) * n + r] = static_cast<float>(1.0 / d);
+    }
+  return inverse;
+}
+
+Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const parallel::RowExchange& ghosts,
+                   std::vector<double> near_null, int modes, std::span<const char> fixed,
+                   std::span<const float> inverse_diagonal, double largest) {
+  const int entries = a.size * modes;
+  Coarsening next;
+  next.modes = modes;
+  next.interpolation.rows = a.size;
+  next.interpolation.columns = next.matrix.rows = next.matrix.columns = modes;
+  Tentative start;
+  next.numbering.n_owned = aggregate(a, start.of_row);
+  GlobalIndex mine = next.numbering.n_owned;
+  MPI_Exscan(&mine, &next.numbering.first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
+  start.values =
+      tentative(start.of_row, next.numbering.n_owned, a.size, near_null, modes, fixed, next.near_null);
+  std::vector<double>().swap(near_null);
+  CoarseNumbers numbers(next.numbering);
+  start.of_row.resize(at(numbering.n_local()));
+  start.values.resize(at(numbering.n_local()) * at(entries));
+  ghosts.update(
+      [&](Index row, std::vector<double>& to) {
+        const float* const block = start.values.data() + std::int64_t{row} * entries;
+        to.push_back(numbers.global(start.of_row[at(row)]));
+        to.insert(to.end(), block, block + entries);
+      },
+      [&](Index ghost, std::span<const double> row) {
+        start.of_row[at(ghost)] = numbers.local(row[0]);
+        std::transform(row.begin() + 1, row.end(), start.values.begin() + std::int64_t{ghost} * entries,
+                       [](double v) { return static_cast<float>(v); });
+      });
+
+  const double omega = largest > 0 ? k_smoothing / largest : 0.0;
+  const auto make = [&]<int size, int n>() {
+    make_level<size, n>(a, ghosts, std::move(start), fixed, inverse_diagonal, omega, numbers, next);
+  };
+  with_block_sizes(a.size, modes, make);
+  hold_empty_modes(next.matrix);
+  return next;
+}
+
+}  // namespace solidus::multigrid

@@ -1,0 +1,35 @@
+/// The processes that `solidus new` knows: what the mould is made of, how it starts and how it is cooled
+/// outside.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case_spec.hpp"
+
+namespace solidus::model {
+
+struct CastingProcess {
+  const char* name;
+  std::vector<std::string> materials;  ///< of the mould, the first that the library has
+  Role mould;
+  double mould_start, superheat;  ///< [°C], [K]
+  double least_wall;              ///< [m]
+  double walls;                   ///< thickness of the mould over that of the casting
+  const char* law;                ///< of casting and mould; empty: by the materials
+  double film;                    ///< outside [W/(m² K)]
+  const char* film_source;
+  bool layers;  ///< of thin elements of the mould on the casting
+  /// Of shots: stages besides solidify [s], the film of the spray [W/(m² K)] and where that comes from.
+  double pour = 0, open = 0, eject = 0, spray = 0, close = 0, spray_film = 0;
+  const char* spray_source = "";
+};
+
+const std::vector<CastingProcess>& casting_processes();
+/// Throws InputError with the nearest name where there is none of this name.
+const CastingProcess& process_named(const std::string& name);
+
+/// The first of these materials that the library has, else the last.
+std::string first_known(const std::vector<std::string>& names);
+
+}  // namespace solidus::model

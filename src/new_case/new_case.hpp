@@ -1,0 +1,39 @@
+/// The verb `new`: makes a case that runs from the geometry of a casting (docs/guide/new_case.md).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case_spec.hpp"
+
+namespace solidus::model {
+
+struct NewCaseOptions {
+  std::filesystem::path geometry;  ///< STEP, BREP, IGES, STL, or a mesh
+  std::string process = "sand";    ///< sand, shell, gravity_die, high_pressure
+  std::string alloy;               ///< a material of the library, or a file
+  std::string unit = "mm";         ///< of the file; STEP files come in mm
+  bool riser = false;              ///< a riser on the thickest place
+  std::string symmetry;            ///< "x", "y", "z": half of the part; empty: all of it
+  std::vector<std::string> as;     ///< "NAME=role" of bodies of the file
+  std::filesystem::path folder;    ///< for the case; empty: the file's name, here
+  double fineness = 1;             ///< so many times as many elements along each edge
+  int shots = 0;                   ///< castings in a row, in a die; zero: one casting, without stages
+};
+
+/// The names of the processes.
+std::vector<std::string> processes();
+
+struct NewCaseReport {
+  std::filesystem::path file;  ///< the case
+  std::string text;            ///< report on measured and chosen values, several lines
+};
+
+/// Measures the parts, chooses mould, sizes, temperatures, laws and the length of the run, writes the folder
+/// with case.toml and a copy of the geometry, and checks that the case is in order. On one process.
+/// Throws InputError.
+NewCaseReport make_new_case(const NewCaseOptions& options);
+
+}  // namespace solidus::model

@@ -1,0 +1,194 @@
+#include "new_case/new_case_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "case/roles.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+std::string mm(double metres) {
+  return fmt::format("\"{:.6g} mm\"", 1e3 * metres);
+}
+
+/// A TOML text with its quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+bool is_metal(const DraftBody& body) {
+  return body.role == Role::casting || body.role == Role::riser;
+}
+
+std::string mesh_text(const Draft& d) {
+  std::string t =
+      fmt::format("[mesh]\nfile = {}\nunit = {}\n\n", quoted(d.geometry.filename().string()), quoted(d.unit));
+  if (d.meshed) return t + "# Elements are those of the file.\n\n";
+  t += "# Elements: the largest, and the smallest in thin walls. Half the size is about eight times the "
+       "time.\n";
+  for (const DraftBody& b : d.bodies) {
+    if (is_metal(b))
+      t += fmt::format(
+          "[[mesh.size]]\nbody = {}\nsize = {}\nsmallest = {}\nacross = 2    # through a wall\n\n",
+          quoted(b.group), mm(d.size), mm(d.smallest));
+    else
+      t += fmt::format(
+          "[[mesh.size]]\nbody = {}\nsize = {}\nacross = 0\ngrowth = 0.6  # away from the metal\n\n",
+          quoted(b.group), mm(d.mould_size));
+  }
+  if (d.mould) {
+    const auto& w = d.mould->walls;
+    const bool even = std::all_of(w.begin(), w.end(), [&](double x) { return x == w[0]; });
+    t += fmt::format("[mesh.mould]   # a block around the parts\nname = {}\nwalls = ", quoted(d.mould->name));
+    t += even ? mm(w[0]) + "\n\n"
+              : fmt::format(
+                    "[{}, {}, {}, {}, {}, {}]   # lowest and highest x, y, z; 0: the parts end there\n\n",
+                    mm(w[0]), mm(w[1]), mm(w[2]), mm(w[3]), mm(w[4]), mm(w[5]));
+  }
+  if (d.riser)
+    t += fmt::format(
+        "[mesh.riser]   # 1.2 times the modulus of the thickest place, on top of it\nname = {}\n"
+        "foot = [{}, {}, {}]\ndiameter = {}\nheight = {}\n\n",
+        quoted(d.riser->name), mm(d.riser->foot[0]), mm(d.riser->foot[1]), mm(d.riser->foot[2]),
+        mm(d.riser->diameter), mm(d.riser->height));
+  if (d.symmetry)
+    t += fmt::format("[mesh.symmetry]   # the half below this plane\naxis = \"{}\"\nat = {}\n\n",
+                     "xyz"[d.symmetry->axis], mm(d.symmetry->at));
+  if (d.layers && d.mould)
+    for (const DraftBody& b : d.bodies)
+      if (b.role == Role::casting)
+        t += fmt::format(
+            "[[mesh.layers]]   # at first the warm sand is thinner than an element\nname = \"sand_on_{0}\"\n"
+            "surface = \"{1}_to_{0}\"\nbody = {2}\n\n",
+            b.name, d.mould->name, quoted(d.mould->name));
+  return t;
+}
+
+/// Whether a body leaves with the casting, and is new in the next shot.
+bool leaves(const DraftBody& b) {
+  return is_metal(b) || b.role == Role::core || b.role == Role::sleeve || b.role == Role::insulation;
+}
+
+std::string time_text(const Draft& d) {
+  if (!d.shots)
+    return fmt::format(
+        "[time]\nuntil = \"solid\"   # ends when all that was poured is; \"end\": goes on, for stress when "
+        "cold\nend = \"{:g} s\"    # at the latest: six times an estimate of the time to freeze\n"
+        "step = \"{:g} s\"\nadaptive = true\n\n",
+        d.end, d.step);
+  const DraftShots& s = *d.shots;
+  std::string t =
+      fmt::format("[time]\nstep = \"{:g} s\"    # the first of every stage\nadaptive = true\n\n", d.step);
+  const auto stage = [&](const char* name, double duration, const char* comment) {
+    t += fmt::format("[[stage]]\nname = \"{}\"\nduration = \"{:g} s\"{}{}\n", name, duration,
+                     *comment != 0 ? "   # " : "", comment);
+    if (duration < d.step) t += fmt::format("step = \"{:g} s\"\n", duration);
+    t += "\n";
+  };
+  stage("pour", s.pour, "the die is full at once: the flow of the metal is not computed");
+  stage("solidify", s.solidify, "1.3 times an estimate of the time to freeze");
+  stage("open", s.open, "");
+  stage("eject", s.eject, "the casting has gone; an estimate, like all that follow");
+  stage("spray", s.spray, "");
+  stage("close", s.close, "");
+  return t + fmt::format(
+                 "[[cycle]]   # the casting of every shot is new, the die keeps its heat\nname = \"shots\"\n"
+                 "stages = [\"pour\", \"solidify\", \"open\", \"eject\", \"spray\", \"close\"]\nrepeat = {}\n"
+                 "# periodic = \"1 K\"   # ends the run when the die is as warm as a shot ago, and finds "
+                 "that in a "
+                 "few shots\n\n",
+                 s.number);
+}
+
+std::string spray_text(const Draft& d) {
+  std::string t;
+  for (const std::string& surface : d.cavity)
+    t += fmt::format(
+        "[[thermal_condition]]\nname = \"air_in_{0}\"\ngroup = \"{0}\"\nkind = \"film\"\n"
+        "coefficient = \"{1:g} W/m2/K\"\nambient = \"20 degC\"\nstages = [\"eject\", \"close\"]\n\n"
+        "[[thermal_condition]]   # {3}\nname = \"spray_on_{0}\"\ngroup = \"{0}\"\nkind = \"film\"\n"
+        "coefficient = \"{2:g} W/m2/K\"\nambient = \"25 degC\"\nstages = \"spray\"\n\n",
+        surface, 20.0, d.shots->spray_film, d.shots->spray_source);
+  return t;
+}
+
+std::string body_text(const DraftBody& b, bool shots) {
+  std::string t = fmt::format("[[body]]\nname = {}\n", quoted(b.name));
+  if (b.group != b.name) t += fmt::format("group = {}\n", quoted(b.group));
+  t += fmt::format("role = \"{}\"\nmaterial = {}\ninitial_temperature = \"{:g} degC\"{}\n", name(b.role),
+                   quoted(b.material), b.start, b.comment.empty() || b.heat_only ? "" : "   # " + b.comment);
+  if (b.heat_only) t += fmt::format("physics = \"heat\"{}\n", b.comment.empty() ? "" : "   # " + b.comment);
+  if (shots && leaves(b))
+    t += "stages = [\"pour\", \"solidify\", \"open\"]   # then it leaves; the next one is new\n";
+  return t + "\n";
+}
+
+std::string interface_text(const Draft& d) {
+  std::string t;
+  if (!d.law.empty() && d.mould)
+    for (const DraftBody& b : d.bodies)
+      if (is_metal(b))
+        t += fmt::format(
+            "[[interface]]   # the process decides the law: {1} says where its numbers come from\n"
+            "bodies = [{2}, {3}]\nlaw = \"{0}\"\n\n",
+            d.law, "interfaces/" + d.law + ".toml", quoted(b.name), quoted(d.mould->name));
+  t += "[[interface]]   # between all bodies that touch; laws from the library by materials and roles\n"
+       "bodies = \"all\"\n\n";
+  return t;
+}
+
+}  // namespace
+
+std::string case_text(const Draft& d) {
+  std::string t = fmt::format(
+      "# Made by `solidus new`. Change what you know better; `solidus check` reads it.\n"
+      "title = {}\n\n",
+      quoted(d.geometry.stem().string() + " of " + d.alloy + ", " + d.process));
+  t += "[analysis]\nkind = \"solid\"\n";
+  t += d.coupled ? "physics = \"thermomechanical\"   # `solidus run --heat-only` computes heat alone\n"
+                 : "physics = \"heat\"   # the alloy has no elastic properties\n";
+  t += "gravity = \"9.81 m/s2\"            # along -z\n\n";
+  t += mesh_text(d);
+  t += time_text(d);
+  for (const DraftBody& b : d.bodies) t += body_text(b, d.shots.has_value());
+  t += interface_text(d);
+  for (const std::string& body : d.films)
+    t += fmt::format(
+        "[[thermal_condition]]   # {}\nname = \"air_on_{}\"\ngroup = \"{}_free\"\nkind = \"film\"\n"
+        "coefficient = \"{:g} W/m2/K\"\nambient = \"20 degC\"\n\n",
+        d.film_source, body, body, d.film);
+  if (d.shots) t += spray_text(d);
+  for (const std::string& body : d.coupled ? d.symmetric : std::vector<std::string>{})
+    t += fmt::format(
+        "[[mechanical_condition]]\nname = \"symmetry_of_{0}\"\ngroup = \"{0}_symmetry\"\n"
+        "kind = \"displacement\"\nu{1} = \"0 mm\"\n\n",
+        body, "xyz"[d.symmetry->axis]);
+  if (!d.hot_spots.empty()) t += "# In the centres of the largest spheres that the metal holds.\n";
+  for (std::size_t i = 0; i < d.hot_spots.size(); ++i) {
+    const mesh::InscribedSphere& s = d.hot_spots[i];
+    t += fmt::format(
+        "[[probe]]\nname = \"T_hot_spot_{}\"   # a sphere of {:.3g} mm\nkind = \"point\"\n"
+        "field = \"temperature\"\nunit = \"degC\"\npoint = [{}, {}, {}]\n\n",
+        i + 1, 2e3 * s.radius, mm(s.centre[0]), mm(s.centre[1]), mm(s.centre[2]));
+  }
+  if (std::any_of(d.bodies.begin(), d.bodies.end(),
+                  [](const DraftBody& b) { return b.role == Role::riser; })) {
+    t += "[criteria]\nfeeders = [";
+    bool first = true;
+    for (const DraftBody& b : d.bodies)
+      if (b.role == Role::riser) t += fmt::format("{}{}", first ? "" : ", ", quoted(b.group)), first = false;
+    t += "]\n\n";
+  }
+  t += fmt::format("[output]\nevery = \"{:g} s\"\n", d.every);
+  return t;
+}
+
+}  // namespace solidus::model

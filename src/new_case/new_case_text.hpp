@@ -1,0 +1,70 @@
+/// The case file that `solidus new` writes: a draft as commented TOML.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case_spec.hpp"
+#include "mesh/hot_spots.hpp"
+
+namespace solidus::model {
+
+struct DraftBody {
+  std::string name, group, material, comment;
+  Role role = Role::casting;
+  double start = 20;       ///< [°C]
+  bool heat_only = false;  ///< physics = "heat", though the material has elastic properties
+};
+
+struct DraftMould {
+  std::string name;
+  std::array<double, 6> walls{};  ///< [m]
+};
+
+/// Shots in a die: the casting freezes, leaves, and the next one comes.
+struct DraftShots {
+  int number = 0;
+  double pour = 0, solidify = 0, open = 0, eject = 0, spray = 0, close = 0;  ///< durations [s]
+  double spray_film = 0;                                                     ///< [W/(m² K)]
+  std::string spray_source;
+};
+
+struct DraftRiser {
+  std::string name = "riser";
+  mesh::Point foot{};
+  double diameter = 0, height = 0;  ///< [m]
+};
+
+struct DraftSymmetry {
+  int axis = 0;
+  double at = 0;  ///< [m]
+};
+
+/// Draft of a new case, from measured and chosen values; SI but for temperatures in °C.
+struct Draft {
+  std::filesystem::path folder, geometry;
+  std::string unit, process, alloy, law;
+  bool coupled = true;  ///< the alloy has elastic properties
+  bool meshed = false;  ///< the file holds the elements of parts and mould
+  double pouring = 0, liquidus = 0, superheat = 0;
+  double size = 0, smallest = 0, mould_size = 0;
+  std::vector<DraftBody> bodies;
+  std::optional<DraftMould> mould;
+  std::optional<DraftRiser> riser;
+  std::optional<DraftSymmetry> symmetry;
+  bool layers = false;
+  std::vector<std::string> films, symmetric;  ///< bodies with skins in air, in the plane of symmetry
+  double film = 0;                            ///< [W/(m² K)]
+  std::string film_source;
+  std::vector<mesh::InscribedSphere> hot_spots;
+  double end = 0, step = 0, every = 0;  ///< latest end, first step, between outputs [s]
+  std::optional<DraftShots> shots;
+  std::vector<std::string> cavity;  ///< surfaces of the die that are free when the casting has left
+};
+
+std::string case_text(const Draft& draft);
+
+}  // namespace solidus::model

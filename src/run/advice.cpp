@@ -1,0 +1,171 @@
+#include "run/advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+namespace solidus::model {
+
+namespace {
+
+bool says(const coupling::Stop& stop, const char* words) {
+  return stop.reason.find(words) != std::string::npos;
+}
+
+bool something_is_held(const CaseSpec& spec) {
+  return std::any_of(spec.mechanical_conditions.begin(), spec.mechanical_conditions.end(),
+                     [](const auto& c) { return c.kind == MechanicalConditionSpec::Kind::displacement; });
+}
+
+bool carries_loads(const CaseSpec& spec) {
+  return std::any_of(spec.mechanical_conditions.begin(), spec.mechanical_conditions.end(), [](const auto& c) {
+    return c.kind == MechanicalConditionSpec::Kind::pressure ||
+           c.kind == MechanicalConditionSpec::Kind::traction;
+  });
+}
+
+/// Another solver than the iterative one that was asked for.
+std::vector<std::string> solver_advice(const CaseSpec& spec) {
+  const bool unsymmetric = std::any_of(spec.contacts.begin(), spec.contacts.end(),
+                                       [](const auto& c) { return c.friction && !c.friction->symmetric; });
+  std::vector<std::string> advice;
+  if (spec.mechanics.solver != linear::SolverKind::automatic &&
+      spec.mechanics.solver != linear::SolverKind::direct)
+    advice.emplace_back(
+        fmt::format("another linear solver than the one asked for: mechanics.solver = \"direct\"{}",
+                    unsymmetric ? ", because friction makes the matrix unsymmetric" : ""));
+  return advice;
+}
+
+std::vector<std::string> mechanics_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  if (says(stop, "limit load"))
+    return {
+        "beyond its limit load a body that yields has no equilibrium: are loads and strength in the right "
+        "unit? Hardening, rate dependence, or displacements in place of forces carry it further"};
+  std::vector<std::string> advice;
+  if (says(stop, "linear solver")) advice = solver_advice(spec);
+  if (spec.dynamics)
+    advice.emplace_back("a smaller step: with inertia a short one is an easy one");
+  else if (!something_is_held(spec))
+    advice.emplace_back(
+        "no displacement is prescribed at all: hold the bodies with [[mechanical_condition]]");
+  else if (says(stop, "linear solver") || says(stop, "not a number"))
+    advice.emplace_back(
+        "is every body held against moving and turning, by supports or by contact that is closed?");
+  advice.push_back(
+      fmt::format("more iterations: mechanics.max_iterations (now {}), or mechanics.tolerance "
+                  "(now {:g})",
+                  spec.mechanics.max_iterations, spec.mechanics.tolerance));
+  if (!spec.contacts.empty())
+    advice.emplace_back(
+        "a softer contact: penalty_factor in [[contact]]; look at its gap in the last fields");
+  advice.emplace_back(
+      "jumps in the material's tables at the temperatures of that place (`solidus materials NAME`)");
+  return advice;
+}
+
+/// Advice for steps that coupling::GuardedScheme refuses.
+std::vector<std::string> guard_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  std::vector<std::string> advice;
+  if (spec.heat.integration == heat::Integration::open)
+    advice.emplace_back(
+        "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden "
+        "chills");
+  if (!spec.heat.bounds) advice.emplace_back("heat.bounds = true");
+  advice.emplace_back("a heat transfer that changes less steeply with gap and pressure: [contact.heat]");
+  std::ranges::move(spec.coupling.scheme->advice(stop), std::back_inserter(advice));
+  if (carries_loads(spec))
+    advice.emplace_back(
+        "loads beyond the limit load of a body that yields: it flows on and on, and flow heats");
+  return advice;
+}
+
+/// Advice where the turns of the augmented Lagrangian do not end (coupling/contact_states.hpp).
+std::vector<std::string> contact_advice() {
+  return {"normal = \"penalty\" in that [[contact]], which needs no turns",
+          "a larger penetration_tolerance, or a larger penalty_factor, of that contact",
+          "a smaller mechanics.tolerance: turns cannot gain what Newton's iteration leaves"};
+}
+
+std::vector<std::string> coupling_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  if (says(stop, "does not follow")) return guard_advice(stop, spec);
+  std::vector<std::string> advice = spec.coupling.scheme->advice(stop);
+  if (!spec.contacts.empty())
+    advice.emplace_back("a heat transfer that changes less steeply with the gap: [contact.heat]");
+  return advice;
+}
+
+std::vector<std::string> heat_advice(const coupling::Stop& stop, const CaseSpec& spec) {
+  const char* const closed =
+      "the closed rule, heat.integration = \"closed\": the open one over- and undershoots at sudden chills, "
+      "the "
+      "more the shorter the step is";
+  if (says(stop, "temperature falls") || says(stop, "temperature is not")) {
+    std::vector<std::string> advice = {
+        "fluxes and sources at that place: do they take more heat than there is?"};
+    if (spec.heat.integration == heat::Integration::open) advice.insert(advice.begin(), closed);
+    return advice;
+  }
+  std::vector<std::string> advice = {
+      fmt::format("more iterations: heat.max_iterations (now {}), or heat.tolerance",
+                  spec.heat.max_iterations),
+      "films, radiation, sources or conductivities that change steeply with temperature at that place"};
+  if (spec.heat.integration == heat::Integration::open)
+    advice.emplace_back("the closed rule, heat.integration = \"closed\", converges for any step");
+  return advice;
+}
+
+/// The body for which the isothermal split is unstable, however short the step; null without one.
+const CouplingEstimate* too_strong(std::span<const CouplingEstimate> couplings) {
+  const auto worst = std::max_element(couplings.begin(), couplings.end(), [](const auto& a, const auto& b) {
+    return a.decisive() < b.decisive();
+  });
+  return worst != couplings.end() && worst->decisive() >= 1 ? &*worst : nullptr;
+}
+
+}  // namespace
+
+std::string stop_text(const coupling::Stop& stop, const CaseSpec& spec, double time,
+                      const std::string& checkpoint, std::span<const CouplingEstimate> couplings) {
+  const std::string checkpoint_line =
+      checkpoint.empty() ? "" : fmt::format("  checkpoint: {} (t = {:.6g} s)\n", checkpoint, time);
+  if (stop.asked)
+    return fmt::format("stopped as asked at t = {:.6g} s", time) +
+           (checkpoint.empty() ? ""
+                               : "\n" + checkpoint_line + "  to continue: the same command with --restart");
+  std::string text =
+      fmt::format("the simulation could not go on at t = {:.6g} s\n  reason: {}\n", time, stop.reason);
+  if (!stop.where.empty()) text += fmt::format("  where: {}\n", stop.where);
+  const bool steps = stop.tries > 0;  // a steady state has none
+  if (steps)
+    text += fmt::format("  tried: {} {}, the smallest {:.4g} s\n", stop.tries,
+                        stop.tries == 1 ? "step" : "steps, each shorter", stop.smallest_step) +
+            checkpoint_line;
+  text += "  what may help:";
+  const CouplingEstimate* unstable = too_strong(couplings);
+  if (unstable != nullptr)
+    text += fmt::format(
+        "\n    - the coupling is too strong for the {} split: {};\n      coupling.scheme = \"{}\" is stable "
+        "for "
+        "every step. Shorter steps do not help",
+        spec.coupling.scheme->name(), model::text(*unstable), coupling::k_stable_scheme);
+  const bool mechanics = stop.reason.starts_with("mechanics"), coupling = stop.reason.starts_with("coupling"),
+             contact = stop.reason.starts_with("contact");
+  for (const std::string& advice : coupling    ? coupling_advice(stop, spec)
+                                   : mechanics ? mechanics_advice(stop, spec)
+                                   : contact   ? contact_advice()
+                                               : heat_advice(stop, spec))
+    text += fmt::format("\n    - {}", advice);
+  if (!steps) return text;
+  if (unstable == nullptr)
+    text += fmt::format("\n    - smaller steps: time.step (now {:g} s), time.min_step",
+                        spec.time.step.value_or(0));
+  if (checkpoint.empty()) return text;
+  return text +
+         "\n  The results so far are whole; after a change that leaves mesh and materials alone, the same "
+         "command with --restart\n  continues from there.";
+}
+
+}  // namespace solidus::model

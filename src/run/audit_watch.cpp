@@ -1,0 +1,110 @@
+#include "run/audit_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "coupling/energy_scale.hpp"
+#include "parallel/parallel.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// The scheme closes the first law to its residuals.
+bool closes_first_law(const CaseSpec& spec) {
+  return !spec.coupled() || (spec.coupling.structural_heating == CouplingSpec::StructuralHeating::energy &&
+                             !spec.coupling.as_printed);
+}
+
+}  // namespace
+
+void StabilityWatch::step(const coupling::StepRecord& record, const coupling::State&) {
+  const coupling::StabilityAudit& l = record.stability;
+  if (warned_ || !admissibility_.holds() || !(l.increment() > l.tolerance)) return;
+  const coupling::SchemeKind& scheme = *spec_.coupling.scheme;
+  logging::warn(
+      "t = {:g} s, step {}: the functional L of stability grew by {:.3g} J ({:+.3g} in the mechanical, "
+      "{:+.3g} in "
+      "the thermal phase; {:.1g} J are residuals and rounding), though nothing feeds it; {}",
+      record.time, record.number, l.increment(), l.mechanical, l.thermal, l.tolerance,
+      scheme.traits().needs_weak_coupling
+          ? fmt::format("the {} split is unstable here: scheme = \"{}\" in [coupling]", scheme.name(),
+                        coupling::k_stable_scheme)
+          : "try smaller steps, a smaller mechanics.tolerance, smoother property tables");
+  warned_ = true;
+}
+
+void FirstLawWatch::begin(const coupling::State& state) {
+  if (heat_ != nullptr) heat_content_ = coupling::heat_content(*heat_, state.heat);
+}
+
+void FirstLawWatch::step(const coupling::StepRecord& record, const coupling::State&) {
+  sum_ += record.energy;
+  unsolved_ += std::abs(record.energy.unbalanced) + record.heat.residual * record.energy.heat_exchanged;
+}
+
+void FirstLawWatch::report() const {
+  constexpr double k_rounding = 1e-9, k_seen = 1e-3;  // of the scale
+  const double defect = std::abs(sum_.defect()), scale = coupling::energy_scale(sum_, heat_content_);
+  const bool closes = closes_first_law(spec_);
+  if (!(defect > unsolved_ + (closes ? k_rounding : k_seen) * scale)) return;
+  const bool printed =
+      spec_.coupled() && (spec_.coupling.structural_heating != CouplingSpec::StructuralHeating::energy ||
+                          spec_.coupling.as_printed);
+  logging::warn("the first law is violated by {:.2g} of the {}, {:.3g} J; {}", defect / scale,
+                scale == sum_.heat_exchanged ? "heat exchanged" : "energy at hand", sum_.defect(),
+                printed ? "structural_heating = \"energy\" in [coupling] closes it, smaller steps lose less"
+                        : "smaller steps lose less");
+}
+
+void LagWatch::begin(const coupling::State& state) {
+  first_ = before_ = now_ = state.mechanics.displacement;
+}
+
+void LagWatch::step(const coupling::StepRecord& record, const coupling::State& state) {
+  before_ = std::exchange(now_, state.mechanics.displacement);
+  dt_ = record.dt;
+}
+
+void LagWatch::end(const coupling::State&) {
+  constexpr double k_worth_saying = 0.001;
+  double last = 0, all = 0;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    last = std::max(last, std::abs(now_[i] - before_[i]));
+    all = std::max(all, std::abs(now_[i] - first_[i]));
+  }
+  last = parallel::global_max(last);
+  all = parallel::global_max(all);
+  if (!(last > k_worth_saying * all)) return;
+  logging::info(
+      "displacements and stresses belong to the temperatures one step before (coupling.order = "
+      "\"mechanics_first\"): in the last step, {:g} s, displacements changed by {:.2g} % of all their change",
+      dt_, 100 * last / all);
+}
+
+void WallWatch::step(const coupling::StepRecord& record, const coupling::State&) {
+  for (std::size_t i = 0; i < largest_.size(); ++i) {
+    const coupling::ContactSummary& now = record.contacts[i];
+    if (!(now.left_area > 0)) continue;
+    Largest& largest = largest_[i];
+    largest.area = std::max(largest.area, now.left_area);
+    if (now.left_gap > largest.gap) {
+      largest.gap = now.left_gap;
+      largest.time = record.time;
+    }
+  }
+}
+
+void WallWatch::report() const {
+  for (std::size_t i = 0; i < largest_.size(); ++i)
+    if (largest_[i].area > 0)
+      logging::warn(
+          "contact '{}': liquid metal left its wall, {:.3g} mm2 of it at most, by up to {:.3g} mm at "
+          "t = {:g} s; more than {:.3g} mm, 1 % of the free contraction, counts",
+          contacts_[i]->spec().name, 1e6 * largest_[i].area, 1e3 * largest_[i].gap, largest_[i].time,
+          1e3 * contacts_[i]->spec().leaving_gap);
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,90 @@
+/// Observers that compare the report of every step with the laws of thermodynamics, and warn once of a
+/// violation.
+#pragma once
+
+#include "build/admissible.hpp"
+#include "coupling/observer.hpp"
+#include "heat/thermal_phase.hpp"
+
+namespace solidus::model {
+
+/// Warns when the functional 𝓛 of 2.24 grows over a step, by more than residuals and rounding explain,
+/// although the conditions are admissible.
+class StabilityWatch : public coupling::Observer {
+ public:
+  /// @param spec     kept by reference; thermo-mechanical
+  /// @param coldest  as of admissibility()
+  explicit StabilityWatch(const CaseSpec& spec, double coldest = std::numeric_limits<double>::infinity())
+      : spec_(spec), admissibility_(admissibility(spec, coldest)) {}
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override {}
+  void end(const coupling::State&) override {}
+
+ private:
+  const CaseSpec& spec_;
+  Admissibility admissibility_;
+  bool warned_ = false;
+};
+
+/// Warns at the end of a run, whole or stopped, whose steps together violate the first law: by more than
+/// residuals explain where the scheme closes it, by a thousandth of the heat exchanged where it does not
+/// (the entropy and the printed forms).
+class FirstLawWatch : public coupling::Observer {
+ public:
+  /// @param spec  kept by reference
+  /// @param heat  of the run, kept; null: nothing but what is exchanged makes the scale
+  explicit FirstLawWatch(const CaseSpec& spec, const heat::ThermalPhase* heat = nullptr)
+      : spec_(spec), heat_(heat) {}
+  void begin(const coupling::State& state) override;
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
+  void end(const coupling::State&) override { report(); }
+
+ private:
+  void report() const;
+
+  const CaseSpec& spec_;
+  const heat::ThermalPhase* heat_;
+  coupling::EnergyAudit sum_;
+  double heat_content_ = 0;  ///< at the start [J]
+  double unsolved_ = 0;      ///< imbalance by residuals, summed [J]
+};
+
+/// Reports at the end of a run whose displacements and stresses lag by a step (lags_a_step) how large the lag
+/// is: the change of displacements in the last step as a part of all their change.
+class LagWatch : public coupling::Observer {
+ public:
+  void begin(const coupling::State& state) override;
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State& state) override { end(state); }
+  void end(const coupling::State& state) override;
+
+ private:
+  std::vector<double> first_, before_, now_;  ///< displacements at the start and at the last two times [m]
+  double dt_ = 0;
+};
+
+/// Reports at the end of a run that liquid metal has left its wall, and where
+/// (contact::ContactSpec::leaving_gap).
+class WallWatch : public coupling::Observer {
+ public:
+  /// @param contacts  kept by reference
+  explicit WallWatch(const std::vector<contact::ContactPair*>& contacts)
+      : contacts_(contacts), largest_(contacts.size()) {}
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord& record, const coupling::State& state) override;
+  void stopped(const coupling::Stop&, const coupling::State&) override { report(); }
+  void end(const coupling::State&) override { report(); }
+
+ private:
+  void report() const;
+
+  const std::vector<contact::ContactPair*>& contacts_;
+  struct Largest {
+    double gap = 0, area = 0, time = 0;
+  };
+  std::vector<Largest> largest_;  ///< [contact]; the time is that of the largest gap
+};
+
+}  // namespace solidus::model

@@ -1,0 +1,52 @@
+#include "run/bounds_watch.hpp"
+
+#include <algorithm>
+
+#include "heat/worst_node.hpp"
+#include "parallel/parallel.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+constexpr double k_worth_a_word = 0.1;  ///< beyond the range [K]
+
+const char* remedy(const CaseSpec& spec) {
+  if (spec.heat.integration == heat::Integration::open)
+    return "the open rule over- and undershoots at sudden chills; the closed one does not";
+  if (!spec.heat.bounds) return "heat.bounds = true keeps temperatures within their range";
+  return "shorter steps help";
+}
+
+}  // namespace
+
+void BoundsWatch::begin(const coupling::State& state) {
+  range_ = {};
+  for (Index i = 0; i < phase_.mesh().n_owned_nodes; ++i) {
+    const double t = state.heat.temperature[static_cast<std::size_t>(i)];
+    range_.lowest = std::min(range_.lowest, t);
+    range_.highest = std::max(range_.highest, t);
+  }
+  range_ = {parallel::global_min(range_.lowest), parallel::global_max(range_.highest)};
+}
+
+void BoundsWatch::step(const coupling::StepRecord&, const coupling::State& state) {
+  if (warned_) return;
+  const heat::TemperatureRange around = phase_.ambient_range();
+  range_.lowest = std::min(range_.lowest, around.lowest);
+  range_.highest = std::max(range_.highest, around.highest);
+  heat::WorstNode worst;
+  const std::vector<double>& temperature = state.heat.temperature;
+  for (Index i = 0; i < phase_.mesh().n_owned_nodes; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    worst.look(n, std::max(range_.lowest - temperature[n], temperature[n] - range_.highest));
+  }
+  const double beyond = parallel::global_max(worst.size);
+  if (!(beyond > k_worth_a_word)) return;
+  warned_ = true;
+  logging::warn("t = {:g} s: {}, {:.3g} K beyond all initial and boundary temperatures; {}", state.time,
+                worst.text(phase_.mesh(), temperature, {}), beyond, remedy(spec_));
+}
+
+}  // namespace solidus::model

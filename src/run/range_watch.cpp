@@ -1,0 +1,95 @@
+#include "run/range_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "build/body_input.hpp"
+#include "material/library.hpp"
+#include "parallel/parallel.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+bool is_thermal(const std::string& property) {
+  return property == "conductivity" || property == "specific_heat";
+}
+
+/// By how much temperatures may leave the data [K].
+double margin(const material::LeftRange& range) {
+  return range.refused ? 0.0 : std::max(10.0, 0.05 * (range.valid_to - range.valid_from));
+}
+
+/// Of the properties that act in this body at these temperatures, those that leave their data.
+std::vector<material::LeftRange> left_ranges(const CaseSpec& spec, std::size_t body,
+                                             const material::Material& material, double low, double high) {
+  std::vector<material::LeftRange> left;
+  const auto add = [&](bool thermal, double hottest) {
+    if (low > hottest) return;
+    for (const material::LeftRange& range : material::left_ranges(material, low, hottest))
+      if (is_thermal(range.property) == thermal &&
+          (low < range.valid_from - margin(range) || hottest > range.valid_to + margin(range)))
+        left.push_back(range);
+  };
+  if (spec.has_heat()) add(true, high);
+  if (!spec.has_mechanics() || only_conducts(spec.bodies[body])) return left;
+  const material::PhaseChange* freezing = material.solidification();
+  add(false, freezing != nullptr ? std::min(high, freezing->fraction.solidus()) : high);
+  return left;
+}
+
+}  // namespace
+
+std::string left_data(const CaseSpec& spec, std::size_t body, const material::Material& material, double low,
+                      double high, std::vector<std::string>& said) {
+  std::string text;
+  double from = 0, to = 0;  // of the range named last
+  for (const material::LeftRange& left : left_ranges(spec, body, material, low, high)) {
+    const std::string holds = fmt::format("its data hold from {:.1f} to {:.1f} degC",
+                                          left.valid_from - k_zero_celsius, left.valid_to - k_zero_celsius);
+    const std::string used = fmt::format("body '{}', material '{}': ", spec.bodies[body].name, material.name);
+    if (left.refused)
+      throw InputError(spec.bodies[body].where,
+                       fmt::format("{}{} is used between {:.1f} and {:.1f} degC, {}", used, left.property,
+                                   low - k_zero_celsius, high - k_zero_celsius, holds),
+                       "a table that reaches further, or another extrapolation");
+    if (std::find(said.begin(), said.end(), left.property) != said.end()) continue;
+    said.push_back(left.property);
+    if (text.empty())
+      text = fmt::format("{}it is used between {:.1f} and {:.1f} degC; beyond their data are {}", used,
+                         low - k_zero_celsius, high - k_zero_celsius, left.property);
+    else if (left.valid_from == from && left.valid_to == to)
+      text.insert(text.rfind(" ("), ", " + left.property);
+    else
+      text += ", " + left.property;
+    if (left.valid_from != from || left.valid_to != to)
+      text += fmt::format(" ({:.0f} to {:.0f} degC)", left.valid_from - k_zero_celsius,
+                          left.valid_to - k_zero_celsius);
+    from = left.valid_from;
+    to = left.valid_to;
+  }
+  return text;
+}
+
+void RangeWatch::look(const coupling::State& state) {
+  const std::vector<double>& temperature = a_.heat ? state.heat.temperature : a_.phases.temperature;
+  std::vector<double> low(spec_.bodies.size(), 1e300), high(spec_.bodies.size(), -1e300);
+  for (const mesh::Block& block : a_.mesh.blocks) {
+    if (a_.heat && !a_.heat->active().body(block.body)) continue;
+    for (const Index i : block.nodes) {
+      const auto b = static_cast<std::size_t>(block.body);
+      low[b] = std::min(low[b], temperature[static_cast<std::size_t>(i)]);
+      high[b] = std::max(high[b], temperature[static_cast<std::size_t>(i)]);
+    }
+  }
+  for (std::size_t b = 0; b < low.size(); ++b) {
+    const double lowest = parallel::global_min(low[b]), highest = parallel::global_max(high[b]);
+    if (lowest > highest) continue;  // it has gone
+    const std::string text = left_data(spec_, b, a_.materials[b], lowest, highest, warned_[b]);
+    if (!text.empty()) logging::warn("{}", text);
+  }
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,52 @@
+#include "system/input_file.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace solidus {
+
+void require_readable(const std::filesystem::path& file, const SourceLocation& where, double most) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  const std::string name = where.file == file.string() ? "this" : "'" + file.string() + "'";
+  if (!std::filesystem::exists(status))
+    throw InputError(
+        where, name == "this" ? "there is no such file" : name + " cannot be read: there is no such file");
+  if (std::filesystem::is_directory(status)) throw InputError(where, name + " is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError(where, name + " is no regular file but a device, a pipe or a socket",
+                     "a file on a disk: what a device or a pipe gives may never end");
+  const auto size = static_cast<double>(std::filesystem::file_size(file, error));
+  if (size > most)
+    throw InputError(where, fmt::format("{} has {:.0f} MB", name == "this" ? "the file" : name, size / 1e6),
+                     fmt::format("at most {:.0f} MB", most / 1e6));
+  if (::access(file.c_str(), R_OK) != 0)
+    throw InputError(where, name == "this" ? "the file cannot be read" : name + " cannot be read",
+                     "a readable file; check its permissions");
+}
+
+std::string read_text_file(const std::filesystem::path& file, const SourceLocation& where) {
+  require_readable(file, where);
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  std::error_code error;
+  if (!in && !std::filesystem::is_empty(file, error)) throw InputError(where, "the file cannot be read");
+  return content.str();
+}
+
+std::string printable(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const bool second_set =
+        c >= 0x80 && c <= 0x9f && i > 0 && static_cast<unsigned char>(text[i - 1]) == 0xc2;
+    if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f || second_set) text[i] = '?';
+    if (second_set) text[i - 1] = '?';
+  }
+  return text;
+}
+
+}  // namespace solidus

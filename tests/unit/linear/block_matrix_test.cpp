@@ -1,0 +1,235 @@
+#include "linear/block_matrix.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "grid.hpp"
+#include "linear/lane_slots.hpp"
+#include "numbers/simd.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::linear {
+namespace {
+
+using test::Grid;
+
+/// An entry of an element matrix that depends on global numbers only: symmetric, and the same on every
+/// process.
+double entry(GlobalIndex row, int a, GlobalIndex column, int b) {
+  const double i = static_cast<double>(2 * row + a), j = static_cast<double>(2 * column + b);
+  return std::cos(i + j) + (i == j ? 5.0 : 0.0);
+}
+
+Eigen::MatrixXd dense(int nx, int ny) {
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(2 * nx * ny, 2 * nx * ny);
+  for (int j = 0; j + 1 < ny; ++j)
+    for (int i = 0; i + 1 < nx; ++i) {
+      const int n[4] = {j * nx + i, j * nx + i + 1, (j + 1) * nx + i + 1, (j + 1) * nx + i};
+      for (int p : n)
+        for (int q : n)
+          for (int a = 0; a < 2; ++a)
+            for (int b = 0; b < 2; ++b) m(2 * p + a, 2 * q + b) += entry(p, a, q, b);
+    }
+  return m;
+}
+
+using Storage = BlockMatrix::Storage;
+
+BlockMatrix assembled(const Grid& grid, Storage storage = Storage::whole) {
+  NodeGraph graph(grid.mesh);
+  graph.add_cliques(grid.quads, 4);
+  return BlockMatrix(grid.mesh, 2, std::move(graph), storage);
+}
+
+/// Whether all of a matrix is kept or the half of it.
+class BlockMatrices : public testing::TestWithParam<Storage> {
+ protected:
+  BlockMatrix assembled(const Grid& grid) const { return linear::assembled(grid, GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Storage, BlockMatrices, testing::Values(Storage::whole, Storage::upper),
+                         [](const auto& of) { return of.param == Storage::whole ? "whole" : "upper"; });
+
+void fill(const Grid& grid, BlockMatrix& matrix) {
+  matrix.set_zero();
+  const auto slots = matrix.clique_slots(grid.quads, 4);
+  for (std::size_t e = 0; e < grid.quads.size() / 4; ++e)
+    for (std::size_t p = 0; p < 4; ++p)
+      for (std::size_t q = 0; q < 4; ++q) {
+        double* block = matrix.block(slots[(e * 4 + p) * 4 + q]);
+        for (int a = 0; a < 2; ++a)
+          for (int b = 0; b < 2; ++b)
+            block[2 * a + b] +=
+                entry(grid.global(grid.quads[4 * e + p]), a, grid.global(grid.quads[4 * e + q]), b);
+      }
+}
+
+/// Compares the rows that this process has in PETSc's matrix.
+void expect_equal(Mat matrix, const Eigen::MatrixXd& reference) {
+  PetscInt first = 0, last = 0;
+  MatGetOwnershipRange(matrix, &first, &last);
+  for (PetscInt i = first; i < last; ++i) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(reference.cols());
+    PetscInt n = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    MatGetRow(matrix, i, &n, &columns, &values);
+    for (PetscInt k = 0; k < n; ++k) row(columns[k]) = values[k];
+    MatRestoreRow(matrix, i, &n, &columns, &values);
+    EXPECT_LT((row - reference.row(i).transpose()).cwiseAbs().maxCoeff(), 1e-14) << "row " << i;
+  }
+}
+
+TEST(NodeGraph, RowsHoldEachNeighbourOnceAndTheDiagonal) {
+  const Grid grid(3, 3);
+  NodeGraph graph(grid.mesh);
+  graph.add_cliques(grid.quads, 4);
+  graph.add_cliques(grid.quads, 4);
+  std::vector<std::int64_t> start;
+  std::vector<Index> columns;
+  graph.compress(start, columns);
+  ASSERT_EQ(start.size(), static_cast<std::size_t>(grid.mesh.n_owned_nodes) + 1);
+  for (Index row = 0; row < grid.mesh.n_owned_nodes; ++row) {
+    const GlobalIndex g = grid.global(row);
+    const auto span = [](GlobalIndex i) { return i == 1 ? 3 : 2; };
+    EXPECT_EQ(start[static_cast<std::size_t>(row) + 1] - start[static_cast<std::size_t>(row)],
+              span(g % 3) * span(g / 3));
+  }
+}
+
+TEST(NodeGraph, NodesWithoutElementsKeepTheirDiagonal) {
+  const Grid grid(2, 2);
+  std::vector<std::int64_t> start;
+  std::vector<Index> columns;
+  NodeGraph(grid.mesh).compress(start, columns);
+  EXPECT_EQ(columns.size(), static_cast<std::size_t>(grid.mesh.n_owned_nodes));
+}
+
+TEST_P(BlockMatrices, EqualsTheDenseSumOfElementMatrices) {
+  const Grid grid(4, 5);
+  BlockMatrix matrix = assembled(grid);
+  for (int pass = 0; pass < 2; ++pass) {  // the second pass reuses the pattern
+    fill(grid, matrix);
+    expect_equal(matrix.matrix(), dense(4, 5));
+  }
+}
+
+TEST_P(BlockMatrices, LaneSlotsScatterTheSameMatrix) {
+  const Grid grid(4, 5);
+  BlockMatrix matrix = assembled(grid);
+  const auto n = static_cast<Index>(grid.quads.size() / 4);
+  const std::size_t n_batches = (static_cast<std::size_t>(n) + k_lanes - 1) / k_lanes;
+  std::vector<Index> nodes(n_batches * 4 * k_lanes);
+  for (std::size_t e = 0; e < n_batches * k_lanes; ++e)  // padding repeats the last element
+    for (std::size_t p = 0; p < 4; ++p)
+      nodes[(e / k_lanes * 4 + p) * k_lanes + e % k_lanes] =
+          grid.quads[std::min(e, static_cast<std::size_t>(n) - 1) * 4 + p];
+  const LaneSlots slots(matrix, nodes, 4, n);
+  matrix.set_zero();
+  for (std::size_t batch = 0; batch < n_batches; ++batch)
+    for (std::size_t p = 0; p < 4; ++p)
+      for (std::size_t q = 0; q < 4; ++q)
+        for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+          double* block = matrix.block(slots.of(static_cast<Index>(batch))[(p * 4 + q) * k_lanes + lane]);
+          const GlobalIndex row = grid.global(nodes[(batch * 4 + p) * k_lanes + lane]);
+          const GlobalIndex column = grid.global(nodes[(batch * 4 + q) * k_lanes + lane]);
+          for (int a = 0; a < 2; ++a)
+            for (int b = 0; b < 2; ++b) block[2 * a + b] += entry(row, a, column, b);
+        }
+  expect_equal(matrix.matrix(), dense(4, 5));
+}
+
+TEST_P(BlockMatrices, FixedRowsAndColumnsBecomeTheIdentityTimesTheMeanDiagonal) {
+  const Grid grid(4, 5);
+  BlockMatrix matrix = assembled(grid);
+  fill(grid, matrix);
+  std::vector<char> fixed(static_cast<std::size_t>(grid.mesh.n_nodes()) * 2, 0);
+  const auto is_fixed = [](GlobalIndex node, int a) { return (node % 4 == 0 && a == 0) || node == 7; };
+  for (Index node = 0; node < grid.mesh.n_nodes(); ++node)
+    for (int a = 0; a < 2; ++a)
+      fixed[static_cast<std::size_t>(2 * node + a)] = is_fixed(grid.global(node), a) ? 1 : 0;
+  matrix.set_fixed(fixed);
+
+  Eigen::MatrixXd reference = dense(4, 5);
+  double sum = 0;
+  int n = 0;
+  for (int i = 0; i < reference.rows(); ++i)
+    if (!is_fixed(i / 2, i % 2)) sum += reference(i, i), ++n;
+  for (int i = 0; i < reference.rows(); ++i) {
+    if (!is_fixed(i / 2, i % 2)) continue;
+    reference.row(i).setZero();
+    reference.col(i).setZero();
+    reference(i, i) = sum / n;
+  }
+  for (int pass = 0; pass < 2; ++pass)
+    expect_equal(matrix.matrix(), reference);  // masking leaves our own values alone
+  matrix.set_fixed(std::vector<char>(fixed.size(), 0));
+  expect_equal(matrix.matrix(), dense(4, 5));
+}
+
+TEST_P(BlockMatrices, MultiplyEqualsTheDenseProduct) {
+  const Grid grid(4, 5);
+  BlockMatrix matrix = assembled(grid);
+  fill(grid, matrix);
+  Eigen::VectorXd x(40);
+  for (int i = 0; i < 40; ++i) x(i) = std::sin(3.0 * i);
+  const Eigen::VectorXd y = dense(4, 5) * x;
+  std::vector<double> local(static_cast<std::size_t>(grid.mesh.n_nodes()) * 2),
+      product(static_cast<std::size_t>(grid.mesh.n_owned_nodes) * 2);
+  for (Index node = 0; node < grid.mesh.n_nodes(); ++node)
+    for (int a = 0; a < 2; ++a) local[static_cast<std::size_t>(2 * node + a)] = x(2 * grid.global(node) + a);
+  matrix.multiply(local, product);
+  for (Index node = 0; node < grid.mesh.n_owned_nodes; ++node)
+    for (int a = 0; a < 2; ++a)
+      EXPECT_NEAR(product[static_cast<std::size_t>(2 * node + a)], y(2 * grid.global(node) + a), 1e-12);
+}
+
+TEST(BlockMatrix, HalfOfASymmetricMatrixTakesLittleMoreThanHalfTheBlocks) {
+  const Grid grid(20, 20);
+  const BlockMatrix whole = assembled(grid), upper = assembled(grid, Storage::upper);
+  const auto n = static_cast<std::size_t>(grid.mesh.n_owned_nodes);
+  std::size_t ghosts = 0;
+  for (const Index column : whole.columns()) ghosts += column >= grid.mesh.n_owned_nodes;
+  EXPECT_EQ(2 * (upper.columns().size() - ghosts), whole.columns().size() - ghosts + n);
+  EXPECT_LT(upper.bytes(), whole.bytes());
+}
+
+TEST(BlockMatrix, CountsItsMemory) {
+  const Grid grid(4, 5);
+  const BlockMatrix matrix = assembled(grid);
+  EXPECT_GT(matrix.bytes(), static_cast<std::size_t>(grid.mesh.n_owned_nodes) * 4 * sizeof(double));
+}
+
+TEST(parallel::GhostExchange, GhostsReceiveTheOwnersValues) {
+  const Grid grid(4, 5);
+  const parallel::GhostExchange ghosts(grid.mesh);
+  EXPECT_EQ(ghosts.n_owned_nodes(), grid.mesh.n_owned_nodes);
+  for (int components : {1, 3}) {
+    std::vector<double> values(static_cast<std::size_t>(grid.mesh.n_nodes() * components), -1.0);
+    for (Index node = 0; node < grid.mesh.n_owned_nodes; ++node)
+      for (int a = 0; a < components; ++a)
+        values[static_cast<std::size_t>(node * components + a)] =
+            static_cast<double>(10 * grid.global(node) + a);
+    ghosts.update(values, components);
+    for (Index node = 0; node < grid.mesh.n_nodes(); ++node)
+      for (int a = 0; a < components; ++a)
+        EXPECT_EQ(values[static_cast<std::size_t>(node * components + a)],
+                  static_cast<double>(10 * grid.global(node) + a));
+  }
+}
+
+TEST(Sums, AreTakenOverAllProcesses) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  EXPECT_EQ(parallel::global_sum(rank + 1.0), 0.5 * size * (size + 1));
+  EXPECT_EQ(parallel::global_max(rank), size - 1.0);
+  EXPECT_EQ(parallel::global_min(rank), 0.0);
+  EXPECT_TRUE(parallel::any_process(rank == size - 1));
+  EXPECT_FALSE(parallel::any_process(false));
+  EXPECT_TRUE(std::isnan(parallel::global_sum(rank == 0 ? std::nan("") : 1.0)));
+}
+
+}  // namespace
+}  // namespace solidus::linear

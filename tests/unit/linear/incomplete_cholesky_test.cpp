@@ -1,0 +1,128 @@
+#include "linear/incomplete_cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grid.hpp"
+#include "linear/linear_solver.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::linear {
+namespace {
+
+using test::Grid;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Heat content and conduction between the nodes of each quad; the first column of nodes is prescribed.
+struct Heat {
+  Grid grid;
+  BlockMatrix matrix;
+
+  Heat(int n, double content, BlockMatrix::Storage storage = BlockMatrix::Storage::upper)
+      : grid(n, n), matrix(grid.mesh, 1, graph(grid), storage) {
+    std::vector<char> fixed(grid.mesh.x.size(), 0);
+    for (Index node = 0; node < grid.mesh.n_nodes(); ++node) fixed[at(node)] = grid.global(node) % n == 0;
+    matrix.set_fixed(fixed);
+    const auto slots = matrix.clique_slots(grid.quads, 4);
+    for (std::size_t q = 0; q < slots.size(); q += 16)
+      for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = 0; b < 4; ++b)
+          *matrix.block(slots[q + 4 * a + b]) += a == b ? 3 + content : -1.0;
+  }
+  static NodeGraph graph(const Grid& grid) {
+    NodeGraph g(grid.mesh);
+    g.add_cliques(grid.quads, 4);
+    return g;
+  }
+  std::vector<double> right() const {
+    std::vector<double> b(at(grid.mesh.n_owned_nodes));
+    for (std::size_t i = 0; i < b.size(); ++i)
+      b[i] =
+          matrix.fixed()[i] ? 0.0 : std::sin(0.7 * static_cast<double>(grid.global(static_cast<Index>(i))));
+    return b;
+  }
+};
+
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return parallel::global_sum(sum);
+}
+
+LinearReport solved(Heat& heat, std::vector<double>& x) {
+  LinearSolver solver(heat.grid.mesh,
+                      {.prefix = "test_", .kind = SolverKind::incomplete, .relative_tolerance = 1e-10});
+  return solver.solve(heat.matrix, heat.right(), x);
+}
+
+// A row of nodes has a tridiagonal matrix, whose factors have no fill: nothing is left out on one process.
+TEST(IncompleteCholesky, WithoutFillTheFactorsAreExact) {
+  Grid grid(40, 1);
+  if (parallel::any_process(grid.mesh.n_owned_nodes != 40))
+    GTEST_SKIP() << "each process has factors of its own rows";
+  std::vector<Index> pairs;
+  for (Index i = 0; i + 1 < 40; ++i) pairs.insert(pairs.end(), {i, i + 1});
+  NodeGraph graph(grid.mesh);
+  graph.add_cliques(pairs, 2);
+  BlockMatrix matrix(grid.mesh, 1, std::move(graph), BlockMatrix::Storage::upper);
+  const auto slots = matrix.clique_slots(pairs, 2);
+  for (std::size_t p = 0; p < slots.size(); ++p)
+    *matrix.block(slots[p]) += p % 4 == 0 || p % 4 == 3 ? 1.5 : -1.0;
+  std::vector<double> x(40), b(40), z(40);
+  for (std::size_t i = 0; i < 40; ++i) x[i] = std::cos(static_cast<double>(i));
+  matrix.multiply(x, b);
+  IncompleteCholesky factors;
+  factors.set_up(matrix);
+  factors.apply(b, z);
+  for (std::size_t i = 0; i < 40; ++i) EXPECT_NEAR(z[i], x[i], 1e-5);
+}
+
+TEST(IncompleteCholesky, IsSymmetricAndPositive) {
+  Heat heat(20, 0.1);
+  IncompleteCholesky factors;
+  factors.set_up(heat.matrix);
+  const std::vector<double> r = heat.right();
+  std::vector<double> s(r), to_r(r.size()), to_s(r.size());
+  for (std::size_t i = 0; i < s.size(); ++i) s[i] *= std::cos(static_cast<double>(i));
+  factors.apply(r, to_r);
+  factors.apply(s, to_s);
+  EXPECT_GT(product(r, to_r), 0);
+  EXPECT_NEAR(product(s, to_r), product(r, to_s), 1e-5 * std::sqrt(product(r, to_r) * product(s, to_s)));
+}
+
+// A whole matrix is PETSc's.
+TEST(IncompleteCholesky, SolvesAsPetscsFactorsDoInAsManyIterations) {
+  for (const double content : {10.0, 0.1}) {
+    Heat half(50, content), whole(50, content, BlockMatrix::Storage::whole);
+    std::vector<double> x(half.right().size()), reference(x.size());
+    const std::size_t bytes = half.matrix.bytes();
+    const LinearReport ours = solved(half, x), petscs = solved(whole, reference);
+    EXPECT_LT(half.matrix.bytes() - bytes, bytes / 4);  // no copy for PETSc, which needs more than half of it
+    ASSERT_TRUE(ours.converged) << ours.reason;
+    EXPECT_LE(ours.iterations, petscs.iterations + 2);
+    const double scale = std::sqrt(product(reference, reference) / 2500);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], reference[i], 1e-8 * scale);
+  }
+}
+
+TEST(IncompleteCholesky, TheNextMatrixGetsNewFactorsAndTheSameOneKeepsThem) {
+  Heat heat(30, 1.0);
+  LinearSolver solver(heat.grid.mesh,
+                      {.prefix = "test_", .kind = SolverKind::incomplete, .relative_tolerance = 1e-10});
+  std::vector<double> x(heat.right().size()), again(x.size());
+  const LinearReport first = solver.solve(heat.matrix, heat.right(), x);
+  const LinearReport same = solver.solve_again(heat.right(), again, 0);
+  EXPECT_EQ(x, again);
+  EXPECT_EQ(first.iterations, same.iterations);
+  for (Index node = 0; node < heat.grid.mesh.n_owned_nodes; ++node) *heat.matrix.diagonal_block(node) *= 50;
+  const LinearReport strong = solver.solve(heat.matrix, heat.right(), x);
+  ASSERT_TRUE(strong.converged) << strong.reason;
+  EXPECT_LT(strong.iterations, first.iterations);
+}
+
+}  // namespace
+}  // namespace solidus::linear

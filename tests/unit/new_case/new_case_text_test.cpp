@@ -1,0 +1,95 @@
+/// The case that `solidus new` writes: shots into a die.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "build/body_input.hpp"
+#include "case/case_keys.hpp"
+#include "case/stage_input.hpp"
+#include "new_case/new_case_text.hpp"
+
+namespace solidus::model {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+Draft draft() {
+  Draft d;
+  d.geometry = "part.step";
+  d.unit = "mm";
+  d.process = "gravity_die";
+  d.alloy = "aluminium_alsi7mg";
+  d.bodies = {{.name = "casting",
+               .group = "casting",
+               .material = d.alloy,
+               .comment = "",
+               .role = Role::casting,
+               .start = 690},
+              {.name = "core",
+               .group = "core",
+               .material = "furan_sand",
+               .comment = "",
+               .role = Role::core,
+               .start = 80},
+              {.name = "die",
+               .group = "die",
+               .material = "h13_tool_steel",
+               .comment = "",
+               .role = Role::die,
+               .start = 250}};
+  d.size = 0.005;
+  d.smallest = 0.003;
+  d.mould_size = 0.015;
+  d.end = 200;
+  d.every = 10;
+  d.step = 0.5;
+  d.films = {"die"};
+  d.film = 20;
+  d.cavity = {"die_to_casting"};
+  return d;
+}
+
+TEST(NewCaseText, OfShotsHasStagesACycleAndSpray) {
+  Draft d = draft();
+  d.shots = {.number = 7,
+             .pour = 5,
+             .solidify = 90,
+             .open = 5,
+             .eject = 15,
+             .spray = 0.25,
+             .close = 10,
+             .spray_film = 300,
+             .spray_source = "a guess"};
+  CaseSpec spec = case_keys().read(parse_document(case_text(d), "case.toml"));
+  resolve_stages(spec);
+  const std::vector<StageRun> runs = stage_runs(spec);
+  ASSERT_EQ(runs.size(), 42u);
+  EXPECT_EQ(runs.back().shot, 7);
+  EXPECT_EQ(first_step(*runs[4].stage, spec.time), 0.25);  // no longer than its stage
+  EXPECT_THAT(staying_bodies(spec), ElementsAre(0, 0, 1));
+  EXPECT_THAT(new_bodies(spec, runs, 6), ElementsAre(1, 1, 0));
+  std::vector<std::string> names;
+  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+    if (holds(c.stages, &runs[4])) names.push_back(c.name);
+  EXPECT_THAT(names, ElementsAre("air_on_die", "spray_on_die_to_casting"));
+}
+
+TEST(NewCaseText, OfOneCastingHasNoStages) {
+  const std::string text = case_text(draft());
+  EXPECT_THAT(text, HasSubstr("end = \"200 s\""));
+  EXPECT_THAT(text, HasSubstr("until = \"solid\""));
+  const CaseSpec spec = case_keys().read(parse_document(text, "case.toml"));
+  EXPECT_TRUE(spec.stages.empty());
+  EXPECT_EQ(spec.thermal_conditions.size(), 1u);
+}
+
+TEST(NewCaseText, OfAMeshWithItsMouldAsksForNoElements) {
+  Draft d = draft();
+  d.meshed = true;
+  const CaseSpec spec = case_keys().read(parse_document(case_text(d), "case.toml"));
+  EXPECT_TRUE(spec.mesh.sizes.empty());
+  EXPECT_FALSE(spec.mesh.mould);
+}
+
+}  // namespace
+}  // namespace solidus::model

@@ -1,0 +1,58 @@
+#include "system/free_memory.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SOLIDUS_OTHER_ALLOCATOR
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || !defined(__GLIBC__)
+#define SOLIDUS_OTHER_ALLOCATOR
+#endif
+
+namespace solidus {
+namespace {
+
+/// Bytes of this process in memory.
+[[maybe_unused]] long resident() {
+  std::ifstream file("/proc/self/statm");
+  long size = 0, pages = 0;
+  file >> size >> pages;
+  return pages * sysconf(_SC_PAGESIZE);
+}
+
+[[maybe_unused]] long left_by(std::size_t bytes) {
+  const long before = resident();
+  {
+    const std::vector<char> array(bytes, 1);
+    const volatile char* read = array.data();  // or the array would be left out
+    EXPECT_EQ(read[bytes / 2], 1);
+  }
+  return resident() - before;
+}
+
+TEST(FreeMemory, GoesBackToTheSystemAlsoWhereALibraryWantsToKeepIt) {
+#ifdef SOLIDUS_OTHER_ALLOCATOR
+  GTEST_SKIP() << "another allocator";
+#else
+  constexpr long k_size = 64 << 20;
+  mallopt(M_MMAP_MAX, 0);  // as SuperLU_DIST does
+  mallopt(M_TRIM_THRESHOLD, -1);
+  EXPECT_GT(left_by(k_size), k_size / 2);
+  return_free_memory();
+  give_large_arrays_back();
+  EXPECT_LT(left_by(k_size), k_size / 8);
+#endif
+}
+
+}  // namespace
+}  // namespace solidus
