@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "app/verbs.hpp"
+#include "build/case_file.hpp"
 #include "build/mesh_input.hpp"
-#include "case/case_file.hpp"
 #include "input/units.hpp"
 #include "mesh/face_rules.hpp"
 #include "mesh/quality.hpp"

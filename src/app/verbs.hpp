@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 
 namespace solidus::app {
 

@@ -6,13 +6,13 @@
 #include <set>
 
 #include "build/body_input.hpp"
+#include "build/case_file.hpp"
 #include "build/dynamics_input.hpp"
 #include "build/heat_input.hpp"
 #include "build/rigid_surface_input.hpp"
 #include "build/run_input.hpp"
 #include "build/scheme_input.hpp"
 #include "build/time_input.hpp"
-#include "case/case_file.hpp"
 #include "case/field_list.hpp"
 #include "case/stage_input.hpp"
 #include "input/units.hpp"

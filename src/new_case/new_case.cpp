@@ -10,9 +10,9 @@
 #include <fstream>
 #include <numeric>
 
+#include "build/case_file.hpp"
 #include "build/geometry_bodies.hpp"
 #include "build/mesh_input.hpp"
-#include "case/case_file.hpp"
 #include "case/case_materials.hpp"
 #include "case/roles.hpp"
 #include "input/keys.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 #include "linear/interruption.hpp"
 #include "mesh/reader_process.hpp"
 #include "python/bindings.hpp"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 #include "results/structural_deck.hpp"
 
 namespace solidus::model {

@@ -12,7 +12,7 @@
 #include "coupling/observer.hpp"
 #include "coupling/state.hpp"
 
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 #include "check/coupling_estimate.hpp"
 #include "results/summary.hpp"
 

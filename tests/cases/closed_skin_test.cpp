@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "build/assembly.hpp"
+#include "build/case_file.hpp"
 #include "build/mesh_input.hpp"
 #include "build/scheme_input.hpp"
-#include "case/case_file.hpp"
 #include "case/case_materials.hpp"
 #include "case_folder.hpp"
 #include "coupling/contact_states.hpp"

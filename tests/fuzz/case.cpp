@@ -1,5 +1,5 @@
 /// Any bytes as a case file.
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 #include "input.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

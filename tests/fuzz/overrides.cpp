@@ -2,7 +2,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 #include "input.hpp"
 
 namespace {

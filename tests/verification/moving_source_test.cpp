@@ -12,8 +12,8 @@
 #include <fstream>
 
 #include "build/assembly.hpp"
+#include "build/case_file.hpp"
 #include "build/mesh_input.hpp"
-#include "case/case_file.hpp"
 #include "case/case_materials.hpp"
 #include "csv.hpp"
 

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../case/small_case.hpp"
 #include "check/coupling_estimate.hpp"
 #include "coupling/state.hpp"
 #include "run/audit_watch.hpp"
-#include "small_case.hpp"
 #include "system/log.hpp"
 
 namespace solidus::model {

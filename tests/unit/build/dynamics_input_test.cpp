@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 
 namespace solidus::model {
 namespace {

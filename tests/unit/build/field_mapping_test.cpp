@@ -12,8 +12,8 @@
 #include <fstream>
 #include <memory>
 
+#include "build/case_file.hpp"
 #include "build/initial_temperature.hpp"
-#include "case/case_file.hpp"
 #include "input/keys.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "build/case_file.hpp"
 #include "build/contact_input.hpp"
 #include "build/heat_input.hpp"
 #include "build/mechanics_input.hpp"
@@ -9,7 +10,6 @@
 #include "build/mesh_input.hpp"
 #include "build/run_input.hpp"
 #include "build/time_input.hpp"
-#include "case/case_file.hpp"
 #include "case/case_keys.hpp"
 #include "coupling/simulation.hpp"
 

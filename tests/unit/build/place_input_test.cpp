@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "small_case.hpp"
+#include "../case/small_case.hpp"
 
 namespace solidus::model {
 namespace {

@@ -1,4 +1,4 @@
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "case/case_file.hpp"
+#include "build/case_file.hpp"
 #include "case/case_keys.hpp"
 #include "system/errors.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "build/case_file.hpp"
 #include "build/time_input.hpp"
-#include "case/case_file.hpp"
 #include "case/case_keys.hpp"
 
 namespace solidus::model {

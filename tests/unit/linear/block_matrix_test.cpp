@@ -201,7 +201,7 @@ TEST(BlockMatrix, CountsItsMemory) {
   EXPECT_GT(matrix.bytes(), static_cast<std::size_t>(grid.mesh.n_owned_nodes) * 4 * sizeof(double));
 }
 
-TEST(parallel::GhostExchange, GhostsReceiveTheOwnersValues) {
+TEST(GhostExchange, GhostsReceiveTheOwnersValues) {
   const Grid grid(4, 5);
   const parallel::GhostExchange ghosts(grid.mesh);
   EXPECT_EQ(ghosts.n_owned_nodes(), grid.mesh.n_owned_nodes);

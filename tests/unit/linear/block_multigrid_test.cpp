@@ -104,7 +104,7 @@ TEST(BlockMultigrid, ACoarsestLevelThatIsTooLargeToBeFactorisedIsSmoothed) {
     multigrid.set_up(springs.matrix);
     const bool large = width == 3;
     EXPECT_EQ(multigrid.factorises(), !large);
-    EXPECT_EQ(multigrid.coarsest_rows() > Multigrid::k_most_factorised, large);
+    EXPECT_EQ(multigrid.coarsest_rows() > BlockMultigrid::k_most_factorised, large);
     EXPECT_EQ(logging::warnings().size(), large ? 1U : 0U);
     LinearSolver solver(springs.grid.mesh,
                         {.prefix = "test_", .kind = SolverKind::multigrid, .relative_tolerance = 1e-8});
@@ -170,14 +170,16 @@ TEST(BlockMultigrid, RigidMotionsOfTheCoarseLevelsAreThoseOfTheFineOne) {
   Springs springs(12);
   springs.matrix.set_fixed(std::vector<char>(springs.grid.mesh.x.size() * 2, 0));
   const mesh::Mesh& mesh = springs.grid.mesh;
-  const NearNullSpace modes = rigid_body_modes(mesh, 2);
-  const Numbering numbering{mesh.n_owned_nodes,
-                            mesh.first_owned,
-                            {mesh.global_node.begin() + mesh.n_owned_nodes, mesh.global_node.end()}};
-  const MatrixView a{2, springs.matrix.row_start(), springs.matrix.columns(), springs.matrix.block(0)};
-  const Coarsening next =
-      coarsen(a, numbering, parallel::RowExchange(numbering.n_owned, numbering.first, numbering.ghosts),
-              modes.values, 3, {}, inverse_diagonal(a), 2.0);
+  const multigrid::NearNullSpace modes = rigid_body_modes(mesh, 2);
+  const multigrid::Numbering numbering{
+      mesh.n_owned_nodes,
+      mesh.first_owned,
+      {mesh.global_node.begin() + mesh.n_owned_nodes, mesh.global_node.end()}};
+  const multigrid::MatrixView a{2, springs.matrix.row_start(), springs.matrix.columns(),
+                                springs.matrix.block(0)};
+  const multigrid::Coarsening next = multigrid::coarsen(
+      a, numbering, parallel::RowExchange(numbering.n_owned, numbering.first, numbering.ghosts), modes.values,
+      3, {}, multigrid::inverse_diagonal(a), 2.0);
   std::vector<double> coarse(next.near_null);
   coarse.resize(static_cast<std::size_t>(next.numbering.n_local()) * 9);
   parallel::GhostExchange(next.numbering.n_owned, next.numbering.first, next.numbering.ghosts)
@@ -185,7 +187,7 @@ TEST(BlockMultigrid, RigidMotionsOfTheCoarseLevelsAreThoseOfTheFineOne) {
 
   // P times the coarse modes is what the smoothing leaves of rigid motions: all of them, as they cost
   // nothing.
-  const BlockRows<float>& p = next.interpolation;
+  const multigrid::BlockRows<float>& p = next.interpolation;
   for (Index row = 0; row < mesh.n_owned_nodes; ++row)
     for (int i = 0; i < 2; ++i)
       for (int mode = 0; mode < 3; ++mode) {
@@ -199,7 +201,7 @@ TEST(BlockMultigrid, RigidMotionsOfTheCoarseLevelsAreThoseOfTheFineOne) {
         EXPECT_NEAR(sum, modes.values[static_cast<std::size_t>((row * 2 + i) * 3 + mode)], 1e-5);
       }
   // And so they cost nothing there: the rows of Pᵀ A P take coarse rigid motions to zero, ghosts included.
-  const BlockRows<double>& m = next.matrix;
+  const multigrid::BlockRows<double>& m = next.matrix;
   double largest = 0;
   for (const double value : m.value) largest = std::max(largest, std::abs(value));
   for (Index row = 0; row < m.n_rows(); ++row)
