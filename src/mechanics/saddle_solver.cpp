@@ -114,8 +114,9 @@ void SaddleSolver::set_up() {
     factorised_->set(pressure_.orthogonal() ? operator_->matrix() : assembled, assembled);
     return;
   }
-  preconditioner_->set_up_schur();
+  // Both factors go together: moduli that are not of now cost no iterations as long as the hierarchy serves.
   if (hierarchy_.stale_for(displacement_)) {
+    preconditioner_->set_up_schur();
     preconditioner_->set_up_displacement();
     hierarchy_.made_for(displacement_);
   }
