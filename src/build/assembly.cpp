@@ -67,7 +67,7 @@ void check_coverage(const Assembly& a) {
     }
     if (!slides && covered < 0.999)
       logging::warn("contact '{}': only {:.1f} % of the slave surface '{}' faces the master",
-                    pair->spec().name, 100 * pair->coverage(), pair->spec().slave);
+                    pair->spec().name, 100 * pair->geometry().kinematics().coverage(), pair->spec().slave);
   }
 }
 
@@ -91,8 +91,8 @@ void build_mechanics(const CaseSpec& spec, const std::vector<double>& initial_te
   mechanics::MechanicsOptions options = mechanics_options(spec);
   for (const auto& pair : a.contacts) {
     contributions.push_back(&pair->mechanics());
-    options.symmetric = options.symmetric && pair->symmetric();
-    a.initial.contacts.push_back(pair->initial_state());
+    options.symmetric = options.symmetric && pair->forces().symmetric();
+    a.initial.contacts.push_back(pair->history().initial());
   }
   mechanics::Conditions conditions = mechanical_conditions(spec, a.first_stage());
   conditions.absent_bodies =

@@ -76,7 +76,7 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
   m.face_size = contact::ContactSurface(mesh, m.slave).mean_face_size();
   m.shared_nodes = shared_nodes(mesh, m.slave, m.master);
   double low = std::numeric_limits<double>::max(), high = -low;
-  const contact::ContactKinematics& kinematics = pair.kinematics();
+  const contact::ContactKinematics& kinematics = pair.geometry().kinematics();
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     if (!kinematics.particle(p).counted) continue;
     const contact::PointMotion motion =

@@ -64,7 +64,7 @@ std::string law_text(const ContactSpec& contact, const ContactMeasures& m, doubl
   const double start = m.largest_gap > contact.touching.value_or(0) ? m.largest_gap : 0.0;
   const double closed = law.at(0, pressure, temperature).value, gap = std::max(start, 1e-4);
   std::string text = fmt::format("{:.4g} W/m2/K closed", closed);
-  const double open = law.at(gap, 0, temperature).value;
+  const double open = law.at(-gap, 0, temperature).value;
   if (std::abs(open - closed) > 0.01 * closed)
     text += fmt::format(", {:.3g} over a gap of {:.2g} mm", open, 1e3 * gap);
   if (law.radiation_factor() > 0) text += ", radiation";

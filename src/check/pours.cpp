@@ -107,7 +107,7 @@ std::function<double(double, double, double)> conductance_of(const ContactSpec& 
   const bool wet = mechanical && contact.wet;
   const double start = wet || m.mean_gap <= touching ? 0.0 : m.mean_gap;
   return [law, pressure, start](double gap, double metal, double mould) {
-    const double h = law->at(start + gap, pressure, (metal + mould) / 2).value;
+    const double h = law->at(-(start + gap), pressure, (metal + mould) / 2).value;
     return h + law->radiation_factor() * (metal * metal + mould * mould) * (metal + mould);
   };
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/face.hpp"
+#include "contact/heat_run.hpp"
 
 namespace solidus::contact {
 
@@ -32,22 +33,6 @@ std::array<double, 2> HeatTerm::side_shares() const {
   return {sides.slave, sides.master};
 }
 
-/// Points in a row that share their nodes.
-struct HeatTerm::Run {
-  Index first = -1;
-  std::vector<Index> nodes;
-  std::vector<double> values;
-
-  bool holds(std::span<const Index> other) const {
-    return first >= 0 && std::equal(other.begin(), other.end(), nodes.begin(), nodes.end());
-  }
-  void start(Index point, std::span<const Index> of, std::size_t n_values) {
-    first = point;
-    nodes.assign(of.begin(), of.end());
-    values.assign(n_values, 0.0);
-  }
-};
-
 HeatTerm::HeatTerm(const mesh::Mesh& mesh, const PartnerList& partners, ContactGraph& graph,
                    const HeatTransferLaw& law, bool nodal)
     : n_owned_(mesh.n_owned_nodes), partners_(partners), graph_(graph), law_(law), nodal_(nodal) {}
@@ -61,11 +46,11 @@ void HeatTerm::place(std::vector<HeatPoint> points) {
 
 Conductance HeatTerm::conductance(Index point, double temperature) const {
   const HeatPoint& p = points_[at(point)];
-  const double opening = -p.penetration;
-  if (curvature_.empty() || !(opening > 0)) return law_.at(opening, p.pressure, temperature);
+  if (curvature_.empty() || !(p.penetration < 0)) return law_.at(p.penetration, p.pressure, temperature);
   const SurfaceCurvature& curvature = curvature_[at(point)];
-  Conductance h = law_.at(curvature.plane_gap(opening), p.pressure, temperature);
-  h.by_opening *= curvature.plane_gap_slope(opening);
+  const double width = -p.penetration;
+  Conductance h = law_.at(-curvature.plane_gap(width), p.pressure, temperature);
+  h.by_penetration *= curvature.plane_gap_slope(width);
   return h;
 }
 
@@ -296,191 +281,6 @@ void HeatTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matri
     add_point_tangent(s, x, run.values, per_h);
   }
   flush();
-}
-
-void HeatTerm::add_gap_slope(const AtPoint& s, std::span<const double> temperature,
-                             std::span<double> heat) const {
-  const HeatPoint& point = points_[at(s.point)];
-  const double w = partners_.weight[at(s.point)];
-  const Conductance h = conductance(s.point, 0.5 * (s.slave + s.master));
-  const double slope = w * (h.by_pressure * point.pressure_slope - h.by_opening);
-  if (slope != 0) {
-    add_exchange(s, temperature, slope, 0, heat);
-    if (s.has_temperature) {
-      const std::array<double, 2> flux = flux_by_conductance(s);
-      add_sides(s, {slope * flux[0], slope * flux[1]}, heat);
-    }
-  }
-  if (!point.joint) return;
-  const double source = -w * point.joint->source_by_pressure * point.pressure_slope;
-  add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, heat);
-}
-
-// B of the master is in Θ_m = −Σ B_b Θ_b, and says which node takes the heat.
-void HeatTerm::add_share_slope(const AtPoint& s, std::span<const double> temperature, std::size_t b,
-                               std::span<double> heat) const {
-  const double w = partners_.weight[at(s.point)], t = temperature[at(s.nodes[b])];
-  const double across = w * (s.h.value * t + s.radiation * fourth(t));
-  for (std::size_t a = 0; a < (nodal_ ? s.n_slave : s.nodes.size()); ++a) heat[a] += s.b[a] * across;
-  // The derivative of the heat that the node itself gives off.
-  heat[b] += nodal_
-                 ? w * (s.h.value * (s.slave - t) + s.radiation * (s.slave_fourth - fourth(t)))
-                 : w * (s.h.value * (s.slave - s.master) + s.radiation * (s.slave_fourth - s.master_fourth));
-  std::array<double, 2> by_mean{};
-  if (s.has_temperature) {
-    const double conducted = s.h.value * (s.slave - s.master);
-    heat[b] -= w * (s.interface.flux[1] + conducted);
-    const auto& slope = s.interface.flux_slope;
-    add_sides(s, {-w * t * (slope[0][1] + s.h.value), -w * t * (slope[1][1] - s.h.value)}, heat);
-    by_mean = flux_by_conductance(s);
-  }
-  if (s.h.by_temperature == 0) return;
-  const double by_share = -0.5 * t * w * s.h.by_temperature;
-  add_exchange(s, temperature, by_share, 0, heat);
-  add_sides(s, {by_share * by_mean[0], by_share * by_mean[1]}, heat);
-}
-
-void HeatTerm::add_displacement_tangent(const std::function<HeatRates(Index point)>& rates_of,
-                                        std::span<const double> temperature, linear::CoupledMatrix& matrix) {
-  if (!active_) return;
-  if (displacement_ != &matrix.displacement()) {
-    displacement_ = &matrix.displacement();
-    displacement_slots_.bind(*displacement_, n_owned_, partners_.n_points());
-  }
-  const auto components = static_cast<std::size_t>(matrix.components());
-  std::vector<double> per_gap, per_trial, per_share;  // ∂r_a
-  Run run;
-  for (Index p = 0; p < partners_.n_points(); ++p) {
-    if (partners_.partnered[at(p)] == 0) continue;
-    const HeatRates rates = rates_of(p);
-    if (rates.penetration.empty()) continue;
-    const AtPoint s = see(p, temperature);
-    const std::size_t n = s.nodes.size();
-    if (!run.holds(s.nodes)) run.start(p, s.nodes, n * n * components);
-    std::fill(run.values.begin(), run.values.end(), 0.0);
-    const auto add = [&](std::span<const double> heat, const auto& rate_of) {
-      for (std::size_t row = 0; row < n; ++row)
-        for (std::size_t b = 0; b < n; ++b)
-          for (std::size_t c = 0; c < components; ++c)
-            run.values[(row * n + b) * components + c] += heat[row] * rate_of(b)[c];
-    };
-    per_gap.assign(n, 0.0);
-    add_gap_slope(s, temperature, per_gap);
-    add(per_gap, [&](std::size_t b) -> const Point& { return rates.penetration[b]; });
-    if (const auto& joint = points_[at(p)].joint; joint && !rates.trial.empty()) {
-      per_trial.assign(n, 0.0);
-      const double source = -partners_.weight[at(p)] * joint->source_by_trial;
-      add_sides(s, {s.interface.by_side[0] * source, s.interface.by_side[1] * source}, per_trial);
-      add(per_trial, [&](std::size_t b) -> const Point& { return rates.trial[b]; });
-    }
-    for (std::size_t a = s.n_slave; a < n; ++a) {
-      const auto moves = rates.share.subspan(a * n, n);
-      if (std::all_of(moves.begin(), moves.end(), [](const Point& v) { return v == Point{}; })) continue;
-      per_share.assign(n, 0.0);
-      add_share_slope(s, temperature, a, per_share);
-      add(per_share, [&](std::size_t b) -> const Point& { return moves[b]; });
-    }
-    const auto slots = displacement_slots_.slots(run.first, run.nodes);
-    for (std::size_t e = 0; e < n * n; ++e) {
-      double* const to = matrix.heat_by_displacement(slots[e]);
-      for (std::size_t c = 0; c < components; ++c) to[c] += run.values[e * components + c];
-    }
-  }
-}
-
-std::vector<SurfaceHeat> HeatTerm::surface_heat(std::span<const double> temperature) const {
-  std::vector<SurfaceHeat> heat(points_.size());
-  if (!active_) return heat;
-  for (Index p = 0; p < partners_.n_points(); ++p) {
-    if (partners_.partnered[at(p)] == 0) continue;
-    const AtPoint s = see(p, temperature);
-    const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
-    const double across = conducted + s.radiation * (s.slave_fourth - s.master_fourth);
-    SurfaceHeat& q = heat[at(p)];
-    if (s.has_temperature)
-      q.by_friction = {conducted - s.interface.flux[0], -conducted - s.interface.flux[1]};
-    q.total = {q.by_friction[0] - across, q.by_friction[1] + across};
-  }
-  return heat;
-}
-
-SurfaceHeat HeatTerm::counted_heat(std::span<const double> temperature) const {
-  SurfaceHeat sum;
-  const std::vector<SurfaceHeat> heat = surface_heat(temperature);
-  for (Index p = 0; p < partners_.n_points(); ++p) {
-    if (partners_.counted[at(p)] == 0) continue;
-    for (std::size_t side = 0; side < 2; ++side) {
-      sum.total[side] += partners_.weight[at(p)] * heat[at(p)].total[side];
-      sum.by_friction[side] += partners_.weight[at(p)] * heat[at(p)].by_friction[side];
-    }
-  }
-  return sum;
-}
-
-std::vector<double> HeatTerm::conductances(std::span<const double> temperature) const {
-  std::vector<double> h(points_.size(), 0.0);
-  if (!active_) return h;
-  for (Index p = 0; p < partners_.n_points(); ++p) {
-    const HeatPoint& point = points_[at(p)];
-    if (temperature.empty())
-      h[at(p)] = law_.at(-point.penetration, point.pressure, k_room_temperature).value;
-    else if (partners_.partnered[at(p)] != 0)
-      h[at(p)] = see(p, temperature).h.value;
-  }
-  return h;
-}
-
-std::vector<double> HeatTerm::interface_temperatures(std::span<const double> temperature) const {
-  std::vector<double> result;
-  for (Index p = 0; p < partners_.n_points(); ++p) {
-    const HeatPoint& point = points_[at(p)];
-    const bool balanced = active_ && point.has_temperature && partners_.partnered[at(p)] != 0;
-    result.push_back(balanced ? see(p, temperature).interface.temperature : point.step.temperature);
-  }
-  return result;
-}
-
-InterfaceHeat HeatTerm::interface_heat(std::span<const double> temperature) const {
-  InterfaceHeat heat;
-  if (!active_) return heat;
-  for (Index p = 0; p < partners_.n_points(); ++p) {
-    const HeatPoint& point = points_[at(p)];
-    if (!point.has_temperature || partners_.counted[at(p)] == 0) continue;
-    const double w = partners_.weight[at(p)];
-    if (partners_.partnered[at(p)] == 0) {
-      heat.dissipated += w * point.step.dissipation;
-      heat.stored += w * point.step.dissipation;
-      continue;
-    }
-    const AtPoint s = see(p, temperature);
-    const double dt = phase_ ? phase_->stage_dt : point.step.time_step;
-    double taken = dt * (s.interface.flux[0] + s.interface.flux[1]);
-    if (phase_ && phase_->staged) taken += phase_->first_flux[at(p)];
-    const double made = dissipated(s);
-    heat.dissipated += w * made;
-    heat.stored += w * (made + taken);
-  }
-  return heat;
-}
-
-double HeatTerm::dissipated(const AtPoint& s) const {
-  if (!phase_ || !phase_->staged) return s.dissipation;
-  return phase_->first_dissipation[at(s.point)] + s.dissipation * phase_->stage_dt / phase_->span.dt;
-}
-
-std::vector<std::optional<FrictionResponse>> HeatTerm::keep_slip(std::span<const double> temperature) {
-  std::vector<std::optional<FrictionResponse>> slip(points_.size());
-  if (!active_) return slip;
-  for (Index p = 0; p < partners_.n_points(); ++p) {
-    HeatPoint& point = points_[at(p)];
-    if (point.friction == nullptr || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;
-    const AtPoint s = see(p, temperature);
-    slip[at(p)] = s.friction;
-    slip[at(p)]->dissipation = point.step.dissipation = dissipated(s);
-    point.step.structural_entropy = s.friction.structural_entropy;
-    point.friction = nullptr;
-  }
-  return slip;
 }
 
 }  // namespace solidus::contact

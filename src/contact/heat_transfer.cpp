@@ -108,15 +108,15 @@ void HeatTransferLaw::check_transition() const {
   }
 }
 
-Conductance HeatTransferLaw::at(double opening, double pressure, double temperature) const {
+Conductance HeatTransferLaw::at(double penetration, double pressure, double temperature) const {
   const double warmth = std::max(temperature, 0.0);
-  const bool parted = opening > 0;
-  const double x = parted ? opening : std::max(pressure, 0.0);
+  const bool parted = penetration < 0;
+  const double x = parted ? -penetration : std::max(pressure, 0.0);
   const double width = parted ? transition_gap_ : transition_pressure_;
   const auto branch = [&](double of) { return parted ? open(of, warmth) : closed(of, warmth); };
   LawConductance h = spec_.smooth && x < width ? transition(x, width, branch(0), branch(width)) : branch(x);
   if (temperature < 0) h.by_temperature = 0;
-  return {h.value, parted ? h.slope : 0, parted ? 0 : h.slope, h.by_temperature};
+  return {h.value, parted ? -h.slope : 0, parted ? 0 : h.slope, h.by_temperature};
 }
 
 LawConductance HeatTransferLaw::open(double gap, double temperature) const {

@@ -2,13 +2,13 @@
 ///
 ///   q = h (Θ_s − Θ_m) + σ_r F (Θ_s⁴ − Θ_m⁴)        [W/m²], from slave to master
 ///
-///   closed (g <= 0)   h = h_c(t_N, Θ_g), beside what the gap conducts where the law says so  (3.46-3.49)
-///   open (gap g > 0)  h = h_o(g, Θ_g)                                                        (3.50, 7.9)
+///   closed (g_N >= 0)  h = h_c(t_N, Θ_g), beside what the gap conducts where the law says so  (3.46-3.49)
+///   open (g_N < 0)     h = h_o(g, Θ_g), g = −g_N                                              (3.50, 7.9)
 ///
-/// g [m] opening, t_N [Pa] contact pressure, Θ_g [K] mean of the two surfaces' temperatures; h_c and h_o are
-/// laws in files of their own (laws/contact_law.hpp, laws/gap_law.hpp). F = 1/(1/ε_1 + 1/ε_2 − 1) of two
-/// large grey parallel surfaces that face each other (view factor 1: the gap is small against them), σ_r the
-/// Stefan–Boltzmann constant.
+/// g_N [m] penetration, g [m] width of the gap, t_N [Pa] contact pressure, Θ_g [K] mean of the two surfaces'
+/// temperatures; h_c and h_o are laws in files of their own (laws/contact_law.hpp, laws/gap_law.hpp). F =
+/// 1/(1/ε_1 + 1/ε_2 − 1) of two large grey parallel surfaces that face each other (view factor 1: the gap is
+/// small against them), σ_r the Stefan–Boltzmann constant.
 ///
 /// Beside a closed law the gap conducts h_o(0), or, where the surfaces are rough and the law of the gap holds
 /// for the gas between them too, h_o(Y(t_N)), Y the distance of their mean planes. Such a gap begins where
@@ -68,7 +68,7 @@ struct HeatTransferSpec {
 /// h and its derivatives; those at a bend of a table are those of the piece on its right.
 struct Conductance {
   double value = 0;           ///< [W/(m² K)]
-  double by_opening = 0;      ///< ∂h/∂g where open [W/(m³ K)], else zero
+  double by_penetration = 0;  ///< ∂h/∂g_N where open [W/(m³ K)], else zero
   double by_pressure = 0;     ///< ∂h/∂t_N where closed, else zero; zero at t_N = 0 where it has no bound
   double by_temperature = 0;  ///< ∂h/∂Θ_g [W/(m² K²)]
 };
@@ -83,9 +83,9 @@ class HeatTransferLaw {
   /// Throws InputError for data that make no law: negative or missing values, or a jump at g = 0.
   explicit HeatTransferLaw(HeatTransferSpec spec);
 
-  /// Returns the conductance of an interface with this opening [m] (zero or negative: closed), pressure t_N
-  /// [Pa] and mean temperature Θ_g [K]. Temperatures below zero, which an iteration may pass, count as zero.
-  Conductance at(double opening, double pressure, double temperature) const;
+  /// Returns the conductance of an interface with the penetration g_N [m] (negative: open), pressure t_N [Pa]
+  /// and mean temperature Θ_g [K]. Temperatures below zero, which an iteration may pass, count as zero.
+  Conductance at(double penetration, double pressure, double temperature) const;
   /// Whether h changes with Θ_g.
   bool of_temperature() const { return of_temperature_; }
   /// h_1 and h_2 of a conductance (3.45).

@@ -40,15 +40,14 @@ struct MechanicsTerm::Run {
   std::vector<Tensor> geometric;  ///< [b][c]; scratch of one point
 };
 
-MechanicsTerm::MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components,
-                             CurrentConfiguration& configuration, ContactGraph& graph, const PointLaw& law,
+MechanicsTerm::MechanicsTerm(std::string name, const ContactGeometry& geometry, const PointLaw& law,
                              const ContactStep& step, double stabilisation, bool symmetric)
     : name_(std::move(name)),
-      n_owned_(mesh.n_owned_nodes),
-      components_(components),
-      configuration_(configuration),
-      kinematics_(configuration.kinematics()),
-      graph_(graph),
+      n_owned_(geometry.mesh().n_owned_nodes),
+      components_(geometry.components()),
+      geometry_(geometry),
+      kinematics_(geometry.kinematics()),
+      graph_(geometry.graph()),
       law_(law),
       step_(step),
       stabilisation_(stabilisation),
@@ -68,7 +67,7 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
   changes_ = 0;
   failure_ = FrictionStatus::converged;
   if (!active_) return;
-  configuration_.place(step_.time, x, ContactKinematics::Points::own);
+  geometry_.at(step_.time, x, ContactKinematics::Points::own);
   const auto n = static_cast<std::size_t>(components_);
   Count count;
   for (Index p = 0; p < kinematics_.n_points(); ++p) {
@@ -124,9 +123,9 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
       by_penetration =
           add_scaled(by_penetration, f.normal.tangent, times(motion.push, f.traction_by_pressure));
     if (f.joint && !symmetric_)
-      by_penetration =
-          add_scaled(by_penetration, f.conductance.by_pressure * f.normal.tangent - f.conductance.by_opening,
-                     times(motion.push, f.traction_by_conductance));
+      by_penetration = add_scaled(by_penetration,
+                                  f.conductance.by_pressure * f.normal.tangent + f.conductance.by_penetration,
+                                  times(motion.push, f.traction_by_conductance));
   }
   const double stabilisation = stabilisation_ * law_.normal.penalty;
   for (std::size_t c = 0; c < n; ++c) {
@@ -236,7 +235,7 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
 
 void MechanicsTerm::add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) {
   if (!active_) return;
-  configuration_.place(step_.time, x, ContactKinematics::Points::own);
+  geometry_.at(step_.time, x, ContactKinematics::Points::own);
   if (components_ == 2)
     add_tangents<2>(matrix);
   else

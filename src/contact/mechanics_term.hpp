@@ -1,40 +1,19 @@
 /// Contact forces as a term of the mechanical phase; an internal part of ContactPair.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "contact/coupled_interface.hpp"
-#include "contact/current_configuration.hpp"
-#include "contact/graph.hpp"
+#include "contact/geometry.hpp"
 #include "contact/integration.hpp"
 #include "contact/point_law.hpp"
 #include "contact/slot_cache.hpp"
+#include "contact/step.hpp"
 #include "linear/contribution.hpp"
 #include "linear/coupled_matrix.hpp"
 #include "mesh/mesh.hpp"
 
 namespace solidus::contact {
-
-/// State at the start of a step, shared by the parts of a pair.
-struct ContactStep {
-  /// At t_n, one per point; multipliers and tractions are those of the last turn of the augmented Lagrangian.
-  std::vector<PointState> from;
-  double dt = 0;                     ///< [s]
-  double time = 0;                   ///< t_{n+1} [s]
-  double begun = 0;                  ///< t_n [s]
-  std::vector<double> displacement;  ///< u_n, [local node][component] [m]
-  CoupledInterface coupled;          ///< of the simultaneous scheme
-  /// Θ_c and ζ_c of the pass before in a scheme that iterates within the step: [point]; else empty.
-  std::vector<FrictionInput::Iterate> iterate;
-  std::optional<FrictionInput::Iterate> iterate_of(Index point) const {
-    if (iterate.empty()) return {};
-    return iterate[static_cast<std::size_t>(point)];
-  }
-  /// Wet points whose face has no coherent node, so that no shell moves them: [point].
-  std::vector<char> liquid;
-};
 
 /// r_b = Σ_p w B_b (t_N n + F T) of the displacement it is called with, from the step's start, and the exact
 /// derivative away from g_N = 0 and the edge of the slip cone:
@@ -51,9 +30,8 @@ class MechanicsTerm : public linear::Contribution {
  public:
   /// Keeps references.
   /// @param name  of the pair, for the log: with level debug every residual leaves a line
-  MechanicsTerm(std::string name, const mesh::Mesh& mesh, int components, CurrentConfiguration& configuration,
-                ContactGraph& graph, const PointLaw& law, const ContactStep& step, double stabilisation,
-                bool symmetric);
+  MechanicsTerm(std::string name, const ContactGeometry& geometry, const PointLaw& law,
+                const ContactStep& step, double stabilisation, bool symmetric);
   /// Off: no term at all.
   void activate(bool on) { active_ = on; }
 
@@ -89,7 +67,7 @@ class MechanicsTerm : public linear::Contribution {
   std::string name_;
   Index n_owned_;
   int components_;
-  CurrentConfiguration& configuration_;
+  const ContactGeometry& geometry_;
   const ContactKinematics& kinematics_;
   ContactGraph& graph_;
   const PointLaw& law_;

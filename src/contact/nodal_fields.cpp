@@ -1,9 +1,10 @@
+/// Means of a contact pair around its nodes.
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "contact/heat_term.hpp"
-#include "contact/pair.hpp"
+#include "contact/report.hpp"
+#include "contact/rotation.hpp"
 
 namespace solidus::contact {
 
@@ -42,29 +43,32 @@ class NodalAverage {
 
 }  // namespace
 
-ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature) const {
-  configuration_->place(time_, displacement_, ContactKinematics::Points::own);
-  const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
-  const std::vector<double> conductance =
-      heat_ ? heat_->conductances(temperature) : std::vector<double>(now_.points.size(), 0.0);
-  std::vector<SurfaceHeat> heat(now_.points.size());
-  if (heat_ && !temperature.empty()) heat = heat_->surface_heat(temperature);
+ContactNodalFields nodal_fields(const ContactView& pair, std::span<const double> temperature) {
+  const ContactKinematics& kinematics =
+      pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
+  const std::vector<PointState>& points = pair.end.state.points;
+  const std::optional<FrictionLaw>& friction = pair.law.friction;
+  const bool keeps = friction || pair.has_temperature();
+  const auto n = static_cast<std::size_t>(pair.geometry.mesh().n_owned_nodes);
+  const std::vector<double> conductance = pair.heat != nullptr ? pair.heat->term().conductances(temperature)
+                                                               : std::vector<double>(points.size(), 0.0);
+  std::vector<SurfaceHeat> heat(points.size());
+  if (pair.heat != nullptr && !temperature.empty()) heat = pair.heat->term().surface_heat(temperature);
   NodalAverage<k_met> met(n);
   std::vector<double> paired_area(n, 0.0);
   NodalAverage<k_kept> kept(n);
-  for (Index p = 0; p < kinematics_->n_points(); ++p) {
-    const PointState& state = now_.points[static_cast<std::size_t>(p)];
-    const ContactKinematics::Particle particle = kinematics_->particle(p);
-    if (law_.friction || has_temperature()) {
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const PointState& state = points[static_cast<std::size_t>(p)];
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    if (keeps) {
       const double mu =
-          law_.friction ? law_.friction->coefficient().value(state.internal_variable, state.temperature).value
-                        : 0.0;
+          friction ? friction->coefficient().value(state.internal_variable, state.temperature).value : 0.0;
       for (std::size_t b = 0; b < particle.nodes.size(); ++b)
         kept.add(particle.nodes[b], particle.weight * particle.share[b],
                  {state.slip, state.internal_variable, mu, state.dissipation, state.wear_depth,
                   state.temperature});
     }
-    const PointMotion motion = kinematics_->motion(p, state, ContactKinematics::Asked::motion);
+    const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
     if (!motion.partnered) continue;
     const Point traction = times(motion.push, state.traction);
     const SurfaceHeat& q = heat[static_cast<std::size_t>(p)];
@@ -80,7 +84,7 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
       meet(motion.nodes[b], -motion.share[b], 1);
   }
   ContactNodalFields fields;
-  fields.nodes = surface_nodes_;
+  fields.nodes = pair.geometry.surface_nodes();
   for (const Index node : fields.nodes) {
     const auto m = met.at(node);
     fields.opening.push_back(m[0]);
@@ -90,8 +94,8 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     fields.heat_flux.push_back(m[3]);
     fields.frictional_heat_flux.push_back(m[4]);
     const auto k = kept.at(node);
-    if (law_.friction || has_temperature()) fields.temperature.push_back(k[5]);
-    if (!law_.friction) continue;
+    if (keeps) fields.temperature.push_back(k[5]);
+    if (!friction) continue;
     fields.status.push_back(m[5]);
     fields.traction.push_back({m[6], m[7], m[8]});
     fields.slip.push_back(k[0]);
@@ -100,8 +104,8 @@ ContactNodalFields ContactPair::nodal_fields(std::span<const double> temperature
     fields.dissipation.push_back(k[3]);
     fields.wear_depth.push_back(k[4]);
   }
-  if (!worn_ || !law_.friction) return fields;
-  for (const MasterWear::Depth& worn : worn_->depths(now_.master)) {
+  if (!friction) return fields;
+  for (const MasterWear::Depth& worn : pair.history.depths(pair.end.state)) {
     const auto place = std::lower_bound(fields.nodes.begin(), fields.nodes.end(), worn.node);
     if (place == fields.nodes.end() || *place != worn.node) continue;
     const auto k = static_cast<std::size_t>(place - fields.nodes.begin());

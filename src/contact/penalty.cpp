@@ -1,5 +1,7 @@
 #include "contact/penalty.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -56,6 +58,23 @@ double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
   sum = parallel::global_sum(sum);
   area = parallel::global_sum(area);
   return area > 0 ? sum / area : 0;
+}
+
+double penalty_of(const mesh::Mesh& mesh, const ContactSpec& spec, const PairSurfaces& surfaces,
+                  std::span<const double> modulus) {
+  if (!(spec.penalty > 0))
+    throw InputError(spec.where, fmt::format("contact '{}': the penalty is not positive", spec.name));
+  if (!spec.penalty_is_factor) return spec.penalty;
+  double stiffness = 0;
+  if (modulus.size() == mesh.bodies.size())
+    stiffness = std::max(local_stiffness(mesh, surfaces.slave, modulus),
+                         surfaces.master ? local_stiffness(mesh, *surfaces.master, modulus) : 0.0);
+  if (!(stiffness > 0))
+    throw InputError(
+        spec.where,
+        fmt::format("contact '{}': a penalty factor needs the stiffness of the bodies", spec.name),
+        "a penalty in Pa/m");
+  return std::min(spec.penalty * stiffness, spec.largest_penalty);
 }
 
 }  // namespace solidus::contact

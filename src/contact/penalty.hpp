@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "contact/surface.hpp"
+#include "contact/geometry.hpp"
 
 namespace solidus::contact {
 
@@ -13,5 +13,10 @@ namespace solidus::contact {
 /// @param modulus E [Pa] of every body of the mesh
 double local_stiffness(const mesh::Mesh& mesh, const ContactSurface& surface,
                        std::span<const double> modulus);
+
+/// ε_N of a pair [Pa/m]: as given, or the factor on the stiffness of the stiffer of its surfaces. Collective.
+/// Throws InputError for one that is not positive, and for a factor where no stiffness is known.
+double penalty_of(const mesh::Mesh& mesh, const ContactSpec& spec, const PairSurfaces& surfaces,
+                  std::span<const double> modulus);
 
 }  // namespace solidus::contact

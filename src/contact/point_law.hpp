@@ -11,6 +11,7 @@
 #include "contact/interface_thermodynamics.hpp"
 #include "contact/kinematics.hpp"
 #include "contact/normal.hpp"
+#include "contact/rotation.hpp"
 #include "contact/wear.hpp"
 
 namespace solidus::contact {
@@ -23,7 +24,7 @@ struct Surroundings {
   bool master_takes_heat = true;
 
   Conductance conductance(double penetration, double pressure) const {
-    return law->at(-penetration, pressure, 0.5 * (temperature[0] + temperature[1]));
+    return law->at(penetration, pressure, 0.5 * (temperature[0] + temperature[1]));
   }
   InterfaceSides sides(double conductance) const {
     const OneSided h = law->one_sided(conductance);
@@ -64,6 +65,12 @@ struct PointForces {
   Point traction_by_conductance{};
   Conductance conductance;  ///< there
 };
+
+/// Returns the force per area on the master of a pressure and the traction of a state, in the current
+/// configuration: p n + F T.
+inline Point force_on_master(const PointMotion& motion, const PointState& state, double pressure) {
+  return add_scaled(times(motion.push, state.traction), pressure, motion.normal);
+}
 
 struct PointLaw {
   NormalLaw normal;

@@ -131,7 +131,7 @@ bool BlockIterative::mechanical(const State& old, Iterate& it, int newton_steps)
     pass.iterate = &it.now.mechanics;
   }
   const std::vector<contact::ContactState> before = it.number > 1 ? it.now.contacts : old.contacts;
-  return mechanical_pass(phases_, old, it.now, pass, it.effort, before);
+  return mechanical_pass(phases_, old, it.now, pass, it.effort, before).newton.converged;
 }
 
 bool BlockIterative::thermal(const State& old, Iterate& it, int newton_steps) const {

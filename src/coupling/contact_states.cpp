@@ -88,7 +88,7 @@ std::vector<contact::ContactState> second_start(const Phases& phases,
   for (std::size_t i = 0; i < stage.size(); ++i) {
     const bool moved = !state_of(old, i).points.empty();
     const contact::ContactState initial =
-        moved ? contact::ContactState{} : phases.contacts[i]->initial_state();
+        moved ? contact::ContactState{} : phases.contacts[i]->history().initial();
     const contact::ContactState& begun = moved ? old[i] : initial;
     for (std::size_t p = 0; p < stage[i].points.size(); ++p)
       advance_history(begun.points[p], stage[i].points[p], carried, start[i].points[p]);
@@ -123,14 +123,14 @@ bool penetrations_small(const Phases& phases, int turn) {
         fmt::format("contact '{}': {} turns of the augmented Lagrangian leave penetrations {:.3g} times as "
                     "large as allowed",
                     worst->spec().name, turn, excess),
-        worst->worst_penetration());
+        worst->forces().worst_penetration(worst->state()));
   for (contact::ContactPair* pair : phases.contacts) pair->augment();
   return false;
 }
 
 void reject_with_contacts(const Phases& phases, const StepRejected& rejected) {
   for (const contact::ContactPair* pair : phases.contacts)
-    if (const std::string failure = pair->failure_text(); !failure.empty())
+    if (const std::string failure = pair->forces().failure_text(); !failure.empty())
       throw StepRejected(rejected.reason() + " (" + failure + ")", rejected.where());
   throw rejected;
 }

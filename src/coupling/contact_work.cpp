@@ -22,7 +22,7 @@ ContactWork::ContactWork(const Phases& phases) : phases_(phases), begin_(energy(
 ContactWork::Energy ContactWork::energy() const {
   Energy energy;
   for (const contact::ContactPair* pair : phases_.contacts) {
-    const contact::ContactSums sums = pair->sums({});
+    const contact::ContactSums sums = contact::sums(pair->view(), {});
     energy.stored += sums.energy + (sums.work - sums.dissipation);
     energy.dissipated += sums.dissipation;
   }
@@ -31,9 +31,9 @@ ContactWork::Energy ContactWork::energy() const {
 
 void ContactWork::add(double share, double factor) {
   for (contact::ContactPair* pair : phases_.contacts) {
-    const double rigid = pair->rigid_work(share);
+    const double rigid = contact::rigid_work(pair->view(), share);
     rigid_ += factor * rigid;
-    work_ += factor * (pair->work(share) + rigid);
+    work_ += factor * (contact::work(pair->view(), share) + rigid);
   }
 }
 
@@ -60,21 +60,12 @@ void keep_heat_alone(EnergyAudit& energy) {
   energy.work = energy.contact = energy.kinetic = energy.numerical = energy.friction = 0;
 }
 
-void add(const contact::InterfaceSums& next, contact::InterfaceSums& sum, double factor) {
-  for (double contact::InterfaceSums::*part :
-       {&contact::InterfaceSums::dissipated, &contact::InterfaceSums::stored,
-        &contact::InterfaceSums::hardening, &contact::InterfaceSums::energy, &contact::InterfaceSums::entropy,
-        &contact::InterfaceSums::mechanical_energy, &contact::InterfaceSums::mechanical_entropy,
-        &contact::InterfaceSums::plastic_entropy})
-    sum.*part += factor * next.*part;
-}
-
 void commit_contact_heat(const Phases& phases, std::span<const double> temperature,
                          std::span<const double> into_bodies, EnergyAudit& energy) {
   std::size_t term = 0;  // the thermal terms of the pairs come first
   for (contact::ContactPair* pair : phases.contacts) {
     const contact::InterfaceSums sums = pair->commit_heat(temperature);
-    add(sums, energy.interface);
+    energy.interface.add(sums);
     if (pair->heat() != nullptr) book_tool(*pair, into_bodies[term++], sums, energy);
   }
 }

@@ -53,7 +53,4 @@ void keep_heat_alone(EnergyAudit& energy);
 void commit_contact_heat(const Phases& phases, std::span<const double> temperature,
                          std::span<const double> into_bodies, EnergyAudit& energy);
 
-/// Sums over two passes.
-void add(const contact::InterfaceSums& next, contact::InterfaceSums& sum, double factor = 1);
-
 }  // namespace solidus::coupling

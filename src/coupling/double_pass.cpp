@@ -57,7 +57,7 @@ StepEffort DoublePass::advance(const State& old, State& trial, double time, doub
   StepEffort effort = first_half(old, half, time, dt);
   const contact::InterfaceSums first = effort.energy.interface;
   effort += second_half(half, trial, time, dt);
-  add(first, effort.energy.interface);
+  effort.energy.interface.add(first);
   summarise(phases_, trial, effort);
   return effort;
 }

@@ -46,12 +46,8 @@ double ErrorEstimate::size_of_displacement(std::span<const double> error,
   return displacement_ == Displacement::motion ? norm_(error, counts) : norm_.of_distortion(error, counts);
 }
 
-bool ErrorEstimate::knows_flows() const {
-  return phases_ != nullptr && phases_->heat != nullptr && phases_->heat->knows_flows();
-}
-
-double ErrorEstimate::change_of(const State& old, const State& now) const {
-  return knows_flows() ? norm_(phases_->heat->change_in_kelvin(old.heat, now.heat)) : 0.0;
+double ErrorEstimate::change_of(const State& old, const State& now, const heat::StageFlows& flows) const {
+  return flows.known() ? norm_(phases_->heat->change_in_kelvin(old.heat, now.heat)) : 0.0;
 }
 
 /// The part of the error `mean` of a step that is not forgotten [K]: it may be committed once for every
@@ -60,11 +56,13 @@ double ErrorEstimate::lasting(double mean, double before, double change) const {
   return mean * std::min(k_steps, change > 0 ? 1 + before / change : k_steps);
 }
 
-LocalError ErrorEstimate::predictor(const State& old, const State& now, double dt, const Rates& rates) const {
+LocalError ErrorEstimate::predictor(const State& old, const State& now, double dt, const Rates& rates,
+                                    const heat::StageFlows& flows) const {
   double temperature = 0;
-  if (knows_flows() && !rates.heat_flow.empty()) {
-    const std::vector<double> error = phases_->heat->time_error(now.heat, rates.heat_flow);
-    temperature = std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now)));
+  if (flows.known() && !rates.heat_flow.empty()) {
+    const std::vector<double> error = phases_->heat->time_error(now.heat, flows, rates.heat_flow);
+    temperature =
+        std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now, flows)));
   } else {
     temperature = norm_(
         half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt, rates.temperature));
@@ -76,21 +74,22 @@ LocalError ErrorEstimate::predictor(const State& old, const State& now, double d
 }
 
 LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves,
-                                   const Rates& rates) const {
+                                   const Rates& rates, const heat::StageFlows& flows) const {
   double temperature = norm_(difference(whole.heat.temperature, halves.heat.temperature));
-  if (knows_flows())
+  if (flows.known())
     temperature =
         std::max(temperature, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
-                                      rates.changed, change_of(old, halves)));
+                                      rates.changed, change_of(old, halves, flows)));
   return {temperature,
           size_of_displacement(difference(whole.mechanics.displacement, halves.mechanics.displacement),
                                casting(coherency(old)))};
 }
 
-Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt) const {
+Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,
+                              const heat::StageFlows& flows) const {
   Rates rates;
-  if (knows_flows())
-    rates.heat_flow = phases_->heat->last_flow();
+  if (flows.known())
+    rates.heat_flow = phases_->heat->flow_at_end(flows);
   else
     rates.temperature = difference(old.heat.temperature, now.heat.temperature, dt);
   rates.displacement = difference(old.mechanics.displacement, now.mechanics.displacement, dt);

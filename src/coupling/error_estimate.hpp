@@ -39,6 +39,7 @@
 #include "coupling/phases.hpp"
 #include "coupling/rates.hpp"
 #include "coupling/state.hpp"
+#include "heat/time_error.hpp"
 
 namespace solidus::coupling {
 
@@ -60,21 +61,22 @@ class ErrorEstimate {
 
   /// Estimates the error of the step from `old` to `now` by its extrapolation from `rates`, which must be
   /// known.
-  LocalError predictor(const State& old, const State& now, double dt, const Rates& rates) const;
-  /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old`; the
-  /// second half must be the step solved last.
-  LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates) const;
+  /// @param flows  of the step (StepEffort)
+  LocalError predictor(const State& old, const State& now, double dt, const Rates& rates,
+                       const heat::StageFlows& flows) const;
+  /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old`.
+  /// @param flows  of the second half
+  LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates,
+                      const heat::StageFlows& flows) const;
   /// Heat that a step has moved: the norm of its change in the nodes in kelvin of sensible heat. Zero where
-  /// flows are not known.
-  double change_of(const State& old, const State& now) const;
+  /// its flows are not known.
+  double change_of(const State& old, const State& now, const heat::StageFlows& flows) const;
   /// The rates of the step from `old` to `now`.
-  Rates rates_of(const State& old, const State& now, double dt) const;
+  Rates rates_of(const State& old, const State& now, double dt, const heat::StageFlows& flows) const;
 
  private:
   std::vector<double> coherency(const State& state) const;
   double size_of_displacement(std::span<const double> error, std::span<const char> counts) const;
-  /// Whether the nodes hold the heat, and the step that was solved last tells how it flowed.
-  bool knows_flows() const;
   double lasting(double mean, double before, double change) const;
 
   BodyNorm norm_;

@@ -21,7 +21,7 @@ double internal_energy(const Phases& phases, const State& state) {
   double energy = phases.heat->enthalpy(state.heat);
   energy += phases.structural->energy(*phases.mechanics, state.mechanics, state.heat.temperature,
                                       plateau_share(phases, state.heat));
-  for (const contact::ContactPair* pair : phases.contacts) energy += pair->sums({}).energy;
+  for (const contact::ContactPair* pair : phases.contacts) energy += contact::sums(pair->view(), {}).energy;
   return energy;
 }
 

@@ -8,10 +8,11 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   if (control_ == ErrorControl::doubling || (control_ == ErrorControl::predictor && !rates_.known()))
     return doubled(old, trial, time, dt);
   Taken taken{scheme_.advance(old, trial, time, dt), {}};
+  const heat::StageFlows flows = std::exchange(taken.effort.fields, {}).flows;
   if (control_ == ErrorControl::none) return taken;
-  taken.error = estimate_->predictor(old, trial, dt, rates_);
-  next_rates_ = estimate_->rates_of(old, trial, dt);
-  next_rates_.changed = rates_.changed + estimate_->change_of(old, trial);
+  taken.error = estimate_->predictor(old, trial, dt, rates_, flows);
+  next_rates_ = estimate_->rates_of(old, trial, dt, flows);
+  next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;
 }
 
@@ -23,9 +24,10 @@ MeasuredStep::Taken MeasuredStep::doubled(const State& old, State& trial, double
   middle.time = time - dt / 2;
   Taken taken{scheme_.advance(old, middle, middle.time, dt / 2), {}};
   taken.effort += scheme_.advance(middle, trial, time, dt / 2);
-  taken.error = estimate_->doubling(old, whole, trial, rates_);
-  if (control_ == ErrorControl::predictor) next_rates_ = estimate_->rates_of(middle, trial, dt / 2);
-  next_rates_.changed = rates_.changed + estimate_->change_of(old, trial);
+  const heat::StageFlows flows = std::exchange(taken.effort.fields, {}).flows;
+  taken.error = estimate_->doubling(old, whole, trial, rates_, flows);
+  if (control_ == ErrorControl::predictor) next_rates_ = estimate_->rates_of(middle, trial, dt / 2, flows);
+  next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;
 }
 

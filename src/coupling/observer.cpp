@@ -5,25 +5,42 @@
 
 namespace solidus::coupling {
 
+namespace {
+
+/// Everything in an audit that adds up over the steps of a run, but for the heat of bodies.
+struct AuditSum {
+  double EnergyAudit::*value;
+  bool flows;  ///< of the stages of a step too; the others are differences of energies at its ends
+};
+constexpr AuditSum k_audit_sums[] = {{&EnergyAudit::stored_heat, true},
+                                     {&EnergyAudit::structural, false},
+                                     {&EnergyAudit::contact, false},
+                                     {&EnergyAudit::kinetic, false},
+                                     {&EnergyAudit::friction, false},
+                                     {&EnergyAudit::frictional_heat, false},
+                                     {&EnergyAudit::numerical, true},
+                                     {&EnergyAudit::work, true},
+                                     {&EnergyAudit::unbalanced, true},
+                                     {&EnergyAudit::heat_in, true},
+                                     {&EnergyAudit::entropy_in, true},
+                                     {&EnergyAudit::heat_exchanged, true},
+                                     {&EnergyAudit::viscous_dissipation, true},
+                                     {&EnergyAudit::plastic_dissipation, true},
+                                     {&EnergyAudit::plastic_work, true},
+                                     {&EnergyAudit::inelastic_entropy, true}};
+
+}  // namespace
+
 EnergyAudit& EnergyAudit::operator+=(const EnergyAudit& next) {
-  stored_heat += next.stored_heat;
-  structural += next.structural;
-  contact += next.contact;
-  kinetic += next.kinetic;
-  friction += next.friction;
-  frictional_heat += next.frictional_heat;
-  numerical += next.numerical;
-  work += next.work;
-  unbalanced += next.unbalanced;
-  heat_in += next.heat_in;
-  entropy_in += next.entropy_in;
-  heat_exchanged += next.heat_exchanged;
-  viscous_dissipation += next.viscous_dissipation;
-  plastic_dissipation += next.plastic_dissipation;
-  plastic_work += next.plastic_work;
+  for (const AuditSum& sum : k_audit_sums) this->*sum.value += next.*sum.value;
   bodies += next.bodies;
-  inelastic_entropy += next.inelastic_entropy;
   return *this;
+}
+
+void EnergyAudit::add_first_stage(const EnergyAudit& first, double carried) {
+  for (const AuditSum& sum : k_audit_sums)
+    if (sum.flows) this->*sum.value += carried * first.*sum.value;
+  interface.add(first.interface, carried);
 }
 
 StabilityAudit& StabilityAudit::operator+=(const StabilityAudit& next) {
@@ -36,7 +53,7 @@ StabilityAudit& StabilityAudit::operator+=(const StabilityAudit& next) {
 }
 
 StepEffort& StepEffort::operator+=(const StepEffort& next) {
-  const StepEffort first = std::move(*this);
+  StepEffort first = std::move(*this);
   *this = next;
   const auto add = [](PhaseEffort& sum, const PhaseEffort& before) {
     sum.iterations = std::max(sum.iterations, before.iterations);
@@ -45,6 +62,8 @@ StepEffort& StepEffort::operator+=(const StepEffort& next) {
     sum.residual = std::max(sum.residual, before.residual);
     sum.seconds += before.seconds;
   };
+  if (!fields.flows.known()) fields.flows = std::move(first.fields.flows);
+  if (fields.reactions.empty()) fields.reactions = std::move(first.fields.reactions);
   add(heat, first.heat);
   add(mechanics, first.mechanics);
   coupling_iterations = std::max(coupling_iterations, first.coupling_iterations);

@@ -7,6 +7,7 @@
 
 #include "contact/pair.hpp"
 #include "coupling/continuation.hpp"
+#include "heat/time_error.hpp"
 
 namespace solidus::coupling {
 
@@ -57,6 +58,10 @@ struct EnergyAudit {
   double state_defect() const { return internal + numerical - work - heat_in; }
   /// The same of two steps in a row.
   EnergyAudit& operator+=(const EnergyAudit& next);
+  /// Adds the energies of the first of two stages whose second one begins with the share `carried` of the
+  /// change in the first (SDIRK2): of what flows and of the heat of the interfaces. Changes of stored
+  /// energies are those of the whole step as they stand.
+  void add_first_stage(const EnergyAudit& first, double carried);
 };
 
 /// The a-priori stability functional 𝓛 of 2.24 (with contact 3.69) over one step, and what it is made of
@@ -98,6 +103,14 @@ struct StepEffort {
   double solid_fraction = 1;                        ///< of the bodies that can melt, by volume
   double min_temperature = 0, max_temperature = 0;  ///< [K]
   double internal_energy = 0;  ///< of the state, where it has one (internal_energy.hpp) [J]
+  /// Fields that belong to the solution besides the state. The run takes them out: a record has none.
+  struct Fields {
+    /// Flows of heat of the last thermal pass in which something flowed, for the estimate of the step's error
+    /// (error_estimate.hpp); known where nodes hold the heat.
+    heat::StageFlows flows;
+    /// Support forces at the end of the step, [owned node][component] [N]; empty without mechanics.
+    std::vector<double> reactions;
+  } fields;
   /// The effort of two steps in a row as that of one: the harder iteration, sums, and the end of the second.
   StepEffort& operator+=(const StepEffort& next);
 };

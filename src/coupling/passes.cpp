@@ -24,9 +24,9 @@ void add(const linear::NewtonReport& newton, int hardest, double seconds, PhaseE
 
 }  // namespace
 
-bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
-                     const mechanics::MechanicalPass& pass, StepEffort& effort,
-                     const std::vector<contact::ContactState>& contacts) {
+mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
+                                       const mechanics::MechanicalPass& pass, StepEffort& effort,
+                                       const std::vector<contact::ContactState>& contacts) {
   const profile::Part part("mechanics");
   const double start = MPI_Wtime();
   const std::vector<double> coherency =
@@ -40,9 +40,8 @@ bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& tr
     next.history = std::move(trial.mechanics.history);
   for (int n_turns = 1;; ++n_turns) {
     try {
-      const mechanics::PhaseReport of_turn = phases.mechanics->solve(old.mechanics, next, turn);
-      add(of_turn.newton, of_turn.newton.iterations, 0, effort.mechanics);
-      report = of_turn;
+      report = phases.mechanics->solve(old.mechanics, next, turn);
+      add(report.newton, report.newton.iterations, 0, effort.mechanics);
     } catch (const StepRejected& rejected) {
       reject_with_contacts(phases, rejected);
     }
@@ -56,18 +55,25 @@ bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& tr
   trial.mechanics = std::move(next);
   trial.contacts = contact_states(phases);
 
-  effort.energy.kinetic = report.work.kinetic;
-  effort.energy.numerical = report.work.numerical;
-  effort.energy.work = report.work.external_work + report.work.support_work;
-  effort.energy.unbalanced = report.work.residual_work;
-  effort.energy.viscous_dissipation = report.work.dissipation - report.work.plastic_dissipation;
-  effort.energy.plastic_dissipation = report.work.plastic_dissipation;
-  effort.energy.plastic_work = report.work.plastic_work;
-  effort.energy.inelastic_entropy = report.work.inelastic_entropy;
-  effort.least_dissipation = report.work.least_dissipation;
-  effort.largest_dissipation = report.work.largest_dissipation;
+  book_work(report, effort);
   effort.mechanics.seconds += MPI_Wtime() - start;
-  return report.newton.converged;
+  return report;
+}
+
+void book_work(const mechanics::PhaseReport& report, StepEffort& effort) {
+  const mechanics::MechanicalWork& work = report.work;
+  EnergyAudit& energy = effort.energy;
+  energy.kinetic = work.kinetic;
+  energy.numerical = work.numerical;
+  energy.work = work.external_work + work.support_work;
+  energy.unbalanced = work.residual_work;
+  energy.viscous_dissipation = work.dissipation - work.plastic_dissipation;
+  energy.plastic_dissipation = work.plastic_dissipation;
+  energy.plastic_work = work.plastic_work;
+  energy.inelastic_entropy = work.inelastic_entropy;
+  effort.least_dissipation = work.least_dissipation;
+  effort.largest_dissipation = work.largest_dissipation;
+  effort.fields.reactions = report.reactions;
 }
 
 // Γ stays as the mechanical phase left it.
@@ -77,7 +83,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   const double start = MPI_Wtime();
   if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
   for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
-  const heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
+  heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
 
   effort.energy.stored_heat = report.balance.stored;
   effort.energy.heat_in = 0;
@@ -95,6 +101,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   const auto remembers = [](const contact::ContactPair* pair) { return pair->has_temperature(); };
   if (phases.mechanics != nullptr || std::ranges::any_of(phases.contacts, remembers))
     trial.contacts = contact_states(phases);
+  if (!pass.adiabatic) effort.fields.flows = std::move(report.flows);
   add(report.newton, report.hardest, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;
 }

@@ -21,14 +21,17 @@ struct MechanicalStart {
 
 /// Equilibrium, then gaps and conductances of the configuration found. Efforts add up over the passes of a
 /// step, energies are those of the last pass; the energy in contact penalties is left to the caller. Returns
-/// whether Newton's iteration reached its tolerance, which it may miss only where the pass limits its steps.
+/// the report of the phase: Newton's iteration may miss its tolerance only where the pass limits its steps.
 /// @param pass      its iterate may be `trial`
 /// @param contacts  states of the pairs after the pass before, of a scheme that iterates within the step
-bool mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
-                     const mechanics::MechanicalPass& pass, StepEffort& effort,
-                     const std::vector<contact::ContactState>& contacts = {});
+mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalStart& old, State& trial,
+                                       const mechanics::MechanicalPass& pass, StepEffort& effort,
+                                       const std::vector<contact::ContactState>& contacts = {});
+/// Enters the work and the support forces of a solved mechanical phase in the report of the step.
+void book_work(const mechanics::PhaseReport& report, StepEffort& effort);
 
 /// The balance of energy at the configuration of the last mechanical pass (4.43, 4.53); otherwise the same.
+/// Returns whether the iteration reached its tolerance.
 bool thermal_pass(const Phases& phases, const State& old, State& trial, const heat::ThermalPass& pass,
                   StepEffort& effort);
 

@@ -43,7 +43,7 @@ void summarise(const Phases& phases, const State& state, StepEffort& effort) {
   }
   effort.contacts.clear();
   for (const contact::ContactPair* pair : phases.contacts) {
-    const contact::ContactSums sums = pair->sums(state.heat.temperature);
+    const contact::ContactSums sums = contact::sums(pair->view(), state.heat.temperature);
     effort.contacts.push_back({.closed_points = static_cast<int>(sums.closed_points),
                                .points = static_cast<int>(sums.points),
                                .heat = sums.heat,

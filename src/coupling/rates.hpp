@@ -9,7 +9,8 @@ namespace solidus::coupling {
 struct Rates {
   /// [local node] [K/s]; empty where `heat_flow` is known.
   std::vector<double> temperature;
-  /// ThermalPhase::last_flow(): where nodes hold the heat, its rate at the end of the step, [local node] [W].
+  /// ThermalPhase::flow_at_end(): where nodes hold the heat, its rate at the end of the step, [local node]
+  /// [W].
   std::vector<double> heat_flow;
   std::vector<double> displacement;  ///< [local node][component] [m/s]
   /// Coherency::at of the state that the step set out from: rates of melt say nothing of the next step. Empty

@@ -89,7 +89,7 @@ StepEffort SequentialSplit::heat_first(const State& old, State& trial, double ti
   book_interface(deformed.energy, phases_.structural != nullptr);
   deformed.stability = stability_audit(phases_, warm, trial, deformed);
   effort += deformed;
-  add(conducted, effort.energy.interface);
+  effort.energy.interface.add(conducted);
   return effort;
 }
 

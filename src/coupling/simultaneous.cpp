@@ -8,6 +8,7 @@
 
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
+#include "coupling/passes.hpp"
 #include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
 #include "material/time_integration.hpp"
@@ -58,17 +59,6 @@ mechanics::MechanicalState second_start(const mechanics::MechanicalState& old,
     for (std::size_t i = 0; i < values.size(); ++i) values[i] += Lane(carried) * (end[i] - values[i]);
   }
   return start;
-}
-
-/// Energies of a step from those of its stages.
-void add_first_stage(EnergyAudit& sum, const EnergyAudit& first, double carried) {
-  for (double EnergyAudit::*part :
-       {&EnergyAudit::stored_heat, &EnergyAudit::work, &EnergyAudit::unbalanced, &EnergyAudit::numerical,
-        &EnergyAudit::heat_in, &EnergyAudit::entropy_in, &EnergyAudit::heat_exchanged,
-        &EnergyAudit::viscous_dissipation, &EnergyAudit::plastic_dissipation, &EnergyAudit::plastic_work,
-        &EnergyAudit::inelastic_entropy})
-    sum.*part += carried * first.*part;
-  add(first.interface, sum.interface, carried);
 }
 
 }  // namespace
@@ -142,7 +132,7 @@ StepEffort SimultaneousScheme::two_stages(const State& old, State& trial, double
   StepEffort effort =
       stage(start, second_start(phases_, old.contacts, first.contacts, carried), coherency, to_end, trial);
   drop_carried();
-  add_first_stage(effort.energy, of_first.energy, carried);
+  effort.energy.add_first_stage(of_first.energy, carried);
   effort.mechanics.iterations += of_first.mechanics.iterations;
   effort.mechanics.linear_iterations += of_first.mechanics.linear_iterations;
   effort.mechanics.seconds += of_first.mechanics.seconds;
@@ -204,28 +194,18 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
                        std::ldexp(1.0, -fraction_turns / k_whole_turns));
     fractions->hold(pass);
   }
-  const mechanics::MechanicalWork work =
-      phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
+  const mechanics::PhaseReport solved = phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);
   const heat::HeatBalance balance = newton_->thermal().conclude(trial.heat);
 
   StepEffort effort;
   EnergyAudit& energy = effort.energy;
-  energy.kinetic = work.kinetic;
-  energy.numerical = work.numerical;
-  energy.work = work.external_work + work.support_work;
-  energy.unbalanced = work.residual_work;
-  energy.viscous_dissipation = work.dissipation - work.plastic_dissipation;
-  energy.plastic_dissipation = work.plastic_dissipation;
-  energy.plastic_work = work.plastic_work;
-  energy.inelastic_entropy = work.inelastic_entropy;
+  book_work(solved, effort);
   energy.stored_heat = balance.stored;
   for (const heat::ConditionHeat& condition : balance.conditions) energy.heat_in += condition.heat;
   energy.entropy_in = balance.entropy_in;
   commit_contact_heat(phases_, trial.heat.temperature, balance.contributions, energy);
   trial.contacts = contact_states(phases_);
   energy.heat_exchanged = balance.exchanged;
-  effort.least_dissipation = work.least_dissipation;
-  effort.largest_dissipation = work.largest_dissipation;
   const CoupledResidual& end = report_.residuals.back();
   // One iteration for both fields, booked with the mechanical phase.
   effort.mechanics = {iterations, linear_iterations, end.force, MPI_Wtime() - start};

@@ -106,7 +106,7 @@ TemperatureRange ThermalIteration::range_of_now() const {
 bool ThermalIteration::revise_limits() {
   const TemperatureRange range = range_of_now();
   double beyond = 0;
-  for (std::size_t i = 0; i < phase_.reactions_.size(); ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>(phase_.mesh_.n_owned_nodes); ++i)
     beyond = std::max({beyond, range.lowest - now_.temperature[i], now_.temperature[i] - range.highest});
   const double width = range.highest - range.lowest;
   if (!(parallel::global_max(beyond) > k_by_deformation + k_by_deformation_of_range * width)) return false;

@@ -147,15 +147,14 @@ class ThermalPhase {
   PhaseReport solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass);
   /// HeatOptions::stepping.
   ThermalStepping stepping() const { return options_.stepping.value_or(ThermalStepping::backward_euler); }
-  /// Whether the heat flows of the last solve() that was not adiabatic are known: nodes hold the heat.
-  bool knows_flows() const { return flows_.dt > 0; }
-  /// The flow into the nodes at the end of that solve(), [local node], ghosts up to date [W]: what
-  /// time_error() of the next step asks for.
-  std::vector<double> last_flow() const;
-  /// The error in time of that solve(), whose flows must be known: the heat of heat::time_error(), spread for
-  /// as long as its last stage is. [local node] [K]. Collective.
-  /// @param flow_before  last_flow() of the step before
-  std::vector<double> time_error(const ThermalState& now, std::span<const double> flow_before);
+  /// The flow into the nodes at the end of a step, from its known flows, [local node], ghosts up to date [W]:
+  /// what time_error() of the next step asks for. Collective.
+  std::vector<double> flow_at_end(const StageFlows& flows) const;
+  /// The error in time of the step that ended in `now`, whose flows must be known: the heat of
+  /// heat::time_error(), spread for as long as its last stage is. [local node] [K]. Collective.
+  /// @param flow_before  flow_at_end() of the step before
+  std::vector<double> time_error(const ThermalState& now, const StageFlows& flows,
+                                 std::span<const double> flow_before);
   /// (H_b − H_a)/C, without latent heat in C: what the change of heat comes to in kelvin, [local node],
   /// ghosts up to date. Where nodes hold the heat. Collective.
   std::vector<double> change_in_kelvin(const ThermalState& a, const ThermalState& b) const;
@@ -175,9 +174,6 @@ class ThermalPhase {
   /// Collective.
   /// @param with_contributions  false: the caller knows whether contributions heat
   TemperatureRange ambient_range(bool with_contributions = true) const;
-
-  /// Heat needed to hold prescribed temperatures in the last solve, [owned node] [W], zero elsewhere.
-  std::span<const double> reactions() const { return reactions_; }
 
   /// Plateau shares: the shares of isothermal changes that are done at the nodes at their temperature, from 0
   /// (cold) to 1 (hot); one at other nodes. Temperature and plateau share together determine how much of
@@ -212,9 +208,12 @@ class ThermalPhase {
   /// Makes the matrix anew where a contribution asks for it; then true. Collective.
   bool follow_graph();
   /// Throws StepRejected like require() unless `newton_steps` limits the iteration.
-  linear::NewtonReport solve_temperature(std::span<double> temperature, int newton_steps = 0);
-  void keep_reactions(std::span<const double> residual);
-  HeatBalance measure(std::span<const double> temperature, double dt) const;
+  /// @param residual  at the solution, [owned node] [W]
+  linear::NewtonReport solve_temperature(std::span<double> temperature, std::span<double> residual,
+                                         int newton_steps = 0);
+  /// Heat through conditions and contributions.
+  /// @param residual  at the solution, [owned node] [W]: where the temperature is prescribed, what holds it
+  HeatBalance measure(std::span<const double> temperature, std::span<const double> residual, double dt) const;
   PhaseReport solve_stage(const ThermalState& old, const ThermalState& before, const linear::Stage& stage,
                           const ThermalPass& pass, ThermalState& next);
   PhaseReport solve_two_stages(const ThermalState& old, const ThermalPass& pass, ThermalState& next);
@@ -228,9 +227,9 @@ class ThermalPhase {
   void begin_stage(const linear::Stage& stage, std::span<const double> before);
   TemperatureRange limit_conduction(const ThermalState& before, const ThermalState& old);
   void set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const;
-  /// Keeps the reactions and measures a solved step.
+  /// Measures a solved step, whose last residual is given.
   HeatBalance balance(const ThermalState& old, const ThermalState& next, std::span<const double> residual,
-                      double moved, double dt);
+                      double moved, double dt) const;
   /// Adds the residual of the iteration, F of the free nodes, to their heats: H_i = H*_i − Δt r_i then holds
   /// to rounding, and the heat balance is exact for every tolerance. The temperatures stay those for which
   /// the fluxes r are; the next step begins from these heats. Updates the ghosts.
@@ -240,6 +239,10 @@ class ThermalPhase {
   /// Whether the enthalpy of the nodes is the unknown: with the closed rule, and with the open one where a
   /// material has an isothermal change.
   bool nodal() const { return truncated_newton_ != nullptr; }
+  /// A pass of so many Newton steps has taken them.
+  static bool may_end(const linear::NewtonReport& report, int newton_steps) {
+    return newton_steps > 0 && report.out_of_iterations;
+  }
   /// Whether a body stores its heat at the nodes.
   bool at_nodes(int body) const;
   std::unique_ptr<PointStorage> store_at_points(const mesh::Block& block) const;
@@ -271,8 +274,6 @@ class ThermalPhase {
   std::unique_ptr<TruncatedNewton> truncated_newton_;
   std::unique_ptr<TemperatureSystem> temperature_system_;
   std::unique_ptr<HeatSpread> spread_;
-  std::vector<double> reactions_;
-  StageFlows flows_;  ///< of the last solve() that was not adiabatic
 };
 
 }  // namespace solidus::heat

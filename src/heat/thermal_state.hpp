@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "heat/time_error.hpp"
 #include "linear/newton.hpp"
 
 namespace solidus::heat {
@@ -57,6 +58,7 @@ struct PhaseReport {
   linear::NewtonReport newton;  ///< sums over the stages of the step
   int hardest = 0;              ///< the most iterations of one stage
   HeatBalance balance;
+  StageFlows flows;  ///< known where the nodes hold the heat and something flows
 };
 
 }  // namespace solidus::heat

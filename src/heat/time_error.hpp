@@ -25,6 +25,8 @@ struct StageFlows {
   /// Into the nodes by conduction, surfaces, sources and contributions that do not store, [owned node] [W];
   /// `first` is empty where there is one stage.
   std::vector<double> first, last;
+
+  bool known() const { return dt > 0; }
 };
 
 /// e, [owned node] [J].

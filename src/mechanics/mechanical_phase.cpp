@@ -76,7 +76,6 @@ MechanicalPhase::MechanicalPhase(const mesh::Mesh& mesh, AnalysisKind kind,
   create_solver();
   forces_.resize(mesh.x.size() * static_cast<std::size_t>(components_));
   external_.resize(static_cast<std::size_t>(mesh.n_owned_nodes * components_));
-  reactions_.assign(external_.size(), 0.0);
 }
 
 MechanicalPhase::~MechanicalPhase() = default;

@@ -90,9 +90,12 @@ struct MechanicalWork {
   double numerical = 0;
 };
 
+/// Result of a pass, besides the state.
 struct PhaseReport {
   linear::NewtonReport newton;
   MechanicalWork work;
+  std::vector<double> reactions;  ///< support forces [owned node][component] [N], zero where free
+  std::vector<double> applied;    ///< forces of loads and contact [owned node][component] [N]
 };
 
 /// The stress whose product with Δε is the work of a pass. Both passes of a step in two halves work with the
@@ -118,6 +121,8 @@ struct MechanicalPass {
   const MechanicalState* iterate = nullptr;
   int newton_steps = 0;  ///< at most; the pass may end with them before equilibrium. Zero: until equilibrium
   StressAtWork work = StressAtWork::end;
+  /// Whether the stress at the points is to be written to MechanicalState::stress, as it is with inertia.
+  bool stores_stress = false;
   std::span<const double> start{};  ///< of Newton's iteration, instead of the iterate's displacement
   /// Another start value, used if its residual is smaller.
   std::span<const double> guess{};
@@ -199,9 +204,10 @@ class MechanicalPhase : private linear::NonlinearSystem {
   linear::BlockMatrix& matrix() { return *matrix_; }
   /// Passes the deformation at x to StructuralHeat and writes the history at x.
   BlockWork finish(const MechanicalState& old, std::span<const double> x, std::vector<BlockHistory>& history);
-  /// finish() at the solution, and the state and work that follow from it.
-  MechanicalWork conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
-                          MechanicalState& trial);
+  /// finish() at the solution; the state and the report that follow from it, the latter without that of
+  /// Newton's iteration.
+  PhaseReport conclude(const MechanicalState& old, const MechanicalPass& pass, std::vector<double> x,
+                       MechanicalState& trial);
   /// Throws StepRejected on all processes, with the place that says most.
   [[noreturn]] void reject(const std::string& reason, std::span<const double> x);
   /// The nodal pressure and the solver with its matrix, which are made anew with the conditions; null where
@@ -219,13 +225,6 @@ class MechanicalPhase : private linear::NonlinearSystem {
   void keep_fields();
   /// True when a material can flow plastically: then there are plastic fields to show.
   bool plastic() const { return plastic_; }
-  /// Support forces of the last solve, [owned node][component] [N], zero where nothing is prescribed.
-  std::span<const double> reactions() const { return reactions_; }
-
-  /// Makes conclude() store the stress at the points in MechanicalState::stress from now on, as with inertia.
-  void keep_stress() { keeps_stress_ = true; }
-  /// Nodal forces of loads and contact at the last solution, [owned node][component] [N].
-  std::vector<double> applied_forces() const;
   /// Fixed degrees of freedom, and multi-point constraints (Loads).
   const std::vector<char>& fixed() const { return matrix_->fixed(); }
   const linear::MultiPointConstraints& constraints() const { return matrix_->constraints(); }
@@ -272,8 +271,8 @@ class MechanicalPhase : private linear::NonlinearSystem {
   std::string flowing_body(std::span<const double> x) const;
   std::string worst_place(std::span<const double> x);
   material::TimeStep time_step(const MechanicalState& old, double dt) const;
-  MechanicalWork measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums,
-                         MechanicalState& next);
+  PhaseReport measure(const MechanicalState& old, std::span<const double> x, const BlockWork& sums,
+                      MechanicalState& next);
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
@@ -298,7 +297,6 @@ class MechanicalPhase : private linear::NonlinearSystem {
   std::vector<double> initial_temperature_;
   NodalPhases nodal_phases_;
   std::vector<BlockHistory> start_;               ///< z* of the two-step method, one per block
-  bool keeps_stress_ = false;                     ///< without inertia
   bool keeps_fields_ = false;                     ///< keep_fields() has been called
   std::vector<BlockHistory> no_stress_;           ///< to keep it against
   double round_off_ = 0;                          ///< residual that is rounding [N]
@@ -310,7 +308,6 @@ class MechanicalPhase : private linear::NonlinearSystem {
   std::vector<double> external_;      ///< loads at t_{n+1}, [owned node][component]
   std::vector<double> inertial_;      ///< J at the last residual, [owned node][component]; with inertia
   std::vector<BlockHistory> stress_;  ///< of the last finish(), where the next step needs it
-  std::vector<double> reactions_;
   StressAtWork stress_at_work_ = StressAtWork::end;
   struct {
     std::vector<double> external, residual;

@@ -48,7 +48,7 @@ void MechanicalPhase::prepare(const MechanicalState& old, const MechanicalPass& 
     }
   }
   const bool remembers = inertia_ && inertia_->motion().remembers();
-  const bool keeps = keeps_stress_ && !remembers;
+  const bool keeps = pass.stores_stress && !remembers;
   if (remembers) stress_ = old.stress;  // of the right size
   if (keeps) {
     no_stress_.clear();
@@ -187,8 +187,9 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   }
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
   if (!report.newton.converged && !may_end) reject(report.newton.reason, x);
-  report.work = conclude(old, pass, std::move(x), trial);
-  return report;
+  PhaseReport concluded = conclude(old, pass, std::move(x), trial);
+  concluded.newton = std::move(report.newton);
+  return concluded;
 }
 
 double MechanicalPhase::unbalanced(std::span<const double> x) {
@@ -278,13 +279,13 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
   return total;
 }
 
-MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
-                                         std::vector<double> x, MechanicalState& trial) {
+PhaseReport MechanicalPhase::conclude(const MechanicalState& old, const MechanicalPass& pass,
+                                      std::vector<double> x, MechanicalState& trial) {
   MechanicalState next;
   // Most of a state is its history: the storage of the one that is overwritten serves again.
   if (&trial != &old) next.history = std::move(trial.history);
   const BlockWork total = finish(old, x, next.history);
-  const MechanicalWork work = measure(old, x, total, next);
+  PhaseReport report = measure(old, x, total, next);
   x.resize(n_displacements());
   next.displacement = std::move(x);
   next.stress = std::move(stress_);
@@ -296,18 +297,22 @@ MechanicalWork MechanicalPhase::conclude(const MechanicalState& old, const Mecha
     next.dt_before = pass.dt;
   }
   trial = std::move(next);
-  return work;
+  return report;
 }
 
-/// Works and energies at the solution; with inertia also the motion of the next state.
-MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
-                                        const BlockWork& sums, MechanicalState& next) {
+/// Forces, works and energies at the solution; with inertia also the motion of the next state.
+PhaseReport MechanicalPhase::measure(const MechanicalState& old, std::span<const double> x,
+                                     const BlockWork& sums, MechanicalState& next) {
   // The residual at the solution: internal + contributions + inertia − loads, the support force where fixed.
   // Newton's iteration ends with it.
   std::vector<double> r(n_residuals());
   residual(x, r);
   r.resize(n_forces());
   x = x.first(n_displacements());
+  PhaseReport report;
+  report.reactions.resize(r.size());
+  report.applied.resize(r.size());
+  for (std::size_t i = 0; i < r.size(); ++i) report.applied[i] = forces_[i] - r[i];
   double local[10] = {0,
                       0,
                       0,
@@ -321,7 +326,7 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
   if (stress_at_work_ != StressAtWork::kept) kept_ = {external_, r};
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double increment = x[i] - old.displacement[i];
-    reactions_[i] = loads_->fixed()[i] ? r[i] : 0.0;
+    report.reactions[i] = loads_->fixed()[i] ? r[i] : 0.0;
     local[0] += kept_.external[i] * increment;
     local[loads_->fixed()[i] ? 1 : 2] += kept_.residual[i] * increment;
   }
@@ -332,7 +337,7 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
     // The support force of t_{n+1}, not the method's mean over the step.
     inertia_->mass().multiply(next.acceleration, components_, inertial_);
     for (std::size_t i = 0; i < r.size(); ++i)
-      if (loads_->fixed()[i] != 0) reactions_[i] = r[i] + inertial_[i];
+      if (loads_->fixed()[i] != 0) report.reactions[i] = r[i] + inertial_[i];
     local[0] = motion.external;
     local[1] = motion.support;
     local[7] = motion.kinetic;
@@ -340,24 +345,19 @@ MechanicalWork MechanicalPhase::measure(const MechanicalState& old, std::span<co
   }
   double all[10];
   MPI_Allreduce(local, all, 10, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  return {.external_work = all[0],
-          .support_work = all[1],
-          .residual_work = all[2],
-          .internal_work = all[3],
-          .dissipation = all[4],
-          .plastic_dissipation = all[5],
-          .plastic_work = all[6],
-          .inelastic_entropy = all[9],
-          .least_dissipation = parallel::global_min(sums.least_dissipation),
-          .largest_dissipation = parallel::global_max(sums.largest_dissipation),
-          .kinetic = all[7],
-          .numerical = all[8]};
-}
-
-std::vector<double> MechanicalPhase::applied_forces() const {
-  std::vector<double> force(n_forces());
-  for (std::size_t i = 0; i < force.size(); ++i) force[i] = forces_[i] - residual_[i];
-  return force;
+  report.work = {.external_work = all[0],
+                 .support_work = all[1],
+                 .residual_work = all[2],
+                 .internal_work = all[3],
+                 .dissipation = all[4],
+                 .plastic_dissipation = all[5],
+                 .plastic_work = all[6],
+                 .inelastic_entropy = all[9],
+                 .least_dissipation = parallel::global_min(sums.least_dissipation),
+                 .largest_dissipation = parallel::global_max(sums.largest_dissipation),
+                 .kinetic = all[7],
+                 .numerical = all[8]};
+  return report;
 }
 
 }  // namespace solidus::mechanics

@@ -301,7 +301,7 @@ void StateFields::update_contacts(std::span<const double> temperature) {
   for (std::size_t number = 0; number < phases_.contacts.size(); ++number) {
     const contact::ContactPair* pair = phases_.contacts[number];
     const auto& [slave_area, master_area] = side_area_[number];
-    const contact::ContactNodalFields fields = pair->nodal_fields(temperature);
+    const contact::ContactNodalFields fields = contact::nodal_fields(pair->view(), temperature);
     std::vector<char> closest(fields.nodes.size(), 0);
     for (std::size_t k = 0; k < fields.nodes.size(); ++k) {
       const auto i = static_cast<std::size_t>(fields.nodes[k]);

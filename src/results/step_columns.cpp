@@ -55,100 +55,154 @@ void add_pair(const PairColumns& pair, const coupling::ContactSummary& sums, std
   }
 }
 
+/// A column of steps.csv: its head, when it is there, and its cell of a step whose contacts add up to
+/// `contact`.
+struct StepColumn {
+  Column head;
+  bool (*shown)(const StepTable& table);
+  Cell (*cell)(const coupling::StepRecord& r, const coupling::ContactSummary& contact);
+};
+
+/// ΔS of a step or a run less what came with heat from outside: not below zero but for errors [J/K].
+double entropy_production(const coupling::StabilityAudit& stability, const coupling::EnergyAudit& energy) {
+  return stability.entropy + stability.frictional_entropy + energy.inelastic_entropy - energy.entropy_in;
+}
+
+Cell whole(int value) {
+  return static_cast<std::int64_t>(value);
+}
+
+const std::vector<StepColumn>& all_step_columns() {
+  using Record = coupling::StepRecord;
+  using Contact = coupling::ContactSummary;
+  constexpr auto always = [](const StepTable&) { return true; };
+  constexpr auto heat = [](const StepTable& t) { return t.heat; };
+  constexpr auto dynamics = [](const StepTable& t) { return t.dynamics; };
+  constexpr auto stability = [](const StepTable& t) { return t.stability; };
+  constexpr auto stages = [](const StepTable& t) { return t.stages; };
+  static const std::vector<StepColumn> k_columns = {
+      {{"time", "s"}, always, [](const Record& r, const Contact&) -> Cell { return r.time; }},
+      {{"step", "1"}, always, [](const Record& r, const Contact&) -> Cell { return whole(r.number); }},
+      {{"dt", "s"}, always, [](const Record& r, const Contact&) -> Cell { return r.dt; }},
+      {{"reason", ""}, always, [](const Record& r, const Contact&) -> Cell { return r.reason; }},
+      {{"rejected", "1"}, always, [](const Record& r, const Contact&) -> Cell { return whole(r.rejected); }},
+      {{"rejection", ""}, always, [](const Record& r, const Contact&) -> Cell { return r.rejection; }},
+      {{"temperature_error", "K"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.temperature_error; }},
+      {{"displacement_error", "m"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.displacement_error; }},
+      {{"output", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return whole(r.output ? 1 : 0); }},
+      {{"heat_iterations", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return whole(r.heat.iterations); }},
+      {{"heat_linear_iterations", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return whole(r.heat.linear_iterations); }},
+      {{"heat_residual", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.heat.residual; }},
+      {{"heat_seconds", "s"}, always, [](const Record& r, const Contact&) -> Cell { return r.heat.seconds; }},
+      {{"mechanics_iterations", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return whole(r.mechanics.iterations); }},
+      {{"mechanics_linear_iterations", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return whole(r.mechanics.linear_iterations); }},
+      {{"mechanics_residual", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.mechanics.residual; }},
+      {{"mechanics_seconds", "s"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.mechanics.seconds; }},
+      {{"coupling_iterations", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return whole(r.coupling_iterations); }},
+      {{"closed_points", "1"},
+       always,
+       [](const Record&, const Contact& contact) -> Cell { return whole(contact.closed_points); }},
+      {{"contact_points", "1"},
+       always,
+       [](const Record&, const Contact& contact) -> Cell { return whole(contact.points); }},
+      {{"solid_fraction", "1"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.solid_fraction; }},
+      {{"T_min", "degC"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.min_temperature - k_zero_celsius; }},
+      {{"T_max", "degC"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.max_temperature - k_zero_celsius; }},
+      {{"contact_energy", "J"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.contact; }},
+      {{"numerical_dissipation", "J"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.numerical; }},
+      {{"work", "J"}, always, [](const Record& r, const Contact&) -> Cell { return r.energy.work; }},
+      {{"viscous_dissipation", "J"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.viscous_dissipation; }},
+      {{"plastic_dissipation", "J"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.plastic_dissipation; }},
+      {{"plastic_work", "J"},
+       always,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.plastic_work; }},
+      {{"stored_heat", "J"},
+       heat,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.stored_heat; }},
+      {{"structural_energy", "J"},
+       heat,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.structural; }},
+      {{"heat_in", "J"}, heat, [](const Record& r, const Contact&) -> Cell { return r.energy.heat_in; }},
+      {{"heat_exchanged", "J"},
+       heat,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.heat_exchanged; }},
+      {{"energy_defect", "J"},
+       heat,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.defect(); }},
+      {{"kinetic_energy", "J"},
+       dynamics,
+       [](const Record& r, const Contact&) -> Cell { return r.energy.kinetic; }},
+      {{"lyapunov_mechanical", "J"},
+       stability,
+       [](const Record& r, const Contact&) -> Cell { return r.stability.mechanical; }},
+      {{"lyapunov_thermal", "J"},
+       stability,
+       [](const Record& r, const Contact&) -> Cell { return r.stability.thermal; }},
+      {{"lyapunov_tolerance", "J"},
+       stability,
+       [](const Record& r, const Contact&) -> Cell { return r.stability.tolerance; }},
+      {{"entropy", "J/K"},
+       stability,
+       [](const Record& r, const Contact&) -> Cell { return r.stability.entropy; }},
+      {{"entropy_production", "J/K"},
+       stability,
+       [](const Record& r, const Contact&) -> Cell { return entropy_production(r.stability, r.energy); }},
+      {{"stage", ""}, stages, [](const Record& r, const Contact&) -> Cell { return r.stage; }},
+      {{"cycle", "1"}, stages, [](const Record& r, const Contact&) -> Cell { return whole(r.cycle); }},
+  };
+  return k_columns;
+}
+
 }  // namespace
 
 std::vector<Column> step_columns(StepTable table) {
-  std::vector<Column> columns = {{"time", "s"},
-                                 {"step", "1"},
-                                 {"dt", "s"},
-                                 {"reason", ""},
-                                 {"rejected", "1"},
-                                 {"rejection", ""},
-                                 {"temperature_error", "K"},
-                                 {"displacement_error", "m"},
-                                 {"output", "1"},
-                                 {"heat_iterations", "1"},
-                                 {"heat_linear_iterations", "1"},
-                                 {"heat_residual", "1"},
-                                 {"heat_seconds", "s"},
-                                 {"mechanics_iterations", "1"},
-                                 {"mechanics_linear_iterations", "1"},
-                                 {"mechanics_residual", "1"},
-                                 {"mechanics_seconds", "s"},
-                                 {"coupling_iterations", "1"},
-                                 {"closed_points", "1"},
-                                 {"contact_points", "1"},
-                                 {"solid_fraction", "1"},
-                                 {"T_min", "degC"},
-                                 {"T_max", "degC"},
-                                 {"contact_energy", "J"},
-                                 {"numerical_dissipation", "J"},
-                                 {"work", "J"},
-                                 {"viscous_dissipation", "J"},
-                                 {"plastic_dissipation", "J"},
-                                 {"plastic_work", "J"}};
-  if (table.heat)
-    columns.insert(columns.end(), {{"stored_heat", "J"},
-                                   {"structural_energy", "J"},
-                                   {"heat_in", "J"},
-                                   {"heat_exchanged", "J"},
-                                   {"energy_defect", "J"}});
-  if (table.dynamics) columns.push_back({"kinetic_energy", "J"});
-  if (table.stability)
-    columns.insert(columns.end(), {{"lyapunov_mechanical", "J"},
-                                   {"lyapunov_thermal", "J"},
-                                   {"lyapunov_tolerance", "J"},
-                                   {"entropy", "J/K"},
-                                   {"entropy_production", "J/K"}});
-  if (table.stages) columns.insert(columns.end(), {{"stage", ""}, {"cycle", "1"}});
+  std::vector<Column> columns;
+  for (const StepColumn& column : all_step_columns())
+    if (column.shown(table)) columns.push_back(column.head);
   return columns;
 }
 
 std::vector<Cell> step_row(const coupling::StepRecord& r, StepTable table) {
-  const auto whole = [](int value) { return static_cast<std::int64_t>(value); };
   const coupling::ContactSummary contact = total(r.contacts);
-  std::vector<Cell> cells = {r.time,
-                             whole(r.number),
-                             r.dt,
-                             r.reason,
-                             whole(r.rejected),
-                             r.rejection,
-                             r.temperature_error,
-                             r.displacement_error,
-                             whole(r.output ? 1 : 0),
-                             whole(r.heat.iterations),
-                             whole(r.heat.linear_iterations),
-                             r.heat.residual,
-                             r.heat.seconds,
-                             whole(r.mechanics.iterations),
-                             whole(r.mechanics.linear_iterations),
-                             r.mechanics.residual,
-                             r.mechanics.seconds,
-                             whole(r.coupling_iterations),
-                             whole(contact.closed_points),
-                             whole(contact.points),
-                             r.solid_fraction,
-                             r.min_temperature - k_zero_celsius,
-                             r.max_temperature - k_zero_celsius,
-                             r.energy.contact,
-                             r.energy.numerical,
-                             r.energy.work,
-                             r.energy.viscous_dissipation,
-                             r.energy.plastic_dissipation,
-                             r.energy.plastic_work};
-  if (table.heat)
-    cells.insert(cells.end(), {r.energy.stored_heat, r.energy.structural, r.energy.heat_in,
-                               r.energy.heat_exchanged, r.energy.defect()});
-  if (table.dynamics) cells.emplace_back(r.energy.kinetic);
-  if (table.stability)
-    cells.insert(cells.end(),
-                 {r.stability.mechanical, r.stability.thermal, r.stability.tolerance, r.stability.entropy,
-                  r.stability.entropy + r.stability.frictional_entropy + r.energy.inelastic_entropy -
-                      r.energy.entropy_in});
-  if (table.stages) {
-    cells.emplace_back(r.stage);
-    cells.emplace_back(whole(r.cycle));
-  }
+  std::vector<Cell> cells;
+  for (const StepColumn& column : all_step_columns())
+    if (column.shown(table)) cells.push_back(column.cell(r, contact));
   return cells;
 }
 
@@ -197,8 +251,7 @@ std::vector<Reading> GlobalHistory::all() const {
     add("lyapunov_mechanical", "J", last_.stability.mechanical);
     add("lyapunov_thermal", "J", last_.stability.thermal);
     add("entropy", "J/K", stability_.entropy);
-    add("entropy_production", "J/K",
-        stability_.entropy + stability_.frictional_entropy + sum_.inelastic_entropy - sum_.entropy_in);
+    add("entropy_production", "J/K", entropy_production(stability_, sum_));
   }
   if (options_.heat) {
     add("heat_exchanged", "J", sum_.heat_exchanged);

@@ -208,7 +208,6 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   if (stage.number > 0)
     apply(spec, static_cast<std::size_t>(stage.number - 1), stage.displacement, nullptr, a);
 
-  a.mechanics->keep_stress();
   coupling::State& state = from.state;
   state.mechanics.dt_before = 0;  // by backward Euler
   const std::vector<double>& temperature = a.heat ? state.heat.temperature : a.phases.temperature;
@@ -217,13 +216,14 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
   coupling::State still = state;
   coupling::StepEffort effort;
   const std::vector<double> share = coupling::plateau_share(a.phases, state.heat);
-  coupling::mechanical_pass(a.phases, state, still,
-                            {.time = state.time,
-                             .dt = dt,
-                             .temperature = temperature,
-                             .plateau_share = share,
-                             .iterate_temperature = temperature},
-                            effort);
+  const mechanics::PhaseReport solved = coupling::mechanical_pass(a.phases, state, still,
+                                                                  {.time = state.time,
+                                                                   .dt = dt,
+                                                                   .temperature = temperature,
+                                                                   .plateau_share = share,
+                                                                   .iterate_temperature = temperature,
+                                                                   .stores_stress = true},
+                                                                  effort);
 
   ExportReport report{state.time, 0, 0, 0, 0};
   for (std::size_t i = 0; i < state.mechanics.displacement.size(); ++i)
@@ -243,7 +243,7 @@ ExportReport export_state(const Case& c, const ExportOptions& options) {
       .plastic_strain = {},
       .fixed = a.mechanics->fixed(),
       .constraints = tied_entries(a.mechanics->constraints(), still.mechanics.displacement.size()),
-      .force = a.mechanics->applied_forces()};
+      .force = solved.applied};
   for (const BodySpec& body : spec.bodies) deck.body_names.push_back(body.name);
   deck.supports = results::missing_supports(a.mesh, active, spec.analysis.kind, deck.fixed, deck.constraints);
   report.supports = deck.supports.size();

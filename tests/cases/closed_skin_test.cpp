@@ -160,7 +160,7 @@ Skin pour(const std::string& name, bool solid, const std::string& material,
     defect += effort.energy.defect();
     exchanged += effort.energy.heat_exchanged;
     skin.left_area = std::max(skin.left_area, effort.contacts[0].left_area);
-    const contact::ContactNodalFields fields = wall.nodal_fields(next.heat.temperature);
+    const contact::ContactNodalFields fields = contact::nodal_fields(wall.view(), next.heat.temperature);
     const std::vector<Index>& skin_nodes = a.mesh.surfaces.at("casting_outside").nodes;
     const auto coherent_at = [&](Index node) { return coherent[static_cast<std::size_t>(node)]; };
     double most = 0;

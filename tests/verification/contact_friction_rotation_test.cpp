@@ -75,7 +75,7 @@ TEST_P(StickingFriction, TurnsWithTheBodies) {
       return u;
     });
   };
-  contact::ContactState state = pair.initial_state();
+  contact::ContactState state = pair.history().initial();
   std::vector<double> displacement(mesh.x.size() * n, 0.0);
   double time = 0;
   const auto go = [&](const std::vector<double>& to) {
@@ -100,14 +100,14 @@ TEST_P(StickingFriction, TurnsWithTheBodies) {
   };
   go(moved(0, 0));
   go(moved(1, 0));
-  const contact::ContactSums start = pair.sums({});
+  const contact::ContactSums start = contact::sums(pair.view(), {});
   EXPECT_GT(start.friction, 0.1 * start.force);
   EXPECT_EQ(start.sticking_points, start.closed_points);
   double worst = 0;
   for (const double degrees : {10.0, 55.0, 130.0, 215.0, 300.0, 360.0, 170.0, -80.0}) {
     const double angle = degrees * std::numbers::pi / 180;
     go(moved(1, angle));
-    const contact::ContactSums sums = pair.sums({});
+    const contact::ContactSums sums = contact::sums(pair.view(), {});
     EXPECT_EQ(sums.sticking_points, start.sticking_points);
     EXPECT_NEAR(sums.friction, start.friction, 1e-10 * start.friction);
     EXPECT_NEAR(sums.force, start.force, 1e-10 * start.force);

@@ -96,7 +96,8 @@ TEST(TwoBars, InThermalContactHaveTheInterfaceTemperaturesOfTheClosedForm) {
         if (rule == contact::IntegrationRule::segments) {
           EXPECT_LT(worst, 1e-6 * k_hot) << name;
           const double area = mesh.dimension == 2 ? 0.3 : 0.06;
-          EXPECT_NEAR(pair.sums(found.state.temperature).heat, q * area, 1e-9 * q * area) << name;
+          EXPECT_NEAR(contact::sums(pair.view(), found.state.temperature).heat, q * area, 1e-9 * q * area)
+              << name;
         }
       }
 }
@@ -147,7 +148,7 @@ TEST(ConcentricCylinders, ConductThroughAWideGapAsTheClosedForm) {
       const double resistance =
           std::log(k_r1 / k_r0) / k_k1 + std::log(k_r2 / k_r1) / k_gas + std::log(k_r3 / k_r2) / k_k2;
       const double heat = 2 * std::numbers::pi * (k_hot - k_cold) / resistance * c.share;
-      const double flows = (from_outside ? -1 : 1) * pair.sums(found.state.temperature).heat;
+      const double flows = (from_outside ? -1 : 1) * contact::sums(pair.view(), found.state.temperature).heat;
       const std::string name = std::string(mesh::name(c.shape)) + (from_outside ? " outer" : " inner") +
                                (c.kind == AnalysisKind::axisymmetric ? " axisymmetric" : "");
       RecordProperty(name, fmt::format("{:.1e}", flows / heat - 1));
@@ -207,7 +208,7 @@ TEST(TwoBars, WithTablesOfTheTemperatureConductAtItsMeanAcrossTheInterface) {
       (h * (a - b) < q ? high : low) = q;
     }
     EXPECT_LT(deviation(mesh, state, k_hot - low * k_l1 / k_k1, k_cold + low * k_l2 / k_k2), 1e-6 * k_hot);
-    EXPECT_NEAR(pair.sums(state.temperature).heat, low * 0.3, 1e-8 * low * 0.3);
+    EXPECT_NEAR(contact::sums(pair.view(), state.temperature).heat, low * 0.3, 1e-8 * low * 0.3);
   }
 }
 
@@ -238,7 +239,7 @@ struct ClosedForm {
     for (int i = 0; i < 200; ++i) {
       q = 0.5 * (low + high);
       mechanics(q);
-      const double h = law.at(opening, pressure, 0.5 * (k_hot + k_cold)).value;
+      const double h = law.at(-opening, pressure, 0.5 * (k_hot + k_cold)).value;
       (q * (k_l1 / k_k1 + k_l2 / k_k2 + 1 / h) > k_hot - k_cold ? high : low) = q;
     }
   }
@@ -268,11 +269,11 @@ void expand(double gap0, double alpha, bool closes) {
     phase.solve(old, state, thermal.temperature, 1, 1);
     pair.update(state.displacement);
     before = flux;
-    flux = pair.sums(thermal.temperature).heat / 0.3;
+    flux = contact::sums(pair.view(), thermal.temperature).heat / 0.3;
   } while (std::abs(flux - before) > 1e-11 * std::abs(flux) && ++passes < 200);
   ASSERT_LT(passes, 200);
 
-  ClosedForm exact{alpha, gap0, pair.penalty(), contact::HeatTransferLaw(*spec.heat)};
+  ClosedForm exact{alpha, gap0, pair.forces().penalty(), contact::HeatTransferLaw(*spec.heat)};
   exact.solve();
   EXPECT_EQ(closes, exact.pressure > 0);
   // Opening and pressure are measured against the elongation and the stress that it would take to hold it.

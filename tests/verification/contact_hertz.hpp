@@ -103,7 +103,9 @@ struct Hertz {
     run = std::make_unique<ContactSteps>(mesh, c.kind, std::vector{steel, steel}, spec, conditions, options);
   }
 
-  double force() const { return run->pair.sums({}).force * (line ? 2 : 1); }  ///< F [N/m], [N]
+  double force() const {
+    return contact::sums(run->pair.view(), {}).force * (line ? 2 : 1);
+  }  ///< F [N/m], [N]
   double exact_half_width() const {
     const double f = force(), r = k_hertz_radius;
     return line ? std::sqrt(4 * f * r / (std::numbers::pi * star)) : std::cbrt(3 * f * r / (4 * star));
@@ -114,7 +116,7 @@ struct Hertz {
 
   /// Averages of the pressure at the slave's nodes over their distance from the axis.
   std::vector<std::pair<double, double>> profile() const {
-    const contact::ContactNodalFields fields = run->pair.nodal_fields({});
+    const contact::ContactNodalFields fields = contact::nodal_fields(run->pair.view(), {});
     const std::vector<Index> slave = contact::ContactSurface(mesh, run->pair.spec().slave).all_nodes();
     std::vector<std::pair<double, double>> points;
     for (std::size_t i = 0; i < fields.nodes.size(); ++i)

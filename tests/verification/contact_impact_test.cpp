@@ -103,7 +103,7 @@ Impact impact(int elements, const Method& method, std::ofstream table = {}) {
   double pushed = 0;
   while (run.time < touch + 1.5 * passage) {
     run.step(dt);
-    const contact::ContactSums sums = run.pair.sums({});
+    const contact::ContactSums sums = contact::sums(run.pair.view(), {});
     const double energy = bar.kinetic(run.state) + bar.elastic(run.state) + sums.energy;
     result.lost = 1 - energy / k_kinetic;
     result.defect = std::max(result.defect, std::abs(result.lost));

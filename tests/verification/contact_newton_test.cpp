@@ -116,7 +116,7 @@ TEST(NewtonOnContact, IsQuadraticWhileABodySlidesOverManyFacesWithFriction) {
     RecordProperty(std::string(mesh::name(shape)), fmt::format("pairs {} iterations {}", pairs, most));
     EXPECT_GE(pairs, 8);
     EXPECT_LE(most, 10u);
-    const contact::ContactSums sums = foot.run->pair.sums({});
+    const contact::ContactSums sums = contact::sums(foot.run->pair.view(), {});
     EXPECT_EQ(sums.sticking_points, 0);
     EXPECT_NEAR(sums.friction, 0.3 * sums.force, 1e-9 * sums.force);
     if (shape == mesh::Shape::quad4)

@@ -63,7 +63,8 @@ Deviation press(const mesh::Mesh& mesh, AnalysisKind kind, contact::ContactSpec 
   d.turns = static_cast<int>(run.turns.size());
   for (const contact::PointState& point : run.points()) {
     d.pressure = std::max(d.pressure, std::abs(point.pressure / p - 1));
-    d.penetration = std::max(d.penetration, std::abs(point.penetration * run.pair.penalty() / p - 1));
+    d.penetration =
+        std::max(d.penetration, std::abs(point.penetration * run.pair.forces().penalty() / p - 1));
     d.left = std::max(d.left, std::abs(point.penetration));
   }
   const std::size_t axis = mesh.dimension == 2 ? 1 : 2;
@@ -235,10 +236,11 @@ TEST(ContactPatch, PassesThroughAGapThatTheLoadCloses) {
   test::ContactSteps run(mesh, AnalysisKind::plane_strain, k_materials, test::interface(), conditions);
   run.step(1);
   // In series: 0.1 m of E_1' , the penalty, 0.2 m of E_2', with E' = E/(1 − ν²) in plane strain, free sides.
-  const double e1 = 70e9 / (1 - 0.33 * 0.33), e2 = 210e9 / (1 - 0.09), penalty = run.pair.penalty();
+  const double e1 = 70e9 / (1 - 0.33 * 0.33), e2 = 210e9 / (1 - 0.09), penalty = run.pair.forces().penalty();
   const double p = (1e-4 - 2e-5) / (0.1 / e1 + 0.2 / e2 + 1 / penalty);
   for (const contact::PointState& point : run.points()) EXPECT_NEAR(point.pressure, p, 1e-8 * p);
-  EXPECT_NEAR(run.pair.sums({}).energy, 0.3 * 0.5 * p * p / penalty, 1e-8 * 0.3 * p * p / penalty);
+  EXPECT_NEAR(contact::sums(run.pair.view(), {}).energy, 0.3 * 0.5 * p * p / penalty,
+              1e-8 * 0.3 * p * p / penalty);
 }
 
 TEST(RestingBody, HeldOnlyByContactTakesItsWeightInOneStep) {
@@ -254,7 +256,7 @@ TEST(RestingBody, HeldOnlyByContactTakesItsWeightInOneStep) {
     test::ContactSteps run(mesh, kind, k_materials, test::interface(), conditions, newton_to(1e-9));
     run.step(1);
     const double volume = 0.3 * 0.2 * (mesh.dimension == 2 ? 1 : 0.2);
-    EXPECT_NEAR(run.pair.sums({}).force, 7800 * 9.81 * volume, 1e-7 * 7800 * 9.81 * volume);
+    EXPECT_NEAR(contact::sums(run.pair.view(), {}).force, 7800 * 9.81 * volume, 1e-7 * 7800 * 9.81 * volume);
   }
 }
 
@@ -267,7 +269,7 @@ TEST(FallingBody, ThatNothingHoldsLandsOnItsSupportInOneStep) {
                          newton_to(1e-9));
   run.step(1);
   RecordProperty("iterations", run.iterations());
-  EXPECT_NEAR(run.pair.sums({}).force, 7800 * 9.81 * 0.06, 1e-6 * 7800 * 9.81 * 0.06);
+  EXPECT_NEAR(contact::sums(run.pair.view(), {}).force, 7800 * 9.81 * 0.06, 1e-6 * 7800 * 9.81 * 0.06);
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ Trace simulated(contact::Formulation formulation, double dt,
   conditions.pressures.push_back({"upper_y_max", load()});
   const std::vector<double> cold(mesh.x.size(), k_cold);
   mechanics::MechanicsOptions options = test::strict_mechanics();
-  options.symmetric = pair.symmetric();
+  options.symmetric = pair.forces().symmetric();
   mechanics::MechanicalPhase mechanics(mesh, AnalysisKind::plane_strain, materials, cold, conditions, options,
                                        {&pair.mechanics()});
   heat::HeatOptions heat_options;

@@ -73,12 +73,12 @@ class Rubbing {
         materials(std::move(laws)),
         temperature(mesh.x.size(), 300.0),
         pair(mesh, analysis, std::move(spec)) {
-    options.symmetric = options.symmetric && pair.symmetric();
+    options.symmetric = options.symmetric && pair.forces().symmetric();
     phase = std::make_unique<mechanics::MechanicalPhase>(
         mesh, analysis, materials, temperature, std::move(conditions), options,
         std::vector<linear::Contribution*>{&pair.mechanics()});
     state = phase->initial_state();
-    contact = pair.initial_state();
+    contact = pair.history().initial();
     pair.restore(contact, state.displacement, 0);
   }
 
@@ -100,7 +100,7 @@ class Rubbing {
       pair.augment();
       pass.start = next.displacement;
     }
-    contact_work = pair.work(1);
+    contact_work = contact::work(pair.view(), 1);
     most_iterations = std::max(most_iterations, iterations);
     before = std::move(state);
     state = std::move(next);
@@ -124,12 +124,12 @@ class Rubbing {
     }
   }
 
-  contact::ContactSums sums() const { return pair.sums({}); }
+  contact::ContactSums sums() const { return contact::sums(pair.view(), {}); }
   /// Of a point field, ∫ f dA over the slave, all processes.
   double integral(const std::function<double(const contact::PointState&)>& f) const {
     double sum = 0;
     for (std::size_t p = 0; p < contact.points.size(); ++p) {
-      const auto particle = pair.kinematics().particle(static_cast<Index>(p));
+      const auto particle = pair.geometry().kinematics().particle(static_cast<Index>(p));
       if (particle.counted) sum += particle.weight * f(contact.points[p]);
     }
     return parallel::global_sum(sum);
@@ -137,11 +137,11 @@ class Rubbing {
   /// ½ u · f_int of the bodies: their elastic energy, where all materials are elastic and all loads are
   /// prescribed displacements [J].
   double elastic_energy() {
-    std::vector<double> of_contact(phase->reactions().size(), 0.0);
+    std::vector<double> of_contact(report.reactions.size(), 0.0);
     pair.mechanics().add_residual(state.displacement, of_contact);
     double energy = 0;
     for (std::size_t i = 0; i < of_contact.size(); ++i)
-      energy += 0.5 * state.displacement[i] * (phase->reactions()[i] - of_contact[i]);
+      energy += 0.5 * state.displacement[i] * (report.reactions[i] - of_contact[i]);
     return parallel::global_sum(energy);
   }
   /// The average over the slave.

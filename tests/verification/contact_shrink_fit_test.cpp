@@ -89,12 +89,12 @@ Fit shrink(Shape shape, int n, bool swapped) {
   phase.solve(start, end, warm, 1, 1);
   pair.update(end.displacement);
 
-  const double p = exact_pressure(pair.penalty());
+  const double p = exact_pressure(pair.forces().penalty());
   Fit fit;
-  fit.coverage = pair.coverage();
-  const contact::ContactSums sums = pair.sums({});
+  fit.coverage = pair.geometry().kinematics().coverage();
+  const contact::ContactSums sums = contact::sums(pair.view(), {});
   fit.mean_error = std::abs(sums.force / sums.closed_area / p - 1);
-  for (double t_n : pair.nodal_fields({}).pressure)
+  for (double t_n : contact::nodal_fields(pair.view(), {}).pressure)
     fit.worst_error = std::max(fit.worst_error, std::abs(t_n / p - 1));
   fit.worst_error = parallel::global_max(fit.worst_error);
   return fit;

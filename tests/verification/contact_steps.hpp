@@ -23,7 +23,7 @@ class WatchedTerm : public linear::Contribution {
   void bind(const linear::BlockMatrix& matrix) override { term_.bind(matrix); }
   void add_residual(std::span<const double> x, std::span<double> r) override {
     term_.add_residual(x, r);
-    changes.push_back(pair_.changes());
+    changes.push_back(pair_.forces().changes());
   }
   void add_tangent(std::span<const double> x, linear::BlockMatrix& matrix) override {
     term_.add_tangent(x, matrix);
@@ -103,7 +103,7 @@ struct ContactSteps {
   }
   const std::vector<contact::PointState>& points() const { return pair.state().points; }
   contact::ContactKinematics::Particle particle(std::size_t point) const {
-    return pair.kinematics().particle(static_cast<Index>(point));
+    return pair.geometry().kinematics().particle(static_cast<Index>(point));
   }
 
  private:
@@ -114,7 +114,7 @@ struct ContactSteps {
   }
   static mechanics::MechanicsOptions with_symmetry(mechanics::MechanicsOptions options,
                                                    const contact::ContactPair& pair) {
-    options.symmetric = pair.symmetric();
+    options.symmetric = pair.forces().symmetric();
     return options;
   }
 };

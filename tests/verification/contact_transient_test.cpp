@@ -232,7 +232,7 @@ Trace simulated(double dt) {
     if (i % per_sample != 0) continue;
     trace.lower.push_back(surface(mesh, "lower_top", state.heat.temperature));
     trace.upper.push_back(surface(mesh, "upper_bottom", state.heat.temperature));
-    const auto opening = pair.nodal_fields(state.heat.temperature).opening;
+    const auto opening = contact::nodal_fields(pair.view(), state.heat.temperature).opening;
     trace.opening.push_back(std::max(parallel::global_max(opening.empty() ? -1.0 : opening.front()), 0.0));
   }
   return trace;

@@ -53,7 +53,7 @@ test::Rubbing make(mesh::Shape shape, double share, AnalysisKind kind = Analysis
 /// The depth at the nodes of a body's contact surface, by x.
 template <class Visit>
 void each_depth(const test::Rubbing& r, const char* surface, const Visit& visit) {
-  const contact::ContactNodalFields fields = r.pair.nodal_fields({});
+  const contact::ContactNodalFields fields = contact::nodal_fields(r.pair.view(), {});
   const std::vector<Index>& nodes = r.mesh.surfaces.at(surface).nodes;
   for (std::size_t k = 0; k < fields.nodes.size(); ++k)
     if (std::find(nodes.begin(), nodes.end(), fields.nodes[k]) != nodes.end())

@@ -106,7 +106,7 @@ class Assembly {
     mechanics_options.dynamics = c.dynamics;
     mechanics_options.simplices = c.simplices;
     mechanics_options.stabilisation = c.stabilisation;
-    mechanics_options.symmetric = !pair_ || pair_->symmetric();
+    mechanics_options.symmetric = !pair_ || pair_->forces().symmetric();
     mechanics_.emplace(c.mesh, c.kind, c.materials, initial, c.mechanical, mechanics_options, mechanical);
     if (c.form)
       thermal.push_back(

@@ -54,12 +54,12 @@ Impact impact(const Method& m) {
   result.stress.assign(k_elements, 0.0);
   for (int n = 1; n <= 3 * k_steps; ++n) {
     const mechanics::MechanicalState old = state;
-    const auto work = phase->solve(old, state, body.temperature, n * dt, dt).work;
+    const mechanics::PhaseReport report = phase->solve(old, state, body.temperature, n * dt, dt);
     double force = 0;
-    for (std::size_t i = 0; i < phase->reactions().size(); i += 2) force += phase->reactions()[i];
+    for (std::size_t i = 0; i < report.reactions.size(); i += 2) force += report.reactions[i];
     result.wall.push_back(parallel::global_sum(force) / k_height / k_stress);
     if (2 * n <= k_steps)
-      result.numerical += work.numerical / (0.5 * k_density * k_length * k_height * k_speed * k_speed);
+      result.numerical += report.work.numerical / (0.5 * k_density * k_length * k_height * k_speed * k_speed);
     if (2 * n != k_steps) continue;
     const test::ElementFields fields = test::element_fields(*phase).front();
     const mesh::Block& block = body.mesh.blocks.front();

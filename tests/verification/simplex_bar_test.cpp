@@ -78,11 +78,11 @@ History cool(const Element& element, mechanics::Mapping mapping) {
   const verification::Cells cells(c.mesh, c.mesh.blocks[0], c.kind);
   for (int n = 1; n <= n_steps; ++n) {
     coupling::State trial;
-    assembly.advance(state, trial, n * dt, dt);
+    const coupling::StepEffort effort = assembly.advance(state, trial, n * dt, dt);
     state = std::move(trial);
     double force = 0;
     for (const Index node : c.mesh.surfaces.at("right").nodes)
-      force += assembly.mechanics().reactions()[static_cast<std::size_t>(node) * components];
+      force += effort.fields.reactions[static_cast<std::size_t>(node) * components];
     history.pull.push_back(force / (components == 3 ? k_width * k_width : k_width));
     std::vector<double> axial;
     const test::ElementFields fields = test::element_fields(assembly.mechanics())[0];

@@ -97,20 +97,20 @@ TEST(AddedConductanceLaws, MeetAtContactAndHaveTheDerivativesThatDifferencesShow
     const HeatTransferLaw law(added(smooth));
     EXPECT_TRUE(law.of_temperature());
     EXPECT_DOUBLE_EQ(law.at(0, 0, 500).value, 1200);
-    EXPECT_NEAR(law.at(1e-13, 0, 500).value, 1200, 1e-3);
+    EXPECT_NEAR(law.at(-1e-13, 0, 500).value, 1200, 1e-3);
     for (const double theta : {400.0, 900.0})
       for (const double x : {0.3, 2.7}) {
         const double p = x * 1e5, g = x * 1e-6, dp = 1e-4 * p, dg = 1e-4 * g, dt = 0.1;
         // Central differences: 1e-8 of the value.
-        const Conductance closed = law.at(-1e-9, p, theta), open = law.at(g, 0, theta);
-        const auto h = [&](double gap, double pressure, double at) {
-          return law.at(gap, pressure, at).value;
+        const Conductance closed = law.at(1e-9, p, theta), open = law.at(-g, 0, theta);
+        const auto h = [&](double penetration, double pressure, double at) {
+          return law.at(penetration, pressure, at).value;
         };
-        const double by_pressure = (h(-1e-9, p + dp, theta) - h(-1e-9, p - dp, theta)) / (2 * dp),
-                     by_opening = (h(g + dg, 0, theta) - h(g - dg, 0, theta)) / (2 * dg),
-                     by_temperature = (h(-1e-9, p, theta + dt) - h(-1e-9, p, theta - dt)) / (2 * dt);
+        const double by_pressure = (h(1e-9, p + dp, theta) - h(1e-9, p - dp, theta)) / (2 * dp),
+                     by_penetration = (h(-g + dg, 0, theta) - h(-g - dg, 0, theta)) / (2 * dg),
+                     by_temperature = (h(1e-9, p, theta + dt) - h(1e-9, p, theta - dt)) / (2 * dt);
         EXPECT_NEAR(closed.by_pressure, by_pressure, 1e-6 * std::abs(by_pressure));
-        EXPECT_NEAR(open.by_opening, by_opening, 1e-6 * std::abs(by_opening));
+        EXPECT_NEAR(open.by_penetration, by_penetration, 1e-6 * std::abs(by_penetration));
         EXPECT_NEAR(closed.by_temperature, by_temperature, 1e-6 * std::abs(by_temperature) + 1e-9);
         EXPECT_EQ(open.by_temperature, 0);
       }

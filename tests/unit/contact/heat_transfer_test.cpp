@@ -39,8 +39,9 @@ HeatTransferSpec gas_spec(double exponent, std::optional<double> open = 1200, do
                   gap_law(GasGap{.conductivity = conductivity, .open_conductance = open}));
 }
 
+/// @param opening  of the gap; negative: closed [m]
 double at(const HeatTransferLaw& law, double opening, double pressure, double temperature = 300) {
-  return law.at(opening, pressure, temperature).value;
+  return law.at(-opening, pressure, temperature).value;
 }
 
 TEST(HeatTransfer, IsContinuousWhereContactIsLost) {
@@ -160,12 +161,12 @@ TEST(HeatTransfer, HasTheDerivativesThatDifferencesShow) {
           // Central differences of steps of 1e-4: 1e-8 of the value, and rounding of 1e-12.
           EXPECT_NEAR(derivative, difference, 1e-6 * std::abs(difference) + 1e-11 * size);
         };
-        const Conductance pressed = law.at(-1e-9, p, temperature), parted = law.at(g, 0, temperature);
+        const Conductance pressed = law.at(1e-9, p, temperature), parted = law.at(-g, 0, temperature);
         close(pressed.by_pressure,
               (at(law, -1e-9, p + dp, temperature) - at(law, -1e-9, p - dp, temperature)) / (2 * dp),
               pressed.value / dp);
-        close(parted.by_opening,
-              (at(law, g + dg, 0, temperature) - at(law, g - dg, 0, temperature)) / (2 * dg),
+        close(parted.by_penetration,
+              (at(law, g - dg, 0, temperature) - at(law, g + dg, 0, temperature)) / (2 * dg),
               parted.value / dg);
         close(pressed.by_temperature,
               (at(law, -1e-9, p, temperature + dt) - at(law, -1e-9, p, temperature - dt)) / (2 * dt),
@@ -188,8 +189,8 @@ TEST(HeatTransfer, ThatIsSmoothHasASlopeThatDoesNotJumpFromContactToGap) {
     const double penalty = 1e13, h = at(law, 0, 0, 500);
     // Of the gap, through t_N = −ε_N g, on both sides of contact and of both ends of the transitions.
     const auto slope = [&](double g) {
-      const Conductance c = law.at(g, std::max(0.0, -penalty * g), 500);
-      return c.by_opening - penalty * c.by_pressure;
+      const Conductance c = law.at(-g, std::max(0.0, -penalty * g), 500);
+      return -c.by_penetration - penalty * c.by_pressure;
     };
     // Steps of 1e-6 of the transitions change slopes by about as much of h over their widths.
     const double gap = *spec.transition_gap, pressed = -*spec.transition_pressure / penalty;

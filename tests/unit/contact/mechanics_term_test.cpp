@@ -109,7 +109,7 @@ TEST_P(FrictionForces, HaveTheTangentThatFiniteDifferencesShowWhereTheyStickAndW
     const auto pair = rubbed(mesh, spec(GetParam().formulation));
     const std::vector<double> u = pressed(mesh, aside);
     pair->update(u);
-    const ContactSums sums = pair->sums({});
+    const ContactSums sums = contact::sums(pair->view(), {});
     EXPECT_EQ(sums.sticking_points, aside < 1e-4 ? sums.closed_points : 0);
     EXPECT_GT(sums.closed_points, 0);
     // Steps of 1e-9 m of penetrations of 1e-4 m and slips of 1e-3 m: 1e-9 by curvature and by rounding.
@@ -132,7 +132,7 @@ TEST_P(FrictionForces, AreTheLawsAndBalanceInSum) {
     all[i % dim] += r[i];
     if (is_upper[i / dim] != 0) on_upper[i % dim] += r[i];
   }
-  const ContactSums sums = pair->sums({});
+  const ContactSums sums = contact::sums(pair->view(), {});
   const double mean_mu = sums.friction / sums.force;
   EXPECT_GT(mean_mu, 0.3);
   EXPECT_LT(mean_mu, 0.5);
@@ -152,7 +152,7 @@ TEST_P(FrictionForces, HaveASymmetricTangentWhenAskedTo) {
   for (const bool symmetric : {true, false}) {
     s.friction->symmetric = symmetric;
     const auto pair = rubbed(mesh, s);
-    EXPECT_EQ(pair->symmetric(), symmetric);
+    EXPECT_EQ(pair->forces().symmetric(), symmetric);
     const auto matrix = matrix_of(mesh, pair->mechanics());
     const std::vector<double> u = pressed(mesh, 2e-3);
     pair->mechanics().add_tangent(u, *matrix);

@@ -93,7 +93,7 @@ TEST(ContactForces, HaveTheTangentThatFiniteDifferencesShow) {
       ContactPair pair(mesh, kind_of(mesh), spec(rule));
       const std::vector<double> u = rocking(mesh);
       pair.update(u);
-      const ContactSums sums = pair.sums({});
+      const ContactSums sums = contact::sums(pair.view(), {});
       EXPECT_GT(sums.closed_points, 0);
       EXPECT_LT(sums.closed_points, sums.points);
       // Piecewise linear in u: the difference is exact but for rounding unless a point changes its state.
@@ -134,8 +134,8 @@ TEST(ContactForces, BalanceBetweenTheBodiesInSumAndMoment) {
 TEST(ContactForces, OfBodiesThatJustTouchAreZeroWithAStiffTangent) {
   const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
   ContactPair pair(mesh, AnalysisKind::plane_strain, spec());
-  EXPECT_EQ(pair.sums({}).closed_points, pair.sums({}).points);
-  EXPECT_EQ(pair.sums({}).force, 0);
+  EXPECT_EQ(contact::sums(pair.view(), {}).closed_points, contact::sums(pair.view(), {}).points);
+  EXPECT_EQ(contact::sums(pair.view(), {}).force, 0);
   auto matrix = make_matrix(mesh, 2, pair.mechanics());
   pair.mechanics().bind(matrix);
   const std::vector<double> u(mesh.x.size() * 2, 0.0);
@@ -160,7 +160,7 @@ TEST(ContactSums, OfAnInclinedApproachAreTheClosedFormOnAnyNumberOfProcesses) {
     return std::vector<double>{0, 0, upper ? -a * (x[0] - 0.15) : 0.0};
   }));
   // The master's line x = 0.15 cuts the slave's faces, so no piece changes sign inside.
-  const ContactSums sums = pair.sums({});
+  const ContactSums sums = contact::sums(pair.view(), {});
   EXPECT_NEAR(sums.closed_area, 0.15 * 0.2, 1e-14);
   EXPECT_NEAR(sums.force, 1e10 * a * 0.5 * 0.15 * 0.15 * 0.2, 1e-12 * sums.force);
   EXPECT_NEAR(sums.energy, 0.5 * 1e10 * a * a * 0.15 * 0.15 * 0.15 / 3 * 0.2, 1e-12 * sums.energy);
@@ -178,7 +178,7 @@ TEST(NodalFields, OfAUniformApproachAreUniformOnBothSides) {
         u[last_axis(mesh)] = upper ? -approach : 0;
         return u;
       }));
-      const ContactNodalFields fields = pair.nodal_fields({});
+      const ContactNodalFields fields = contact::nodal_fields(pair.view(), {});
       for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
         EXPECT_NEAR(fields.opening[i], -approach, 1e-16);
         EXPECT_NEAR(fields.pressure[i], approach > 0 ? 1e10 * approach : 0, 1e-4);
@@ -276,7 +276,7 @@ TEST(InterfaceHeat, ByRadiationHasTheMeanOfBothDerivativesAsItsTangent) {
       mesh, 1, [](const Point&, bool upper) { return std::vector{upper ? 400.0 : 1000.0}; });
   const double factor = k_stefan_boltzmann / (1 / 0.8 + 1 / 0.6 - 1);
   const double expected = factor * 0.3 * (std::pow(1000.0, 4) - std::pow(400.0, 4));
-  EXPECT_NEAR(pair.sums(hot_and_cold).heat, expected, 1e-12 * expected);
+  EXPECT_NEAR(contact::sums(pair.view(), hot_and_cold).heat, expected, 1e-12 * expected);
 }
 
 TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
@@ -296,7 +296,7 @@ TEST(InterfaceHeat, LeavesOneBodyAndEntersTheOtherWithoutLoss) {
       for (Index n : mesh.node_sets.at("upper")) is_upper[static_cast<std::size_t>(n)] = 1;
       double out = 0, in = 0;
       for (std::size_t n = 0; n < heat.size(); ++n) (is_upper[n] ? in : out) += heat[n];
-      const double sum = pair.sums(temperature).heat;
+      const double sum = contact::sums(pair.view(), temperature).heat;
       EXPECT_GT(sum, 0);
       EXPECT_NEAR(parallel::global_sum(out), sum, 1e-12 * sum);
       EXPECT_NEAR(parallel::global_sum(in), -sum, 1e-12 * sum);
@@ -348,14 +348,14 @@ TEST(NodalFields, ShowTheHeatThatEntersEitherBodyAndWhatOfItIsByFriction) {
   // Closed: 2300 W/(m² K) over 50 K. Slip: what is left of the way when the spring ε_T = ε_N holds μ p.
   const double across = 2300 * 50.0, pressure = 1e10 * k_approach;
   const double power = 0.25 * pressure * (k_slid - 0.25 * pressure / 1e10) / k_dt;
-  const ContactNodalFields fields = pair.nodal_fields(temperature);
+  const ContactNodalFields fields = contact::nodal_fields(pair.view(), temperature);
   for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
     const bool slave = mesh.x[static_cast<std::size_t>(fields.nodes[i])][1] < 0.1 + 1e-9 &&
                        temperature[static_cast<std::size_t>(fields.nodes[i])] > 475;
     EXPECT_NEAR(fields.frictional_heat_flux[i], 0.5 * power, 1e-9 * power);
     EXPECT_NEAR(fields.heat_flux[i], 0.5 * power + (slave ? -across : across), 1e-9 * across);
   }
-  const ContactSums sums = pair.sums(temperature);
+  const ContactSums sums = contact::sums(pair.view(), temperature);
   EXPECT_NEAR(sums.heat, 0.3 * across, 1e-9 * across);
   EXPECT_NEAR(sums.heat_to_slave + sums.heat_to_master, 0.3 * power, 1e-9 * power);
   EXPECT_NEAR(sums.heat_to_master, 0.3 * (0.5 * power + across), 1e-9 * across);
@@ -381,7 +381,7 @@ TEST(Pair, BeginsFromTheStateAtTheStartWhereverItStands) {
   ContactPair pair(mesh, AnalysisKind::plane_strain, s);
   const std::vector<double> rest = lowered(0);
   const ContactPass pass{.time = 1, .dt = 1, .displacement = rest, .temperature = temperature};
-  const ContactState start = pair.initial_state();
+  const ContactState start = pair.history().initial();
   pair.begin(start, pass);
   pair.update(lowered(0.0101));  // from out of reach into contact
   const ContactState once = pair.state();
@@ -415,8 +415,8 @@ TEST(Pair, TakesTheWorkOnARigidMasterFromItsPlaceAtTheStartOfTheStep) {
   for (std::size_t i = 0; i < 2; ++i) {  // the second time from where the first has ended
     pair.begin(start, {.time = 2, .dt = 1, .displacement = rest});
     pair.update(moved);
-    work[i] = pair.work(0.5);
-    of_master[i] = pair.rigid_work(0.5);
+    work[i] = contact::work(pair.view(), 0.5);
+    of_master[i] = contact::rigid_work(pair.view(), 0.5);
   }
   EXPECT_GT(std::abs(work[0]), 1);
   EXPECT_EQ(work[1], work[0]);
@@ -454,7 +454,7 @@ TEST(PenaltyFactor, IsTimesTheMeanStiffnessOfTheElementsAtTheStifferSurface) {
     s.penalty = 20;
     s.penalty_is_factor = true;
     const ContactPair pair(mesh, kind_of(mesh), s, modulus);
-    EXPECT_NEAR(pair.penalty(), 20 * 210e9 / 0.1, 1e-9 * pair.penalty());
+    EXPECT_NEAR(pair.forces().penalty(), 20 * 210e9 / 0.1, 1e-9 * pair.forces().penalty());
   }
 }
 

@@ -56,14 +56,14 @@ struct OneStep {
   ContactState state;
 
   OneStep(const mesh::Mesh& m, ContactSpec s) : mesh(m), pair(m, kind_of(m), std::move(s)) {
-    state = pair.initial_state();
+    state = pair.history().initial();
   }
   /// A step from the state so far to a displacement.
   ContactSums step(const std::vector<double>& displacement, const std::vector<double>& coherent) {
     pair.begin(state, {.time = 1, .dt = 1, .displacement = displacement, .coherency = coherent});
     pair.update(displacement);
     state = pair.state();
-    return pair.sums({});
+    return contact::sums(pair.view(), {});
   }
 };
 
@@ -163,12 +163,13 @@ TEST_P(Wet, ConductsAsClosedContactWhateverGapOpens) {
       test::nodal_field(mesh_, 1, [](const Point&, bool up) { return std::vector{up ? 400.0 : 900.0}; });
   const double closed = 2000 * 500 * area(mesh_);
   run.step(lifted(mesh_, 1e-4), liquid());
-  EXPECT_NEAR(run.pair.sums(temperature).heat, closed, 1e-9 * closed);
+  EXPECT_NEAR(contact::sums(run.pair.view(), temperature).heat, closed, 1e-9 * closed);
   const std::vector<double> gap = lifted(mesh_, 1e-4);
   run.pair.restore(run.state, gap, 1);  // as a run that goes on from a checkpoint
-  EXPECT_NEAR(run.pair.sums(temperature).heat, closed, 1e-9 * closed);
+  EXPECT_NEAR(contact::sums(run.pair.view(), temperature).heat, closed, 1e-9 * closed);
   run.step(gap, liquid(1.1));
-  EXPECT_NEAR(run.pair.sums(temperature).heat, closed * 0.03 / (0.03 + 1e-4 * 2000), 1e-6 * closed);
+  EXPECT_NEAR(contact::sums(run.pair.view(), temperature).heat, closed * 0.03 / (0.03 + 1e-4 * 2000),
+              1e-6 * closed);
 }
 
 TEST_P(Wet, IsSwitchedOffWithTheAtmosphere) {
@@ -271,7 +272,7 @@ TEST(WetContact, MultipliersHoldTensionDownToTheAtmosphere) {
   for (int turn = 1; turn <= 5; ++turn) {
     run.pair.update(u);
     const double expected = -std::min(0.3 * turn, 1.0) * k_atmosphere * 0.3;
-    EXPECT_NEAR(run.pair.sums({}).force, expected, 1e-9 * k_atmosphere) << turn;
+    EXPECT_NEAR(contact::sums(run.pair.view(), {}).force, expected, 1e-9 * k_atmosphere) << turn;
     run.pair.augment();
   }
   run.state = run.pair.state();

@@ -59,7 +59,7 @@ TEST(CoupledTangentOfContact, KnowsWhatABodyThatOnlyConductsTakesByTheDisplaceme
       RubbingBlocks b(Rubbing{.formulation = formulation}, false, absent);
       test::Iterate iterate(b);
       iterate.move(test::rubbed(b.mesh, absent));
-      const contact::ContactSums sums = b.pair->sums({});
+      const contact::ContactSums sums = contact::sums(b.pair->view(), {});
       EXPECT_GT(sums.closed_points, 0);
       EXPECT_LT(sums.closed_points, sums.points);
       expect_exact(iterate, b.mesh, k_rounding, absent);

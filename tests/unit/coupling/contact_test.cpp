@@ -39,7 +39,7 @@ struct Rubbed {
                .ambient_temperature = {}},
         scheme(phases) {
     state.mechanics = phase.initial_state();
-    state.contacts = {pair.initial_state()};
+    state.contacts = {pair.history().initial()};
   }
   Rubbed(const Rubbed&) = delete;
 
@@ -55,7 +55,7 @@ struct Rubbed {
  private:
   static mechanics::MechanicsOptions for_pair(mechanics::MechanicsOptions options,
                                               const contact::ContactPair& pair) {
-    options.symmetric = pair.symmetric();
+    options.symmetric = pair.forces().symmetric();
     return options;
   }
 };
@@ -95,7 +95,7 @@ TEST(ContactInDynamics, QuotientKeepsTheEnergyOfAnImpactThatThePenaltyDoesNot) {
     Rubbed run(mesh, AnalysisKind::plane_strain, s, c, options);
     // ½ ρ v² of the upper block, 0.3 m × 0.2 m.
     const double thrown = 0.5 * 7800 * 0.3 * 0.2 * 4;
-    const double start = run.pair.sums({}).energy;
+    const double start = contact::sums(run.pair.view(), {}).energy;
     double energy = 0, largest = 0, pressed = 0;
     for (int k = 0; k < 250; ++k) {
       const mechanics::MechanicalState old = run.state.mechanics;
@@ -107,12 +107,12 @@ TEST(ContactInDynamics, QuotientKeepsTheEnergyOfAnImpactThatThePenaltyDoesNot) {
       run.state.contacts = coupling::contact_states(run.phases);
       run.state.time = pass.time;
       energy += report.work.kinetic + report.work.internal_work;
-      const contact::ContactSums sums = run.pair.sums({});
+      const contact::ContactSums sums = contact::sums(run.pair.view(), {});
       pressed = std::max(pressed, sums.force);
       largest = std::max(largest, std::abs(energy + sums.energy - start));
     }
     EXPECT_GT(pressed, 0);
-    EXPECT_EQ(run.pair.sums({}).closed_points, 0) << "it has bounced off";
+    EXPECT_EQ(contact::sums(run.pair.view(), {}).closed_points, 0) << "it has bounced off";
     return largest / thrown;
   };
   // Newton's iteration ends at 1e-12 of the forces.
@@ -140,13 +140,13 @@ TEST(ContactWork, IsWhatTheForcesInTheBalanceDoWhereBodiesSlideAcrossFaces) {
     contact.book(audit);
     const double on_contact =
         work.external_work + work.support_work + work.residual_work - work.internal_work;
-    EXPECT_NEAR(run.pair.work(1), on_contact, 1e-9 * std::abs(work.support_work));
+    EXPECT_NEAR(contact::work(run.pair.view(), 1), on_contact, 1e-9 * std::abs(work.support_work));
     EXPECT_NEAR(audit.contact + audit.friction + audit.numerical, on_contact,
                 1e-9 * std::abs(work.support_work));
     EXPECT_GT(audit.friction, 0);
     dissipated += audit.friction;
   }
-  const contact::ContactSums sums = run.pair.sums({});
+  const contact::ContactSums sums = contact::sums(run.pair.view(), {});
   EXPECT_NEAR(sums.dissipation, dissipated, 1e-12 * dissipated);
   // Of hardening friction a part of the work is stored: D = γ μ_0 t_N < γ μ t_N (3.58).
   EXPECT_LT(sums.dissipation, sums.work);
@@ -227,7 +227,7 @@ WorkOnContact dynamic_step(Rubbed& run, double dt) {
   run.state.time = pass.time;
   return {work.external_work + work.support_work + work.residual_work - work.internal_work - work.kinetic -
               work.numerical,
-          run.pair.work(run.phase.work_share())};
+          contact::work(run.pair.view(), run.phase.work_share())};
 }
 
 const mechanics::Motion k_means[] = {mechanics::Motion::trapezoidal(),
@@ -324,7 +324,7 @@ TEST(LargeSliding, GivesMatricesNewPlacesInTheMiddleOfARun) {
   // 100 mm at once, over a face of the master of the same length and two of the slave.
   run.step(5);
   EXPECT_GT(run.phase.matrix().pattern(), pattern);
-  const contact::ContactSums sums = run.pair.sums({});
+  const contact::ContactSums sums = contact::sums(run.pair.view(), {});
   EXPECT_NEAR(sums.resultant[1], 20e6 * 0.3, 1e-9 * sums.force);
   EXPECT_NEAR(sums.friction, 0.2 * sums.force, 1e-9 * sums.force);
 }
@@ -387,7 +387,7 @@ TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {
     Rubbed run(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
     const coupling::StepEffort effort = run.step(1);
     EXPECT_GE(effort.mechanics.iterations, 2);
-    const contact::ContactNodalFields fields = run.pair.nodal_fields({});
+    const contact::ContactNodalFields fields = contact::nodal_fields(run.pair.view(), {});
     const bool fixed = formulation == contact::Formulation::small_sliding;
     for (std::size_t i = 0; i < fields.nodes.size(); ++i) {
       // Gauss points that do not know where the master's faces end see the mean, not every point, closed;

@@ -23,7 +23,7 @@ TEST_P(FrictionalHeat, HasTheTangentThatFiniteDifferencesShow) {
   RubbingBlocks b(GetParam(), false);
   test::Iterate iterate(b);
   iterate.move(test::rubbed(b.mesh));
-  const contact::ContactSums sums = b.pair->sums({});
+  const contact::ContactSums sums = contact::sums(b.pair->view(), {});
   EXPECT_GT(sums.sticking_points, 0);
   EXPECT_GT(sums.closed_points, sums.sticking_points);
   EXPECT_LT(sums.closed_points, sums.points);

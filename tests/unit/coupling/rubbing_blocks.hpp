@@ -133,7 +133,7 @@ struct RubbingBlocks {
     phases.contacts = {pair.get()};
     state.heat = heat->initial_state(std::vector<double>{k_rubbing_start, k_rubbing_start});
     state.mechanics = mechanics->initial_state();
-    state.contacts = {pair->initial_state()};
+    state.contacts = {pair->history().initial()};
   }
 };
 

@@ -176,12 +176,13 @@ TEST(ThermalStepping, TheErrorOfAStepIsTheEstimated) {
     constexpr double k_dt = 2;
     std::vector<double> flow;
     for (int i = 1; i <= 10; ++i) {
-      phase.solve(old, old, {.time = i * k_dt, .dt = k_dt, .stepping = stepping});
-      flow = phase.last_flow();
+      flow = phase.flow_at_end(
+          phase.solve(old, old, {.time = i * k_dt, .dt = k_dt, .stepping = stepping}).flows);
     }
     heat::ThermalState now = old, fine = old;
-    phase.solve(old, now, {.time = 11 * k_dt, .dt = k_dt, .stepping = stepping});
-    const std::vector<double> estimate = phase.time_error(now, flow);
+    const heat::PhaseReport report =
+        phase.solve(old, now, {.time = 11 * k_dt, .dt = k_dt, .stepping = stepping});
+    const std::vector<double> estimate = phase.time_error(now, report.flows, flow);
     for (int i = 1; i <= 32; ++i)
       phase.solve(fine, fine,
                   {.time = 10 * k_dt + i * k_dt / 32, .dt = k_dt / 32, .stepping = ThermalStepping::sdirk2});

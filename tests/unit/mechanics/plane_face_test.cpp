@@ -44,9 +44,8 @@ double reaction(const Body& body, const Solved& solved, const std::string& group
   double sum = 0;
   for (const Index node : body.mesh.node_sets.at(group))
     if (node < body.mesh.n_owned_nodes)
-      sum +=
-          solved.phase
-              ->reactions()[static_cast<std::size_t>(node * displacement_components(body.kind) + component)];
+      sum += solved.report
+                 .reactions[static_cast<std::size_t>(node * displacement_components(body.kind) + component)];
   return parallel::global_sum(sum);
 }
 

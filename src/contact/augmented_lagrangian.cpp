@@ -1,14 +1,12 @@
-/// Multipliers of the augmented Lagrangian of a contact pair, from the penetrations of its nodes.
+#include "contact/augmented_lagrangian.hpp"
+
 #include <fmt/format.h>
 #include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "contact/fixed_kinematics.hpp"
-#include "contact/mechanics_term.hpp"
-#include "contact/pair.hpp"
-#include "contact/sliding_kinematics.hpp"
+#include "contact/point_law.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {
@@ -21,12 +19,14 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-std::vector<double> ContactPair::nodal_penetration() const {
-  std::vector<double> weight(mesh_.x.size(), 0.0), mean(mesh_.x.size(), 0.0);
-  for (Index p = 0; p < kinematics_->n_points(); ++p) {
-    const PointState& point = now_.points[at(p)];
+std::vector<double> AugmentedLagrangian::nodal_penetration(const ContactState& now) const {
+  const mesh::Mesh& mesh = geometry_.mesh();
+  const ContactKinematics& kinematics = geometry_.kinematics();
+  std::vector<double> weight(mesh.x.size(), 0.0), mean(mesh.x.size(), 0.0);
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const PointState& point = now.points[at(p)];
     if (point.status == PointStatus::open) continue;
-    const ContactKinematics::Particle particle = kinematics_->particle(p);
+    const ContactKinematics::Particle particle = kinematics.particle(p);
     for (std::size_t b = 0; b < particle.nodes.size(); ++b) {
       const double w = particle.weight * particle.share[b] * particle.share[b];
       weight[at(particle.nodes[b])] += w;
@@ -34,11 +34,11 @@ std::vector<double> ContactPair::nodal_penetration() const {
     }
   }
   for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = weight[i] > 0 ? mean[i] / weight[i] : 0.0;
-  parallel::GhostExchange(mesh_).update(mean, 1);
+  parallel::GhostExchange(mesh).update(mean, 1);
   return mean;
 }
 
-void ContactPair::accelerate(const std::vector<double>& penetration) {
+void AugmentedLagrangian::accelerate(const std::vector<double>& penetration) {
   constexpr double k_longest = 30;
   if (last_penetration_.size() != penetration.size()) {
     step_factor_.assign(penetration.size(), 1.0);
@@ -52,35 +52,37 @@ void ContactPair::accelerate(const std::vector<double>& penetration) {
   last_penetration_ = penetration;
 }
 
-void ContactPair::augment() {
-  if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return;
-  const std::vector<double> penetration = nodal_penetration();
+void AugmentedLagrangian::augment(const ContactState& now, ContactStep& step) {
+  if (!acts()) return;
+  const std::vector<double> penetration = nodal_penetration(now);
+  const ContactKinematics& kinematics = geometry_.kinematics();
   accelerate(penetration);
-  if (start_traction_.empty())
-    for (const PointState& from : step_.from) start_traction_.push_back(from.traction);
-  for (Index p = 0; p < kinematics_->n_points(); ++p) {
-    PointState& from = step_.from[at(p)];
-    const ContactKinematics::Particle particle = kinematics_->particle(p);
+  if (step.start_traction.empty())
+    for (const PointState& from : step.from) step.start_traction.push_back(from.traction);
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    PointState& from = step.from[at(p)];
+    const ContactKinematics::Particle particle = kinematics.particle(p);
     double mean = 0;
     for (std::size_t b = 0; b < particle.nodes.size(); ++b)
       mean += particle.share[b] * step_factor_[at(particle.nodes[b])] * penetration[at(particle.nodes[b])];
-    if (now_.points[at(p)].status == PointStatus::open)
+    if (now.points[at(p)].status == PointStatus::open)
       from.multiplier = least_multiplier(from);
     else
-      from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.normal.penalty * mean);
-    from.traction = now_.points[at(p)].traction;
+      from.multiplier = std::max(least_multiplier(from), from.multiplier + law_.penalty * mean);
+    from.traction = now.points[at(p)].traction;
   }
 }
 
-double ContactPair::excess() const {
-  if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return 0;
+double AugmentedLagrangian::excess(const ContactState& now) const {
+  if (!acts()) return 0;
   double largest = 0;
-  for (const double g : nodal_penetration()) largest = std::max(largest, std::abs(g));
-  return parallel::global_max(largest) / allowed_penetration_;
+  for (const double g : nodal_penetration(now)) largest = std::max(largest, std::abs(g));
+  return parallel::global_max(largest) / allowed_;
 }
 
-std::string ContactPair::worst_penetration() const {
-  const std::vector<double> penetration = nodal_penetration();
+std::string AugmentedLagrangian::worst_penetration(const ContactState& now) const {
+  const mesh::Mesh& mesh = geometry_.mesh();
+  const std::vector<double> penetration = nodal_penetration(now);
   struct {
     double value;
     int rank;
@@ -95,8 +97,8 @@ std::string ContactPair::worst_penetration() const {
   MPI_Allreduce(&worst, &winner, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
   char text[160] = {};
   if (winner.rank == worst.rank && !penetration.empty()) {
-    const mesh::Point& x = mesh_.x[node];
-    fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m", mesh_.input_node[node], x[0],
+    const mesh::Point& x = mesh.x[node];
+    fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m", mesh.input_node[node], x[0],
                 x[1], x[2], penetration[node])
         .copy(text, sizeof text - 1);
   }

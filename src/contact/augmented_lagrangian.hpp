@@ -1,0 +1,51 @@
+/// Multipliers of the augmented Lagrangian of a contact pair, by Uzawa's method from the mean penetrations
+/// around the slave's nodes:
+///
+///   λ += a_N ε_N Σ_a N_a ḡ_a,   ḡ_a = Σ_p w N_a² g_N / Σ_p w N_a²  over closed points
+///
+/// There are more points than the unknowns of a face can bring to zero penetration one by one, but their
+/// means can be. Where a mean falls slowly from turn to turn its step is lengthened by Aitken's factor a_N,
+/// from 1 to 30: a node at the edge of contact has few closed points, hence a weak spring.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/geometry.hpp"
+#include "contact/normal.hpp"
+#include "contact/step.hpp"
+
+namespace solidus::contact {
+
+class AugmentedLagrangian {
+ public:
+  /// Keeps references.
+  /// @param allowed  penetration that may be left [m]
+  AugmentedLagrangian(const ContactGeometry& geometry, const NormalLaw& law, double allowed)
+      : geometry_(geometry), law_(law), allowed_(allowed) {}
+  /// Whether the law has multipliers; without them the functions below do nothing.
+  bool acts() const { return law_.kind == NormalKind::augmented_lagrangian; }
+  /// The turns of another step follow.
+  void begin() { last_penetration_.clear(); }
+  /// Takes the next turn: raises the multipliers of the step's start from the state that this turn has led
+  /// to, and lets friction set out from the tractions of that state. Collective.
+  void augment(const ContactState& now, ContactStep& step);
+  /// The largest mean penetration around a node of the slave, as a share of what is allowed. Collective.
+  double excess(const ContactState& now) const;
+  /// Describes the place of the largest mean penetration, for messages. Collective.
+  std::string worst_penetration(const ContactState& now) const;
+
+ private:
+  /// Lengthens the steps of the nodes from their mean penetrations now and one turn before.
+  void accelerate(const std::vector<double>& penetration);
+  /// Mean penetrations ḡ_a, [local node] [m]. Collective.
+  std::vector<double> nodal_penetration(const ContactState& now) const;
+
+  const ContactGeometry& geometry_;
+  const NormalLaw& law_;
+  double allowed_;
+  /// ḡ_a [m] and a_N in the last turn of this step, [local node]; empty in the first turn.
+  std::vector<double> last_penetration_, step_factor_;
+};
+
+}  // namespace solidus::contact

@@ -1,0 +1,78 @@
+#include "contact/forces.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "contact/penalty.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+PointLaw law_of(const ContactSpec& spec, double penalty) {
+  PointLaw law;
+  law.normal = {spec.normal, penalty};
+  if (!spec.friction) return law;
+  const FrictionSpec& friction = *spec.friction;
+  law.friction.emplace(friction,
+                       friction.tangential_penalty.value_or(friction.tangential_penalty_factor * penalty),
+                       spec.interface_heat_capacity);
+  law.wear = spec.wear;
+  return law;
+}
+
+}  // namespace
+
+ContactForces::ContactForces(const ContactGeometry& geometry, const ContactSpec& spec,
+                             const PairSurfaces& surfaces, std::span<const double> body_modulus,
+                             const ContactStep& step)
+    : name_(spec.name),
+      step_(step),
+      law_(law_of(spec, penalty_of(geometry.mesh(), spec, surfaces, body_modulus))),
+      symmetric_(spec.friction ? spec.friction->symmetric : geometry.kinematics().symmetric()),
+      multipliers_(geometry, law_.normal, spec.penetration_tolerance * geometry.face_size()),
+      term_(spec.name, geometry, law_, step, spec.stabilisation, spec.friction && spec.friction->symmetric) {}
+
+void ContactForces::activate(bool on) {
+  active_ = on;
+  term_.activate(on);
+}
+
+void ContactForces::begin(bool isentropic, double share) {
+  multipliers_.begin();
+  law_.isentropic = isentropic;
+  law_.share = share;
+}
+
+PointForces ContactForces::at(const PointMotion& motion, Index point) const {
+  if (!active_) return {};
+  return law_.forces(motion, step_.from[static_cast<std::size_t>(point)], step_.coupled.around(motion),
+                     step_.iterate_of(point));
+}
+
+void ContactForces::augment(const ContactState& now, ContactStep& step) {
+  if (active_) multipliers_.augment(now, step);
+}
+
+double ContactForces::excess(const ContactState& now) const {
+  return active_ ? multipliers_.excess(now) : 0.0;
+}
+
+GlobalIndex ContactForces::changes() const {
+  return std::llround(parallel::global_sum(static_cast<double>(term_.changes())));
+}
+
+std::string ContactForces::failure_text() const {
+  const FrictionStatus failure = term_.failure();
+  if (parallel::any_process(failure != FrictionStatus::converged)) {
+    const double worst = parallel::global_max(static_cast<double>(failure));
+    return fmt::format("contact '{}': {}", name_, reason(static_cast<FrictionStatus>(std::lround(worst))));
+  }
+  const GlobalIndex n = changes();
+  if (n == 0) return {};
+  return fmt::format("contact '{}': {} points still change between open, sticking and slipping", name_, n);
+}
+
+}  // namespace solidus::contact

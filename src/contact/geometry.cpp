@@ -1,0 +1,161 @@
+#include "contact/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "contact/fixed_kinematics.hpp"
+#include "contact/master_mesh.hpp"
+#include "contact/penalty.hpp"
+#include "contact/sliding_kinematics.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+std::size_t index_of(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+ContactPoints find_points(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec, double reach,
+                          const ContactSurface& slave, const ContactSurface& master) {
+  IntegrationOptions options;
+  options.rule = spec.integration;
+  options.gauss_degree = spec.gauss_degree;
+  options.search_distance = reach;
+  ContactPoints points = integrate(mesh, kind, slave, master, options);
+  if (points.paired_measure <= 0)
+    throw InputError(spec.where,
+                     fmt::format("contact '{}': no part of surface '{}' faces surface '{}' within {:.3g} m",
+                                 spec.name, spec.slave, spec.master, options.search_distance),
+                     "two surfaces that look at each other; or a larger search distance");
+  return points;
+}
+
+bool has_linear_faces(const ContactSurface& surface) {
+  for (Index face = 0; face < surface.n_faces(); ++face)
+    if (mesh::order(surface.shape(face)) > 1) return false;
+  return true;
+}
+
+/// A surface that folds on itself is no pair: a point would find its own face as its partner.
+void require_apart(const mesh::Mesh& mesh, const ContactSpec& spec, const ContactSurface& slave,
+                   const ContactSurface& master) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(spec.where, fmt::format("contact '{}': {}", spec.name, what),
+                     "two surfaces that have no node in common: contact of a surface with itself is not "
+                     "computed, and bodies that touch have nodes of their own ([[interface]] splits them)");
+  };
+  if (spec.slave == spec.master)
+    refuse(fmt::format("slave and master are the same surface '{}'", spec.slave));
+  const std::vector<Index>&of_slave = slave.all_nodes(), &of_master = master.all_nodes();
+  std::vector<Index> both;
+  std::set_intersection(of_slave.begin(), of_slave.end(), of_master.begin(), of_master.end(),
+                        std::back_inserter(both));
+  const double shared = parallel::global_sum(static_cast<double>(
+      std::ranges::count_if(both, [&](Index node) { return node < mesh.n_owned_nodes; })));
+  if (shared > 0)
+    refuse(fmt::format("the surfaces '{}' and '{}' share {:.0f} node{}", spec.slave, spec.master, shared,
+                       shared > 1 ? "s" : ""));
+}
+
+std::vector<Index> owned_nodes(const mesh::Mesh& mesh, const PairSurfaces& surfaces) {
+  std::vector<Index> nodes = surfaces.slave.all_nodes();
+  if (surfaces.master)
+    nodes.insert(nodes.end(), surfaces.master->all_nodes().begin(), surfaces.master->all_nodes().end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::erase_if(nodes, [&](Index node) { return node >= mesh.n_owned_nodes; });
+  return nodes;
+}
+
+}  // namespace
+
+PairSurfaces::PairSurfaces(const mesh::Mesh& mesh, const ContactSpec& spec) : slave(mesh, spec.slave) {
+  if (spec.rigid_master) return;
+  master.emplace(mesh, spec.master);
+  require_apart(mesh, spec, slave, *master);
+}
+
+bool PairSurfaces::linear() const {
+  return has_linear_faces(slave) && (!master || has_linear_faces(*master));
+}
+
+ContactSpec with_roles(const mesh::Mesh& mesh, ContactSpec spec, std::span<const double> body_modulus) {
+  if (!spec.choose_roles) return spec;
+  constexpr double k_alike = 0.05;  // sizes of faces
+  const ContactSurface first(mesh, spec.slave), second(mesh, spec.master);
+  const double ratio = first.mean_face_size() / second.mean_face_size();
+  bool swap = ratio > 1 + k_alike;
+  if (std::abs(ratio - 1) <= k_alike && body_modulus.size() == mesh.bodies.size())
+    swap = local_stiffness(mesh, first, body_modulus) >
+           (1 + k_alike) * local_stiffness(mesh, second, body_modulus);
+  if (!swap) return spec;
+  std::swap(spec.slave, spec.master);
+  if (spec.heat) spec.heat->slave_resistance = 1 - spec.heat->slave_resistance;
+  return spec;
+}
+
+ContactGeometry::ContactGeometry(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSpec& spec,
+                                 const PairSurfaces& surfaces)
+    : mesh_(mesh),
+      components_(displacement_components(kind)),
+      face_size_(surfaces.slave.mean_face_size()),
+      touching_(spec.touching.value_or(1e-6 * face_size_)),
+      surface_nodes_(owned_nodes(mesh, surfaces)) {
+  make_kinematics(kind, spec, surfaces);
+  configuration_ = std::make_unique<CurrentConfiguration>(*kinematics_);
+  graph_ = std::make_unique<ContactGraph>(*kinematics_);
+}
+
+void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactSpec& spec,
+                                      const PairSurfaces& surfaces) {
+  const bool slides = spec.formulation == Formulation::large_sliding;
+  if (!surfaces.master && !slides)
+    throw InputError(spec.where, fmt::format("contact '{}': a rigid surface with small sliding", spec.name),
+                     "formulation = \"large_sliding\"");
+  if (slides && spec.integration == IntegrationRule::mortar)
+    throw InputError(spec.where,
+                     fmt::format("contact '{}': integration = \"mortar\" with large sliding", spec.name),
+                     "formulation = \"small_sliding\", or integration = \"gauss\" or \"nodal\"");
+  const ContactSurface& slave = surfaces.slave;
+  const double reach = spec.search_distance.value_or(0.1 * slave.extent());
+  if (!slides) {
+    kinematics_ = std::make_unique<FixedKinematics>(
+        find_points(mesh_, kind, spec, reach, slave, *surfaces.master), components_);
+    return;
+  }
+  std::unique_ptr<Master> met;
+  if (surfaces.master)
+    met = std::make_unique<MeshMaster>(
+        components_, *surfaces.master,
+        MeshMasterOptions{.search_distance = reach, .smoothing = spec.smoothing});
+  else
+    met = std::make_unique<AnalyticMaster>(components_, *spec.rigid_master, reach);
+  const bool nodal = spec.integration == IntegrationRule::nodal;
+  kinematics_ = std::make_unique<SlidingKinematics>(
+      mesh_, kind, slave, std::move(met),
+      SlidingOptions{.rule = nodal ? IntegrationRule::nodal : IntegrationRule::gauss,
+                     .gauss_degree = spec.gauss_degree});
+}
+
+std::vector<double> ContactGeometry::no_displacement() const {
+  return std::vector<double>(mesh_.x.size() * static_cast<std::size_t>(components_), 0.0);
+}
+
+std::vector<SurfaceCurvature> ContactGeometry::curvatures(AnalysisKind kind,
+                                                          const ContactSurface& slave) const {
+  const std::vector<SurfaceCurvature> of_face =
+      surface_curvatures(slave, kind, MeshMasterOptions{}.feature_angle);
+  if (std::ranges::all_of(of_face, [](const auto& c) { return c.first == 0 && c.second == 0; })) return {};
+  std::vector<SurfaceCurvature> of_point(index_of(n_points()));
+  for (Index p = 0; p < n_points(); ++p)
+    of_point[index_of(p)] =
+        of_face[static_cast<std::size_t>(kinematics_->particle(p).number / k_points_of_a_face)];
+  return of_point;
+}
+
+}  // namespace solidus::contact

@@ -1,0 +1,113 @@
+/// What the heat term tells of its points at given temperatures: fluxes, conductances, the interface.
+#include <algorithm>
+
+#include "contact/heat_term.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+constexpr double k_room_temperature = 293.15;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+std::vector<SurfaceHeat> HeatTerm::surface_heat(std::span<const double> temperature) const {
+  std::vector<SurfaceHeat> heat(points_.size());
+  if (!active_) return heat;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    if (partners_.partnered[at(p)] == 0) continue;
+    const AtPoint s = see(p, temperature);
+    const double conducted = s.master_takes_heat ? s.h.value * (s.slave - s.master) : 0.0;
+    const double across = conducted + s.radiation * (s.slave_fourth - s.master_fourth);
+    SurfaceHeat& q = heat[at(p)];
+    if (s.has_temperature)
+      q.by_friction = {conducted - s.interface.flux[0], -conducted - s.interface.flux[1]};
+    q.total = {q.by_friction[0] - across, q.by_friction[1] + across};
+  }
+  return heat;
+}
+
+SurfaceHeat HeatTerm::counted_heat(std::span<const double> temperature) const {
+  SurfaceHeat sum;
+  const std::vector<SurfaceHeat> heat = surface_heat(temperature);
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    if (partners_.counted[at(p)] == 0) continue;
+    for (std::size_t side = 0; side < 2; ++side) {
+      sum.total[side] += partners_.weight[at(p)] * heat[at(p)].total[side];
+      sum.by_friction[side] += partners_.weight[at(p)] * heat[at(p)].by_friction[side];
+    }
+  }
+  return sum;
+}
+
+std::vector<double> HeatTerm::conductances(std::span<const double> temperature) const {
+  std::vector<double> h(points_.size(), 0.0);
+  if (!active_) return h;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    const HeatPoint& point = points_[at(p)];
+    if (temperature.empty())
+      h[at(p)] = law_.at(-point.penetration, point.pressure, k_room_temperature).value;
+    else if (partners_.partnered[at(p)] != 0)
+      h[at(p)] = see(p, temperature).h.value;
+  }
+  return h;
+}
+
+std::vector<double> HeatTerm::interface_temperatures(std::span<const double> temperature) const {
+  std::vector<double> result;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    const HeatPoint& point = points_[at(p)];
+    const bool balanced = active_ && point.has_temperature && partners_.partnered[at(p)] != 0;
+    result.push_back(balanced ? see(p, temperature).interface.temperature : point.step.temperature);
+  }
+  return result;
+}
+
+InterfaceHeat HeatTerm::interface_heat(std::span<const double> temperature) const {
+  InterfaceHeat heat;
+  if (!active_) return heat;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    const HeatPoint& point = points_[at(p)];
+    if (!point.has_temperature || partners_.counted[at(p)] == 0) continue;
+    const double w = partners_.weight[at(p)];
+    if (partners_.partnered[at(p)] == 0) {
+      heat.dissipated += w * point.step.dissipation;
+      heat.stored += w * point.step.dissipation;
+      continue;
+    }
+    const AtPoint s = see(p, temperature);
+    const double dt = phase_ ? phase_->stage_dt : point.step.time_step;
+    double taken = dt * (s.interface.flux[0] + s.interface.flux[1]);
+    if (phase_ && phase_->staged) taken += phase_->first_flux[at(p)];
+    const double made = dissipated(s);
+    heat.dissipated += w * made;
+    heat.stored += w * (made + taken);
+  }
+  return heat;
+}
+
+double HeatTerm::dissipated(const AtPoint& s) const {
+  if (!phase_ || !phase_->staged) return s.dissipation;
+  return phase_->first_dissipation[at(s.point)] + s.dissipation * phase_->stage_dt / phase_->span.dt;
+}
+
+std::vector<std::optional<FrictionResponse>> HeatTerm::keep_slip(std::span<const double> temperature) {
+  std::vector<std::optional<FrictionResponse>> slip(points_.size());
+  if (!active_) return slip;
+  for (Index p = 0; p < partners_.n_points(); ++p) {
+    HeatPoint& point = points_[at(p)];
+    if (point.friction == nullptr || !point.has_temperature || partners_.partnered[at(p)] == 0) continue;
+    const AtPoint s = see(p, temperature);
+    slip[at(p)] = s.friction;
+    slip[at(p)]->dissipation = point.step.dissipation = dissipated(s);
+    point.step.structural_entropy = s.friction.structural_entropy;
+    point.friction = nullptr;
+  }
+  return slip;
+}
+
+}  // namespace solidus::contact

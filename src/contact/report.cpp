@@ -1,0 +1,95 @@
+#include "contact/report.hpp"
+
+#include <petscsys.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact/rotation.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
+  const ContactKinematics& kinematics =
+      pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
+  std::array<double, 21> s{};
+  double left_gap = 0;
+  const auto n = static_cast<std::size_t>(pair.geometry.components());
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    if (!particle.counted) continue;
+    const PointState& state = pair.end.state.points[at(p)];
+    const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
+    const double w = particle.weight;
+    s[0] += 1;
+    s[1] += w * (pair.active ? pair.law.stored(state) : 0.0);
+    s[2] += w * state.work;
+    s[3] += w * state.dissipation;
+    if (state.suction > 0) {
+      s[18] += w;
+      // A face with a coherent node goes with the shell, and takes the points between along.
+      if (!pair.step.liquid.empty() && pair.step.liquid[at(p)] != 0 &&
+          -state.penetration > pair.spec.leaving_gap) {
+        s[19] += 1;
+        s[20] += w;
+        left_gap = std::max(left_gap, -state.penetration);
+      }
+    }
+    const bool open = state.status == PointStatus::open;
+    if (open && state.pressure == 0) continue;
+    s[4] += open ? 0 : 1;
+    s[5] += state.status == PointStatus::sticks ? 1 : 0;
+    s[6] += open ? 0.0 : w;
+    s[7] += w * state.pressure;
+    s[8] += w * norm(state.traction);
+    Point x = particle.position;
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        x[i] += particle.share[b] * pair.end.displacement[at(particle.nodes[b]) * n + i];
+    const Point force = scale(w, force_on_master(motion, state, state.pressure));
+    const Point moment = cross(x, force);
+    for (std::size_t i = 0; i < 3; ++i) {
+      s[9 + i] += force[i];
+      s[12 + i] += moment[i];
+    }
+  }
+  if (pair.heat != nullptr && !temperature.empty()) {
+    const SurfaceHeat heat = pair.heat->term().counted_heat(temperature);
+    s[15] = heat.total[1] - heat.by_friction[1];
+    s[16] = heat.total[0];
+    s[17] = heat.total[1];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, s.data(), static_cast<int>(s.size()), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  ContactSums sums;
+  sums.points = std::llround(s[0]);
+  sums.energy = s[1];
+  sums.work = s[2];
+  sums.dissipation = s[3];
+  sums.closed_points = std::llround(s[4]);
+  sums.sticking_points = std::llround(s[5]);
+  sums.closed_area = s[6];
+  sums.force = s[7];
+  sums.friction = s[8];
+  sums.resultant = {s[9], s[10], s[11]};
+  sums.moment = {s[12], s[13], s[14]};
+  sums.heat = s[15];
+  sums.heat_to_slave = s[16];
+  sums.heat_to_master = s[17];
+  sums.wet_area = s[18];
+  sums.left_points = std::llround(s[19]);
+  sums.left_area = s[20];
+  if (sums.left_points > 0) sums.left_gap = parallel::global_max(left_gap);
+  return sums;
+}
+
+}  // namespace solidus::contact

@@ -1,0 +1,105 @@
+/// Work of a contact pair in a step.
+#include <cmath>
+
+#include "contact/report.hpp"
+#include "contact/rotation.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::contact {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+enum class End { start, finish };
+
+/// The kinematics of the points that concern this process, at one end of the step.
+const ContactKinematics& placed(const ContactView& pair, End end) {
+  const auto own = ContactKinematics::Points::own;
+  return end == End::start ? pair.geometry.at(pair.step.begun, pair.step.displacement, own)
+                           : pair.geometry.at(pair.end.time, pair.end.displacement, own);
+}
+
+/// u_{n+1} − u_n, [local node][component] [m].
+std::vector<double> increment_of(const ContactView& pair) {
+  std::vector<double> increment = pair.end.displacement;
+  for (std::size_t i = 0; i < increment.size(); ++i) increment[i] -= pair.step.displacement[i];
+  return increment;
+}
+
+/// ∫ f · ΔΣ B_b u_b of the points' forces at the start or at the end of the step, this process's part [J].
+double force_times_increment(const ContactView& pair, End end, std::span<const double> increment) {
+  const bool start = end == End::start;
+  const ContactKinematics& kinematics = placed(pair, end);
+  const auto n = static_cast<std::size_t>(pair.geometry.components());
+  double work = 0;
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    if (!kinematics.particle(p).counted) continue;
+    const PointState state = start ? pair.step.at_start(at(p)) : pair.end.state.points[at(p)];
+    if (state.balance_pressure == 0 && state.status == PointStatus::open) continue;
+    const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
+    const Point force = force_on_master(motion, state, state.balance_pressure);
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        work += motion.weight * motion.share[b] * force[i] * increment[at(motion.nodes[b]) * n + i];
+  }
+  return work;
+}
+
+/// The work of points with a partner at one end of the step alone: ∫ f · (Δu_s − Δy) dA with the way Δy of
+/// the rigid master's particle there, this process's part [J].
+double force_times_relative_way(const ContactView& pair, End end, std::span<const double> increment) {
+  const bool start = end == End::start;
+  const ContactKinematics& kinematics = placed(pair, end);
+  const auto n = static_cast<std::size_t>(pair.geometry.components());
+  double work = 0;
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    const PointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
+    if (!particle.counted || from.anchored == to.anchored) continue;
+    const PointState& state = start ? from : to;
+    if (!state.anchored || (state.balance_pressure == 0 && state.status == PointStatus::open)) continue;
+    const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
+    const Point force = force_on_master(motion, state, state.balance_pressure);
+    Point way = scale(-1, kinematics.master_way(p, pair.step.begun, pair.end.time));
+    for (std::size_t b = 0; b < particle.nodes.size(); ++b)
+      for (std::size_t i = 0; i < n; ++i)
+        way[i] += particle.share[b] * increment[at(particle.nodes[b]) * n + i];
+    work += motion.weight * dot(force, way);
+  }
+  return work;
+}
+
+}  // namespace
+
+double work(const ContactView& pair, double share) {
+  const std::vector<double> increment = increment_of(pair);
+  double work = 0;
+  if (share != 1) work += (1 - share) * force_times_increment(pair, End::start, increment);
+  if (share != 0) work += share * force_times_increment(pair, End::finish, increment);
+  placed(pair, End::finish);  // whose graph the thermal phase looks at
+  return parallel::global_sum(work);
+}
+
+double rigid_work(const ContactView& pair, double share) {
+  if (!pair.spec.rigid_master) return 0;
+  const std::vector<double> increment = increment_of(pair);
+  double work_and_rigid_work = 0;
+  if (share != 1) work_and_rigid_work += (1 - share) * force_times_relative_way(pair, End::start, increment);
+  if (share != 0) work_and_rigid_work += share * force_times_relative_way(pair, End::finish, increment);
+  const ContactKinematics& kinematics = placed(pair, End::finish);
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const PointState from = pair.step.at_start(at(p)), &to = pair.end.state.points[at(p)];
+    if (!to.counted || !from.anchored || !to.anchored) continue;
+    const PointMotion motion = kinematics.motion(p, from, ContactKinematics::Asked::motion);
+    const double pressure = share * to.balance_pressure + (1 - share) * from.balance_pressure;
+    const Point traction = add_scaled(scale(share, to.traction), 1 - share, motion.carried);
+    work_and_rigid_work +=
+        motion.weight * (pressure * (to.penetration - from.penetration) + dot(traction, motion.slip));
+  }
+  return parallel::global_sum(work_and_rigid_work) - work(pair, share);
+}
+
+}  // namespace solidus::contact

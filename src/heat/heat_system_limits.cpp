@@ -1,0 +1,123 @@
+/// Limits of conduction in the heat system, and the temperatures around the bodies that they follow from.
+#include <algorithm>
+#include <cmath>
+
+#include "heat/heat_system.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr double k_rounding = 1e-7;  ///< of temperatures [K]
+
+}  // namespace
+
+void HeatSystem::limit(bool on) {
+  on = on && closed_;
+  if (on == (limiter_ != nullptr)) return;
+  limiter_.reset();
+  kept_conduction_.clear();
+  if (!on) return;
+  limiter_ = std::make_unique<ConductionLimiter>(mesh_, potentials_);
+}
+
+bool HeatSystem::find_limits(std::span<const double> temperature, double negligible) {
+  if (!limiter_ || !exchange_) return false;
+  if (kept_conduction_.empty()) keep_conduction();
+  if (!limiter_->needed()) return false;
+  std::vector<LimitedFlow*> flows;
+  std::vector<double> gain(contributed_.size()), loss(contributed_.size());
+  conduct(temperature);
+  for (std::size_t i = 0; i < gain.size(); ++i) (local_[i] > 0 ? gain : loss)[i] += std::abs(local_[i]);
+  for (SurfaceHeat& surface : surfaces_) {
+    surface.add_supply(temperature, gain, loss);
+    surface.update_flows(temperature);
+    for (LimitedFlow& flow : surface.flows()) flows.push_back(&flow);
+  }
+  for (const Volume& source : sources_)
+    for (std::size_t i = 0; i < source.heat.size(); ++i)
+      (source.heat[i] > 0 ? gain : loss)[i] += std::abs(source.heat[i]);
+  contributions_heat_ = false;  // all are looked at
+  for (linear::Contribution* contribution : contributions_) {
+    if (contribution->stores()) continue;
+    std::fill(contributed_.begin(), contributed_.end(), 0.0);
+    contribution->add_residual(temperature, contributed_);
+    double net = 0, magnitude = 0;
+    for (std::size_t i = 0; i < gain.size(); ++i) {
+      (contributed_[i] < 0 ? gain : loss)[i] += std::abs(contributed_[i]);
+      net += contributed_[i];
+      magnitude += std::abs(contributed_[i]);
+    }
+    constexpr double k_passed_on = 1e-9;  // net heat over the heat exchanged
+    if (std::abs(parallel::global_sum(net)) > k_passed_on * parallel::global_sum(magnitude))
+      contributions_heat_ = true;
+  }
+  return limiter_->find_shares(temperature, gain, loss, fixed_, negligible, flows);
+}
+
+void HeatSystem::clear_limits() {
+  if (limiter_) limiter_->clear_shares();
+  for (SurfaceHeat& surface : surfaces_)
+    for (LimitedFlow& flow : surface.flows()) flow.left = 0;
+}
+
+ConductionLimiter::Held HeatSystem::hold_nodes(std::span<const double> temperature,
+                                               const TemperatureRange& range) {
+  if (!limiter_ || !exchange_) return ConductionLimiter::Held::none;
+  return limiter_->hold(temperature, range.lowest - k_rounding, range.highest + k_rounding);
+}
+
+void HeatSystem::release_nodes() {
+  if (limiter_) limiter_->release();
+}
+
+TemperatureRange HeatSystem::surroundings() const {
+  TemperatureRange range;
+  const auto include = [&range](const TemperatureRange& other) {
+    range.lowest = std::min(range.lowest, other.lowest);
+    range.highest = std::max(range.highest, other.highest);
+  };
+  for (const SurfaceHeat& surface : surfaces_)
+    if (const std::optional<TemperatureRange> ambient = surface.ambient()) include(*ambient);
+  for (const Prescribed& p : prescribed_)
+    for (const double temperature : p.now) include({temperature, temperature});
+  return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
+}
+
+TemperatureRange HeatSystem::ambient_range(bool with_contributions) const {
+  double cooling = 0, heating = 0;
+  for (const SurfaceHeat& surface : surfaces_) {
+    if (surface.ambient()) continue;
+    const auto [least, greatest] = surface.flux_range();
+    cooling = std::min(cooling, least);
+    heating = std::max(heating, greatest);
+  }
+  for (const Volume& source : sources_)
+    for (const double heat : source.heat) {
+      cooling = std::min(cooling, heat);
+      heating = std::max(heating, heat);
+    }
+  TemperatureRange range = surroundings();
+  const bool contributed = with_contributions && contributions_heat_;
+  if (parallel::global_min(cooling) < 0 || contributed) range.lowest = -HUGE_VAL;
+  if (parallel::global_max(heating) > 0 || contributed) range.highest = HUGE_VAL;
+  return range;
+}
+
+TemperatureRange HeatSystem::range_of_contributions(std::span<const double> temperature) {
+  TemperatureRange range;
+  for (linear::Contribution* contribution : contributions_) {
+    if (contribution->stores()) continue;
+    std::fill(contributed_.begin(), contributed_.end(), 0.0);
+    contribution->add_residual(temperature, contributed_);
+    for (std::size_t i = 0; i < contributed_.size(); ++i) {
+      if (contributed_[i] == 0) continue;
+      range.lowest = std::min(range.lowest, temperature[i]);
+      range.highest = std::max(range.highest, temperature[i]);
+    }
+  }
+  return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,158 @@
+/// Measures of the thermal phase: the heat balance of a step; fractions, entropy and heat of a state.
+#include <cmath>
+
+#include "heat/consistent_heat.hpp"
+#include "heat/heat_system.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "heat/point_storage.hpp"
+#include "heat/printed_heat.hpp"
+#include "heat/temperature_system.hpp"
+#include "heat/thermal_phase.hpp"
+#include "heat/truncated_newton.hpp"
+#include "parallel/parallel.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+HeatBalance ThermalPhase::balance(const ThermalState& old, const ThermalState& next,
+                                  std::span<const double> residual, double moved, double dt) const {
+  HeatBalance balance = measure(next.temperature, residual, dt);
+  double stored = 0;
+  if (nodal()) {
+    for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) stored += next.enthalpy[i] - old.enthalpy[i];
+    if (consistent_) stored += consistent_->stored(next.temperature);
+  } else {
+    for (const auto& block : points_) stored += block->stored(next.temperature);
+  }
+  balance.stored = parallel::global_sum(stored);
+  set_latent(balance, old, next);
+  balance.exchanged = moved * dt;
+  return balance;
+}
+
+/// Splits the stored heat.
+void ThermalPhase::set_latent(HeatBalance& balance, const ThermalState& old, const ThermalState& next) const {
+  double latent = 0;
+  if (!nodal()) {
+    for (const auto& block : points_) latent += block->latent(old.temperature, next.temperature);
+  } else {
+    if (consistent_) latent += consistent_->latent(old.temperature, next.temperature);
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+      latent += storage_->latent(i, next.enthalpy[at(i)], next.temperature[at(i)]) -
+                storage_->latent(i, old.enthalpy[at(i)], old.temperature[at(i)]);
+  }
+  balance.latent = parallel::global_sum(latent);
+  balance.sensible = balance.stored - balance.latent;
+}
+
+HeatBalance ThermalPhase::measure(std::span<const double> temperature, std::span<const double> residual,
+                                  double dt) const {
+  HeatBalance balance;
+  std::vector<double> reactions(residual.size());  // where the temperature is prescribed
+  for (std::size_t i = 0; i < reactions.size(); ++i) reactions[i] = system_->fixed()[i] ? residual[i] : 0.0;
+  double entropy = system_->entropy_power(temperature);
+  for (std::size_t i = 0; i < reactions.size(); ++i) entropy += reactions[i] / temperature[i];
+  balance.entropy_in = parallel::global_sum(entropy) * dt;
+  for (const auto& [name, power] : system_->reaction_powers(reactions))
+    balance.conditions.push_back({name, power * dt});
+  for (const auto& [name, power] : system_->powers()) balance.conditions.push_back({name, power * dt});
+  for (double power : system_->contribution_powers()) balance.contributions.push_back(power * dt);
+  if (consistent_) balance.contributions.pop_back();  // no heat, but stored in another place
+  if (printed_) balance.contributions.pop_back();     // no heat, but what a printed form loses
+  return balance;
+}
+
+double ThermalPhase::heat_at(const ThermalState& state, Index node) const {
+  return state.enthalpy.empty() ? storage_->upper(node, state.temperature[at(node)])
+                                : state.enthalpy[at(node)];
+}
+
+std::vector<double> ThermalPhase::plateau_share(const ThermalState& state) const {
+  if (!storage_->has_plateaus()) return {};
+  std::vector<double> share(mesh_.x.size());
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+    share[at(i)] = storage_->plateau_share(i, heat_at(state, i), state.temperature[at(i)]);
+  ghosts_.update(share, 1);
+  return share;
+}
+
+std::vector<double> ThermalPhase::solid_fraction(const ThermalState& state) const {
+  std::vector<double> fraction(mesh_.x.size());
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+    fraction[at(i)] = storage_->solid_fraction(i, heat_at(state, i), state.temperature[at(i)]);
+  ghosts_.update(fraction, 1);
+  return fraction;
+}
+
+double ThermalPhase::mean_solid_fraction(const ThermalState& state, int body) const {
+  double solid = 0, volume = 0;
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+    volume += storage_->volume(i, body);
+    solid += storage_->solid_volume(i, body, heat_at(state, i), state.temperature[at(i)]);
+  }
+  return parallel::global_sum(solid) / parallel::global_sum(volume);
+}
+
+double ThermalPhase::mean_solid_fraction(const ThermalState& state) const {
+  double solid = 0, volume = 0;
+  for (std::size_t b = 0; b < materials_.size(); ++b) {
+    const auto body = static_cast<int>(b);
+    if (!storage_->can_melt(body)) continue;
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+      volume += storage_->volume(i, body);
+      solid += storage_->solid_volume(i, body, heat_at(state, i), state.temperature[at(i)]);
+    }
+  }
+  volume = parallel::global_sum(volume);
+  solid = parallel::global_sum(solid);
+  return volume > 0 ? solid / volume : 1.0;
+}
+
+EntropyChange ThermalPhase::entropy_change(const ThermalState& from, const ThermalState& to) const {
+  EntropyChange sum;
+  const auto add = [&sum](const EntropyChange& part) {
+    sum.change += part.change;
+    sum.magnitude += part.magnitude;
+  };
+  if (!nodal()) {
+    for (const auto& block : points_) add(block->entropy_change(from.temperature, to.temperature));
+  } else {
+    if (consistent_) add(consistent_->entropy_change(from.temperature, to.temperature));
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+      const double before = storage_->entropy(i, from.enthalpy[at(i)], from.temperature[at(i)]);
+      const double after = storage_->entropy(i, to.enthalpy[at(i)], to.temperature[at(i)]);
+      add({after - before, std::abs(before)});
+    }
+  }
+  return {parallel::global_sum(sum.change), parallel::global_sum(sum.magnitude)};
+}
+
+double ThermalPhase::enthalpy(const ThermalState& state) const {
+  double sum = 0;
+  if (!nodal()) {
+    for (const auto& block : points_) sum += block->enthalpy(state.temperature);
+  } else {
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i) sum += state.enthalpy[at(i)];
+    if (consistent_) sum += consistent_->enthalpy(state.temperature);
+  }
+  return parallel::global_sum(sum);
+}
+
+double ThermalPhase::mean_temperature(const ThermalState& state, int body) const {
+  double sum = 0, volume = 0;
+  for (Index i = 0; i < mesh_.n_owned_nodes; ++i) {
+    const double v = storage_->volume(i, body);
+    volume += v;
+    sum += v * state.temperature[at(i)];
+  }
+  return parallel::global_sum(sum) / parallel::global_sum(volume);
+}
+
+}  // namespace solidus::heat

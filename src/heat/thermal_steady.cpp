@@ -1,0 +1,113 @@
+/// Newton's iteration of the thermal phase in the temperatures, the steady state by it, and what is refused
+/// as a solution.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "heat/consistent_heat.hpp"
+#include "heat/heat_solver.hpp"
+#include "heat/heat_system.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "heat/point_storage.hpp"
+#include "heat/printed_heat.hpp"
+#include "heat/temperature_system.hpp"
+#include "heat/thermal_phase.hpp"
+#include "heat/truncated_newton.hpp"
+#include "heat/worst_node.hpp"
+#include "linear/newton.hpp"
+#include "parallel/parallel.hpp"
+#include "system/errors.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr int k_one_component[] = {1};
+
+/// Of the steady state: how often the limits of conduction are found anew, and the change of flows by them,
+/// over the heat moved, that stays out.
+constexpr int k_steady_revisions = 20;
+constexpr double k_limit_change = 1e-6;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+void add_iterations(linear::NewtonReport& report, linear::NewtonReport last) {
+  last.iterations += report.iterations;
+  last.linear_iterations += report.linear_iterations;
+  report = std::move(last);
+}
+
+}  // namespace
+
+PhaseReport ThermalPhase::solve_steady(const ThermalState& start, ThermalState& trial, double time) {
+  assert(start.temperature.size() == mesh_.x.size());
+  follow_graph();
+  system_->set_time(time);
+  system_->exchange(true);
+  solver_->begin(false);
+  std::vector<double> temperature = start.temperature;
+  system_->prescribe(temperature);
+  temperature_system_->use_storage(false);
+  if (consistent_) consistent_->use(false);
+  PhaseReport report;
+  std::vector<double> residual(at(mesh_.n_owned_nodes));
+  const TemperatureRange range = limit_conduction({temperature, {}}, start);
+  system_->clear_limits();  // a linear field, say, needs none
+  report.newton = solve_temperature(temperature, residual);
+  const double moved = temperature_system_->moved();
+  for (int i = 0; i < k_steady_revisions && system_->find_limits(temperature, k_limit_change * moved); ++i)
+    add_iterations(report.newton, solve_temperature(temperature, residual));
+  for (int i = 0;
+       i < k_steady_revisions && system_->hold_nodes(temperature, range) == ConductionLimiter::Held::further;
+       ++i) {
+    system_->find_limits(temperature);
+    add_iterations(report.newton, solve_temperature(temperature, residual));
+  }
+  report.balance = measure(temperature, residual, 1.0);
+  report.balance.exchanged = temperature_system_->moved();
+  trial = initial_state_at_nodes(temperature);
+  return report;
+}
+
+linear::NewtonReport ThermalPhase::solve_temperature(std::span<double> temperature, std::span<double> r,
+                                                     int newton_steps) {
+  temperature_system_->residual(temperature, r);
+  temperature_system_->tangent();
+  linear::NewtonOptions newton;
+  newton.tolerance = options_.tolerance > 0 ? options_.tolerance : k_point_tolerance;
+  newton.inexact = false;  // an iteration costs as much as 25 of the linear solver, which takes as many
+  newton.absolute_tolerance = temperature_system_->round_off();
+  newton.max_iterations = newton_steps > 0 ? newton_steps : options_.max_iterations;
+  const linear::NewtonReport report =
+      linear::newton(*temperature_system_, *temperature_system_->solver(solver_->strong()), ghosts_,
+                     k_one_component, temperature, newton);
+  temperature_system_->residual(temperature, r);
+  require_positive(temperature);
+  if (!may_end(report, newton_steps)) require(report, r, temperature);
+  return report;
+}
+
+void ThermalPhase::require(const linear::NewtonReport& report, std::span<const double> residual,
+                           std::span<const double> temperature) const {
+  if (report.converged) return;
+  WorstNode worst;
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    if (!system_->fixed()[i]) worst.look(i, std::abs(residual[i]));
+  throw StepRejected("heat: " + report.reason, worst.text(mesh_, temperature, residual));
+}
+
+void ThermalPhase::require_positive(std::span<const double> temperature) const {
+  WorstNode coldest;
+  for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) coldest.look(i, -temperature[i]);
+  const double lowest = -parallel::global_max(coldest.size);
+  if (lowest > 0) return;
+  throw StepRejected(std::isfinite(lowest) ? fmt::format("heat: the temperature falls to {:.4g} K", lowest)
+                                           : "heat: the temperature is not a number",
+                     coldest.text(mesh_, temperature, {}));
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,240 @@
+/// A step of the thermal phase in one or two stages, and the error in time that its flows tell.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+
+#include "heat/consistent_heat.hpp"
+#include "heat/extrapolation_guard.hpp"
+#include "heat/heat_solver.hpp"
+#include "heat/heat_spread.hpp"
+#include "heat/heat_system.hpp"
+#include "heat/nodal_enthalpy.hpp"
+#include "heat/point_storage.hpp"
+#include "heat/printed_heat.hpp"
+#include "heat/temperature_system.hpp"
+#include "heat/thermal_phase.hpp"
+#include "heat/truncated_newton.hpp"
+#include "material/time_integration.hpp"
+#include "parallel/parallel.hpp"
+#include "system/log.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+using material::k_sdirk_carried;
+using material::k_sdirk_share;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Adds the last stage: total = last + carried × first, of all that counts in joules.
+void add_stage(PhaseReport& report, double carried, PhaseReport& last) {
+  HeatBalance& first = report.balance;
+  HeatBalance& sum = last.balance;
+  sum.stored += carried * first.stored;
+  sum.exchanged += carried * first.exchanged;
+  sum.entropy_in += carried * first.entropy_in;
+  for (std::size_t i = 0; i < sum.conditions.size(); ++i)
+    sum.conditions[i].heat += carried * first.conditions[i].heat;
+  for (std::size_t i = 0; i < sum.contributions.size(); ++i)
+    sum.contributions[i] += carried * first.contributions[i];
+  last.newton.iterations += report.newton.iterations;
+  last.newton.linear_iterations += report.newton.linear_iterations;
+  last.hardest = std::max(last.hardest, report.hardest);
+  report = std::move(last);
+}
+
+}  // namespace
+
+PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
+  assert(old.temperature.size() == mesh_.x.size() && pass.dt > 0);
+  follow_graph();
+  solver_->begin(true);
+  system_->exchange(!pass.adiabatic);
+  ThermalState next;
+  PhaseReport report;
+  const bool flows = nodal() && !pass.adiabatic;
+  if (pass.stepping == ThermalStepping::sdirk2) {
+    report = solve_two_stages(old, pass, next);
+  } else {
+    report = solve_stage(old, old, {pass.dt}, pass, next);
+    if (flows) report.flows.last = flow(old, next, {pass.dt});
+  }
+  if (flows) report.flows.dt = pass.dt;
+  trial = std::move(next);
+  return report;
+}
+
+/// SDIRK2; its second stage is backward Euler over the rest of the step where H* is no place to start from.
+PhaseReport ThermalPhase::solve_two_stages(const ThermalState& old, const ThermalPass& pass,
+                                           ThermalState& next) {
+  const linear::Stage first{k_sdirk_share * pass.dt, 0}, extrapolated{first.dt, k_sdirk_carried},
+      rest{pass.dt - first.dt, 1};
+  const bool flows = nodal() && !pass.adiabatic;
+  ThermalState middle;
+  PhaseReport report = solve_stage(
+      old, old, first, {pass.time - pass.dt + first.dt, pass.dt, pass.iterate, pass.newton_steps}, middle);
+  StageFlows stage_flows;
+  if (flows) stage_flows.first = flow(old, middle, first);
+  std::optional<ExtrapolationGuard> guard;
+  bool second_order = true;
+  if (flows && pass.within_range && options_.integration == Integration::closed) {
+    TemperatureRange around = system_->surroundings();
+    system_->set_time(pass.time);
+    const TemperatureRange at_end = system_->surroundings();
+    around = {std::min(around.lowest, at_end.lowest), std::max(around.highest, at_end.highest)};
+    guard.emplace(*system_, *storage_, old, middle);
+    second_order = !guard->leaves_range(around);
+  }
+  const ThermalPass to_end{pass.time, pass.dt, pass.iterate, pass.newton_steps};
+  PhaseReport last = solve_stage(old, middle, second_order ? extrapolated : rest, to_end, next);
+  if (second_order && guard && guard->turns_back(next, ghosts_)) {
+    second_order = false;
+    begin_stage(first, old.temperature);
+    PhaseReport again = solve_stage(old, middle, rest, to_end, next);
+    again.newton.iterations += last.newton.iterations;
+    again.newton.linear_iterations += last.newton.linear_iterations;
+    again.hardest = std::max(again.hardest, last.hardest);
+    last = std::move(again);
+  }
+  if (!second_order)
+    logging::debug("heat: the step to t = {:g} s would overshoot; it is of first order", pass.time);
+  const linear::Stage& stage = second_order ? extrapolated : rest;
+  if (flows) stage_flows.last = flow(stage_start(old, middle, stage), next, stage);
+  stage_flows.second_order = second_order;
+  stage_flows.share = k_sdirk_share;
+  stage_flows.last_share = stage.dt / pass.dt;
+  add_stage(report, stage.carried, last);
+  report.flows = std::move(stage_flows);
+  set_latent(report.balance, old, next);
+  return report;
+}
+
+/// From H* = H_n + carried (H − H_n) with the H of `before`, which is the state at t_n in the first stage.
+PhaseReport ThermalPhase::solve_stage(const ThermalState& old, const ThermalState& before,
+                                      const linear::Stage& stage, const ThermalPass& pass,
+                                      ThermalState& next) {
+  begin_stage(stage, before.temperature);
+  next = start(pass.iterate != nullptr ? *pass.iterate : before, pass.time);
+  PhaseReport report;
+  if (!nodal()) {
+    for (const auto& block : points_) {
+      block->start(old.temperature, stage.dt);
+      if (stage.carried != 0) block->extrapolate(before.temperature, stage.carried);
+    }
+    temperature_system_->use_storage(true);
+    std::vector<double> residual(at(mesh_.n_owned_nodes));
+    report.newton = solve_temperature(next.temperature, residual, pass.newton_steps);
+    report.hardest = report.newton.iterations;
+    report.balance = balance(old, next, residual, temperature_system_->moved(), stage.dt);
+    return report;
+  }
+  const ThermalState from = stage_start(old, before, stage);
+  // H* itself lies so far ahead at a front that the iteration begins half way to it.
+  if (stage.carried != 0 && pass.iterate == nullptr)
+    start_from(stage_start(old, before, {stage.dt, 0.5 * (1 + stage.carried)}).enthalpy, next);
+  const TemperatureRange range = limit_conduction(before, old);
+  report.newton = truncated_newton_->solve(from.enthalpy, stage.dt, next.temperature, next.enthalpy, range,
+                                           pass.newton_steps);
+  report.hardest = report.newton.iterations;
+  require_positive(next.temperature);
+  if (!may_end(report.newton, pass.newton_steps))
+    require(report.newton, truncated_newton_->residual(), next.temperature);
+  book(truncated_newton_->residual(), stage.dt, next.enthalpy);
+  report.balance = balance(from, next, truncated_newton_->residual(), truncated_newton_->moved(), stage.dt);
+  return report;
+}
+
+/// H* of a stage: H_n + carried (H − H_n) with the H of `before`.
+ThermalState ThermalPhase::stage_start(const ThermalState& old, const ThermalState& before,
+                                       const linear::Stage& stage) {
+  ThermalState from = old;
+  if (stage.carried != 0)
+    for (std::size_t i = 0; i < from.enthalpy.size(); ++i)
+      from.enthalpy[i] += stage.carried * (before.enthalpy[i] - old.enthalpy[i]);
+  return from;
+}
+
+// Computes the heat flow into the nodes: the heat that they have taken up, less that from contributions that
+// store heat.
+std::vector<double> ThermalPhase::flow(const ThermalState& from, const ThermalState& next,
+                                       const linear::Stage& stage) const {
+  std::vector<double> flow(at(mesh_.n_owned_nodes));
+  for (std::size_t i = 0; i < flow.size(); ++i) flow[i] = (next.enthalpy[i] - from.enthalpy[i]) / stage.dt;
+  const std::span<const double> stored = system_->stored_by_contributions();
+  for (std::size_t i = 0; i < stored.size(); ++i) flow[i] += stored[i];
+  return flow;
+}
+
+ThermalState ThermalPhase::start(const ThermalState& old, double time) {
+  system_->set_time(time);
+  ThermalState next{old.temperature, old.enthalpy};
+  system_->prescribe(next.temperature);
+  if (nodal())
+    for (Index i = 0; i < mesh_.n_owned_nodes; ++i)
+      next.enthalpy[at(i)] = std::clamp(old.enthalpy[at(i)], storage_->lower(i, next.temperature[at(i)]),
+                                        storage_->upper(i, next.temperature[at(i)]));
+  return next;
+}
+
+/// Starts the iteration from heats instead of temperatures, where it is free.
+void ThermalPhase::start_from(std::span<const double> heat, ThermalState& next) const {
+  for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) {
+    if (system_->fixed()[i]) continue;
+    next.enthalpy[i] = heat[i];
+    next.temperature[i] = storage_->temperature(static_cast<Index>(i), heat[i]);
+  }
+  ghosts_.update(next.enthalpy, 1);
+  ghosts_.update(next.temperature, 1);
+}
+
+/// Limits conduction for a stage from `before`, with the prescribed temperatures of the time set; returns the
+/// range of its temperatures, of those at t_n and of those around.
+TemperatureRange ThermalPhase::limit_conduction(const ThermalState& before, const ThermalState& old) {
+  system_->limit(options_.bounds);
+  system_->release_nodes();  // the limits follow from the state alone
+  std::vector<double> temperature = before.temperature;
+  system_->prescribe(temperature);
+  system_->find_limits(temperature);
+  TemperatureRange range = system_->ambient_range();
+  for (std::size_t i = 0; i < at(mesh_.n_owned_nodes); ++i) {
+    range.lowest = std::min({range.lowest, temperature[i], old.temperature[i]});
+    range.highest = std::max({range.highest, temperature[i], old.temperature[i]});
+  }
+  return {parallel::global_min(range.lowest), parallel::global_max(range.highest)};
+}
+
+void ThermalPhase::begin_stage(const linear::Stage& stage, std::span<const double> before) {
+  for (linear::Contribution* contribution : contributions_) contribution->begin_stage(stage, before);
+}
+
+void ThermalPhase::book(std::span<const double> residual, double dt, std::span<double> heat) const {
+  for (std::size_t i = 0; i < residual.size(); ++i)
+    if (!system_->fixed()[i]) heat[i] -= dt * residual[i];
+  ghosts_.update(heat, 1);
+}
+
+std::vector<double> ThermalPhase::flow_at_end(const StageFlows& flows) const {
+  std::vector<double> flow = flows.last;
+  flow.resize(mesh_.x.size());
+  ghosts_.update(flow, 1);
+  return flow;
+}
+
+std::vector<double> ThermalPhase::time_error(const ThermalState& now, const StageFlows& flows,
+                                             std::span<const double> flow_before) {
+  system_->exchange(true);  // an adiabatic pass may have been the last one
+  return (*spread_)(heat::time_error(flows, flow_before), now.temperature, flows.last_share * flows.dt);
+}
+
+std::vector<double> ThermalPhase::change_in_kelvin(const ThermalState& a, const ThermalState& b) const {
+  std::vector<double> heat(at(mesh_.n_owned_nodes));
+  for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = b.enthalpy[i] - a.enthalpy[i];
+  return spread_->at_once(heat, b.temperature);
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,119 @@
+/// Sweeps of the truncated Newton method: every node takes the heat that balances its own equation.
+#include <algorithm>
+#include <cmath>
+
+#include "heat/local_sweeps.hpp"
+#include "heat/truncated_newton.hpp"
+#include "system/profile.hpp"
+
+namespace solidus::heat {
+
+namespace {
+
+constexpr double k_relaxed = 1e-3;     ///< share of a node's own residual after a sweep
+constexpr double k_negligible = 1e-1;  ///< share of the tolerance that nodes which are not relaxed may have
+constexpr int k_relaxations = 60;      ///< evaluations of a node's curve in one visit
+
+}  // namespace
+
+/// Solves the equation of one node, F_i + (H − H_i)/Δt + A_ii (v(H) − v_i) = 0, for its H; returns the change
+/// of v. The left-hand side rises with H, at 1/Δt at least: Newton's method, within a bracket as soon as
+/// there is one.
+double TruncatedNewton::relax(std::size_t i, double residual) {
+  if (std::abs(residual) <= negligible_ || system_.fixed()[i] || (!relaxed_.empty() && relaxed_[i] == 0))
+    return 0;
+  const auto node = static_cast<Index>(i);
+  const NodalPotential& potential = system_.potential();
+  const double a = std::max(diagonal_[i], 0.0), h0 = heat_[i], v0 = potential.value(node, temperature_[i]);
+  NodalEnthalpy::Point at = storage_.point(node, h0);
+  double low = -HUGE_VAL, high = HUGE_VAL, h = h0, v = v0, defect = residual;
+  for (int trial = 0; trial < k_relaxations; ++trial) {
+    (defect > 0 ? high : low) = h;
+    const double slope =
+        1.0 / dt_ + (at.slope > 0 ? a * at.slope * potential.slope(node, at.temperature) : 0.0);
+    double next = h - defect / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (!std::isfinite(next) || next == h) break;
+    h = next;
+    at = storage_.point(node, h);
+    v = potential.value(node, at.temperature);
+    defect = residual + (h - h0) / dt_ + a * (v - v0);
+    if (std::abs(defect) <= k_relaxed * std::abs(residual)) break;
+  }
+  const double t = at.temperature;
+  heat_[i] = h;
+  temperature_[i] = t;
+  return v - v0;
+}
+
+void TruncatedNewton::sweep(Order order) {
+  const linear::BlockMatrix& a = system_.matrix();
+  const std::span<const std::int64_t> start = a.row_start();
+  const std::span<const Index> columns = a.columns();
+  const double* values = a.block(0);
+  const auto n = r_.size();
+  for (std::size_t i = 0; i < n; ++i) from_heat_[i] = heat_[i];
+  // A row has its later columns in either storage: going forward they take what a change makes of their
+  // residuals, going backward the row takes what theirs have made.
+  if (order == Order::forward) {
+    std::copy(r_.begin(), r_.end(), b_.begin());
+    for (std::size_t i = 0; i < n; ++i) {
+      const double change = step_[i] = relax(i, b_[i]);
+      if (change == 0) continue;
+      for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
+        const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+        if (j > i && j < n) b_[j] += values[s] * change;
+      }
+    }
+  } else {
+    for (std::size_t i = n; i-- > 0;) {
+      double residual = r_[i];
+      for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
+        const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
+        if (j > i && j < n) residual += values[s] * step_[j];
+      }
+      step_[i] = relax(i, residual);
+    }
+  }
+  follow(step_);
+}
+
+void TruncatedNewton::follow(std::span<double> step) {
+  ghosts_.update(step, 1);
+  system_.matrix().multiply(step, product_);
+  for (std::size_t i = 0; i < r_.size(); ++i) r_[i] += (heat_[i] - from_heat_[i]) / dt_ + product_[i];
+}
+
+/// The sweeps, with A at the temperatures of now, and F there. What A holds by derivatives only (films and
+/// radiation where conductivities vary, nodes of several materials) has bent under the sweeps: a step that
+/// starts from the residuals of the linear A points elsewhere, and no length of it brings F down.
+/// @param all  every node, however small its residual is
+void TruncatedNewton::relax_nodes(bool all) {
+  assemble();
+  {
+    const profile::Part part("sweeps");
+    negligible_ =
+        all ? 0 : k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
+    sweep(Order::forward);
+    sweep(Order::backward);
+  }
+  const double swept = linear_ ? relax_locally() : HUGE_VAL;
+  ghosts_.update(temperature_, 1);
+  evaluate();
+  if (norm_ > swept) linear_ = false;
+}
+
+/// Sweeps on over the nodes where F is concentrated; returns Σ|F_i| before that. Where F is found to be
+/// larger afterwards, A tells too little of it: such sweeps are then left out for the rest of the step.
+double TruncatedNewton::relax_locally() {
+  const profile::Part part("sweeps");
+  LocalSweeps local(system_.matrix(), r_, system_.fixed());
+  negligible_ = 0;
+  local.run([this](std::size_t i, double residual) {
+    const double heat = heat_[i], change = relax(i, residual);
+    return NodeChange{change, (heat_[i] - heat) / dt_};
+  });
+  return local.sum();
+}
+
+}  // namespace solidus::heat

@@ -1,0 +1,28 @@
+/// A case is checked: everything that a run does before it computes.
+#include "build/assembly.hpp"
+#include "build/mesh_input.hpp"
+#include "case/case_materials.hpp"
+#include "check/findings.hpp"
+#include "check/overview.hpp"
+#include "run/recording.hpp"
+#include "run/run.hpp"
+
+namespace solidus::model {
+
+CheckedRun check_run(Case c) {
+  Assembly a;
+  a.materials = load_materials(c.spec);
+  a.mesh = load_mesh(c.spec);
+  build(c.spec, a);
+  const CaseMeasures measures = measure(c.spec, a);
+  report(findings(c.spec, a, measures));
+  results::check_output(a.mesh, a.phases, recorder_options(c, {}, a));
+  for (std::size_t i = 0; i < a.stages.size(); ++i)
+    if (a.stages[i].cycle <= 1) apply(c.spec, i, {}, nullptr, a);
+  CheckedRun checked{counts(c.spec, a.mesh), overview(c.spec, a, measures), {}};
+  if (a.phases.audits_stability())
+    checked.couplings = coupling_estimates(c.spec, a.materials, a.mesh, a.start);
+  return checked;
+}
+
+}  // namespace solidus::model

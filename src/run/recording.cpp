@@ -1,0 +1,64 @@
+#include "run/recording.hpp"
+
+#include <petscsys.h>
+
+#include <algorithm>
+
+#include "build/cast_bodies.hpp"
+#include "build/run_input.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+bool melts(const std::vector<material::Material>& materials) {
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const material::Material& m) { return m.solidification() != nullptr; });
+}
+
+}  // namespace
+
+bool has_shots(const Assembly& a) {
+  return std::any_of(a.stages.begin(), a.stages.end(), [](const StageRun& s) { return s.shot > 0; });
+}
+
+results::MeshCounts counts(const CaseSpec& spec, const mesh::Mesh& mesh) {
+  results::MeshCounts counts = results::count(mesh);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) counts.elements_of_body[b].first = spec.bodies[b].name;
+  return counts;
+}
+
+results::RecorderOptions recorder_options(const Case& c, const RunOptions& options, const Assembly& a) {
+  const CaseSpec& spec = c.spec;
+  results::RecorderOptions r;
+  r.kind = spec.analysis.kind;
+  r.probes = probes(spec);
+  r.profiles = profiles(spec);
+  r.fields = spec.output.fields;
+  r.vtkhdf = spec.output.vtkhdf;
+  r.stages = !spec.stages.empty();
+  r.shots = has_shots(a);
+  r.steady = spec.time.steady;
+  r.progress = options.progress;
+  r.profile = options.profile;
+  r.castings = cast_bodies(spec, a.materials, a.start);
+  r.units = {spec.output.length_unit, spec.output.temperature_unit, spec.output.stress_unit};
+  r.progress_options.end = spec.time.end.value_or(0);
+  r.progress_options.heat = spec.has_heat();
+  r.progress_options.mechanics = spec.has_mechanics();
+  r.progress_options.contact = !spec.contacts.empty();
+  r.progress_options.melting = r.melting = spec.has_heat() && melts(a.materials);
+  r.progress_options.terminal = options.terminal;
+  r.summary.case_file = c.file.string();
+  r.summary.variant = results::default_run_folder(c.file).filename().string();
+  r.summary.title = spec.title;
+  r.summary.mesh = counts(spec, a.mesh);
+  if (a.mechanics)
+    for (std::size_t b = 0; b < a.mechanics->melt().size(); ++b)
+      if (const material::MeltModulus& melt = a.mechanics->melt()[b]; melt.modulus > 0)
+        r.summary.melt.push_back({spec.bodies[b].name, melt.modulus, material::measured_against(melt)});
+  MPI_Comm_size(PETSC_COMM_WORLD, &r.summary.processes);
+  return r;
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,21 @@
+/// What the recorder of a run writes, from the case and what was built of it.
+#pragma once
+
+#include "build/assembly.hpp"
+#include "results/recorder.hpp"
+#include "run/run.hpp"
+
+namespace solidus::model {
+
+/// Whether the case has shots.
+bool has_shots(const Assembly& a);
+
+/// Nodes and elements of the mesh, with the names of the bodies, which need not be those of their groups.
+/// Collective.
+results::MeshCounts counts(const CaseSpec& spec, const mesh::Mesh& mesh);
+
+/// Probes, fields, castings and the head of the summary. Collective. Throws InputError for an output that the
+/// case cannot have.
+results::RecorderOptions recorder_options(const Case& c, const RunOptions& options, const Assembly& a);
+
+}  // namespace solidus::model

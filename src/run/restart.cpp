@@ -1,0 +1,60 @@
+#include "run/restart.hpp"
+
+#include <fmt/format.h>
+
+#include "build/run_input.hpp"
+#include "build/time_input.hpp"
+#include "case/stage_input.hpp"
+#include "results/run_lock.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+void check_restart(const CaseSpec& spec, const RunOptions& options) {
+  if (!options.restart) return;
+  if (spec.time.steady)
+    throw InputError(spec.time.where, "a steady analysis has nothing to continue", "run without --restart");
+  results::CheckpointFolder(options.folder).require();
+}
+
+std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOptions& options, Assembly& a,
+                                              const results::Fingerprint& fingerprint) {
+  if (!options.restart) return {};
+  const results::CheckpointFolder folder(options.folder);
+  results::Checkpoint found = folder.read(a.mesh, fingerprint, a.initial);
+  check_stage_of_checkpoint(spec, found.continuation.stage, found.state.time);
+  const CycleSpec* cycle = periodic_cycle(spec);
+  const StageRun* stage = found.continuation.stage.number > 0
+                              ? &a.stages[static_cast<std::size_t>(found.continuation.stage.number) - 1]
+                              : nullptr;
+  const bool periodic = cycle != nullptr && stage != nullptr && stage->ends_shot &&
+                        found.state.time == stage->end && found.continuation.shots.shots > 0 &&
+                        found.continuation.shots.change <= *cycle->periodic;
+  if (periodic && results::is_finished(options.folder))
+    throw InputError(cycle->where,
+                     fmt::format("the run has found its periodic state already, to {:.3g} K in shot {}",
+                                 found.continuation.shots.change, found.state.shot),
+                     "a smaller 'periodic' in the cycle");
+  constexpr double k_solid = 1 - 1e-12;
+  const bool solid = spec.time.until == TimeSpec::Until::solid && a.heat &&
+                     a.heat->mean_solid_fraction(found.state.heat) >= k_solid;
+  if (solid && results::is_finished(options.folder))
+    throw InputError(
+        spec.time.where,
+        fmt::format("the run has ended at t = {:g} s: all that was poured is solid", found.state.time),
+        "time.until = \"end\" to go on until time.end");
+  // A run that was killed behind its last checkpoint has but its summary to write.
+  const bool reached = found.state.time == *spec.time.end || periodic || solid;
+  if (reached && !results::is_finished(options.folder)) {
+    logging::info("the run has reached t = {:g} s already; its results are completed", found.state.time);
+    return found;
+  }
+  if (found.state.time >= *spec.time.end)
+    throw InputError(spec.time.where,
+                     fmt::format("the run has reached t = {:g} s already; the end is at {:g} s",
+                                 found.state.time, *spec.time.end),
+                     spec.stages.empty() ? "a later end: time.end" : "further stages");
+  return found;
+}
+
+}  // namespace solidus::model

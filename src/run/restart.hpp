@@ -1,0 +1,21 @@
+/// The checkpoint that a run is to go on from.
+#pragma once
+
+#include <optional>
+
+#include "build/assembly.hpp"
+#include "build/fingerprint.hpp"
+#include "results/recorder.hpp"
+#include "run/run.hpp"
+
+namespace solidus::model {
+
+/// Reports errors that case and folder show before the mesh is read. Throws InputError.
+void check_restart(const CaseSpec& spec, const RunOptions& options);
+
+/// Reads the checkpoint; nothing without RunOptions::restart. Collective. Throws InputError where it does not
+/// fit the case, or the run has ended already.
+std::optional<results::Checkpoint> checkpoint(const CaseSpec& spec, const RunOptions& options, Assembly& a,
+                                              const results::Fingerprint& fingerprint);
+
+}  // namespace solidus::model

@@ -1,0 +1,246 @@
+/// A run as a whole, or step by step.
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "build/fingerprint.hpp"
+#include "build/mesh_input.hpp"
+#include "case/case_keys.hpp"
+#include "case/case_materials.hpp"
+#include "case/overrides.hpp"
+#include "case/stage_input.hpp"
+#include "check/findings.hpp"
+#include "check/overview.hpp"
+#include "coupling/steady.hpp"
+#include "linear/interruption.hpp"
+#include "results/run_lock.hpp"
+#include "run/advice.hpp"
+#include "run/recording.hpp"
+#include "run/restart.hpp"
+#include "run/run.hpp"
+#include "run/transient.hpp"
+#include "system/free_memory.hpp"
+#include "system/log.hpp"
+#include "system/profile.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// @param recorder  null: nothing is written
+/// @param steady    the state reached
+RunResult run_steady(const CaseSpec& spec, Assembly& a, coupling::Observer* recorder, coupling::State& steady,
+                     coupling::StepRecord& record) {
+  if (recorder != nullptr) recorder->begin(a.initial);
+  record = {};
+  try {
+    static_cast<coupling::StepEffort&>(record) = coupling::solve_steady(a.phases, a.initial, steady);
+  } catch (const StepRejected& rejected) {
+    const coupling::Stop stop{false, rejected.reason(), rejected.where(), 0, 0};
+    if (recorder != nullptr) recorder->stopped(stop, a.initial);
+    return {false, stop_text(stop, spec, 0, {})};
+  }
+  record.number = 1;
+  record.reason = "steady";
+  record.output = true;
+  if (recorder == nullptr) return {};
+  recorder->step(record, steady);
+  recorder->end(steady);
+  return {};
+}
+
+}  // namespace
+
+/// The order is that of making; the later refer to the earlier.
+struct Session::Parts {
+  Case c;
+  RunOptions options;
+  Assembly a;
+  std::optional<results::RunLock> lock;
+  std::optional<results::RunFolder> folder;
+  std::optional<results::Recorder> recorder;
+  std::optional<results::Checkpoint> from;
+  std::optional<Transient> transient;
+  std::optional<coupling::State> steady;  ///< the state that a steady case has reached
+  coupling::StepRecord steady_record;
+  std::optional<RunResult> ended;
+  bool changed = false;  ///< the case has other conditions than the phases
+  bool begun = false;
+
+  void begin() {
+    if (begun) return;
+    begun = true;
+    transient->begin(std::move(from));
+    from.reset();
+  }
+  coupling::Simulation& simulation() { return transient->simulation(); }
+  void commit() {
+    if (begun && simulation().pending()) simulation().commit_step();
+  }
+  /// The next step, after changes of conditions and with the size that is wanted.
+  std::optional<RunResult> take(std::optional<double> step) {
+    if (std::exchange(changed, false)) transient->change_conditions();
+    if (step) simulation().ask_step(*step);
+    ended = transient->result(simulation().take_step());
+    return ended;
+  }
+};
+
+namespace {
+
+void check_step(std::optional<double> step) {
+  if (step && !(*step > 0 && std::isfinite(*step)))
+    throw InputError({}, fmt::format("a step of {:g} s", *step), "a step above zero");
+}
+
+}  // namespace
+
+Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts>()) {
+  const double start = MPI_Wtime();
+  parts_->c = std::move(given);
+  parts_->options = std::move(options);
+  Case& c = parts_->c;
+  const RunOptions& o = parts_->options;
+  check_restart(c.spec, o);
+  Assembly& a = parts_->a;
+  std::optional<profile::Part> part;
+  part.emplace("materials");
+  a.materials = load_materials(c.spec);
+  part.reset();
+  a.mesh = load_mesh(c.spec);
+  const double loaded = MPI_Wtime();
+  part.emplace("set-up");
+  build(c.spec, a);
+  return_free_memory();
+  part.emplace("findings");
+  const CaseMeasures measures = measure(c.spec, a);
+  report(findings(c.spec, a, measures));
+  part.emplace("set-up");
+  if (a.phases.audits_stability())
+    announce_isothermal(c.spec, coupling_estimates(c.spec, a.materials, a.mesh, a.start));
+
+  results::RecorderOptions r = recorder_options(c, o, a);
+  if (o.folder.empty()) {
+    if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, nullptr);
+    return;
+  }
+  r.summary.overview = overview(c.spec, a, measures);
+  r.fingerprint = fingerprint(c.spec, a.mesh, a.materials, a.initial.heat.temperature);
+  parts_->lock.emplace(o.folder);
+  std::optional<results::Checkpoint>& from = parts_->from;
+  from = checkpoint(c.spec, o, a, r.fingerprint);
+  if (from) {
+    r.progress_options.start = from->state.time;
+    // A state is large: of this one the recorder asks for the time.
+    r.continue_from = {{}, from->continuation, from->energy, from->rejected, from->stability};
+    r.continue_from->state.time = from->state.time;
+  }
+  for (const results::ChosenMelt& melt : r.summary.melt)
+    logging::info(
+        "body '{}': its melt has the modulus 2G = {:.3g} Pa in every step, {}; its viscosity is that times "
+        "the step",
+        melt.body, melt.modulus, melt.against);
+  std::vector<std::string> tables;
+  for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
+  parts_->folder.emplace(o.folder, c.toml(), o.restart, tables);
+  r.summary.seconds.emplace_back("mesh", loaded - start);
+  r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
+  parts_->recorder.emplace(*parts_->folder, a.mesh, a.phases, std::move(r));
+  if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, &*parts_->recorder);
+}
+
+Session::~Session() = default;
+
+RunResult Session::run() {
+  Parts& p = *parts_;
+  if (p.ended) return *p.ended;
+  try {
+    if (p.c.spec.time.steady) {
+      coupling::Observer* recorder = p.recorder ? &*p.recorder : nullptr;
+      p.ended = run_steady(p.c.spec, p.a, recorder, p.steady.emplace(p.a.initial), p.steady_record);
+      return *p.ended;
+    }
+    p.begin();
+    p.commit();
+    while (!p.take({})) p.simulation().commit_step();
+    return *p.ended;
+  } catch (const linear::Interrupted&) {  // outside of a step: there is no new state to keep
+    return {false, "stopped as asked before the first step"};
+  }
+}
+
+std::optional<RunResult> Session::advance(std::optional<double> step) {
+  Parts& p = *parts_;
+  if (!p.transient)
+    throw InputError(p.c.spec.time.where, "a steady analysis has no steps", "run() computes it at once");
+  check_step(step);
+  if (p.ended) return p.ended;
+  p.begin();
+  p.commit();
+  return p.take(step);
+}
+
+std::optional<RunResult> Session::repeat(std::optional<double> step) {
+  Parts& p = *parts_;
+  if (!pending()) throw InputError({}, "there is no step to repeat", "repeat() behind advance()");
+  check_step(step);
+  p.simulation().discard_step(step);
+  return p.take({});
+}
+
+void Session::commit() {
+  parts_->commit();
+}
+
+void Session::change(const std::string& assignment) {
+  Parts& p = *parts_;
+  const SourceLocation where{"--set " + assignment, 0, 0};
+  if (!assignment.starts_with("thermal_condition.") && !assignment.starts_with("mechanical_condition."))
+    throw InputError(where, "this key cannot change within a run",
+                     "keys of conditions, for example thermal_condition.NAME.ambient=50 degC");
+  if (!p.transient) throw InputError(where, "a steady analysis has no steps between which something changes");
+  Value document = p.c.document;
+  apply_override(document, assignment);
+  CaseSpec spec;
+  case_keys().assign(spec, document);
+  resolve_stages(spec);
+  check_case(spec);
+  p.c.document = std::move(document);
+  p.c.spec.thermal_conditions = std::move(spec.thermal_conditions);
+  p.c.spec.mechanical_conditions = std::move(spec.mechanical_conditions);
+  p.begin();  // with the conditions that the phases were built with
+  p.changed = true;
+}
+
+bool Session::pending() const {
+  return parts_->begun && parts_->simulation().pending();
+}
+
+const coupling::State& Session::state() const {
+  if (parts_->steady) return *parts_->steady;
+  return parts_->begun  ? parts_->simulation().state()
+         : parts_->from ? parts_->from->state
+                        : parts_->a.initial;
+}
+
+const coupling::StepRecord& Session::record() const {
+  return parts_->begun ? parts_->simulation().record() : parts_->steady_record;
+}
+
+const Case& Session::running() const {
+  return parts_->c;
+}
+
+const Assembly& Session::assembly() const {
+  return parts_->a;
+}
+
+RunResult run_case(Case c, const RunOptions& options) {
+  return Session(std::move(c), options).run();
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,115 @@
+#include "run/transient.hpp"
+
+#include <utility>
+
+#include "build/heat_input.hpp"
+#include "build/mechanics_input.hpp"
+#include "build/scheme_input.hpp"
+#include "build/time_input.hpp"
+#include "case/case_materials.hpp"
+#include "case/stage_input.hpp"
+#include "check/coupling_estimate.hpp"
+#include "run/advice.hpp"
+#include "run/recording.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Null in a case without shots, or without heat. Before bodies leave.
+std::unique_ptr<coupling::ShotMap> shot_map(const CaseSpec& spec, const Assembly& a) {
+  if (!a.heat || !has_shots(a)) return nullptr;
+  coupling::PeriodicOptions options;
+  if (const CycleSpec* cycle = periodic_cycle(spec)) {
+    options.tolerance = *cycle->periodic;
+    options.accelerate = cycle->search == CycleSpec::Search::anderson;
+  }
+  return std::make_unique<coupling::ShotMap>(*a.heat, staying_bodies(spec), options);
+}
+
+coupling::Simulation make_simulation(const CaseSpec& spec, Assembly& a) {
+  coupling::TimeOptions times = time_options(spec);
+  std::optional<coupling::ErrorEstimate> estimate;
+  if (spec.time.adaptive) {
+    coupling::BodyNorm norm(a.mesh, spec.analysis.kind);
+    const double error = displacement_error(spec.time, norm.diagonal());
+    const auto limit = [&](coupling::StepLimits& limits) {
+      limits.displacement = error;
+      limits.inertia = spec.dynamics.has_value();
+    };
+    limit(times.step.limits);
+    for (coupling::Stage& stage : times.stages) limit(stage.step.limits);
+    using coupling::Displacement;
+    estimate.emplace(std::move(norm), &a.phases,
+                     spec.dynamics ? Displacement::motion : Displacement::distortion);
+  }
+  return coupling::Simulation(coupling_scheme(spec, a.phases), std::move(times), std::move(estimate));
+}
+
+}  // namespace
+
+Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& a,
+                     coupling::Observer* recorder)
+    : spec_(spec),
+      options_(options),
+      a_(a),
+      simulation_(make_simulation(spec, a)),
+      range_(spec, a),
+      stability_(spec, a.coldest_start()),
+      first_law_(spec, a.heat.get()),
+      walls_(a.phases.contacts) {
+  simulation_.add(range_);
+  if (a.heat) simulation_.add(bounds_.emplace(spec, *a.heat));
+  if (a.phases.coherency != nullptr) simulation_.add(walls_);
+  if (lags_a_step(spec, a.phases.coherency != nullptr)) simulation_.add(lag_);
+  simulation_.add(dissipation_);
+  if (a.phases.audits_stability()) simulation_.add(stability_);
+  if (spec.has_heat()) simulation_.add(first_law_);
+  if (recorder != nullptr) simulation_.add(*recorder);
+  simulation_.add(why_);
+  if (a.criteria) simulation_.follow(*a.criteria);
+  simulation_.stop_when(options.stop_asked);
+  simulation_.at_stage([this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
+    return apply(spec_, stage, start.displacement, begins, a_);
+  });
+  shots_ = shot_map(spec, a);
+  if (shots_) simulation_.follow_shots(*shots_);
+}
+
+void Transient::begin(std::optional<results::Checkpoint> from) {
+  // A state is large: the one at the start is not needed beside those of the run.
+  coupling::State start = std::move(from ? from->state : a_.initial);
+  a_.initial = {};
+  simulation_.begin(
+      std::move(start),
+      [this](const coupling::State& state) {
+        return a_.heat ? a_.heat->mean_solid_fraction(state.heat) : 1.0;
+      },
+      from ? std::optional(from->continuation) : std::nullopt);
+}
+
+std::optional<RunResult> Transient::result(std::optional<coupling::Outcome> outcome) const {
+  if (!outcome) return {};
+  if (*outcome == coupling::Outcome::finished) return RunResult{};
+  std::vector<CouplingEstimate> couplings;
+  if (spec_.coupled() && spec_.coupling.scheme->traits().needs_weak_coupling)
+    couplings = coupling_estimates(spec_, a_.materials, a_.mesh, a_.start);
+  const std::string checkpoint =
+      options_.folder.empty()
+          ? ""
+          : results::CheckpointFolder(options_.folder).latest().lexically_normal().string();
+  return RunResult{false, stop_text(why_.stop, spec_, why_.time, checkpoint, couplings)};
+}
+
+void Transient::change_conditions() {
+  const coupling::StageStart& start = simulation_.stage_start();
+  if (!a_.stages.empty()) {
+    apply(spec_, simulation_.stage(), start.displacement, nullptr, a_);
+  } else {
+    if (a_.mechanics) a_.mechanics->set_conditions(mechanical_conditions(spec_), start.displacement);
+    if (a_.heat) a_.heat->set_conditions(thermal_conditions(spec_));
+  }
+  simulation_.conditions_changed();
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,67 @@
+/// What marches through time: the simulation with all that watches it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "build/assembly.hpp"
+#include "coupling/shot_map.hpp"
+#include "coupling/simulation.hpp"
+#include "results/recorder.hpp"
+#include "run/audit_watch.hpp"
+#include "run/bounds_watch.hpp"
+#include "run/dissipation_watch.hpp"
+#include "run/range_watch.hpp"
+#include "run/run.hpp"
+
+namespace solidus::model {
+
+/// Remembers why a run stopped, for the caller.
+class StopReason : public coupling::Observer {
+ public:
+  void begin(const coupling::State&) override {}
+  void step(const coupling::StepRecord&, const coupling::State&) override {}
+  void stopped(const coupling::Stop& why, const coupling::State& state) override {
+    stop = why;
+    time = state.time;
+  }
+  void end(const coupling::State&) override {}
+  coupling::Stop stop;
+  double time = 0;
+};
+
+/// The parts refer to each other, to the case and to what was built of it, which must outlive them. All
+/// functions are collective.
+class Transient {
+ public:
+  /// @param recorder  null: nothing is written
+  Transient(const CaseSpec& spec, const RunOptions& options, Assembly& a, coupling::Observer* recorder);
+  Transient(const Transient&) = delete;
+  Transient& operator=(const Transient&) = delete;
+
+  /// Begins at the start of the case, or where the checkpoint has it.
+  void begin(std::optional<results::Checkpoint> from);
+  /// What a step ended with; nothing while the run goes on.
+  std::optional<RunResult> result(std::optional<coupling::Outcome> outcome) const;
+  /// Gives the phases the conditions that the case has now.
+  void change_conditions();
+  coupling::Simulation& simulation() { return simulation_; }
+
+ private:
+  const CaseSpec& spec_;
+  const RunOptions& options_;
+  Assembly& a_;
+  coupling::Simulation simulation_;
+  RangeWatch range_;
+  std::optional<BoundsWatch> bounds_;
+  DissipationWatch dissipation_;
+  StabilityWatch stability_;
+  FirstLawWatch first_law_;
+  WallWatch walls_;
+  LagWatch lag_;
+  std::unique_ptr<coupling::ShotMap> shots_;
+  StopReason why_;
+};
+
+}  // namespace solidus::model

@@ -1,0 +1,80 @@
+"""Imports of the sources run one way: between rooms, between headers, and between a room and its folders of laws and schemes."""
+
+import pathlib
+import re
+import unittest
+
+SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+
+
+def imports():
+    """Of every header and source of src/ the files of src/ that it includes, as paths in it."""
+    graph = {}
+    for file in sorted(SOURCES.rglob("*.[ch]pp")):
+        included = INCLUDE.findall(file.read_text(encoding="utf-8"))
+        graph[file.relative_to(SOURCES).as_posix()] = [name for name in included if (SOURCES / name).exists()]
+    return graph
+
+
+def is_interface(file):
+    """A header, but for those that hold the bodies of templates (X_impl.hpp), which are to their header what a source is."""
+    return file.endswith(".hpp") and not file.endswith("_impl.hpp")
+
+
+def merged(graph, name):
+    """The graph of what `name` calls the files, without imports of a group by itself."""
+    groups = {}
+    for file, included in graph.items():
+        groups.setdefault(name(file), set()).update(name(other) for other in included if name(other) != name(file))
+    return groups
+
+
+def circle(graph):
+    """The names along one circle of a graph, the first one again at the end; empty where there is none."""
+    done, way = set(), []
+
+    def visit(node):
+        if node in way:
+            return way[way.index(node):] + [node]
+        if node in done:
+            return []
+        way.append(node)
+        for other in sorted(graph.get(node, ())):
+            if found := visit(other):
+                return found
+        way.pop()
+        done.add(node)
+        return []
+
+    for start in graph:
+        if found := visit(start):
+            return found
+    return []
+
+
+class Imports(unittest.TestCase):
+    def test_a_circle_is_found_and_named(self):
+        self.assertEqual(circle({"a": ["b"], "b": ["c"], "c": ["b"]}), ["b", "c", "b"])
+        self.assertEqual(circle({"a": ["b", "c"], "b": ["c"], "c": []}), [])
+
+    def test_rooms_import_one_way(self):
+        self.assertEqual(circle(merged(imports(), lambda file: file.split("/")[0])), [])
+
+    def test_headers_import_one_way(self):
+        graph = imports()
+        headers = {file: list(filter(is_interface, graph[file])) for file in filter(is_interface, graph)}
+        self.assertGreater(len(headers), 300)
+        self.assertEqual(circle(headers), [])
+
+    def test_headers_know_no_law_of_contact_and_no_scheme_by_name(self):
+        """Laws and schemes are plugged in: their registry, a source, is the one place that includes them. Laws include one another."""
+        for file, included in imports().items():
+            for room, folder in (("contact", "laws"), ("coupling", "schemes")):
+                if is_interface(file) and not file.startswith(f"{room}/{folder}/"):
+                    named = [name for name in included if name.startswith(f"{room}/{folder}/")]
+                    self.assertEqual(named, [], file)
+
+
+if __name__ == "__main__":
+    unittest.main()
