@@ -59,13 +59,19 @@ struct General : material::Viscoplastic {
     Sym<T> stress;
     State<T> state;
     Sym4<T> tangent;
-    T dissipation, plastic_power, plastic_dissipation;
+    T dissipation, plastic_power, plastic_dissipation, thermal_dissipation;
     material::Status status;
   };
   template <class T>
   Response<T> update(const Properties<T>& p, const State<T>& start, const Sym<T>& strain, double dt) const {
     const auto r = Viscoplastic::update(p, start, strain, dt);
-    return {r.stress, r.state, full_tangent(r), r.dissipation, r.plastic_power, r.plastic_dissipation,
+    return {r.stress,
+            r.state,
+            full_tangent(r),
+            r.dissipation,
+            r.plastic_power,
+            r.plastic_dissipation,
+            r.thermal_dissipation,
             r.status};
   }
 };

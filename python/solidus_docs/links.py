@@ -3,8 +3,10 @@
     python3 -m solidus_docs.links          prints what is wrong, one a line
 
 A link leads to a file or folder of the repository, or to a heading of a page, by the rules of GitHub; addresses of the web are
-not visited. Every page leads on to another page.
+not visited. Every page leads on to another page. A path in `code` that names sources, from the root of the repository or from
+src/ (`room/file`), names some that are there.
 """
+import itertools
 import pathlib
 import re
 import sys
@@ -15,6 +17,10 @@ CODE = re.compile(r"(`+)(?:(?!\1).)+\1")
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\(([^()\s]*(?:\([^()\s]*\)[^()\s]*)*)(?:\s+\"[^\"]*\")?\)")
 HEADING = re.compile(r"^ {0,3}(#{1,6})\s+(.*?)\s*#*$", re.M)
 WEB = re.compile(r"^[a-z][a-z+.-]*:")
+PATH = re.compile(r"(?<!`)`([\w.*{},-]+(?:/[\w.*{},-]+)+/?)`(?!`)")
+SOURCES = {"src", "tests", "bench", "cmake", "python", "web", "examples", "docs"}  # of every page; these name rooms besides:
+OF_DEVELOPERS = ("docs/decisions", "docs/developers", "docs/theory", "docs/verification")
+MADE = {"build", "results", "plots", "verification"}  # folders that runs and builds write
 
 
 def pages(root=ROOT):
@@ -60,6 +66,32 @@ def resolved(page, target):
     return ((page.parent / path).resolve() if path else page), anchor
 
 
+def alternatives(path):
+    """a/{b,c} means a/b and a/c."""
+    parts = [part.split(",") for part in re.split(r"[{}]", path)]
+    return ["".join(chosen) for chosen in itertools.product(*parts)]
+
+
+def dead_paths(page, root=ROOT):
+    """Paths of sources in code that are not there. Words in capitals and my_... stand for what a reader would write."""
+    name = str(page.relative_to(root))
+    found = []
+    for path in PATH.findall(text_of(page)):
+        first = path.split("/")[0]
+        named = first in SOURCES or (name.startswith(OF_DEVELOPERS) and first not in MADE)
+        if not named or re.search(r"\b[A-Z]{3,}\b|\bmy_", path):
+            continue
+        places = (root, root / "src", root / "cases", root / "tests", root / "tests/verification", page.parent)
+        if not all(any(found_below(place, one) for place in places) for one in alternatives(path)):
+            found.append(path)
+    return found
+
+
+def found_below(folder, path):
+    """`path` may leave the end of a file's name out (a header and its source), and have the stars of a shell."""
+    return any(True for end in ("", ".[ch]pp") for _ in folder.glob(path.rstrip("/") + end))
+
+
 def mistakes(root=ROOT):
     found, known = [], {}
     for page in pages(root):
@@ -76,6 +108,7 @@ def mistakes(root=ROOT):
                     known[place] = anchors(place)
                 if anchor and anchor not in known[place]:
                     found.append(f"{name}: '{target}': the page has no such heading")
+        found += [f"{name}: `{path}` is not among the sources" for path in dead_paths(page, root)]
         if not leads_on:
             found.append(f"{name}: no link leads on to another page")
     return found

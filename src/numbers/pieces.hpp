@@ -41,7 +41,7 @@ class Pieces {
   }
 
  private:
-  /// So few pieces are compared with all lanes at once, more are looked up: where bench/base_bench.cpp finds
+  /// So few pieces are compared with all lanes at once, more are looked up: where bench/numbers_bench.cpp finds
   /// equal costs.
   static constexpr std::size_t k_few = k_registers <= 2 ? 16 : 3;
 

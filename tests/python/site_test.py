@@ -40,6 +40,18 @@ class Pages(unittest.TestCase):
                              ["README.md: 'docs/c.md#nothing': the page has no such heading",
                               "README.md: 'docs/d.md' does not exist", "docs/c.md: no link leads on to another page"])
 
+    def test_paths_of_sources_that_are_not_there_are_found(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name).resolve()
+            for file in ("src/heat/storage.cpp", "src/heat/storage.hpp", "tests/unit/heat/storage_test.cpp", "dev"):
+                page(folder, file, "")
+            text = "`heat/storage` `src/heat/{storage,flow}.hpp` `base/lane` `results/CASE` `kW/m2` `src/heat/*.cpp` `src/my_law.hpp`\n"
+            page(folder, "docs/decisions/0001.md", text)
+            page(folder, "docs/guide/run.md", text + "`tests/unit/heat` `tests/unit/base`\n")
+            self.assertEqual(links.dead_paths(folder / "docs/decisions/0001.md", folder),
+                             ["src/heat/{storage,flow}.hpp", "base/lane", "kW/m2"])
+            self.assertEqual(links.dead_paths(folder / "docs/guide/run.md", folder), ["src/heat/{storage,flow}.hpp", "tests/unit/base"])
+
     def test_every_page_stands_in_the_navigation(self):
         listed = set(site.listed(site.configuration()["nav"]))
         elsewhere = {"tests/verification/reference/README.md"}

@@ -263,6 +263,21 @@ try {
   const before = await turn();
   await page.drag(cx, cy, cx + 120, cy + 40);
   check("a drag turns the picture", Math.max(...(await turn()).map((q, i) => Math.abs(q - before[i]))) > 0.05);
+
+  // Where pictures are slow a drag draws drafts, of half as many pixels each way, and the picture when it rests.
+  const width = () => page.run(`${view}.canvas.width`), whole = await width();
+  await page.run(`${view}.painter.cost = 1000`);
+  await page.mouse("mousePressed", cx, cy);
+  for (let i = 1; i <= 3; ++i) await page.mouse("mouseMoved", cx + 5 * i, cy);
+  await page.settle();
+  const draft = await width();
+  await page.mouse("mouseReleased", cx + 15, cy);
+  check("a drag draws drafts where pictures are slow", draft === Math.floor(whole / 2), [draft, whole]);
+  check("in the colours of the scale", colourful(await shot()).colours > 12);
+  let settled = draft;
+  for (const end = Date.now() + 10000; Date.now() < end && settled !== whole; settled = await width()) await page.settle();
+  check("and the picture when it rests", settled === whole, [settled, whole]);
+
   await page.run("(() => { const b = [...document.querySelectorAll('button.figure')][0]; b.click(); return new Promise((r) => setTimeout(r, 900)); })()");
   const where = JSON.parse(readFileSync(join(folder, "block/summary.json"))).criteria["solidified_at_max_at[m]"];
   const target = await page.run(`${bench}.camera.target.toArray()`);

@@ -1,10 +1,10 @@
-// How soon a report shows its picture and how fast it turns: node tests/report/speed.mjs REPORT.html
+// How soon a report shows its picture and how fast a drag turns it: node tests/report/speed.mjs REPORT.html
 // Beside the clock it says processor seconds, by process: on a busy machine these alone mean something. The renderer runs the page; the
 // process named GPU draws, here by software (SwiftShader), which a graphics card would do instead.
 import { resolve } from "node:path";
 import { Browser } from "./browser.mjs";
 
-const FRAMES = 20;
+const MOVES = 40;
 const browser = await Browser.open();
 try {
   const page = await browser.page(1280, 900);
@@ -23,18 +23,20 @@ try {
   const view = "solidus.bench.stages[0].view";
   console.log(`triangles: ${await page.run(`${view}.triangles`)}`);
   console.log(`drawn by: ${await page.run("(() => { const gl = document.createElement('canvas').getContext('webgl2'), d = gl.getExtension('WEBGL_debug_renderer_info'); return gl.getParameter(d ? d.UNMASKED_RENDERER_WEBGL : gl.RENDERER); })()")}`);
-  const start = await seconds();
-  const took = await page.run(`new Promise((done) => {
-    const begin = performance.now();
-    let n = 0;
-    const turn = () => {
-      solidus.bench.look([Math.cos(n / 10), 0.4, Math.sin(n / 10)]);
-      ++n < ${FRAMES} ? requestAnimationFrame(turn) : done(performance.now() - begin);
-    };
-    requestAnimationFrame(turn);
-  })`);
-  await page.screenshot(); // what was asked for has been drawn
-  console.log(`${FRAMES} turns: ${(took / FRAMES).toFixed(1)} ms of the clock each; ${between(start, await seconds(), FRAMES)} each`);
+  // The first whole picture tells the page how slow pictures are, so one comes before the clock starts.
+  await page.run("solidus.bench.look([1, 0.4, 0])");
+  await page.screenshot();
+  const { x, y } = await page.run("(() => { const r = document.querySelector('.stage').getBoundingClientRect(); return { x: r.left + r.width / 2, y: r.top + r.height / 2 }; })()");
+  await page.mouse("mousePressed", x, y);
+  for (let i = 1; i <= 3; ++i) await page.mouse("mouseMoved", x + i, y);
+  await page.settle();
+  const drawn = () => page.run("[performance.now(), performance.getEntriesByName('drawn').length]");
+  const start = await seconds(), [began, before0] = await drawn();
+  for (let i = 1; i <= MOVES; ++i) await page.mouse("mouseMoved", x + 3 + 4 * i, y + i);
+  const [ended, after] = await drawn(), n = after - before0;
+  const slow = await page.run(`${view}.painter?.slow ?? false`);
+  console.log(`turning by the mouse, ${n} pictures for ${MOVES} moves${slow ? ", drafts" : ""}: ${((ended - began) / n).toFixed(1)} ms of the clock each; ${between(start, await seconds(), n)} each`);
+  await page.mouse("mouseReleased", x, y);
 } finally {
   await browser.close();
 }

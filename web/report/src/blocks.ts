@@ -1,14 +1,22 @@
 /** The blocks of numbers of a page: base64 of raw deflate, as src/results/report/pack.hpp describes them. */
 import { inflateSync, strFromU8 } from "fflate";
 
-/** The bytes of a <script> block, unpacked. */
-export function blockBytes(id: string): Uint8Array {
+/** What newer browsers have (ES2026) and TypeScript does not know yet. */
+const fromBase64 = (Uint8Array as unknown as { fromBase64?: (text: string) => Uint8Array }).fromBase64;
+
+function base64Bytes(text: string): Uint8Array {
+  if (fromBase64) return fromBase64(text);
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < letters.length; ++i) bytes[i] = letters.charCodeAt(i);
+  return bytes;
+}
+
+/** The bytes of a <script> block, unpacked. `size` is how many they are, where that is known: memory is taken once then. */
+export function blockBytes(id: string, size?: number): Uint8Array {
   const element = document.getElementById(id);
   if (!element) throw new Error(`the page lacks its block ${id}`);
-  const text = atob(element.textContent ?? "");
-  const packed = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) packed[i] = text.charCodeAt(i);
-  return inflateSync(packed);
+  return inflateSync(base64Bytes(element.textContent ?? ""), size === undefined ? undefined : { out: new Uint8Array(size) });
 }
 
 export function blockJson(id: string): unknown {
@@ -48,10 +56,14 @@ const STEPS = 16383;
 /** [block, low, high, mask block], [-1, value] for one value everywhere, [-2] for none. */
 export type PackedValues = number[];
 
-/** Values at `n` places over some moments, unpacked when first asked for. */
+/** Values at `n` places over some moments, unpacked when first asked for and no further than to the moment asked for. */
 export class Values {
+  private planes?: Uint8Array;
   private words?: Uint16Array;
   private mask?: Uint8Array;
+  /** Moments whose words are there. */
+  private unpacked = 0;
+  private kept?: { moment: number; values: Float32Array };
 
   constructor(
     private readonly packed: PackedValues,
@@ -69,33 +81,41 @@ export class Values {
     return this.packed[0] >= 0 ? this.packed[2] : this.low;
   }
 
-  private unpack(): Uint16Array {
-    if (this.words) return this.words;
-    const bytes = blockBytes(`b${this.packed[0]}`);
-    const total = bytes.length / 2;
-    const words = new Uint16Array(total);
-    const n = this.n;
-    for (let k = 0, at = 0; at < total; ++k) {
-      let beside = 0;
-      for (let i = 0; i < n; ++i, ++at) {
-        const last = k > 0 ? words[at - n] : 0;
+  private unpack(moment: number): Uint16Array {
+    const n = this.n, total = n * this.moments;
+    const words = (this.words ??= new Uint16Array(total));
+    if (this.unpacked > moment) return words;
+    const bytes = (this.planes ??= blockBytes(`b${this.packed[0]}`, 2 * total));
+    if (this.packed[3] >= 0) this.mask ??= blockBytes(`b${this.packed[3]}`, total);
+    for (; this.unpacked <= moment; ++this.unpacked) {
+      const from = n * this.unpacked;
+      for (let at = from, beside = 0; at < from + n; ++at) {
+        const last = from > 0 ? words[at - n] : 0;
         words[at] = unfold(bytes[at] | (bytes[total + at] << 8)) + last + beside;
         beside = words[at] - last;
       }
     }
-    if (this.packed[3] >= 0) this.mask = blockBytes(`b${this.packed[3]}`);
-    return (this.words = words);
+    if (this.unpacked === this.moments) this.planes = undefined;
+    return words;
   }
 
-  /** Of one moment; NaN where there is no value. */
+  /** Of one moment; NaN where there is no value. The same array as before where the same moment is asked for again. */
   at(moment: number): Float32Array {
+    const m = Math.min(moment, this.moments - 1);
+    if (this.kept && (this.kept.moment === m || this.packed[0] < 0)) return this.kept.values;
     const out = new Float32Array(this.n);
+    this.kept = { moment: m, values: out };
     if (this.packed[0] < 0) return out.fill(this.low);
-    const words = this.unpack();
-    const step = (this.high - this.low) / STEPS;
-    const from = Math.min(moment, this.moments - 1) * this.n;
-    for (let i = 0; i < this.n; ++i)
-      out[i] = this.mask && this.mask[from + i] ? NaN : this.low + step * words[from + i];
+    const words = this.unpack(m), mask = this.mask;
+    const low = this.low, step = (this.high - low) / STEPS, from = m * this.n;
+    for (let i = 0; i < out.length; ++i) out[i] = mask && mask[from + i] ? NaN : low + step * words[from + i];
     return out;
+  }
+
+  /** Of one place at one moment. */
+  one(place: number, moment: number): number {
+    if (this.packed[0] < 0) return this.low;
+    const m = Math.min(moment, this.moments - 1), words = this.unpack(m), at = m * this.n + place;
+    return this.mask && this.mask[at] ? NaN : Math.fround(this.low + ((this.high - this.low) / STEPS) * words[at]);
   }
 }

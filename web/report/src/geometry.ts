@@ -16,19 +16,51 @@ export interface Shape {
 
 const CREASE = Math.cos((38 * Math.PI) / 180);
 
-/** A skin with normals that are smooth but for sharp edges. */
-export function skinShape(x: Float32Array, skin: Uint32Array): Shape {
-  const nTriangles = skin.length / 3;
-  const face = new Float32Array(skin.length), area = new Float32Array(nTriangles);
-  for (let f = 0; f < nTriangles; ++f) {
-    const [p, q, r] = [3 * skin[3 * f], 3 * skin[3 * f + 1], 3 * skin[3 * f + 2]];
+/** The corner after corner i of a list of triangles, round the same triangle. */
+const nextCorner = (i: number): number => (i % 3 === 2 ? i - 2 : i + 1);
+
+/** For each edge, named by the corner where it begins in its triangle, the same edge of the neighbour; -1 where it has none. */
+function partners(skin: Uint32Array, n: number): Int32Array {
+  const least = (i: number) => Math.min(skin[i], skin[nextCorner(i)]), most = (i: number) => Math.max(skin[i], skin[nextCorner(i)]);
+  const first = new Uint32Array(n + 1); // edges in the order of their lesser node
+  for (let i = 0; i < skin.length; ++i) ++first[least(i) + 1];
+  for (let v = 0; v < n; ++v) first[v + 1] += first[v];
+  const place = first.slice(0, n), edges = new Uint32Array(skin.length);
+  for (let i = 0; i < skin.length; ++i) edges[place[least(i)]++] = i;
+  const partner = new Int32Array(skin.length).fill(-1);
+  for (let v = 0; v < n; ++v)
+    for (let p = first[v]; p < first[v + 1]; ++p) {
+      const i = edges[p];
+      for (let q = p + 1; q < first[v + 1] && partner[i] < 0; ++q) {
+        const j = edges[q];
+        if (partner[j] >= 0 || most(j) !== most(i)) continue;
+        partner[i] = j;
+        partner[j] = i;
+      }
+    }
+  return partner;
+}
+
+/** Unit normals of triangles, and twice their areas. */
+function faceNormals(x: Float32Array, skin: Uint32Array): { face: Float32Array; area: Float32Array } {
+  const face = new Float32Array(skin.length), area = new Float32Array(skin.length / 3);
+  for (let f = 0; f < area.length; ++f) {
+    const p = 3 * skin[3 * f], q = 3 * skin[3 * f + 1], r = 3 * skin[3 * f + 2];
     const ux = x[q] - x[p], uy = x[q + 1] - x[p + 1], uz = x[q + 2] - x[p + 2];
     const vx = x[r] - x[p], vy = x[r + 1] - x[p + 1], vz = x[r + 2] - x[p + 2];
     const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    const size = Math.hypot(nx, ny, nz) || 1e-30;
+    const size = Math.sqrt(nx * nx + ny * ny + nz * nz) || 1e-30;
     area[f] = size;
-    face.set([nx / size, ny / size, nz / size], 3 * f);
+    face[3 * f] = nx / size;
+    face[3 * f + 1] = ny / size;
+    face[3 * f + 2] = nz / size;
   }
+  return { face, area };
+}
+
+/** A skin with normals that are smooth but for sharp edges. */
+export function skinShape(x: Float32Array, skin: Uint32Array): Shape {
+  const { face, area } = faceNormals(x, skin), partner = partners(skin, x.length / 3);
   // Corners of neighbours that no sharp edge divides are one vertex.
   const root = new Uint32Array(skin.length);
   for (let i = 0; i < root.length; ++i) root[i] = i;
@@ -36,56 +68,49 @@ export function skinShape(x: Float32Array, skin: Uint32Array): Shape {
     while (root[i] !== i) i = root[i] = root[root[i]];
     return i;
   };
-  const n = x.length / 3;
-  const open = new Map<number, number>(); // edge to its corner where it begins
-  const sharp: number[] = [], all: number[] = [];
-  for (let f = 0; f < nTriangles; ++f)
-    for (let k = 0; k < 3; ++k) {
-      const i = 3 * f + k, j = 3 * f + ((k + 1) % 3);
-      const [u, v] = [skin[i], skin[j]];
-      const key = u < v ? u * n + v : v * n + u;
-      const other = open.get(key);
-      if (other === undefined) {
-        open.set(key, i);
-        all.push(i, j);
-        continue;
-      }
-      open.delete(key);
-      const g = Math.floor(other / 3), oi = other, oj = 3 * g + ((other % 3) + 1) % 3;
-      const along = face[3 * f] * face[3 * g] + face[3 * f + 1] * face[3 * g + 1] + face[3 * f + 2] * face[3 * g + 2];
-      if (along < CREASE) {
-        sharp.push(i, j);
-      } else {
-        root[find(i)] = find(skin[oi] === u ? oi : oj);
-        root[find(j)] = find(skin[oi] === u ? oj : oi);
-      }
+  const sharp = new Uint32Array(2 * skin.length), all = new Uint32Array(2 * skin.length);
+  let nSharp = 0, nAll = 0;
+  for (let i = 0; i < skin.length; ++i) {
+    const o = partner[i], j = nextCorner(i);
+    if (o < 0 || i < o) {
+      all[nAll++] = i;
+      all[nAll++] = j;
     }
-  for (const i of open.values()) sharp.push(i, 3 * Math.floor(i / 3) + ((i % 3) + 1) % 3);
-  const vertex = new Int32Array(skin.length).fill(-1);
-  const nodes: number[] = [];
-  const triangles = new Uint32Array(skin.length);
+    if (o > i) continue;
+    const f = i - (i % 3), g = o - (o % 3); // first corners of both triangles: where their normals stand, too
+    if (o < 0 || face[f] * face[g] + face[f + 1] * face[g + 1] + face[f + 2] * face[g + 2] < CREASE) {
+      sharp[nSharp++] = i;
+      sharp[nSharp++] = j;
+      continue;
+    }
+    const same = skin[o] === skin[i];
+    root[find(i)] = find(same ? o : nextCorner(o));
+    root[find(j)] = find(same ? nextCorner(o) : o);
+  }
+  const vertex = new Int32Array(skin.length).fill(-1), nodes = new Uint32Array(skin.length), triangles = new Uint32Array(skin.length);
+  let count = 0;
   for (let i = 0; i < skin.length; ++i) {
     const r = find(i);
     if (vertex[r] < 0) {
-      vertex[r] = nodes.length;
-      nodes.push(skin[i]);
+      vertex[r] = count;
+      nodes[count++] = skin[i];
     }
     triangles[i] = vertex[r];
   }
-  const normal = new Float32Array(3 * nodes.length);
+  const normal = new Float32Array(3 * count);
   for (let i = 0; i < skin.length; ++i) {
-    const f = Math.floor(i / 3);
-    for (let c = 0; c < 3; ++c) normal[3 * triangles[i] + c] += area[f] * face[3 * f + c];
+    const f = i - (i % 3);
+    for (let c = 0; c < 3; ++c) normal[3 * triangles[i] + c] += area[f / 3] * face[f + c];
   }
-  for (let v = 0; v < nodes.length; ++v) {
-    const size = Math.hypot(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]) || 1;
-    for (let c = 0; c < 3; ++c) normal[3 * v + c] /= size;
+  for (let v = 0; v < normal.length; v += 3) {
+    const size = Math.sqrt(normal[v] * normal[v] + normal[v + 1] * normal[v + 1] + normal[v + 2] * normal[v + 2]) || 1;
+    for (let c = 0; c < 3; ++c) normal[v + c] /= size;
   }
-  const a = Uint32Array.from(nodes);
+  const vertices = (corners: Uint32Array) => corners.map((i) => triangles[i]);
+  const a = nodes.slice(0, count);
   return {
-    a, b: a, t: new Float32Array(a.length), normal, triangles,
-    features: Uint32Array.from(sharp, (i) => triangles[i]),
-    edges: Uint32Array.from(all, (i) => triangles[i]),
+    a, b: a, t: new Float32Array(count), normal, triangles,
+    features: vertices(sharp.subarray(0, nSharp)), edges: vertices(all.subarray(0, nAll)),
   };
 }
 

@@ -124,6 +124,8 @@ export class Field {
   readonly label: string;
   readonly unit: Unit;
   readonly group: string;
+  /** Sizes of a vector, as last asked for: by body. */
+  private readonly sizes: { parts: Float32Array[]; values: Float32Array }[] = [];
 
   constructor(
     readonly id: string,
@@ -149,10 +151,22 @@ export class Field {
   values(body: number, moment: number): Float32Array {
     const parts = this.columns.map((c) => c[body].at(moment));
     if (parts.length === 1) return parts[0];
-    const out = parts[0].map((v) => v * v);
-    for (const part of parts.slice(1)) for (let i = 0; i < out.length; ++i) out[i] += part[i] * part[i];
+    const kept = this.sizes[body];
+    if (kept && kept.parts.every((part, i) => part === parts[i])) return kept.values;
+    const out = new Float32Array(parts[0].length);
+    for (const part of parts) for (let i = 0; i < out.length; ++i) out[i] += part[i] * part[i];
     for (let i = 0; i < out.length; ++i) out[i] = Math.sqrt(out[i]);
+    this.sizes[body] = { parts, values: out };
     return out;
+  }
+  value(body: number, node: number, moment: number): number {
+    if (this.columns.length === 1) return this.columns[0][body].one(node, moment);
+    return Math.hypot(...this.columns.map((c) => c[body].one(node, moment)));
+  }
+  /** No value of the run is larger: of a vector, what its components allow. Nothing is unpacked for it. */
+  bound(bodies: number[]): number {
+    const of = (b: number) => Math.hypot(...this.columns.map((c) => Math.max(Math.abs(c[b].low), Math.abs(c[b].high))));
+    return Math.max(0, ...bodies.filter((b) => this.has(b)).map(of));
   }
   /** Over the whole run. */
   range(bodies: number[]): [number, number] {

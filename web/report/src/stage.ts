@@ -3,7 +3,8 @@ import { Vector3 } from "three";
 import { h, svg } from "./dom";
 import { colourTable } from "./colours";
 import { place, short, withUnit } from "./quantities";
-import type { Hit, View } from "./view";
+import type { Hit } from "./picking";
+import type { View } from "./view";
 
 export interface Mark {
   run: number;
@@ -122,7 +123,7 @@ export class Stage {
     const at = [mark.at[0], mark.at[1], mark.at[2] ?? 0];
     if (mark.node >= 0)
       run.displacement.forEach((axis, i) => {
-        const d = axis[mark.body].at(m)[mark.node];
+        const d = axis[mark.body].one(mark.node, m);
         if (Number.isFinite(d)) at[i] += scale * d;
       });
     return this.view.project(at);

@@ -1,11 +1,11 @@
 /** The picture of one run. */
-import {
-  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, GLSL3, LineSegments, Mesh, RGBAFormat, Scene, ShaderMaterial,
-  Vector2, Vector3, Vector4, WebGLRenderer,
-} from "three";
+import { DataTexture, DoubleSide, FrontSide, GLSL3, Mesh, RGBAFormat, Scene, ShaderMaterial, Vector2, Vector3, Vector4, WebGLRenderer } from "three";
 import { Camera } from "./camera";
 import { colourTable } from "./colours";
-import { levelShape, planeShape, Shape, skinShape } from "./geometry";
+import { Drawn, FRAGMENT, VERTEX } from "./drawn";
+import { levelShape, planeShape, skinShape } from "./geometry";
+import { Painter } from "./painter";
+import { type Hit, pick } from "./picking";
 import type { Field, Run } from "./run";
 
 export type Shown = "shown" | "ghost" | "hidden";
@@ -28,124 +28,6 @@ export interface Choice {
   revolved: number;
 }
 
-const NONE = -1e30;
-
-const VERTEX = `
-in vec3 disp; in float value; in float angle;
-uniform float scale;
-out vec3 vPlace; out vec3 vEye; out vec3 vNormal; out float vValue; out float vThere;
-vec3 turned(vec3 p, float a) { return vec3(p.x * cos(a) + p.z * sin(a), p.y, p.z * cos(a) - p.x * sin(a)); }
-void main() {
-  vPlace = position;
-  vec3 p = turned(position + scale * disp, angle);
-  vec4 eye = modelViewMatrix * vec4(p, 1.0);
-  vEye = eye.xyz;
-  vNormal = normalMatrix * turned(normal, angle);
-  vThere = value > -1e29 ? 1.0 : 0.0;
-  vValue = value > -1e29 ? value : 0.0;
-  gl_Position = projectionMatrix * eye;
-}`;
-
-const FRAGMENT = `
-precision highp float;
-uniform sampler2D map;
-uniform float low; uniform float high; uniform float bands; uniform bool logarithmic;
-uniform vec4 cut; uniform bool cutting; uniform vec2 only; uniform bool onlyOn;
-uniform int style; // 0: lit skin, 1: flat, 2: lit by the triangles themselves, 3: ghost, 4: line
-uniform vec3 plain; uniform float opacity;
-in vec3 vPlace; in vec3 vEye; in vec3 vNormal; in float vValue; in float vThere;
-out vec4 colour;
-void main() {
-  if (cutting && dot(vPlace, cut.xyz) > cut.w) discard;
-  bool there = vThere > 0.999;
-  if (onlyOn && style != 2 && style != 3 && (!there || vValue < only.x || vValue > only.y)) discard;
-  if (style == 4) { colour = vec4(plain, opacity); return; }
-  if (style == 3) {
-    float rim = 1.0 - abs(normalize(vNormal).z);
-    colour = vec4(plain, opacity * (0.35 + 0.65 * rim));
-    return;
-  }
-  float s = logarithmic ? log(max(vValue, low) / low) / log(high / low) : (vValue - low) / max(high - low, 1e-30);
-  s = clamp(s, 0.0, 1.0);
-  if (bands > 0.5) s = (min(floor(s * bands), bands - 1.0) + 0.5) / bands;
-  vec3 c = there ? texture(map, vec2((s * 255.0 + 0.5) / 256.0, 0.5)).rgb : plain;
-  float light = 1.0;
-  if (style != 1) {
-    vec3 n = style == 2 ? normalize(cross(dFdx(vEye), dFdy(vEye))) : normalize(vNormal);
-    light = 0.62 + 0.38 * abs(dot(n, normalize(vec3(0.25, 0.35, 1.0))));
-  }
-  colour = vec4(c * light, 1.0);
-}`;
-
-/** A shape with what the graphics card knows of it. */
-class Drawn {
-  readonly mesh: Mesh;
-  readonly features: LineSegments;
-  readonly edges: LineSegments;
-  readonly position: Float32Array;
-  readonly disp: Float32Array;
-  readonly value: Float32Array;
-  private attributes: BufferAttribute[];
-
-  constructor(readonly body: number, readonly shape: Shape, x: Float32Array, material: ShaderMaterial, line: ShaderMaterial) {
-    const n = shape.a.length;
-    this.position = new Float32Array(3 * n);
-    this.disp = new Float32Array(3 * n);
-    this.value = new Float32Array(n).fill(NONE);
-    for (let i = 0; i < n; ++i)
-      for (let c = 0; c < 3; ++c)
-        this.position[3 * i + c] = (1 - shape.t[i]) * x[3 * shape.a[i] + c] + shape.t[i] * x[3 * shape.b[i] + c];
-    this.attributes = [new BufferAttribute(this.disp, 3), new BufferAttribute(this.value, 1)];
-    const common: [string, BufferAttribute][] = [
-      ["position", new BufferAttribute(this.position, 3)],
-      ["normal", new BufferAttribute(shape.normal, 3)],
-      ["angle", new BufferAttribute(shape.angle ?? new Float32Array(n), 1)],
-      ["disp", this.attributes[0]],
-      ["value", this.attributes[1]],
-    ];
-    const geometry = (index: Uint32Array) => {
-      const g = new BufferGeometry();
-      for (const [name, attribute] of common) g.setAttribute(name, attribute);
-      g.setIndex(new BufferAttribute(index, 1));
-      return g;
-    };
-    this.mesh = new Mesh(geometry(shape.triangles), material);
-    this.features = new LineSegments(geometry(shape.features), line);
-    this.edges = new LineSegments(geometry(shape.edges), line);
-    for (const each of [this.mesh, this.features, this.edges]) each.frustumCulled = false;
-  }
-  setValues(values: Float32Array): void {
-    const { a, b, t } = this.shape;
-    for (let i = 0; i < a.length; ++i) {
-      const v = t[i] === 0 ? values[a[i]] : (1 - t[i]) * values[a[i]] + t[i] * values[b[i]];
-      this.value[i] = Number.isFinite(v) ? v : NONE;
-    }
-    this.attributes[1].needsUpdate = true;
-  }
-  setDisplacement(parts: Float32Array[]): void {
-    const { a, b, t } = this.shape;
-    parts.forEach((part, c) => {
-      for (let i = 0; i < a.length; ++i) {
-        const v = t[i] === 0 ? part[a[i]] : (1 - t[i]) * part[a[i]] + t[i] * part[b[i]];
-        this.disp[3 * i + c] = Number.isFinite(v) ? v : 0;
-      }
-    });
-    this.attributes[0].needsUpdate = true;
-  }
-  dispose(): void {
-    for (const each of [this.mesh, this.features, this.edges]) each.geometry.dispose();
-  }
-}
-
-export interface Hit {
-  body: number;
-  node: number;
-  /** As it lay in the beginning, in the plane of an axisymmetric section [m]. */
-  place: [number, number, number];
-  value: number;
-  depth: number;
-}
-
 interface BodyShapes {
   skin?: Drawn;
   ghost?: Drawn;
@@ -159,19 +41,22 @@ interface BodyShapes {
 export class View {
   readonly canvas: HTMLCanvasElement;
   private readonly renderer: WebGLRenderer;
+  private readonly painter: Painter;
   private readonly scene = new Scene();
   private readonly materials: ShaderMaterial[];
   private readonly lines: ShaderMaterial;
   private readonly map = new DataTexture(colourTable("Viridis"), 256, 1, RGBAFormat);
   private readonly shapes: BodyShapes[];
   private mapName = "Viridis";
-  private wanted = false;
+  /** The frame for which a picture is asked, 0 for none, and whether something moves in it. */
+  private wanted = 0;
+  private moving = false;
   /** Called after each picture, for what lies over it. */
   drawn: () => void = () => {};
 
   constructor(readonly run: Run, readonly camera: Camera, readonly choice: Choice) {
-    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true, alpha: true });
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
+    this.renderer = new WebGLRenderer({ antialias: false, preserveDrawingBuffer: true, alpha: true });
+    this.painter = new Painter(this.renderer);
     this.canvas = this.renderer.domElement;
     this.map.needsUpdate = true;
     const shared = {
@@ -322,25 +207,21 @@ export class View {
     this.renderer.setSize(Math.max(1, box.width), Math.max(1, box.height), false);
     this.request();
   }
-  request(): void {
-    if (this.wanted) return;
-    this.wanted = true;
-    requestAnimationFrame(() => {
-      this.wanted = false;
-      this.render();
-    });
+  /** Asks for a picture at the next frame. `moving`: others will follow it at once. */
+  request(moving = false): void {
+    this.moving = moving;
+    this.wanted ||= requestAnimationFrame(() => this.render(this.moving));
   }
-  render(): void {
-    const w = this.canvas.clientWidth, h = this.canvas.clientHeight;
-    this.camera.apply(w, h);
-    this.renderer.render(this.scene, this.camera.three);
+  render(moving = false): void {
+    cancelAnimationFrame(this.wanted);
+    this.wanted = 0;
+    this.camera.apply(this.canvas.clientWidth, this.canvas.clientHeight);
+    // Of a closed skin that nothing opens the back is not seen: a draft does without it.
+    const c = this.choice, closed = this.run.dimension === 3 && !c.cut.on && !c.only.on;
+    this.materials[0].side = moving && this.painter.slow && closed ? FrontSide : DoubleSide;
+    this.painter.paint(this.scene, this.camera.three, moving, () => this.request());
     performance.mark("drawn");
     this.drawn();
-  }
-
-  private turned(p: [number, number, number], angle: number): [number, number, number] {
-    const c = Math.cos(angle), s = Math.sin(angle);
-    return [p[0] * c + p[2] * s, p[1], p[2] * c - p[0] * s];
   }
 
   /** Pixels from the upper left corner of a place as it lay in the beginning, moved with its body. */
@@ -351,60 +232,23 @@ export class View {
 
   /** What lies under a pixel: the foremost triangle that is not cut away. */
   pick(px: number, py: number): Hit | undefined {
-    const w = this.canvas.clientWidth, h = this.canvas.clientHeight;
-    this.camera.apply(w, h);
-    const e = this.camera.three.matrixWorldInverse.elements;
-    const ex = ((px / w) * 2 - 1) * this.camera.three.right, ey = (1 - (py / h) * 2) * this.camera.three.top;
-    const c = this.choice, cutting = c.cut.on && this.run.dimension === 3;
-    let best: Hit | undefined;
-    for (const object of this.scene.children) {
-      const d = this.drawnOf(object as Mesh);
-      if (!d) continue;
-      const isCap = (object as Mesh).material === this.materials[4];
-      const { triangles, angle } = d.shape;
-      const eye = new Float32Array(3 * d.shape.a.length);
-      for (let i = 0; i < d.shape.a.length; ++i) {
-        let p: [number, number, number] = [0, 1, 2].map((k) => d.position[3 * i + k] + c.scale * d.disp[3 * i + k]) as [number, number, number];
-        if (angle && angle[i] !== 0) p = this.turned(p, angle[i]);
-        for (let k = 0; k < 3; ++k) eye[3 * i + k] = e[k] * p[0] + e[4 + k] * p[1] + e[8 + k] * p[2] + e[12 + k];
-      }
-      for (let t = 0; t < triangles.length; t += 3) {
-        const [i, j, k] = [triangles[t], triangles[t + 1], triangles[t + 2]];
-        const [ax, ay] = [eye[3 * i] - ex, eye[3 * i + 1] - ey];
-        const [bx, by] = [eye[3 * j] - ex, eye[3 * j + 1] - ey];
-        const [cx, cy] = [eye[3 * k] - ex, eye[3 * k + 1] - ey];
-        const u = bx * cy - by * cx, v = cx * ay - cy * ax, s = ax * by - ay * bx;
-        if (!((u >= 0 && v >= 0 && s >= 0) || (u <= 0 && v <= 0 && s <= 0)) || u + v + s === 0) continue;
-        const weights = [u / (u + v + s), v / (u + v + s), s / (u + v + s)], corners = [i, j, k];
-        const mix = (f: (corner: number) => number) => weights.reduce((sum, weight, q) => sum + weight * f(corners[q]), 0);
-        const depth = mix((q) => eye[3 * q + 2]);
-        if (best && depth <= best.depth) continue;
-        const place = [0, 1, 2].map((axis) => mix((q) => d.position[3 * q + axis])) as [number, number, number];
-        if (cutting && !isCap && place[0] * c.cut.normal[0] + place[1] * c.cut.normal[1] + place[2] * c.cut.normal[2] > c.cut.at) continue;
-        const there = corners.every((q) => d.value[q] > NONE / 10);
-        const value = there ? mix((q) => d.value[q]) : NaN;
-        const isLevel = (object as Mesh).material === this.materials[2];
-        if (c.only.on && !isLevel && !(value >= c.only.low && value <= c.only.high)) continue;
-        let node = d.shape.a[i], least = Infinity;
-        const x = this.run.bodies[d.body].x;
-        for (const q of corners)
-          for (const candidate of [d.shape.a[q], d.shape.b[q]]) {
-            const far = Math.hypot(x[3 * candidate] - place[0], x[3 * candidate + 1] - place[1], x[3 * candidate + 2] - place[2]);
-            if (far < least) [least, node] = [far, candidate];
-          }
-        best = { body: d.body, node, place, value, depth };
-      }
-    }
-    return best;
+    const c = this.choice, cutting = c.cut.on && this.run.dimension === 3, [nx, ny, nz] = c.cut.normal;
+    const targets = this.scene.children.flatMap((object) => {
+      const drawn = this.drawnOf(object as Mesh);
+      if (!drawn) return [];
+      const isCap = drawn.mesh.material === this.materials[4], isLevel = drawn.mesh.material === this.materials[2];
+      const there = (p: ArrayLike<number>, value: number) =>
+        (!cutting || isCap || nx * p[0] + ny * p[1] + nz * p[2] <= c.cut.at) && (!c.only.on || isLevel || (value >= c.only.low && value <= c.only.high));
+      return [{ drawn, x: this.run.bodies[drawn.body].x, there }];
+    });
+    return pick(targets, this.camera, c.scale, px, py, this.canvas.clientWidth, this.canvas.clientHeight);
   }
   private drawnOf(object: Mesh): Drawn | undefined {
     if (!(object instanceof Mesh) || object.material === this.materials[3]) return undefined;
-    for (const s of this.shapes)
-      for (const d of [s.skin, s.cap, ...s.levels]) if (d && d.mesh === object) return d;
-    return undefined;
+    return this.shapes.flatMap((s) => [s.skin, s.cap, ...s.levels]).find((d) => d?.mesh === object);
   }
   /** Triangles of what is on the screen. */
   get triangles(): number {
-    return this.renderer.info.render.triangles;
+    return this.painter.triangles;
   }
 }

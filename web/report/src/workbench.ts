@@ -8,7 +8,8 @@ import { alongLine } from "./geometry";
 import { duration, place, short, withUnit } from "./quantities";
 import type { Field, Page, Run } from "./run";
 import { Mark, Stage } from "./stage";
-import { Choice, Hit, Shown, View } from "./view";
+import type { Hit } from "./picking";
+import { Choice, Shown, View } from "./view";
 
 const PLAY = '<svg viewBox="0 0 24 24" width="18" height="18"><path d="M7 4v16l13-8z" fill="currentColor"/></svg>';
 const PAUSE = '<svg viewBox="0 0 24 24" width="18" height="18"><path d="M6 4h4v16H6zM14 4h4v16h-4z" fill="currentColor"/></svg>';
@@ -82,7 +83,7 @@ export class Workbench {
     c.time = location.protocol === "http:" ? this.times[this.times.length - 1] : this.times[Math.max(0, this.firstTelling())];
     const field = ["temperature", "von_mises", "displacement"].find((id) => this.run.fields.some((f) => f.id === id)) ?? this.run.fields[0]?.id ?? "";
     c.field = field;
-    const high = this.run.displacement.length ? this.displacementRange()[1] : 0;
+    const high = this.run.fields.find((f) => f.id === "displacement")?.bound(this.shownBodies(this.run)) ?? 0;
     const size = this.sizeOfBodies();
     // Drawn as it is unless that cannot be seen: then so that the largest is a thirtieth of the body.
     const wanted = high > 0 ? size / 30 / high : 0;
@@ -91,10 +92,15 @@ export class Workbench {
     const centre = this.boxes(0.5);
     c.cut.at = centre[2];
   }
-  /** A moment in which part of the casting has frozen, else the last. */
+  /** The first moment at which a good third of the casting has frozen, else the last. The curve says it; without one, the field. */
   private firstTelling(): number {
-    const run = this.run, solid = run.fields.find((f) => f.id === "solid_fraction");
-    const last = this.times.length - 1;
+    const run = this.run, last = this.times.length - 1, enough = 0.35;
+    const history = run.table("history"), time = history?.numbers("time"), curve = history?.numbers("solid_fraction");
+    if (time && curve) {
+      const row = curve.findIndex((v) => v > enough), moment = row < 0 ? -1 : run.times.findIndex((t) => t >= time[row] * (1 - 1e-9));
+      return moment < 0 ? last : this.times.indexOf(run.times[moment]);
+    }
+    const solid = run.fields.find((f) => f.id === "solid_fraction");
     if (!solid) return last;
     for (let m = 0; m < run.times.length; ++m) {
       let sum = 0, n = 0;
@@ -102,13 +108,9 @@ export class Workbench {
         sum += v;
         ++n;
       }
-      if (n > 0 && sum / n > 0.35) return this.times.indexOf(run.times[m]);
+      if (n > 0 && sum / n > enough) return this.times.indexOf(run.times[m]);
     }
     return last;
-  }
-  private displacementRange(): [number, number] {
-    const field = this.run.fields.find((f) => f.id === "displacement");
-    return field ? field.range(this.shownBodies(this.run)) : [0, 0];
   }
   private shownBodies(run: Run): number[] {
     const shown = run.bodies.flatMap((b, i) => ((this.choice.shown.get(b.name) ?? "shown") === "shown" ? [i] : []));
@@ -203,8 +205,8 @@ export class Workbench {
       h("button", { class: "link", style: "pointer-events:auto", title: "Go there", click: () => this.fly(most.highAt, `largest ${withUnit(most.high, field.unit)}`, most.body) }, `largest element ${withUnit(most.high, field.unit)}`),
     ];
   }
-  private redraw(): void {
-    for (const s of this.stages) s.view.request();
+  private redraw(moving = false): void {
+    for (const s of this.stages) s.view.request(moving);
   }
 
   /** What the reader has chosen, for the next page of a run that goes on. */
@@ -278,7 +280,7 @@ export class Workbench {
 
   // Camera
   moved(): void {
-    this.redraw();
+    this.redraw(true);
   }
   activated(): void {}
   fit(): void {
@@ -321,7 +323,7 @@ export class Workbench {
       const s = Math.min(1, (performance.now() - began) / 600), e = s * s * (3 - 2 * s);
       this.camera.target.lerpVectors(from, to, e);
       this.camera.half = halfFrom * (halfTo / halfFrom) ** e;
-      this.redraw();
+      this.redraw(s < 1);
       if (s < 1) requestAnimationFrame(move);
     };
     move();
@@ -381,7 +383,7 @@ export class Workbench {
     if (field && points.length && !field.atEnd) {
       const lines = points.map((m, i) => {
         const run = this.runs[m.run], of = run.fields.find((f) => f.id === field.id);
-        const y = run.times.map((_, k) => (of?.has(m.body) ? of.values(m.body, k)[m.node] * field.unit.scale + field.unit.offset : NaN));
+        const y = run.times.map((_, k) => (of?.has(m.body) ? of.value(m.body, m.node, k) * field.unit.scale + field.unit.offset : NaN));
         const which = this.runs.length > 1 ? `${run.meta.name}, ` : "";
         return { label: `${m.label}: ${which}${run.bodies[m.body].name}, node ${run.bodies[m.body].numbers[m.node]}`, x: run.times, y, colour: i };
       });

@@ -1,7 +1,7 @@
 /// Nanoseconds per lane (eight numbers): exp, log, pow and sqrt as vectors and number by number, property
 /// tables and phase fractions.
 ///
-///   ./base_bench
+///   ./numbers_bench
 #include <benchmark/benchmark.h>
 
 #include <cmath>
