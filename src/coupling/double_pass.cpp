@@ -23,7 +23,7 @@ constexpr double k_settled = 1e-4, k_falls = 0.1;
 
 }  // namespace
 
-DoublePass::DoublePass(Phases phases) : phases_(std::move(phases)) {
+DoublePass::DoublePass(Phases phases, ThermalFlow flow) : phases_(std::move(phases)), flow_(flow) {
   if (phases_.heat == nullptr || phases_.mechanics == nullptr)
     throw std::invalid_argument("the double pass needs both phases");
   using mechanics::Mapping;
@@ -88,6 +88,14 @@ void DoublePass::mechanical_half(const State& start, State& end, mechanics::Mech
                      "the coupling is too strong for passes that hold the temperature");
 }
 
+void DoublePass::thermal_half(const State& start, State& end, const heat::ThermalPass& heat,
+                              const mechanics::MechanicalPass& moved, StepEffort& effort) const {
+  if (flow_ == ThermalFlow::kept)
+    thermal_pass(phases_, start, end, heat, effort);
+  else
+    thermal_pass_with_flow(phases_, start, end, heat, start.mechanics, moved, effort);
+}
+
 StepEffort DoublePass::first_half(const State& old, State& half, double time, double dt) {
   StepEffort effort;
   const double middle = time - 0.5 * dt;
@@ -98,23 +106,24 @@ StepEffort DoublePass::first_half(const State& old, State& half, double time, do
   for (contact::ContactPair* pair : phases_.contacts) pair->hold_deformation();
   State predicted;
   thermal_pass(phases_, old, predicted, {.time = middle, .dt = 0.5 * dt}, effort);
+  const mechanics::MechanicalPass pass{
+      .time = middle,
+      .dt = 0.5 * dt,
+      .temperature = old.heat.temperature,
+      .plateau_share = share,
+      .iterate_temperature = predicted.heat.temperature,
+      .work = moves ? mechanics::StressAtWork::end : mechanics::StressAtWork::end_kept};
   mechanical_half(
-      old, half,
-      {.time = middle,
-       .dt = 0.5 * dt,
-       .temperature = old.heat.temperature,
-       .plateau_share = share,
-       .iterate_temperature = predicted.heat.temperature,
-       .work = moves ? mechanics::StressAtWork::end : mechanics::StressAtWork::end_kept},
+      old, half, pass,
       [&](State& led) { thermal_pass(phases_, old, led, {.time = middle, .dt = 0.5 * dt}, effort); }, effort);
   contact.add(phases_.mechanics->work_share());
   contact.book(effort.energy);
   for (contact::ContactPair* pair : phases_.contacts) pair->predict_heat();
   // The deformation of the whole step acts at once before it: temperatures that leave their range by it come
   // back in step 4.
-  thermal_pass(phases_, old, half,
+  thermal_half(old, half,
                {.time = time, .dt = dt, .stepping = heat::ThermalStepping::sdirk2, .within_range = false},
-               effort);
+               pass, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, half, effort);
   return effort;
@@ -126,18 +135,18 @@ StepEffort DoublePass::second_half(const State& half, State& trial, double time,
   const heat::ThermalPass adiabatic{.time = time, .dt = dt, .adiabatic = true};
   ContactWork contact(phases_);
   const std::vector<double> share = plateau_share(phases_, half.heat);
+  const mechanics::MechanicalPass pass{
+      .time = time,
+      .dt = 0.5 * dt,
+      .temperature = half.heat.temperature,
+      .plateau_share = share,
+      .work = moves ? mechanics::StressAtWork::end : mechanics::StressAtWork::kept};
   mechanical_half(
-      half, trial,
-      {.time = time,
-       .dt = 0.5 * dt,
-       .temperature = half.heat.temperature,
-       .plateau_share = share,
-       .work = moves ? mechanics::StressAtWork::end : mechanics::StressAtWork::kept},
-      [&](State& led) { thermal_pass(phases_, half, led, adiabatic, effort); }, effort);
+      half, trial, pass, [&](State& led) { thermal_pass(phases_, half, led, adiabatic, effort); }, effort);
   // In quasi-statics the work of the pressure in the middle, as that of the stress.
   contact.add(moves ? phases_.mechanics->work_share() : 0);
   contact.book(effort.energy);
-  thermal_pass(phases_, half, trial, adiabatic, effort);
+  thermal_half(half, trial, adiabatic, pass, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   effort.energy.heat_exchanged = 0;  // what deformation and heat exchange within a point
   effort.stability = stability_audit(phases_, half, trial, effort);

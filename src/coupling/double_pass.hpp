@@ -29,6 +29,7 @@
 
 #include "coupling/phases.hpp"
 #include "coupling/scheme.hpp"
+#include "coupling/thermal_flow.hpp"
 
 namespace solidus::coupling {
 
@@ -37,7 +38,8 @@ class DoublePass final : public CouplingScheme {
   /// The phases must outlive the scheme. Throws std::invalid_argument unless both are there, the mechanical
   /// one isothermal or isentropic, and what structural heat they exchange is in the energy or the entropy
   /// form; an isentropic one needs it.
-  explicit DoublePass(Phases phases);
+  /// @param flow  of metal in steps 2 and 4
+  explicit DoublePass(Phases phases, ThermalFlow flow = ThermalFlow::kept);
 
   void synchronise(const State& state) override;
   void forget() override;
@@ -54,7 +56,12 @@ class DoublePass final : public CouplingScheme {
   /// Whether a mechanical pass is repeated at the temperature that it leads to.
   bool repeats() const;
 
+  /// Step 2 or 4 after a mechanical pass from `start`.
+  void thermal_half(const State& start, State& end, const heat::ThermalPass& heat,
+                    const mechanics::MechanicalPass& moved, StepEffort& effort) const;
+
   Phases phases_;
+  ThermalFlow flow_;
 };
 
 }  // namespace solidus::coupling

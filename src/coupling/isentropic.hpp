@@ -5,9 +5,10 @@
 ///   mechanical:  equilibrium with σ̄ = σ(ε_{n+1}, z̄, Θ̄),  S^E(ε_{n+1}, z̄, Θ̄) = S^E_n             (4.40)
 ///   thermal:     Θ_{n+1} (S_{n+1} − S_n) − D̄  or  E_{n+1} − E_n − σ̄ : Δε,  and heat          (4.43a)
 ///
-/// Θ̄ is an affair of the mechanical phase alone. The thermal phase keeps the internal variables z̄: mapped
-/// again from z_n (4.45), a point that freezes in the step would take back the flow of its melt.
-/// Unconditionally stable; the energy form closes the first law besides (docs/theory/coupling_stability.md).
+/// Θ̄ is an affair of the mechanical phase alone. The thermal phase keeps the internal variables z̄, or maps
+/// those of solid metal again from z_n (4.45, ThermalFlow::restarted); of melt it keeps them, because a point
+/// that freezes in the step would take back the flow of its melt. Unconditionally stable; the energy form
+/// closes the first law besides (docs/theory/coupling_stability.md).
 #pragma once
 
 #include <stdexcept>
@@ -21,11 +22,12 @@ class IsentropicSplit final : public SequentialSplit {
   /// The phases must outlive the scheme. Where deformation exchanges no heat, entropy is a function of the
   /// temperature alone: the mechanical phase is the isothermal one then. Throws std::invalid_argument unless
   /// both phases are there.
-  explicit IsentropicSplit(const Phases& phases, PhaseOrder order = PhaseOrder::mechanics_first)
+  explicit IsentropicSplit(const Phases& phases, PhaseOrder order = PhaseOrder::mechanics_first,
+                           ThermalFlow flow = ThermalFlow::kept)
       : SequentialSplit(
             phases,
             phases.structural != nullptr ? mechanics::Mapping::isentropic : mechanics::Mapping::isothermal,
-            order) {
+            order, flow) {
     if (phases.heat == nullptr || phases.mechanics == nullptr)
       throw std::invalid_argument("the isentropic split needs both phases");
   }

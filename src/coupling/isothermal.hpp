@@ -14,8 +14,9 @@ namespace solidus::coupling {
 class IsothermalSplit final : public SequentialSplit {
  public:
   /// The phases must outlive the scheme.
-  explicit IsothermalSplit(Phases phases, PhaseOrder order = PhaseOrder::mechanics_first)
-      : SequentialSplit(std::move(phases), mechanics::Mapping::isothermal, order) {}
+  explicit IsothermalSplit(Phases phases, PhaseOrder order = PhaseOrder::mechanics_first,
+                           ThermalFlow flow = ThermalFlow::kept)
+      : SequentialSplit(std::move(phases), mechanics::Mapping::isothermal, order, flow) {}
 };
 
 }  // namespace solidus::coupling

@@ -1,11 +1,14 @@
 #include "coupling/passes.hpp"
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <algorithm>
 
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
+#include "coupling/largest_difference.hpp"
+#include "mechanics/block_kernel.hpp"
 #include "system/errors.hpp"
 #include "system/profile.hpp"
 
@@ -21,6 +24,11 @@ void add(const linear::NewtonReport& newton, int hardest, double seconds, PhaseE
   effort.residual = newton.residuals.empty() ? 0.0 : newton.residuals.back();
   effort.seconds += seconds;
 }
+
+/// Turns of thermal phase and return mapping: at most, and the share of the step's largest change of
+/// temperature that the last one may bring, the tolerance of the nodal heat balance.
+constexpr int k_flow_turns = 12;
+constexpr double k_flow_settled = heat::k_nodal_tolerance;
 
 }  // namespace
 
@@ -104,6 +112,33 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   if (!pass.adiabatic) effort.fields.flows = std::move(report.flows);
   add(report.newton, report.hardest, MPI_Wtime() - start, effort.heat);
   return report.newton.converged;
+}
+
+bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial, heat::ThermalPass heat,
+                            const mechanics::MechanicalState& started, const mechanics::MechanicalPass& pass,
+                            StepEffort& effort) {
+  bool converged = thermal_pass(phases, old, trial, heat, effort);
+  double change = 0;
+  for (int turn = 1; turn <= k_flow_turns; ++turn) {
+    const std::vector<double> led = trial.heat.temperature;
+    const mechanics::FlowChange flow = phases.mechanics->restart_flow(started, pass, led, trial.mechanics);
+    if (turn == 1 && !flow.flows) return converged;
+    heat.iterate = &trial.heat;
+    converged = thermal_pass(phases, old, trial, heat, effort);
+    change = largest_difference(trial.heat.temperature, led);
+    if (change > k_flow_settled * largest_difference(trial.heat.temperature, old.heat.temperature)) continue;
+    effort.energy.viscous_dissipation += flow.work.dissipation - flow.work.plastic_dissipation;
+    effort.energy.plastic_dissipation += flow.work.plastic_dissipation;
+    effort.energy.plastic_work += flow.work.plastic_work;
+    effort.energy.inelastic_entropy += flow.work.inelastic_entropy;
+    effort.least_dissipation = std::min(effort.least_dissipation, flow.work.least_dissipation);
+    effort.largest_dissipation = std::max(effort.largest_dissipation, flow.work.largest_dissipation);
+    return converged;
+  }
+  throw StepRejected(fmt::format("coupling: return mapping and heat of the thermal phase do not settle: the "
+                                 "temperatures still change by {:.3g} K after {} turns",
+                                 change, k_flow_turns),
+                     "flow whose heat depends strongly on the temperature");
 }
 
 }  // namespace solidus::coupling

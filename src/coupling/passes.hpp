@@ -35,4 +35,14 @@ void book_work(const mechanics::PhaseReport& report, StepEffort& effort);
 bool thermal_pass(const Phases& phases, const State& old, State& trial, const heat::ThermalPass& pass,
                   StepEffort& effort);
 
+/// thermal_pass() with the return mapping that the monograph prints for the thermal phase (4.45, 4.49, 4.54):
+/// the flow of solid metal at Θ_{n+1} from the internal variables at t_n, at the strain of the mechanical
+/// phase. The two are solved in turns until the temperatures stay; what the one does to the other is about
+/// 1e-3, so that two or three turns do. Throws StepRejected where they do not.
+/// @param started  the mechanical state that the last mechanical pass started from
+/// @param pass     that pass
+bool thermal_pass_with_flow(const Phases& phases, const State& old, State& trial, heat::ThermalPass heat,
+                            const mechanics::MechanicalState& started, const mechanics::MechanicalPass& pass,
+                            StepEffort& effort);
+
 }  // namespace solidus::coupling

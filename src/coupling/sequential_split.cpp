@@ -43,8 +43,9 @@ void find_interface_temperatures(const Phases& phases, const State& old, double 
 
 }  // namespace
 
-SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order)
-    : phases_(std::move(phases)), order_(order) {
+SequentialSplit::SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order,
+                                 ThermalFlow flow)
+    : phases_(std::move(phases)), order_(order), flow_(flow) {
   if (phases_.mechanics != nullptr && phases_.mechanics->mapping() != mapping)
     throw std::invalid_argument("the mechanical phase was built for another split");
   if (phases_.mechanics == nullptr || phases_.heat == nullptr) order_ = PhaseOrder::mechanics_first;
@@ -72,7 +73,7 @@ StepEffort SequentialSplit::mechanics_first(const State& old, State& trial, doub
   StepEffort effort;
   if (phases_.mechanics != nullptr) mechanical_phase(old, old, trial, time, dt, effort);
   if (phases_.heat != nullptr)
-    thermal_pass(phases_, old, trial, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
+    thermal_phase(old, old, trial, {.time = time, .dt = dt, .stepping = phases_.heat->stepping()}, effort);
   book_interface(effort.energy, phases_.structural != nullptr);
   const profile::Part part("audit");
   effort.stability = stability_audit(phases_, old, trial, effort);
@@ -85,7 +86,7 @@ StepEffort SequentialSplit::heat_first(const State& old, State& trial, double ti
   const contact::InterfaceSums conducted = effort.energy.interface;
   StepEffort deformed;
   mechanical_phase(old, warm, trial, time, dt, deformed);
-  thermal_pass(phases_, warm, trial, {.time = time, .dt = dt, .adiabatic = true}, deformed);
+  thermal_phase(old, warm, trial, {.time = time, .dt = dt, .adiabatic = true}, deformed);
   book_interface(deformed.energy, phases_.structural != nullptr);
   deformed.stability = stability_audit(phases_, warm, trial, deformed);
   effort += deformed;
@@ -102,6 +103,19 @@ StepEffort SequentialSplit::heat_at_rest(const State& old, State& warm, double t
   book_interface(effort.energy, phases_.structural != nullptr);
   effort.stability = stability_audit(phases_, old, warm, effort);
   return effort;
+}
+
+void SequentialSplit::thermal_phase(const State& old, const State& warm, State& trial,
+                                    const heat::ThermalPass& pass, StepEffort& effort) {
+  if (flow_ == ThermalFlow::kept || phases_.mechanics == nullptr) {
+    thermal_pass(phases_, warm, trial, pass, effort);
+    return;
+  }
+  const std::vector<double> share = plateau_share(phases_, warm.heat);
+  thermal_pass_with_flow(
+      phases_, warm, trial, pass, old.mechanics,
+      {.time = pass.time, .dt = pass.dt, .temperature = warm.heat.temperature, .plateau_share = share},
+      effort);
 }
 
 // From the temperature of t_n (4.40, 4.46), or from the one that conduction has left.

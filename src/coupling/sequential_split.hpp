@@ -15,6 +15,7 @@
 #include "coupling/phase_order.hpp"
 #include "coupling/phases.hpp"
 #include "coupling/scheme.hpp"
+#include "coupling/thermal_flow.hpp"
 
 namespace solidus::coupling {
 
@@ -27,7 +28,8 @@ class SequentialSplit : public CouplingScheme {
  protected:
   /// The phases must outlive the scheme; the order means nothing where one of them is missing. Throws
   /// std::invalid_argument when the mechanical phase was built for another mapping.
-  SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order);
+  /// @param flow  of metal in the thermal phase that follows the mechanical one
+  SequentialSplit(Phases phases, mechanics::Mapping mapping, PhaseOrder order, ThermalFlow flow);
   const Phases& phases() const { return phases_; }
 
  private:
@@ -38,9 +40,13 @@ class SequentialSplit : public CouplingScheme {
   /// Equilibrium at t_{n+1}, and the works of contact.
   void mechanical_phase(const State& old, const State& warm, State& trial, double time, double dt,
                         StepEffort& effort);
+  /// Heat at the configuration found, from `warm`, with the flow of the mechanical phase or a new one.
+  void thermal_phase(const State& old, const State& warm, State& trial, const heat::ThermalPass& pass,
+                     StepEffort& effort);
 
   Phases phases_;
   PhaseOrder order_;
+  ThermalFlow flow_;
 };
 
 }  // namespace solidus::coupling

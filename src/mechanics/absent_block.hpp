@@ -23,6 +23,10 @@ class AbsentBlock final : public BlockKernel, public CoupledKernel {
   double add_forces(std::span<const double>, std::span<double>) override { return 0; }
   void add_tangent(std::span<const double>, linear::BlockMatrix&) override {}
   BlockWork finish(std::span<const double>, std::span<const double>, BlockHistory&) override { return {}; }
+  FlowChange restart_flow(const StepStart&, std::span<const double>, std::span<const double>,
+                          BlockHistory&) override {
+    return {};
+  }
   void hold_deformation(const StepStart&) override {}
   std::string failure(std::span<const double>) const override { return {}; }
   FlowingVolume flowing(std::span<const double>) const override { return {}; }

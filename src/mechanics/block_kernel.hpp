@@ -1,6 +1,7 @@
 /// The mechanics of one mesh block behind an interface: one virtual call per block, none per element.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -61,11 +62,30 @@ struct BlockWork {
   double stabilisation_work = 0;
   double least_dissipation = 0, largest_dissipation = 0;  ///< [W/m³]
   double inelastic_entropy = 0;                           ///< change of S^I [J/K]
+
+  BlockWork& operator+=(const BlockWork& other) {
+    internal_work += other.internal_work;
+    stabilisation_work += other.stabilisation_work;
+    dissipation += other.dissipation;
+    plastic_dissipation += other.plastic_dissipation;
+    plastic_work += other.plastic_work;
+    inelastic_entropy += other.inelastic_entropy;
+    least_dissipation = std::min(least_dissipation, other.least_dissipation);
+    largest_dissipation = std::max(largest_dissipation, other.largest_dissipation);
+    return *this;
+  }
 };
 
 /// [m³], in two dimensions per depth or radian.
 struct FlowingVolume {
   double flowing = 0, all = 0;
+};
+
+/// What a return mapping in the thermal phase changes against the flow of the mechanical phase.
+struct FlowChange {
+  BlockWork work;      ///< differences; least and largest dissipation of the new flow
+  bool flows = false;  ///< some point of solid metal flows otherwise
+  bool found = true;   ///< the law has found a state everywhere
 };
 
 class BlockKernel {
@@ -89,6 +109,12 @@ class BlockKernel {
   virtual void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) = 0;
   /// Writes the new history, and stores stresses and the data for the thermal phase.
   virtual BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) = 0;
+  /// Finds the flow of solid metal anew at `pass_temperature`, the strains being those of the last finish()
+  /// and the flow that of t_n (4.45, 4.49, 4.54): history, values for results and what the thermal phase
+  /// needs. Melt and mush keep their flow, and the stress power stays that of the last finish().
+  /// @param start  temperatures, phases and melt
+  virtual FlowChange restart_flow(const StepStart& start, std::span<const double> old_u,
+                                  std::span<const double> u, BlockHistory& trial) = 0;
   /// Holds the deformation: has the effect of prepare() and finish() for a body that stays at the held
   /// displacement and history.
   virtual void hold_deformation(const StepStart& start) = 0;

@@ -126,6 +126,22 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     return this->total(tally);
   }
 
+  FlowChange restart_flow(const StepStart& start, std::span<const double> old_u, std::span<const double> u,
+                          BlockHistory& trial) override {
+    typename Base::Restart restart;
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
+      typename Base::Average average;
+      for (int q = 0; q < geometry_.n_points; ++q) {
+        const Operator b = at_point(batch, q);
+        this->restart_point(start, batch, q, b.strain(old_displacement), b.strain(displacement), trial,
+                            average, restart);
+      }
+      this->keep(batch, average);
+    }
+    return this->total(restart);
+  }
+
   void hold_deformation(const StepStart& start) override {
     prepare(start);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {

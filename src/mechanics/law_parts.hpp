@@ -51,6 +51,16 @@ material::Viscoplastic::Properties<T> isothermal_part(const material::Isentropic
   return {elastic_part(law, p), p.flow};
 }
 
+/// The law that works at a given temperature: of an isentropic law the isothermal one, every other law
+/// itself.
+inline const material::Viscoplastic& law_at_temperature(const material::Isentropic& law) {
+  return law.isothermal();
+}
+template <class Law>
+const Law& law_at_temperature(const Law& law) {
+  return law;
+}
+
 /// Sets η of a melt whose material has none [Pa s].
 inline void set_melt_viscosity(const Lane& viscosity, material::PointProperties<Lane>& p) {
   p.viscosity = viscosity;
@@ -198,6 +208,15 @@ IsentropicValues<Lane> values_of(const material::Isentropic& law,
   return v;
 }
 
+/// The values that the law at a given temperature has, among those of a law.
+inline ViscoplasticValues<Lane>& values_at_temperature(IsentropicValues<Lane>& values) {
+  return values.mechanical;
+}
+template <class Values>
+Values& values_at_temperature(Values& values) {
+  return values;
+}
+
 /// One field of an element, to component_count() places; what a law does not know is zero.
 void put(ElementField which, const ViscoelasticValues<double>& values, double* to);
 void put(ElementField which, const ViscoplasticValues<double>& values, double* to);
@@ -211,6 +230,16 @@ void add_weighted(Values& sum, const Lane& weight, const Values& values) {
   const auto added = std::bit_cast<Lanes>(values);
   for (std::size_t i = 0; i < total.size(); ++i) total[i] += weight * added[i];
   sum = std::bit_cast<Values>(total);
+}
+
+/// Lane by lane `a` where the mask holds, else `b`: structs that hold nothing but lanes.
+template <class Values>
+Values select_lanes(const LaneMask& mask, const Values& a, const Values& b) {
+  using Lanes = std::array<Lane, sizeof(Values) / sizeof(Lane)>;
+  auto chosen = std::bit_cast<Lanes>(a);
+  const auto others = std::bit_cast<Lanes>(b);
+  for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = select(mask, chosen[i], others[i]);
+  return std::bit_cast<Values>(chosen);
 }
 
 /// In words, for the message of a step that failed.

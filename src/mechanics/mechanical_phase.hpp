@@ -41,6 +41,7 @@ class Loads;
 class NodalPressure;
 class SaddleSolver;
 struct BlockWork;
+struct FlowChange;
 
 enum class TimeIntegration { backward_euler, two_step };
 
@@ -174,6 +175,18 @@ class MechanicalPhase : private linear::NonlinearSystem {
                     double time, double dt) {
     return solve(old, trial, {.time = time, .dt = dt, .temperature = temperature});
   }
+
+  /// The return mapping of the thermal phase (4.45, 4.49, 4.54): finds the flow of solid metal anew at the
+  /// temperatures of the step's end, from the internal variables at t_n, at the strain of the last solve(),
+  /// and hands StructuralHeat and the fields what follows. Melt and mush keep the flow of that solve, of
+  /// whose stress the work also stays; may be repeated. Throws StepRejected on all processes where a law
+  /// finds no state. Collective.
+  /// @param old, pass    those of the last solve()
+  /// @param temperature  Θ_{n+1} [K], [local node], ghosts up to date
+  /// @param trial        the state that the solve has found; its history is replaced
+  /// @return differences to the mechanical phase, over all processes
+  FlowChange restart_flow(const MechanicalState& old, const MechanicalPass& pass,
+                          std::span<const double> temperature, MechanicalState& trial);
 
   /// Holds the deformation of `state` for StructuralHeat, so that a thermal phase of bodies that do not move
   /// can follow.

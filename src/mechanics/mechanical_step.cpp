@@ -12,6 +12,7 @@
 #include "mechanics/nodal_pressure.hpp"
 #include "mechanics/saddle_solver.hpp"
 #include "mechanics/stress_history.hpp"
+#include "system/errors.hpp"
 #include "system/profile.hpp"
 #include "system/stopwatch.hpp"
 
@@ -253,6 +254,50 @@ void MechanicalPhase::hold_deformation(const MechanicalState& state, std::span<c
                                   .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]});
 }
 
+FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const MechanicalPass& pass,
+                                         std::span<const double> temperature, MechanicalState& trial) {
+  const profile::Part part("history");
+  FlowChange total;
+  auto failed = static_cast<double>(mesh_.bodies.size());  // the first body whose law finds no state
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const FlowChange change = blocks_[b]->restart_flow(
+        {.temperature = pass.temperature,
+         .pass_temperature = temperature,
+         .initial_temperature = initial_temperature_,
+         .old_displacement = old.displacement,
+         .held_displacement = old.displacement,
+         .held_history = &old.history[b],
+         .old_history = &old.history[b],
+         .start_history = &old.history[b],
+         .dt = pass.dt,
+         .effective_dt = time_step(old, pass.dt).dt,
+         .phases = nodal_phases_.evaluate(
+             b, pass.phase_temperature.empty() ? pass.temperature : pass.phase_temperature,
+             pass.plateau_share),
+         .melt = &melt_[static_cast<std::size_t>(mesh_.blocks[b].body)]},
+        old.displacement, trial.displacement, trial.history[b]);
+    total.work += change.work;
+    total.flows = total.flows || change.flows;
+    if (!change.found) failed = std::min(failed, static_cast<double>(mesh_.blocks[b].body));
+  }
+  if (const auto body = static_cast<std::size_t>(parallel::global_min(failed)); body < mesh_.bodies.size())
+    throw StepRejected(
+        "mechanics: the return mapping of the thermal phase finds no state at the temperatures of "
+        "the step's end",
+        "body '" + mesh_.bodies[body].name + "'");
+  total.flows = parallel::any_process(total.flows);
+  BlockWork& work = total.work;
+  double sums[] = {work.dissipation, work.plastic_dissipation, work.plastic_work, work.inelastic_entropy};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  work.dissipation = sums[0];
+  work.plastic_dissipation = sums[1];
+  work.plastic_work = sums[2];
+  work.inelastic_entropy = sums[3];
+  work.least_dissipation = parallel::global_min(work.least_dissipation);
+  work.largest_dissipation = parallel::global_max(work.largest_dissipation);
+  return total;
+}
+
 BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const double> x,
                                   std::vector<BlockHistory>& history) {
   const profile::Part part("history");
@@ -266,15 +311,7 @@ BlockWork MechanicalPhase::finish(const MechanicalState& old, std::span<const do
       history[b].values.resize(old.history[b].values.size());
     else  // of the layout that a checkpoint knows
       history[b].values.assign(old.history[b].values.size(), Lane(0.0));
-    const BlockWork work = blocks_[b]->finish(old.displacement, u, history[b]);
-    total.internal_work += work.internal_work;
-    total.stabilisation_work += work.stabilisation_work;
-    total.dissipation += work.dissipation;
-    total.plastic_dissipation += work.plastic_dissipation;
-    total.plastic_work += work.plastic_work;
-    total.inelastic_entropy += work.inelastic_entropy;
-    total.least_dissipation = std::min(total.least_dissipation, work.least_dissipation);
-    total.largest_dissipation = std::max(total.largest_dissipation, work.largest_dissipation);
+    total += blocks_[b]->finish(old.displacement, u, history[b]);
   }
   return total;
 }

@@ -157,6 +157,12 @@ class PointBlock : public BlockKernel {
         inelastic_entropy{0.0};
     PlasticPower plastic;
   };
+  /// FlowChange of a block, lane by lane.
+  struct Restart {
+    Tally change;
+    LaneMask flows = Lane(0.0) > Lane(0.0);
+    bool found = true;
+  };
   /// Average over the points of a batch, weighted with their volumes.
   struct Average {
     Values sums;
@@ -355,6 +361,52 @@ class PointBlock : public BlockKernel {
     return at_work;
   }
 
+  /// restart_flow() at a point; strains are those that the law has seen in the mechanical phase.
+  void restart_point(const StepStart& start, Index batch, int q, const Sym<Lane>& old_strain,
+                     const Sym<Lane>& strain, BlockHistory& trial, Average& average, Restart& restart) {
+    const Properties properties = properties_[index(batch, q)];
+    const LaneMask solid = elastic_part(law_, properties).solid_fraction >= Lane(1.0);
+    const State old = old_state(batch, q);
+    // All of the mechanical phase's answer is taken before the law is asked again: a state may lie in the
+    // law.
+    const Response kept = update(batch, q, strain);
+    Values values = values_of(law_, properties, kept, strain);
+    const Flow of_mechanics = flow(law_, kept, strain, old_strain, old, solid);
+
+    const auto& law = law_at_temperature(law_);
+    auto p = law.properties_at(temperature_at(geometry_, batch, q, start.pass_temperature),
+                               temperature_at(geometry_, batch, q, start.initial_temperature),
+                               phase_at(start, batch, q));
+    if (start.melt_modulus() > 0)
+      set_melt_viscosity(start.melt_viscosity(phase_at(start, batch, q).solid_fraction), p);
+    const auto anew = law.update(p, start_state(batch, q), strain, effective_dt_);
+    restart.found = restart.found && anew.status == material::Status::converged;
+    const Flow now = select_lanes(solid, flow(law, anew, strain, old_strain, old, solid), of_mechanics);
+
+    auto& shown = values_at_temperature(values);
+    shown = select_lanes(solid, values_of(law, p, anew, strain), shown);
+    const Lane w = geometry_.weight_at(batch, q), share = counted(batch) * w;
+    average.volume += w;
+    add_weighted(average.sums, w, values);
+    replace_state(anew.state, solid, batch, q, trial);
+    if (points_.kept()) {
+      points_.keep_of_mechanics(batch, q, of_mechanics.now);
+      auto& point = points_.at(batch, q);
+      point.now = now.now;
+      point.change = now.change;
+      point.dissipated = Lane(dt_) * now.dissipation;
+    }
+    Tally& change = restart.change;
+    change.dissipation += share * (now.dissipation - of_mechanics.dissipation);
+    change.plastic.dissipation += share * (now.plastic.dissipation - of_mechanics.plastic.dissipation);
+    change.plastic.power += share * (now.plastic.power - of_mechanics.plastic.power);
+    change.inelastic_entropy += share * (now.inelastic_entropy - of_mechanics.inelastic_entropy);
+    change.least = min(change.least, counted(batch) * now.dissipation);
+    change.largest = max(change.largest, counted(batch) * now.dissipation);
+    restart.flows = restart.flows | (abs(now.dissipation - of_mechanics.dissipation) > Lane(0.0)) |
+                    (abs(now.now.elastic_squared - of_mechanics.now.elastic_squared) > Lane(0.0));
+  }
+
   void keep(Index batch, const Average& average) {
     if (std::exchange(keeps_averages_, false)) kept_averages_ = averages_;
     const Lane inverse = select(average.volume > Lane(0.0), Lane(1.0) / average.volume,
@@ -364,6 +416,9 @@ class PointBlock : public BlockKernel {
     averages_.set(static_cast<std::size_t>(batch), mean);
   }
 
+  FlowChange total(const Restart& restart) const {
+    return {total(restart.change), any(restart.flows), restart.found};
+  }
   BlockWork total(const Tally& tally) const {
     BlockWork work;
     work.internal_work = sum(tally.internal_work);
@@ -417,6 +472,35 @@ class PointBlock : public BlockKernel {
       const auto start = element_of<typename Law::template State<double>>(start_state(batch, q), lane);
       if (law_.update(p, start, strain, effective_dt_).status == material::Status::converged) return {};
       return "at the start of the step " + text(start);
+    }
+  }
+
+  /// What the heat balance takes from the flow of a point.
+  struct Flow {
+    Deformation now, change;
+    Lane dissipation;  ///< D_mech [W/m³]
+    PlasticPower plastic;
+    Lane inelastic_entropy;  ///< [J/(m³ K)]
+  };
+  template <class AnyLaw, class Answer>
+  static Flow flow(const AnyLaw& law, const Answer& r, const Sym<Lane>& strain, const Sym<Lane>& old_strain,
+                   const State& old, const LaneMask& solid) {
+    return {deformation(strain, r.state, solid), change(strain, r.state, old_strain, old, solid),
+            r.dissipation, plastic_power(law, r), solidus::mechanics::inelastic_entropy(r.state)};
+  }
+
+  /// Writes the state of the lanes where the mask holds.
+  void replace_state(const State& state, const LaneMask& mask, Index batch, int q,
+                     BlockHistory& trial) const {
+    Lane* to = trial.values.data() + index(batch, q) * n_kept_;
+    if constexpr (KeepsStateInPlace<Law>) {
+      for (std::size_t i = 0; i < kept_.size(); ++i) to[i] = select(mask, state.values[i], to[i]);
+    } else {
+      const auto lanes = std::bit_cast<Lanes>(state);
+      for (const std::size_t lane : kept_) {
+        *to = select(mask, lanes[lane], *to);
+        ++to;
+      }
     }
   }
 

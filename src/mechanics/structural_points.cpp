@@ -191,7 +191,7 @@ StructuralPoints::Sloped StructuralPoints::heat(StructuralForm form, std::size_t
     case StructuralForm::energy:
       return {now.internal_energy - start.energy, now.capacity};
     case StructuralForm::literal: {
-      const Lane gained = now.entropy - state(at, at.now, at.temperature).entropy;
+      const Lane gained = now.entropy - state(at, of_mechanics(point), at.temperature).entropy;
       const Sloped h = structural_heating(at, temperature);
       return {temperature * gained + h.value - dissipated, now.capacity + gained + h.slope};
     }
@@ -296,7 +296,7 @@ StructuralChange StructuralPoints::mechanical_change() const {
     Lane energy(0.0), entropy(0.0);
     for (int q = 0; q < geometry_.n_points; ++q) {
       const Point& at = points_[index(batch, q)];
-      const State now = state(at, at.now, at.pass_temperature);
+      const State now = state(at, of_mechanics(index(batch, q)), at.pass_temperature);
       const auto sensible = material::sensible_heat(material_, at.temperature, at.pass_temperature);
       energy += geometry_.weight_at(batch, q) * (now.internal_energy - at.old_energy + sensible.heat);
       entropy += geometry_.weight_at(batch, q) * (now.entropy - at.old_entropy + sensible.entropy);

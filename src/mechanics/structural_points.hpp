@@ -70,6 +70,12 @@ class StructuralPoints {
   void set_dt(double dt) {
     stage_ = {dt};
     carried_.clear();
+    of_mechanics_.clear();
+  }
+  /// Stores the deformation with the flow of the mechanical phase, before another one is put into Point::now.
+  void keep_of_mechanics(Index batch, int point, const Deformation& deformation) {
+    of_mechanics_.resize(n_points_);
+    of_mechanics_[index(batch, point)] = deformation;
   }
   /// StructuralHeat::begin_stage.
   void begin_stage(const linear::Stage& stage, std::span<const double> temperature);
@@ -111,7 +117,8 @@ class StructuralPoints {
   /// The structural energy of the deformation at the nodal temperature, over the counted elements [J].
   double energy(std::span<const double> temperature) const;
   std::size_t bytes() const {
-    return points_.capacity() * sizeof(Point) + carried_.capacity() * sizeof(Start);
+    return points_.capacity() * sizeof(Point) + carried_.capacity() * sizeof(Start) +
+           of_mechanics_.capacity() * sizeof(Deformation);
   }
 
  private:
@@ -126,6 +133,10 @@ class StructuralPoints {
   State state(const Point& at, const Deformation& deformation, Lane temperature) const;
   State state(Lane line_temperature, Lane strain_offset, const Deformation& deformation,
               Lane temperature) const;
+  /// The deformation at the end of the mechanical phase.
+  const Deformation& of_mechanics(std::size_t i) const {
+    return of_mechanics_.empty() ? points_[i].now : of_mechanics_[i];
+  }
   /// A quantity and its derivative with respect to temperature.
   struct Sloped {
     Lane value, slope;
@@ -137,6 +148,8 @@ class StructuralPoints {
   material::Material material_;  ///< without phase changes: their fraction and straining are held
   std::size_t n_points_;         ///< of all batches
   PackVector<Point> points_;
+  /// Point::now of the mechanical phase, where the thermal phase maps the flow anew; else empty.
+  PackVector<Deformation> of_mechanics_;
   PackVector<Lane> correction_;  ///< share of a node less that of the points, [batch][node]; empty: none
   linear::Stage stage_;
   struct Start {

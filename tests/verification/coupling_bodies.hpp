@@ -40,6 +40,8 @@ struct Coupled {
   coupling::SimultaneousOptions simultaneous;     ///< with Mapping::simultaneous
   bool double_pass = false;                       ///< with either mapping of a split
   coupling::PhaseOrder order = coupling::PhaseOrder::mechanics_first;  ///< of the sequential splits
+  /// Of them and of the double pass.
+  coupling::ThermalFlow thermal_flow = coupling::ThermalFlow::kept;
   /// Present: passes of `mapping` in turn until they agree.
   std::optional<coupling::IterationOptions> iteration;
   /// Θ_a of 𝓛; absent: as the conditions say, where they are admissible (admissible_ambient.hpp).
@@ -130,13 +132,13 @@ class Assembly {
     if (c.iteration)
       scheme_ = std::make_unique<coupling::BlockIterative>(phases, *c.iteration);
     else if (c.double_pass)
-      scheme_ = std::make_unique<coupling::DoublePass>(phases);
+      scheme_ = std::make_unique<coupling::DoublePass>(phases, c.thermal_flow);
     else if (c.mapping == mechanics::Mapping::isentropic)
-      scheme_ = std::make_unique<coupling::IsentropicSplit>(phases, c.order);
+      scheme_ = std::make_unique<coupling::IsentropicSplit>(phases, c.order, c.thermal_flow);
     else if (c.mapping == mechanics::Mapping::simultaneous)
       scheme_ = std::make_unique<coupling::SimultaneousScheme>(phases, c.simultaneous);
     else
-      scheme_ = std::make_unique<coupling::IsothermalSplit>(phases, c.order);
+      scheme_ = std::make_unique<coupling::IsothermalSplit>(phases, c.order, c.thermal_flow);
 
     start_.heat = heat_->initial_state(c.start);
     start_.mechanics = mechanics_->initial_state();

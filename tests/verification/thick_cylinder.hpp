@@ -56,6 +56,7 @@ struct Variant {
   mechanics::Mapping mapping = mechanics::Mapping::isentropic;
   mechanics::StructuralForm form = mechanics::StructuralForm::energy;
   heat::SensibleForm sensible = heat::SensibleForm::enthalpy;
+  coupling::ThermalFlow flow = coupling::ThermalFlow::kept;
 };
 
 inline Coupled cylinder(const Variant& v, int quads = 50) {
@@ -77,6 +78,7 @@ inline Coupled cylinder(const Variant& v, int quads = 50) {
   c.mapping = v.mapping;
   c.form = v.form;
   c.sensible = v.sensible;
+  c.thermal_flow = v.flow;
   c.ambient = 293;
   return c;
 }

@@ -3,6 +3,7 @@
 
 #include "coupling/add_scheme.hpp"
 #include "coupling/double_pass.hpp"
+#include "coupling/schemes/thermal_flow.hpp"
 
 namespace solidus::coupling {
 
@@ -13,6 +14,7 @@ struct DoublePassScheme {
 
   enum class Passes { isentropic, isothermal };
   Passes passes = Passes::isentropic;
+  ThermalFlow flow = ThermalFlow::kept;
 
   static void keys(Section<DoublePassScheme>& s) {
     s.choice("passes", &DoublePassScheme::passes,
@@ -22,6 +24,7 @@ struct DoublePassScheme {
                "coupling only"}})
         .initially("isentropic")
         .doc("Which split the double pass is made of.");
+    declare_thermal_flow(s, &DoublePassScheme::flow);
   }
   SchemeTraits traits() const {
     const bool isothermal = passes == Passes::isothermal;
@@ -43,7 +46,7 @@ struct DoublePassScheme {
     return std::nullopt;
   }
   std::unique_ptr<CouplingScheme> make(const Phases& phases, const SchemeContext&) const {
-    return std::make_unique<DoublePass>(phases);
+    return std::make_unique<DoublePass>(phases, flow);
   }
 };
 

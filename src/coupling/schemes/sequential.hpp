@@ -4,11 +4,13 @@
 
 #include "coupling/add_scheme.hpp"
 #include "coupling/phase_order.hpp"
+#include "coupling/schemes/thermal_flow.hpp"
 
 namespace solidus::coupling {
 
 struct SequentialScheme {
   std::optional<PhaseOrder> order;  ///< absent: order_in() chooses
+  ThermalFlow flow = ThermalFlow::kept;
 
   /// As the case says, or heat first unless friction between bodies that do not melt, inertia or a printed
   /// form of structural heat forbids it.
@@ -43,6 +45,7 @@ struct SequentialScheme {
            "start"}})
         .initially("automatic")
         .doc("Which phase of the isentropic and of the isothermal split comes first in a step.");
+    declare_thermal_flow(s, &SequentialScheme::flow);
   }
 };
 

@@ -1,0 +1,25 @@
+/// The key by which a split chooses the flow of metal in its thermal phase.
+#pragma once
+
+#include "coupling/thermal_flow.hpp"
+#include "input/keys.hpp"
+
+namespace solidus::coupling {
+
+/// Declares the key of [coupling] by which a scheme's options choose it.
+template <class Scheme, class Options>
+void declare_thermal_flow(Section<Scheme>& s, ThermalFlow Options::*flow) {
+  s.choice("thermal_flow", static_cast<ThermalFlow Scheme::*>(flow),
+           {{"kept", ThermalFlow::kept,
+             "as the mechanical phase has found it: stress and flow stay in equilibrium"},
+            {"restarted", ThermalFlow::restarted,
+             "as printed (4.45, 4.49, 4.54): solid metal is mapped again from the internal variables of the "
+             "step's start at the temperatures of its end, and stress and flow that are shown are those; "
+             "liquid and mush keep the flow of the melt"}})
+      .initially("kept")
+      .doc(
+          "Plastic flow in the thermal phase of the isentropic and the isothermal split and of the double "
+          "pass.");
+}
+
+}  // namespace solidus::coupling
