@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 
+#include "mesh/shape_table.hpp"
+
 namespace solidus::mesh {
 
 namespace {
@@ -18,16 +20,9 @@ constexpr std::array<Family, 23> k_families{
      {"DC2D", 2}, {"DCAX", 2}, {"AC2D", 2}, {"ACAX", 2}, {"SFM3D", 2}, {"M3D", 2}, {"R3D", 2}, {"STRI", 2},
      {"DS", 2},   {"S", 2},    {"T2D", 1},  {"T3D", 1},  {"DC1D", 1},  {"R2D", 1}, {"B", 1}}};
 
-constexpr std::array<int, 10> k_tet10{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
-constexpr std::array<int, 20> k_hex20{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14};
-constexpr std::array<int, 4> k_tet_face{0, 1, 3, 2};
-constexpr std::array<int, 6> k_hex_face{0, 5, 1, 3, 4, 2};
-
 std::optional<Shape> shape_with(int dimension, int nodes) {
-  constexpr std::array<Shape, 10> shapes{Shape::line2, Shape::line3, Shape::tri3,  Shape::tri6, Shape::quad4,
-                                         Shape::quad8, Shape::tet4,  Shape::tet10, Shape::hex8, Shape::hex20};
-  for (const Shape s : shapes)
-    if (mesh::dimension(s) == dimension && node_count(s) == nodes) return s;
+  for (const ShapeRow& row : k_shape_rows)
+    if (row.dimension == dimension && row.nodes == nodes && dimension > 0) return row.shape;
   return std::nullopt;
 }
 
@@ -53,17 +48,13 @@ std::optional<Shape> shape_of_abaqus_type(std::string_view type) {
 }
 
 std::span<const int> abaqus_node_order(Shape shape) {
-  if (shape == Shape::tet10) return k_tet10;
-  if (shape == Shape::hex20) return k_hex20;
-  return {};
+  return row_of(shape).abaqus_nodes;
 }
 
 std::optional<int> face_of_abaqus_label(Shape shape, int label) {
   if (label < 1 || label > face_count(shape)) return std::nullopt;
-  const auto i = static_cast<std::size_t>(label - 1);
-  if (shape == Shape::tet4 || shape == Shape::tet10) return k_tet_face[i];
-  if (shape == Shape::hex8 || shape == Shape::hex20) return k_hex_face[i];
-  return label - 1;
+  const Places faces = row_of(shape).abaqus_faces;
+  return faces.empty() ? label - 1 : faces[static_cast<std::size_t>(label - 1)];
 }
 
 }  // namespace solidus::mesh

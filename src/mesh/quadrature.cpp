@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "mesh/shape_table.hpp"
+
 namespace solidus::mesh {
 
 namespace {
@@ -112,50 +114,28 @@ Rule gauss_rule(Shape shape, int degree) {
     throw std::invalid_argument("quadrature degree " + std::to_string(degree) + " is not between 0 and " +
                                 std::to_string(k_highest_degree));
   const int n = degree / 2 + 1;
-  switch (shape) {
-    case Shape::point1:
+  const ShapeRow& row = row_of(shape);
+  switch (row.reference) {
+    case Reference::point:
       return {{{0, 0, 0}, 1}};
-    case Shape::line2:
-    case Shape::line3:
-      return cube(1, n);
-    case Shape::tri3:
-    case Shape::tri6:
-      return triangle(degree);
-    case Shape::quad4:
-    case Shape::quad8:
-      return cube(2, n);
-    case Shape::tet4:
-    case Shape::tet10:
-      return tetrahedron(degree);
-    case Shape::hex8:
-    case Shape::hex20:
-      return cube(3, n);
+    case Reference::line:
+    case Reference::cube:
+      return cube(row.dimension, n);
+    case Reference::simplex:
+      return row.dimension == 2 ? triangle(degree) : tetrahedron(degree);
   }
   return {};
 }
 
 Rule stiffness_rule(Shape shape) {
-  switch (shape) {
-    case Shape::tri3:
-    case Shape::tet4:
-      return gauss_rule(shape, 1);
-    case Shape::tri6:
-    case Shape::tet10:
-      return gauss_rule(shape, 2);
-    case Shape::line2:
-    case Shape::quad4:
-    case Shape::hex8:
-      return gauss_rule(shape, 3);
-    default:
-      return gauss_rule(shape, 5);
-  }
+  return gauss_rule(shape, row_of(shape).stiffness_degree);
 }
 
 Rule nodal_rule(Shape shape) {
   static constexpr std::array<Point, 8> corner{
       {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
   const int dim = dimension(shape), n = node_count(shape), vertices = vertex_count(shape);
-  const bool simplex = dim > 1 && vertices == dim + 1;
+  const bool simplex = row_of(shape).reference == Reference::simplex;
   double volume = 1;
   if (simplex)
     volume = dim == 2 ? 0.5 : 1.0 / 6;
