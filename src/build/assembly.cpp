@@ -62,7 +62,7 @@ void check_coverage(const Assembly& a) {
     bool slides = false;
     for (const auto& other : a.contacts) {
       if (other->spec().slave != pair->spec().slave) continue;
-      covered += other->coverage();
+      covered += other->geometry().kinematics().coverage();
       slides = slides || other->spec().formulation == contact::Formulation::large_sliding;
     }
     if (!slides && covered < 0.999)
