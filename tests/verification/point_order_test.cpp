@@ -30,10 +30,10 @@ material::Material sample() {
   set_hardening(f, {{"saturation_stress", k_saturation}, {"saturation_rate", k_rate}});
   f.kinematic = material::KinematicHardening::armstrong_frederick;
   f.kinematic_modulus = k_kin;
-  f.recall = k_recall;
-  f.viscosity = k_eta;
-  f.exponent = 3;
-  f.drag_stress = k_drag;
+  f.recall[0] = k_recall;
+  f.rate[material::Perzyna::viscosity] = k_eta;
+  f.rate[material::Perzyna::exponent] = 3;
+  f.rate[material::Perzyna::drag_stress] = k_drag;
   return m;
 }
 

@@ -128,7 +128,7 @@ TEST(LiquidModels, OnlyTheModifiedShearModulusRemembersWhatTheMeltWasStrained) {
     if (model == LiquidModel::degenerated) {  // elastic but in the liquid: a strength beyond any stress
       m.flow.emplace();
       m.flow->flow_stress = 1e11;
-      m.flow->viscosity = 1e7;
+      m.flow->rate[material::Perzyna::viscosity] = 1e7;
     }
     Segment cool = segment(100, 400, {{3, strain_held()}});
     cool.temperature.target = 700;

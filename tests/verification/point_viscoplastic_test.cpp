@@ -16,9 +16,9 @@ material::Material viscoplastic(double n, double eta) {
   material::Material m = point_material();
   m.flow.emplace();
   m.flow->flow_stress = k_flow_stress;
-  m.flow->viscosity = eta;
-  m.flow->exponent = n;
-  m.flow->drag_stress = k_drag;
+  m.flow->rate[material::Perzyna::viscosity] = eta;
+  m.flow->rate[material::Perzyna::exponent] = n;
+  m.flow->rate[material::Perzyna::drag_stress] = k_drag;
   return m;
 }
 
