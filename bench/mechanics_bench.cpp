@@ -10,6 +10,7 @@
 
 #include "lattice.hpp"
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/law_block.hpp"
 

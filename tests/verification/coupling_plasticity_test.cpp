@@ -5,6 +5,7 @@
 #include "../laws/marquis.hpp"
 #include "coupling_bodies.hpp"
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling_bodies.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus {
 namespace {

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "plasticity_bodies.hpp"
 
 namespace solidus {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "point_paths.hpp"
 
 namespace solidus::verification {

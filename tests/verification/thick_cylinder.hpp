@@ -14,6 +14,7 @@
 #include <string>
 
 #include "coupling_bodies.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus::verification {
 

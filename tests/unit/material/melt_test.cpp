@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "material/elasticity.hpp"
+#include "material/laws/perzyna.hpp"
 #include "sample_material.hpp"
 
 namespace solidus::material {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus::material {
 namespace {

@@ -4,6 +4,7 @@
 #include "heated.hpp"
 #include "material/free_energy.hpp"
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "mechanics/structural_heat.hpp"
 #include "plastic_material.hpp"
 

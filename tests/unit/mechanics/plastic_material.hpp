@@ -3,6 +3,7 @@
 
 #include "body.hpp"
 #include "material/laws/hardening_law.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus::test {
 
