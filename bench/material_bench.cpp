@@ -42,10 +42,10 @@ Material casting(IsotropicHardening isotropic, double viscosity, double exponent
                        {"hardening_exponent", 0.2}});
   flow.kinematic = kinematic;
   flow.kinematic_modulus = 5e9;
-  flow.recall = 100;
-  flow.viscosity = viscosity;
-  flow.exponent = exponent;
-  flow.drag_stress = 50e6;
+  flow.recall[0] = 100;
+  flow.rate[Perzyna::viscosity] = viscosity;
+  flow.rate[Perzyna::exponent] = exponent;
+  flow.rate[Perzyna::drag_stress] = 50e6;
   if (isotropic == IsotropicHardening::table)
     flow.curves = FlowCurves({0, 1e-3, 5e-3, 0.02, 0.1}, {300, 900},
                              {80e6, 95e6, 110e6, 130e6, 150e6, 10e6, 12e6, 13e6, 14e6, 15e6});

@@ -10,6 +10,7 @@
 
 #include "lattice.hpp"
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "mechanics/law_block.hpp"
 
@@ -34,7 +35,7 @@ material::Material j2() {
   flow.flow_stress = Table({280, 400, 600, 800}, {3e6, 2.5e6, 2e6, 1e6});
   flow.isotropic = material::IsotropicHardening::linear;
   set_hardening(flow, {{"hardening_modulus", 1e9}});
-  flow.viscosity = 0.0;
+  flow.rate[material::Perzyna::viscosity] = 0.0;
   m.flow = flow;
   return m;
 }

@@ -117,7 +117,7 @@ double largest_strain(const Flow& flow) {
     strain = flow.curves.strains().back();
   strain = std::min(strain, material::hardening_law(flow.isotropic).saturation(flow.hardening));
   if (flow.isotropic == IsotropicHardening::none && flow.kinematic == KinematicHardening::armstrong_frederick)
-    strain = std::min(strain, 5 / flow.recall.min_value());
+    strain = std::min(strain, 5 / flow.recall[0].min_value());
   return strain;
 }
 

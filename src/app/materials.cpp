@@ -1,13 +1,14 @@
 /// The verb `materials`: the library, or one material with its sources.
 #include <fmt/format.h>
 
-#include <array>
-
 #include "app/material_tables.hpp"
 #include "app/verbs.hpp"
 #include "case/case_materials.hpp"
 #include "input/units.hpp"
 #include "material/laws/hardening_law.hpp"
+#include "material/laws/kinematic_law.hpp"
+#include "material/laws/liquid_law.hpp"
+#include "material/laws/rate_law.hpp"
 #include "material/library.hpp"
 #include "results/output_error.hpp"
 
@@ -56,11 +57,10 @@ std::string flow_curves(const material::FlowCurves& curves) {
 }
 
 std::string plasticity(const material::Flow& flow) {
-  constexpr std::array kinematic{"none", "linear", "armstrong_frederick"};
   return fmt::format("  {:<29} isotropic hardening {}, kinematic hardening {}, rate dependence {}\n",
                      "plasticity", material::hardening_law(flow.isotropic).name(),
-                     kinematic.at(static_cast<std::size_t>(flow.kinematic)),
-                     flow.rate_independent() ? "none" : "perzyna");
+                     material::kinematic_law(flow.kinematic).name(),
+                     material::rate_law(flow.rate_dependence).name());
 }
 
 std::string describe(const Material& m) {
@@ -74,8 +74,10 @@ std::string describe(const Material& m) {
   if (m.flow) out += plasticity(*m.flow);
   if (curves) out += flow_curves(m.flow->curves);
   if (m.mechanical() && m.solidification()) {
-    constexpr std::array models{"maxwell", "modified_shear", "degenerated"};
-    out += fmt::format("  {:<29} {}\n", "liquid_model", models.at(static_cast<std::size_t>(m.liquid_model)));
+    const material::LiquidLaw& liquid = material::liquid_law(m.liquid_model);
+    out += fmt::format("  {:<29} {}\n", "liquid_model", liquid.name());
+    for (std::size_t i = 0; i < liquid.parameters().size(); ++i)
+      out += property(liquid.parameters()[i].key, Table(m.liquid_numbers[i]), liquid.parameters()[i].unit);
   }
   for (const auto& change : m.phase_changes)
     out += fmt::format("  {:<29} {} to {}, latent heat {:.6g} J/kg, volume change {:.3g}{}\n", change.name,

@@ -14,6 +14,7 @@
 #include "build/body_input.hpp"
 #include "build/dynamics_input.hpp"
 #include "material/external_law.hpp"
+#include "material/laws/liquid_law.hpp"
 #include "parallel/parallel.hpp"
 #include "results/summary.hpp"
 
@@ -147,6 +148,8 @@ std::string material_text(const material::Material& m) {
   hash.add(m.density);
   hash.add(m.expansion_reference);
   hash.add(static_cast<double>(m.liquid_model));
+  for (std::size_t i = 0; i < material::liquid_law(m.liquid_model).parameters().size(); ++i)
+    hash.add(m.liquid_numbers[i]);
   for (const material::Property& property : m.properties()) {
     hash.add(property.name);
     hash.add(*property.table);

@@ -302,7 +302,7 @@ std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& w
   const double speed = front_speed(who, history);
   const double rate = speed > 0 ? h[k_magnitude] * speed : h[k_rate];
   const auto body = static_cast<std::size_t>(who.body);
-  const double spacing = arm_spacing(storage_.material(who.body).casting, time);
+  const double spacing = storage_.material(who.body).casting.secondary_arm_spacing(time).value_or(0);
   const double ny = niyama(gradient, rate);
   const std::optional<FeedingLaw>& feeding = feeding_[body];
   const double number = feeding ? feeding->number(ny, spacing) : 0.0;

@@ -27,10 +27,6 @@ double niyama(double gradient, double cooling_rate) {
   return cooling_rate > 0 ? gradient / std::sqrt(cooling_rate) : 0.0;
 }
 
-double arm_spacing(const material::Casting& casting, double solidification_time) {
-  return casting.arm_spacing.value_or(0) * std::pow(solidification_time, casting.arm_spacing_exponent);
-}
-
 std::optional<FeedingLaw> FeedingLaw::of(const material::Material& material) {
   const material::PhaseChange* change = material.solidification();
   const material::Casting& casting = material.casting;

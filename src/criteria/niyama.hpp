@@ -51,7 +51,4 @@ class FeedingLaw {
   std::vector<Piece> pieces_;  ///< from the liquidus down
 };
 
-/// λ₂ = c (t_f/1 s)ⁿ [m]; zero where the material does not say.
-double arm_spacing(const material::Casting& casting, double solidification_time);
-
 }  // namespace solidus::criteria

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,11 @@ struct Casting {
   /// D. J. Fisher, Fundamentals of Solidification, 4th ed. 1998, eq. 4.25). Absent: the spacing is not known.
   std::optional<double> arm_spacing;     ///< c [m], the spacing after a solidification time of one second
   double arm_spacing_exponent = 1. / 3;  ///< n
+  /// λ₂ after a local solidification time [s]; absent where c is.
+  std::optional<double> secondary_arm_spacing(double time) const {
+    if (!arm_spacing) return {};
+    return *arm_spacing * std::pow(time, arm_spacing_exponent);
+  }
 
   /// Newtonian shear viscosity μ of the melt at the liquidus [Pa s]. Absent: not known.
   std::optional<double> melt_viscosity;

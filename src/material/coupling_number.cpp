@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <vector>
 
+#include "material/elasticity.hpp"
+
 namespace solidus::material {
 
 CouplingNumber coupling_number(const Material& material, double temperature) {
-  const double young = material.young_modulus.value(temperature);
-  const double poisson = material.poisson_ratio.value(temperature);
   const PhaseChange* freezing = material.solidification();
   const bool solid = freezing == nullptr || freezing->fraction.value(temperature) >= 1;
-  const double bulk = young / (3 * (1 - 2 * poisson)), shear = solid ? young / (2 * (1 + poisson)) : 0;
-  const auto alpha = material.expansion.line(temperature);
-  const double slope = 3 * (alpha.value + alpha.slope * (temperature - material.expansion_reference));
+  const auto p = properties_at(material, temperature, temperature, PhaseState<double>{1.0, 0.0});
+  const double bulk = p.bulk, shear = solid ? p.shear : 0, slope = expansion_slope(material, temperature);
   double capacity = material.density * material.specific_heat.value(temperature);
   if (material.specific_heat_at == SpecificHeatAt::constant_pressure)
     capacity -= bulk * slope * slope * temperature;

@@ -60,6 +60,9 @@ PointProperties<T> properties_at(const Material& material, const T& temperature,
 template <class T>
 PointDerivatives<T> derivatives_at(const Material& material, const T& temperature,
                                    const T& initial_temperature);
+/// 3 [α + α_Θ (Θ − Θ_ref)]: de^θ/dΘ without phase changes [1/K].
+template <class T>
+T expansion_slope(const Material& material, const T& temperature);
 template <class T>
 PointCurvatures<T> curvatures_at(const Material& material, const T& temperature);
 

@@ -84,18 +84,22 @@ PointProperties<T> properties_at(const Material& material, const T& temperature,
 }
 
 template <class T>
+T expansion_slope(const Material& material, const T& temperature) {
+  const auto alpha = detail::line(material.expansion, temperature);
+  return T(3.0) * (alpha.value + alpha.slope * (temperature - T(material.expansion_reference)));
+}
+
+template <class T>
 PointDerivatives<T> derivatives_at(const Material& material, const T& temperature,
                                    const T& /*initial_temperature*/) {
   const auto young = detail::line(material.young_modulus, temperature);
   const auto poisson = detail::line(material.poisson_ratio, temperature);
-  const auto expansion = detail::line(material.expansion, temperature);
   const T q = T(1.0) / (T(1.0) - T(2.0) * poisson.value);
   const T r = T(1.0) / (T(1.0) + poisson.value);
   PointDerivatives<T> d;
   d.bulk = T(1.0 / 3.0) * q * (young.slope + T(2.0) * young.value * poisson.slope * q);
   d.shear = T(0.5) * r * (young.slope - young.value * poisson.slope * r);
-  d.thermal_strain =
-      T(3.0) * (expansion.value + expansion.slope * (temperature - T(material.expansion_reference)));
+  d.thermal_strain = expansion_slope(material, temperature);
   d.solid_fraction = T(0.0);
   for (const PhaseChange& change : material.phase_changes) {
     if (change.volume_change == 0 && !change.solidification) continue;

@@ -70,19 +70,27 @@ ExternalLaw::ExternalLaw(ExternalData data, std::shared_ptr<const ExternalLibrar
       n_internal_(library_->n_internal()),
       told_(data_.dissipation == ExternalDissipation::law || data_.dissipation == ExternalDissipation::rpl ||
             (data_.dissipation == ExternalDissipation::automatic && library_->tells_dissipated())),
-      initial_(data_.initial_state),
-      old_internal_(n_internal_),
-      internal_(n_internal_) {
+      initial_(data_.initial_state) {
   initial_.resize(n_internal_);
+}
+
+ExternalLaw::Workspace::Workspace(const ExternalLaw& law)
+    : numbers(2 * law.n_internal_ + (law.library_ ? law.library_->n_scratch() : 0)) {}
+
+/// A point where the library is not asked has no state of it.
+template <class T>
+void ExternalLaw::forget(T* now, int lane) const {
+  for (std::size_t i = k_energies; i < size(); ++i) set(now[i], lane, 0.0);
 }
 
 template <class T>
 bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt,
-                            int lane, Response<T>& r, T& dissipated, std::string* failure) const {
+                            int lane, Workspace& space, Response<T>& r, T& dissipated) const {
   double old_energies[k_external_energies], energies[k_external_energies] = {};
+  double* const old_internal = space.numbers.data();
+  double* const internal = old_internal + n_internal_;
   for (std::size_t i = 0; i < k_external_energies; ++i) old_energies[i] = at(old[k_energies + i], lane);
-  for (std::size_t i = 0; i < n_internal_; ++i)
-    old_internal_[i] = initial_[i] + at(old[k_internal + i], lane);
+  for (std::size_t i = 0; i < n_internal_; ++i) old_internal[i] = initial_[i] + at(old[k_internal + i], lane);
   ExternalCall call;
   call.dt = dt;
   call.time = at(old[k_time], lane);
@@ -92,26 +100,29 @@ bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const 
   call.strain = tensor_of(strain.c.data(), 0, lane);
   call.old_stress = tensor_of(old, k_stress, lane);
   call.fresh = !(at(old[k_solid], lane) > 0);
-  call.old_internal = old_internal_.data();
+  call.wants_tangent = space.wants_tangent;
+  call.old_internal = old_internal;
   call.old_energies = old_energies;
-  call.internal = internal_.data();
+  call.scratch = internal + n_internal_;
+  call.internal = internal;
   call.energies = energies;
-  call.complaint = failure;
+  call.complaint = space.failures == nullptr ? nullptr : space.failures + lane;
   if (!library_->integrate(call)) return false;
 
   for (int i = 0; i < 6; ++i) {
     set(r.stress[i], lane, call.stress[i]);
-    for (std::size_t j = 0; j < 6; ++j) set(r.tangent[i][j], lane, call.tangent[i][j]);
+    if (space.wants_tangent)
+      for (std::size_t j = 0; j < 6; ++j) set(r.tangent[i][j], lane, call.tangent[i][j]);
   }
-  for (std::size_t i = 0; i < n_internal_; ++i) set(now[k_internal + i], lane, internal_[i] - initial_[i]);
+  for (std::size_t i = 0; i < n_internal_; ++i) set(now[k_internal + i], lane, internal[i] - initial_[i]);
   for (std::size_t i = 0; i < k_external_energies; ++i) set(now[k_energies + i], lane, energies[i]);
   if (told_) set(dissipated, lane, library_->dissipated(call));
   return true;
 }
 
 template <class T>
-ExternalLaw::Response<T> ExternalLaw::update(const Properties<T>& p, const T* old, T* now,
-                                             const Sym<T>& strain, double dt, std::string* failures) const {
+void ExternalLaw::update(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt,
+                         Workspace& space, Response<T>& r) const {
   const T zero(0.0), one(1.0), third(1.0 / 3.0);
   const T bulk = p.elastic.bulk, twice_shear = T(2.0) * p.elastic.shear;
   const auto solid = p.elastic.solid_fraction >= T(data_.coherency_fraction);
@@ -121,25 +132,31 @@ ExternalLaw::Response<T> ExternalLaw::update(const Properties<T>& p, const T* ol
   Sym<T> of_law = strain - viscous;  // e
   for (int i = 0; i < 3; ++i) of_law[i] -= growth;
 
-  Response<T> r;
-  for (std::size_t i = 0; i < size(); ++i) now[i] = zero;
   T dissipated = zero;
+  bool answered = true;
   for (int lane = 0; lane < k_points<T>; ++lane)
-    if (holds(solid, lane) && !integrate(p, old, now, of_law, dt, lane, r, dissipated,
-                                         failures == nullptr ? nullptr : failures + lane))
-      r.status = Status::cut_the_step;
+    if (holds(solid, lane))
+      answered = integrate(p, old, now, of_law, dt, lane, space, r, dissipated) && answered;
+    else
+      forget(now, lane);
+  if (!answered) {
+    r.status = Status::cut_the_step;
+    return;
+  }
   // Zero, or not a number where one of the values is not finite.
   T check = zero * dissipated, check_of_tangent = zero;
   for (int i = 0; i < 6; ++i) {
     check += zero * r.stress[i];
-    for (std::size_t j = 0; j < 6; ++j) check_of_tangent += zero * r.tangent[i][j];
+    if (space.wants_tangent)
+      for (std::size_t j = 0; j < 6; ++j) check_of_tangent += zero * r.tangent[i][j];
   }
   for (std::size_t i = k_energies; i < size(); ++i) check += zero * now[i];
   const auto finite = check + check_of_tangent == zero;
   if (any(!finite)) {
     r.status = Status::cut_the_step;
-    for (int lane = 0; failures != nullptr && lane < k_points<T>; ++lane)
-      if (!holds(finite, lane)) failures[lane] = "the answer of the library holds values that are not finite";
+    for (int lane = 0; space.failures != nullptr && lane < k_points<T>; ++lane)
+      if (!holds(finite, lane))
+        space.failures[lane] = "the answer of the library holds values that are not finite";
   }
 
   // The balance of the inelastic work, with the moduli of the material file.
@@ -185,13 +202,22 @@ ExternalLaw::Response<T> ExternalLaw::update(const Properties<T>& p, const T* ol
   now[k_warming] = p.temperature - p.initial_temperature;
   now[k_time] = old[k_time] + T(dt);
   now[k_solid] = select(solid, one, zero);
-  return r;
 }
 
-template ExternalLaw::Response<double> ExternalLaw::update(const Properties<double>&, const double*, double*,
-                                                           const Sym<double>&, double, std::string*) const;
-template ExternalLaw::Response<Lane> ExternalLaw::update(const Properties<Lane>&, const Lane*, Lane*,
-                                                         const Sym<Lane>&, double, std::string*) const;
+template void ExternalLaw::update(const Properties<double>&, const double*, double*, const Sym<double>&,
+                                  double, Workspace&, Response<double>&) const;
+template void ExternalLaw::update(const Properties<Lane>&, const Lane*, Lane*, const Sym<Lane>&, double,
+                                  Workspace&, Response<Lane>&) const;
+
+ExternalLaw::Response<double> ExternalLaw::update(const Properties<double>& p, const double* old, double* now,
+                                                  const Sym<double>& strain, double dt,
+                                                  std::string* failure) const {
+  Workspace space(*this);
+  space.failures = failure;
+  Response<double> r{};
+  update(p, old, now, strain, dt, space, r);
+  return r;
+}
 
 void trust_external_laws() {
   trusted = true;

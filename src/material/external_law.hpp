@@ -65,8 +65,10 @@ struct ExternalCall {
   double old_temperature, temperature;
   Sym<double> old_strain, strain, old_stress;
   bool fresh;                  ///< the first one of this point: z and energies are initial ones
+  bool wants_tangent;          ///< else `tangent` is not read
   const double* old_internal;  ///< z_n
   const double* old_energies;  ///< [k_external_energies] [J/m³]
+  double* scratch;             ///< [ExternalLibrary::n_scratch()], for the library's use
 
   Sym<double> stress;
   Sym4<double> tangent;  ///< ∂σ/∂e, on engineering shears
@@ -82,6 +84,8 @@ class ExternalLibrary {
  public:
   virtual ~ExternalLibrary() = default;
   virtual std::size_t n_internal() const = 0;
+  /// Numbers that a call works with; nothing of a call is kept in the library's object.
+  virtual std::size_t n_scratch() const = 0;
   /// Name of each number of the state.
   virtual std::vector<std::string> internal_names() const = 0;
   /// Whether it tells the energies that it stores and dissipates.
@@ -123,6 +127,15 @@ class ExternalLaw {
   /// Numbers of a point.
   std::size_t size() const { return k_internal + n_internal_; }
 
+  /// What a caller keeps for as many calls as it makes, and what it asks for.
+  struct Workspace {
+    explicit Workspace(const ExternalLaw& law);
+    std::vector<double> numbers;  ///< z_n, z_{n+1} and scratch of the point that is integrated
+    bool wants_tangent = true;    ///< else that of the answer is zero
+    std::string* failures =
+        nullptr;  ///< set where a point has no answer, [k_lanes] or [1]; null: not asked for
+  };
+
   /// @tparam T  double, or Lane for eight points
   template <class T>
   struct Properties {
@@ -139,23 +152,29 @@ class ExternalLaw {
   /// @param old  [size()] at t_n
   /// @param now  [size()] at t_{n+1}, written
   /// @param strain  total strain at t_{n+1}
-  /// @param failures  set where a point has no answer, [k_lanes] or [1]; null: not asked for
+  /// @param r    the answer, zero before
   template <class T>
-  Response<T> update(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt,
-                     std::string* failures = nullptr) const;
+  void update(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt, Workspace& space,
+              Response<T>& r) const;
+  /// The same for a few points.
+  /// @param failure  set where there is no answer; may be null
+  Response<double> update(const Properties<double>& p, const double* old, double* now,
+                          const Sym<double>& strain, double dt, std::string* failure = nullptr) const;
 
  private:
   /// The library at one point of a lane; false where it has no answer.
   template <class T>
   bool integrate(const Properties<T>& p, const T* old, T* now, const Sym<T>& strain, double dt, int lane,
-                 Response<T>& r, T& dissipated, std::string* failure) const;
+                 Workspace& space, Response<T>& r, T& dissipated) const;
+
+  template <class T>
+  void forget(T* now, int lane) const;
 
   ExternalData data_;
   std::shared_ptr<const ExternalLibrary> library_;
   std::size_t n_internal_ = 0;
   bool told_ = false;  ///< dissipation as the library tells it
   std::vector<double> initial_;
-  mutable std::vector<double> old_internal_, internal_;  ///< of the point that is integrated
 };
 
 /// The law from outside of a material; null: the laws of the program.

@@ -1,22 +1,36 @@
 #include "material/flow.hpp"
 
 #include "material/laws/hardening_law.hpp"
+#include "material/laws/kinematic_law.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus::material {
 
+bool Flow::rate_independent() const {
+  if (rate_dependence == RateDependence::perzyna) return rate[Perzyna::viscosity].max_value() == 0;
+  return rate_dependence == RateDependence::none;
+}
+
+bool Flow::linear_rate() const {
+  if (rate_dependence == RateDependence::perzyna) return Perzyna::linear(rate);
+  return rate_dependence == RateDependence::none;
+}
+
 std::vector<Property> Flow::properties() const {
   std::vector<Property> used = {{"plasticity.flow_stress", "Pa", &flow_stress}};
-  const auto parameters = hardening_law(isotropic).parameters();
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    used.push_back({std::string("plasticity.") + parameters[i].key, parameters[i].unit, &hardening[i]});
+  const auto add = [&used](const LawParameter& parameter, const Table& table) {
+    used.push_back({std::string("plasticity.") + parameter.key, parameter.unit, &table});
+  };
+  const auto of_isotropic = hardening_law(isotropic).parameters();
+  for (std::size_t i = 0; i < of_isotropic.size(); ++i) add(of_isotropic[i], hardening[i]);
   if (kinematic != KinematicHardening::none)
     used.push_back({"plasticity.kinematic_modulus", "Pa", &kinematic_modulus});
-  if (kinematic == KinematicHardening::armstrong_frederick)
-    used.push_back({"plasticity.recall", "1", &recall});
+  const auto of_kinematic = kinematic_law(kinematic).parameters();
+  for (std::size_t i = 0; i < of_kinematic.size(); ++i) add(of_kinematic[i], recall[i]);
   if (!rate_independent()) {
-    used.push_back({"plasticity.viscosity", "Pa s", &viscosity});
-    used.push_back({"plasticity.rate_exponent", "1", &exponent});
-    if (!linear_rate()) used.push_back({"plasticity.drag_stress", "Pa", &drag_stress});
+    const RateLaw& law = rate_law(rate_dependence);
+    for (std::size_t i = 0; i < law.parameters().size(); ++i)
+      if (law.reads(i, rate)) add(law.parameters()[i], rate[i]);
   }
   if (heat_share) used.push_back({"plasticity.taylor_quinney", "1", &*heat_share});
   return used;

@@ -20,17 +20,12 @@ struct Property {
   const Table* table;  ///< of the material that was asked
 };
 
-/// The places of the built-in laws in hardening_laws() (laws/hardening_law.hpp); what is added comes after
-/// them.
+/// The places of the built-in laws in hardening_laws(), kinematic_laws(), rate_laws() and liquid_laws()
+/// (laws/); what is added comes after them.
 enum class IsotropicHardening { none, linear, saturation, power, table };
 enum class KinematicHardening { none, linear, armstrong_frederick };
-
-/// Models of the liquid (2.3.1).
-enum class LiquidModel {
-  maxwell,         ///< 2.50: spring G/f_S in series with a dashpot η/(1 − f_S)
-  modified_shear,  ///< 2.77, 2.78: shear modulus f_S G(Θ_S), zero in the liquid
-  degenerated      ///< 2.79–2.83: yield radius times f_S; the liquid is purely viscoplastic
-};
+enum class RateDependence { none, perzyna };
+enum class LiquidModel { maxwell, modified_shear, degenerated };
 
 /// Below it the overstress rises with more than the tenth power of the rate.
 inline constexpr double k_least_rate_exponent = 0.1;
@@ -45,13 +40,12 @@ struct Flow {
 
   KinematicHardening kinematic = KinematicHardening::none;
   Table kinematic_modulus;  ///< K(Θ) [Pa]: q̇ = 2/3 K ε̇^vp, so K is the slope of a uniaxial test
-  Table recall;             ///< of Armstrong–Frederick: the uniaxial back stress saturates at K/recall
+  std::array<Table, k_kinematic_parameters> recall;  ///< the parameters of that law in its order
 
-  /// η(Θ) of the overstress [Pa s], zero everywhere: rate independent. With exponent n and drag stress D the
-  /// flow rate is γ̇ = f_S/η Φ (Φ/D)^(n − 1): for n = 1 the monograph's 2.109b, else η_2.109b = η D^(n − 1).
-  Table viscosity;
-  Table exponent{1.0};     ///< n(Θ), at least k_least_rate_exponent
-  Table drag_stress{1.0};  ///< D(Θ) [Pa], of n other than 1
+  RateDependence rate_dependence = RateDependence::perzyna;
+  /// The parameters of that law in its order, such as rate[Perzyna::viscosity]; as they stand here, with a
+  /// viscosity of zero everywhere, the flow is rate independent.
+  std::array<Table, k_rate_parameters> rate{Table(0.0), Table(1.0), Table(1.0)};
 
   /// Taylor–Quinney factor β(Θ), the share of plastic power that becomes heat. Absent: what hardening does
   /// not store (2.118).
@@ -59,8 +53,11 @@ struct Flow {
 
   /// The tables that the kinds read, in the order of the material file.
   std::vector<Property> properties() const;
-  bool rate_independent() const { return viscosity.max_value() == 0; }
-  bool linear_rate() const { return exponent.min_value() == 1 && exponent.max_value() == 1; }
+  bool rate_independent() const;
+  /// Whether γ̇ is in proportion to the overstress at every temperature, or there is none.
+  bool linear_rate() const;
+  bool added_rate() const { return rate_dependence > RateDependence::perzyna; }
+  bool powered_rate() const { return rate_dependence == RateDependence::perzyna && !linear_rate(); }
 };
 
 }  // namespace solidus::material

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,6 +11,8 @@
 #include "input/units.hpp"
 #include "material/flow_keys.hpp"
 #include "material/laws/hardening_law.hpp"
+#include "material/laws/kinematic_law.hpp"
+#include "material/laws/rate_law.hpp"
 #include "material/library.hpp"
 
 namespace solidus::material {
@@ -130,6 +133,28 @@ Table read_property(Material& material, const std::string& property, const Funct
   return f.table;
 }
 
+/// Reads the parameters of a law into its tables.
+/// @return which of them the file gives
+template <class Law, std::size_t n>
+std::array<bool, n> add_parameters(Material& m, const FlowData& data, const char* chosen_by, const Law& law,
+                                   std::array<Table, n>& tables) {
+  std::array<bool, n> given_ones{};
+  const auto parameters = law.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const std::string key = parameters[i].key;
+    const auto given = data.parameters.find(key);
+    given_ones[i] = given != data.parameters.end();
+    if (given_ones[i])
+      tables[i] = read_property(m, "plasticity." + key, given->second);
+    else if (parameters[i].optional)
+      tables[i] = parameters[i].left_out;
+    else
+      throw InputError(data.where, fmt::format("the key '{}' is missing in [plasticity]", key),
+                       fmt::format("{} = \"{}\" needs it", chosen_by, law.name()));
+  }
+  return given_ones;
+}
+
 void add_isotropic(Material& m, Flow& flow, const FlowData& data) {
   flow.isotropic = data.isotropic;
   if (data.isotropic == IsotropicHardening::table) return add_curves(m, flow, data);
@@ -138,17 +163,9 @@ void add_isotropic(Material& m, Flow& flow, const FlowData& data) {
   check_thermal_softening(flow.flow_stress, data, [&](std::size_t) { return data.flow_stress.where; });
   check_yield_strain(flow.flow_stress, m, data.flow_stress.where);
   const HardeningLaw& law = hardening_law(data.isotropic);
-  const auto parameters = law.parameters();
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const std::string key = parameters[i].key;
-    if (const auto given = data.hardening.find(key); given != data.hardening.end())
-      flow.hardening[i] = read_property(m, "plasticity." + key, given->second);
-    else if (!parameters[i].optional)
-      throw InputError(data.where, fmt::format("the key '{}' is missing in [plasticity]", key),
-                       fmt::format("isotropic_hardening = \"{}\" needs it", law.name()));
-  }
+  add_parameters(m, data, "isotropic_hardening", law, flow.hardening);
   if (const auto objection = law.objection(flow.flow_stress, flow.hardening))
-    throw InputError(data.hardening.at(parameters[objection->parameter].key).where, objection->found,
+    throw InputError(data.parameters.at(law.parameters()[objection->parameter].key).where, objection->found,
                      objection->allowed);
 }
 
@@ -156,27 +173,22 @@ void add_kinematic(Material& m, Flow& flow, const FlowData& data) {
   flow.kinematic = data.kinematic;
   if (data.kinematic == KinematicHardening::none) return;
   flow.kinematic_modulus = read_property(m, "plasticity.kinematic_modulus", data.kinematic_modulus);
-  if (data.kinematic == KinematicHardening::armstrong_frederick)
-    flow.recall = read_property(m, "plasticity.recall", data.recall);
+  add_parameters(m, data, "kinematic_hardening", kinematic_law(data.kinematic), flow.recall);
 }
 
 void add_rate(Material& m, Flow& flow, const FlowData& data) {
-  if (!data.perzyna) return;
-  if (data.viscosity) {
-    flow.viscosity = read_property(m, "plasticity.viscosity", *data.viscosity);
-  } else if (m.liquid_viscosity.max_value() > 0) {
-    flow.viscosity = m.liquid_viscosity;
-    m.notes.push_back({"plasticity.viscosity", "not given: twice_shear_viscosity (2.98)", 0, 0});
-  } else {
-    throw InputError(data.where, "the key 'viscosity' is missing in [plasticity]",
-                     "rate_dependence = \"perzyna\" needs it, or the liquid's twice_shear_viscosity");
+  const RateLaw& law = rate_law(data.rate_dependence);
+  flow.rate_dependence = data.rate_dependence;
+  const GivenRates given = add_parameters(m, data, "rate_dependence", law, flow.rate);
+  const RateCompletion completed = law.complete(flow.rate, given, m);
+  if (completed.blamed) {
+    const auto place = data.parameters.find(law.parameters()[*completed.blamed].key);
+    throw InputError(place == data.parameters.end() ? data.where : place->second.where, completed.text,
+                     completed.allowed);
   }
-  if (data.rate_exponent) flow.exponent = read_property(m, "plasticity.rate_exponent", *data.rate_exponent);
-  if (data.drag_stress)
-    flow.drag_stress = read_property(m, "plasticity.drag_stress", *data.drag_stress);
-  else if (!flow.linear_rate())
-    throw InputError(data.rate_exponent->where, "'rate_exponent' is not 1 and there is no 'drag_stress'",
-                     "D of gamma' = f_S/eta Phi (Phi/D)^(n - 1)");
+  if (completed.left_out)
+    m.notes.push_back(
+        {std::string("plasticity.") + law.parameters()[*completed.left_out].key, completed.text, 0, 0});
 }
 
 }  // namespace

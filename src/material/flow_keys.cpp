@@ -1,10 +1,16 @@
 /// The keys of [plasticity] in a material file.
 #include "material/flow_keys.hpp"
 
+#include <fmt/format.h>
+
 #include <set>
+#include <span>
+#include <stdexcept>
 #include <string_view>
 
 #include "material/laws/hardening_law.hpp"
+#include "material/laws/kinematic_law.hpp"
+#include "material/laws/rate_law.hpp"
 
 namespace solidus::material {
 namespace {
@@ -27,36 +33,51 @@ Section<FlowCurveData> curve_keys() {
   return s;
 }
 
-/// The names of the laws with that parameter.
-std::vector<std::string> laws_with(std::string_view key) {
-  std::vector<std::string> names;
-  for (const HardeningLaw* law : hardening_laws())
-    for (const LawParameter& parameter : law->parameters())
-      if (parameter.key == key) names.emplace_back(law->name());
-  return names;
+/// The keys of the parameters of all laws of a kind, each once; they belong where the key `chosen_by` has the
+/// name of a law with that parameter. Throws std::logic_error where a key is that of another kind of law too.
+template <class Law>
+void parameter_keys(Section<FlowData>& s, const std::string& chosen_by, std::span<const Law* const> laws) {
+  std::set<std::string_view> declared;
+  for (const Law* law : laws)
+    for (const LawParameter& parameter : law->parameters()) {
+      if (!declared.insert(parameter.key).second) continue;
+      if (s.info().find(parameter.key) != nullptr)
+        throw std::logic_error(
+            fmt::format("the key '{}' of the {} '{}' is taken", parameter.key, chosen_by, law->name()));
+      std::vector<std::string> names;
+      bool required = true;
+      for (const Law* other : laws)
+        for (const LawParameter& same : other->parameters())
+          if (std::string_view(same.key) == parameter.key) {
+            names.emplace_back(other->name());
+            required = required && !same.optional;
+          }
+      Key& key = s.function(parameter.key, &FlowData::parameters, parameter.unit);
+      key.range(parameter.least, parameter.greatest)
+          .of(k_temperature)
+          .when(chosen_by, names)
+          .doc(parameter.doc);
+      key.lower_open = parameter.above_least;
+      if (!required) key.required = false;
+    }
 }
 
-void parameter_key(Section<FlowData>& s, const LawParameter& parameter) {
-  Key& key = s.function(parameter.key, &FlowData::hardening, parameter.unit);
-  key.range(parameter.least, parameter.greatest)
-      .of(k_temperature)
-      .when("isotropic_hardening", laws_with(parameter.key))
-      .doc(parameter.doc);
-  key.lower_open = parameter.above_least;
-  for (const HardeningLaw* law : hardening_laws())
-    for (const LawParameter& other : law->parameters())
-      if (std::string_view(other.key) == parameter.key && other.optional) key.required = false;
+/// The words of the laws of a kind, with their equations.
+template <class Kind, class Law>
+std::vector<Section<FlowData>::Choice<Kind>> choices_of(std::span<const Law* const> laws) {
+  std::vector<Section<FlowData>::Choice<Kind>> words;
+  for (const Law* law : laws)
+    words.push_back(
+        {std::string(law->name()), static_cast<Kind>(words.size()), std::string(law->equation())});
+  return words;
 }
 
 void isotropic_keys(Section<FlowData>& s) {
-  std::vector<Section<FlowData>::Choice<IsotropicHardening>> laws;
   std::vector<std::string> with_flow_stress;
-  for (const HardeningLaw* law : hardening_laws()) {
-    const auto kind = static_cast<IsotropicHardening>(laws.size());
-    laws.push_back({std::string(law->name()), kind, std::string(law->equation())});
-    if (kind != IsotropicHardening::table) with_flow_stress.emplace_back(law->name());
-  }
-  s.choice("isotropic_hardening", &FlowData::isotropic, laws)
+  for (std::size_t i = 0; i < hardening_laws().size(); ++i)
+    if (static_cast<IsotropicHardening>(i) != IsotropicHardening::table)
+      with_flow_stress.emplace_back(hardening_laws()[i]->name());
+  s.choice("isotropic_hardening", &FlowData::isotropic, choices_of<IsotropicHardening>(hardening_laws()))
       .initially("none")
       .doc(
           "How the yield stress sigma_y of a tensile test grows with the equivalent plastic strain xi; every "
@@ -68,63 +89,31 @@ void isotropic_keys(Section<FlowData>& s) {
       .doc(
           "sigma_0, the yield stress of a tensile test at zero plastic strain. It must not rise with "
           "temperature (2.121). Give small positive values up to the liquidus: what is partly solid yields.");
-  std::set<std::string_view> declared;
-  for (const HardeningLaw* law : hardening_laws())
-    for (const LawParameter& parameter : law->parameters())
-      if (declared.insert(parameter.key).second) parameter_key(s, parameter);
+  parameter_keys(s, "isotropic_hardening", hardening_laws());
   s.sections("flow_curve", &FlowData::curves, curve_keys()).when("isotropic_hardening", {"table"});
 }
 
 void kinematic_keys(Section<FlowData>& s) {
-  using enum KinematicHardening;
-  s.choice("kinematic_hardening", &FlowData::kinematic,
-           {{"none", none, "q = 0"},
-            {"linear", linear, "dq = 2/3 K d(eps_vp) (2.59b; Prager)"},
-            {"armstrong_frederick", armstrong_frederick,
-             "dq = 2/3 K d(eps_vp) - recall q d(xi) (Armstrong and Frederick)"}})
+  std::vector<std::string> with_modulus;
+  for (std::size_t i = 0; i < kinematic_laws().size(); ++i)
+    if (static_cast<KinematicHardening>(i) != KinematicHardening::none)
+      with_modulus.emplace_back(kinematic_laws()[i]->name());
+  s.choice("kinematic_hardening", &FlowData::kinematic, choices_of<KinematicHardening>(kinematic_laws()))
       .initially("none")
       .doc("How the back stress q, the centre of the yield surface, follows the viscoplastic strain.");
   s.function("kinematic_modulus", &FlowData::kinematic_modulus, "Pa")
       .positive()
       .of(k_temperature)
-      .when("kinematic_hardening", {"linear", "armstrong_frederick"})
+      .when("kinematic_hardening", with_modulus)
       .doc("K, the (initial) slope of a tensile test over plastic strain.");
-  s.function("recall", &FlowData::recall, "1")
-      .positive()
-      .of(k_temperature)
-      .when("kinematic_hardening", {"armstrong_frederick"})
-      .doc("The back stress of a tensile test saturates at K/recall.");
+  parameter_keys(s, "kinematic_hardening", kinematic_laws());
 }
 
 void rate_keys(Section<FlowData>& s) {
-  s.choice("rate_dependence", &FlowData::perzyna,
-           {{"none", false, "the stress cannot leave the yield surface (2.112)"},
-            {"perzyna", true,
-             "it can, and then gamma' = f_S/eta Phi (Phi/D)^(n - 1), with gamma' = |d(eps_vp)/dt|, the solid "
-             "fraction f_S and the overstress Phi = |s - q| - sqrt(2/3) sigma_y (2.109b, whose eta is this "
-             "eta times D^(n - 1))"}})
+  s.choice("rate_dependence", &FlowData::rate_dependence, choices_of<RateDependence>(rate_laws()))
       .initially("none")
       .doc("How the stress depends on the strain rate.");
-  s.function("viscosity", &FlowData::viscosity, "Pa s")
-      .positive()
-      .of(k_temperature)
-      .when("rate_dependence", {"perzyna"})
-      .doc(
-          "eta of the overstress: with n = 1, Phi = eta |d(eps_vp)/dt|, which in a tensile test is 3/2 eta "
-          "times the strain rate above the yield stress. Left out: twice_shear_viscosity, the single eta of "
-          "the monograph (2.98).");
-  s.function("rate_exponent", &FlowData::rate_exponent, "1")
-      .range(k_least_rate_exponent, 100)
-      .of(k_temperature)
-      .when("rate_dependence", {"perzyna"})
-      .doc("n; left out: 1. Below 1 the overstress rises faster than the strain rate.");
-  s.function("drag_stress", &FlowData::drag_stress, "Pa")
-      .positive()
-      .of(k_temperature)
-      .when("rate_dependence", {"perzyna"})
-      .doc(
-          "D: at the overstress Phi = D, gamma' = D/eta whatever n. Needed unless n = 1 everywhere, where it "
-          "changes nothing.");
+  parameter_keys(s, "rate_dependence", rate_laws());
 }
 
 void heat_keys(Section<FlowData>& s) {

@@ -22,12 +22,12 @@ struct FlowCurveData {
 struct FlowData {
   IsotropicHardening isotropic = IsotropicHardening::none;
   Function flow_stress;
-  std::map<std::string, Function> hardening;  ///< the parameters of the laws of isotropic hardening
+  std::map<std::string, Function> parameters;  ///< of the laws of hardening and of rate dependence
   std::vector<FlowCurveData> curves;
   KinematicHardening kinematic = KinematicHardening::none;
-  Function kinematic_modulus, recall;
-  bool perzyna = false;  ///< rate dependent
-  std::optional<Function> viscosity, rate_exponent, drag_stress, taylor_quinney;
+  Function kinematic_modulus;
+  RateDependence rate_dependence = RateDependence::none;
+  std::optional<Function> taylor_quinney;
   bool allow_thermal_hardening = false;
   SourceLocation where;
 };

@@ -16,9 +16,8 @@ struct FlowProperties {
   T hardening_origin{};  ///< σ_0 of the hardening potential (2.49d), equal unless frozen
   std::array<T, k_hardening_parameters> hardening{};  ///< the parameters of the law of isotropic hardening
   T kinematic_modulus{};                              ///< K [Pa]
-  T recall{};                                         ///< of Armstrong–Frederick
-  T viscosity{};                                      ///< η of the overstress [Pa s]
-  T exponent{}, drag_stress{};                        ///< n, D [Pa]
+  std::array<T, k_kinematic_parameters> recall{};     ///< those of the law of kinematic hardening beside K
+  std::array<T, k_rate_parameters> rate{};            ///< those of the law of rate dependence
   T temperature{};                                    ///< Θ [K], for measured flow curves
   T beyond{};      ///< [K] from there along the line of the measured curves
   T softening{};   ///< −dσ_0/dΘ of the yield radius [Pa/K]
@@ -38,31 +37,28 @@ FlowProperties<T> flow_properties_at(const Flow& flow, const T& temperature) {
   p.kinematic_modulus = flow.kinematic == KinematicHardening::none
                             ? T(0.0)
                             : detail::value(flow.kinematic_modulus, temperature);
-  p.recall = detail::value(flow.recall, temperature);
-  p.viscosity = detail::value(flow.viscosity, temperature);
-  p.exponent = detail::value(flow.exponent, temperature);
-  p.drag_stress = detail::value(flow.drag_stress, temperature);
+  for (std::size_t i = 0; i < k_kinematic_parameters; ++i)
+    p.recall[i] = detail::value(flow.recall[i], temperature);
+  for (std::size_t i = 0; i < k_rate_parameters; ++i) p.rate[i] = detail::value(flow.rate[i], temperature);
   p.temperature = temperature;
   p.beyond = T(0.0);  // a type of automatic differentiation need not start at zero
   return p;
 }
 
 /// Numbers N of the flow rule near Θ_n, each made by `along` of its value and its slope there. What is
-/// dissipative is frozen: σ_0 of the yield radius, β, the recall, η, n and D.
+/// dissipative is frozen: σ_0 of the yield radius, β, the parameters of recall and of rate dependence.
 template <class N, class T, class Along>
 [[gnu::always_inline]] inline FlowProperties<N> flow_along(const FlowProperties<T>& v,
                                                            const FlowProperties<T>& d,
                                                            const T& line_temperature, Along along) {
-  static_assert(k_hardening_parameters == 4);
+  static_assert(k_hardening_parameters == 4 && k_kinematic_parameters == 2 && k_rate_parameters == 3);
   return {.flow_stress = v.flow_stress,
           .hardening_origin = along(v.hardening_origin, d.hardening_origin),
           .hardening = {along(v.hardening[0], d.hardening[0]), along(v.hardening[1], d.hardening[1]),
                         along(v.hardening[2], d.hardening[2]), along(v.hardening[3], d.hardening[3])},
           .kinematic_modulus = along(v.kinematic_modulus, d.kinematic_modulus),
-          .recall = v.recall,
-          .viscosity = v.viscosity,
-          .exponent = v.exponent,
-          .drag_stress = v.drag_stress,
+          .recall = {v.recall[0], v.recall[1]},
+          .rate = {v.rate[0], v.rate[1], v.rate[2]},
           .temperature = line_temperature,
           .beyond = along(T(0.0), T(1.0)),
           .softening = v.softening,

@@ -12,11 +12,11 @@
 ///   C = Θ ∂S^E/∂Θ = C_v − Θ (W_ΘΘ + M_ΘΘ + K_ΘΘ)                                        (2.127a)
 ///   H^ep = Θ (∂S^E/∂ε^E : ε̇^E + ∂S^E/∂ξ ξ̇ + ∂S^E/∂ζ : ζ̇)                                 (2.127b)
 ///
-/// Every parameter follows the temperature. The spring of the liquid models: maxwell Ḡ = G/f_S (2.50),
-/// modified_shear Ḡ = f_S G(Θ_S) (2.77), degenerated Ḡ = G. 2.127b omits the back strain; the chain rule of
-/// 2.125 has it. R = ½ k (e^θ)² where the specific heat is that at constant pressure (volumetric_energy),
-/// else 0 as printed: then C_v is the capacity at ε^E = 0, and C = C_v holds only without strain and
-/// hardening.
+/// Every parameter follows the temperature. The spring Ḡ is that of the liquid model (liquid.hpp): maxwell
+/// G/f_S (2.50), modified_shear f_S G(Θ_S) (2.77), degenerated G. 2.127b omits the back strain; the chain
+/// rule of 2.125 has it. R = ½ k (e^θ)² where the specific heat is that at constant pressure
+/// (volumetric_energy), else 0 as printed: then C_v is the capacity at ε^E = 0, and C = C_v holds only
+/// without strain and hardening.
 ///
 /// Symbols: k bulk modulus, Ḡ spring [Pa], e^θ thermal strain with the straining of phase changes (2.76a), ξ
 /// equivalent plastic strain, ζ back strain, Θ temperature, Θ_0 initial temperature [K].
@@ -45,22 +45,6 @@ struct FreeEnergy {
   T total() const { return without_latent() + latent; }
 };
 
-/// Ḡ [Pa], zero in a Maxwell liquid.
-template <class T>
-T spring_modulus(const Material& material, const PointProperties<T>& p) {
-  const T zero(0.0), one(1.0);
-  switch (material.liquid_model) {
-    case LiquidModel::modified_shear:
-      return p.solid_fraction * p.shear;
-    case LiquidModel::degenerated:
-      return p.shear;
-    case LiquidModel::maxwell:
-      break;
-  }
-  const auto some_solid = p.solid_fraction > zero;
-  return select(some_solid, T(p.shear / select(some_solid, p.solid_fraction, one)), zero);
-}
-
 /// @param T double, Lane, Jet in temperature, or a type of automatic differentiation
 template <class T>
 FreeEnergy<T> free_energy(const Viscoplastic& law, const StateVariables<T>& state, const T& temperature,
@@ -70,8 +54,9 @@ FreeEnergy<T> free_energy(const Viscoplastic& law, const StateVariables<T>& stat
   const T tr = trace(state.elastic_strain);
   const Sym<T> deviator = dev(state.elastic_strain);
   FreeEnergy<T> r;
-  r.elastic = T(0.5) * p.elastic.bulk * tr * tr +
-              spring_modulus(material, p.elastic) * dot(deviator, deviator);  // 2.49a
+  r.elastic =
+      T(0.5) * p.elastic.bulk * tr * tr +
+      spring_modulus(material, p.elastic.shear, p.elastic.solid_fraction) * dot(deviator, deviator);  // 2.49a
   r.coupling = volumetric_energy(material, p.elastic.bulk, p.elastic.thermal_strain, tr) -
                T(0.5) * p.elastic.bulk * tr * tr;  // 2.49b
   r.thermal = sensible_heat(material, initial_temperature, temperature).potential(temperature);
@@ -102,7 +87,7 @@ ForcesInTemperature<T> forces(const Viscoplastic& law, const StateVariables<T>& 
   const Material& material = law.material();
   const auto p = law.properties_at(J::variable(temperature), J(initial_temperature));
   const J pressure = p.elastic.bulk * (J(trace(state.elastic_strain)) - p.elastic.thermal_strain);  // 2.57b
-  const J stiff = J(2.0) * spring_modulus(material, p.elastic);
+  const J stiff = J(2.0) * spring_modulus(material, p.elastic.shear, p.elastic.solid_fraction);
   const Sym<T> deviator = dev(state.elastic_strain);
   ForcesInTemperature<T> r;
   r.value.stress = stiff.v * deviator;

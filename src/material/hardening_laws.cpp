@@ -17,45 +17,24 @@ const HardeningLawOf<Voce> k_voce;
 const HardeningLawOf<Swift> k_swift;
 const HardeningLawOf<MeasuredHardening> k_measured;
 
-std::size_t law_count = 5;
-bool asked = false;  ///< hardening_laws() has been called
-
-bool same(const LawParameter& a, const LawParameter& b) {
-  return std::string_view(a.unit) == b.unit && std::string_view(a.doc) == b.doc && a.least == b.least &&
-         a.greatest == b.greatest && a.above_least == b.above_least;
-}
-
 }  // namespace
 
 // The order of IsotropicHardening.
-const HardeningLaw* detail::hardening_table[k_most_hardening_laws] = {&k_none, &k_linear, &k_voce, &k_swift,
-                                                                      &k_measured};
-bool detail::hardening_kinks[k_most_hardening_laws] = {false, false, false, false, true};
+constinit LawList<HardeningLaw> detail::hardening_list{"law of isotropic hardening",
+                                                       k_hardening_parameters,
+                                                       {&k_none, &k_linear, &k_voce, &k_swift, &k_measured},
+                                                       5};
+
+bool detail::hardening_kinks[LawList<HardeningLaw>::k_most] = {false, false, false, false, true};
 
 std::span<const HardeningLaw* const> hardening_laws() {
-  asked = true;
-  return {detail::hardening_table, law_count};
+  return detail::hardening_list.all();
 }
 
 IsotropicHardening add_hardening_law(const HardeningLaw& law) {
-  const auto refuse = [&](const std::string& why) {
-    throw std::logic_error(fmt::format("the law of isotropic hardening '{}': {}", law.name(), why));
-  };
-  if (asked) refuse("added after the keys of the material file were made");
-  if (law_count == detail::k_most_hardening_laws) refuse("there are too many laws");
-  if (law.parameters().size() > k_hardening_parameters)
-    refuse(fmt::format("{} parameters, at most {}", law.parameters().size(), k_hardening_parameters));
-  for (std::size_t i = 0; i < law_count; ++i) {
-    const HardeningLaw& other = *detail::hardening_table[i];
-    if (other.name() == law.name()) refuse("the name is taken");
-    for (const LawParameter& mine : law.parameters())
-      for (const LawParameter& theirs : other.parameters())
-        if (std::string_view(mine.key) == theirs.key && !same(mine, theirs))
-          refuse(fmt::format("'{}' declares the key '{}' otherwise", other.name(), mine.key));
-  }
-  detail::hardening_table[law_count] = &law;
-  detail::hardening_kinks[law_count] = law.kinks();
-  return static_cast<IsotropicHardening>(law_count++);
+  const std::size_t place = detail::hardening_list.add(law);
+  detail::hardening_kinks[place] = law.kinks();
+  return static_cast<IsotropicHardening>(place);
 }
 
 void set_hardening(Flow& flow, const std::map<std::string_view, Table>& numbers) {

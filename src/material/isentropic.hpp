@@ -10,7 +10,7 @@
 ///
 /// Everything dissipative keeps its value at Θ_n: f_S and e^pc (4.76, 4.81), σ_0 of the yield radius (4.85),
 /// η_l, η, n, D and the recall; energies follow Θ̄. So the update is the stationary point of an incremental
-/// internal energy (docs/decisions/0006), and its tangent is symmetric but for Armstrong–Frederick:
+/// internal energy (docs/decisions/0006), and its tangent is symmetric but where back strain is recalled:
 ///
 ///   dσ/dε = dσ/dε|_Θ + σ_Θ ⊗ σ_Θ / F',   F' = C/Θ̄ of the whole update
 ///
@@ -42,7 +42,7 @@ class Isentropic {
     Table::Line<T> capacity;  ///< C_v = ρ c [J/(m³ K)]
     T strain_offset;          ///< e^θ less 3 α (Θ − Θ_ref): initial strain, frozen straining
     T solid_fraction, viscosity;
-    T held_shear;  ///< G(Θ_S) of a modified_shear material above its solidus, else zero [Pa]
+    T held_shear;  ///< G(Θ_S) above the solidus where the model of the liquid holds it, else zero [Pa]
     FlowProperties<T> flow, flow_slope;  ///< values and slopes; slopes of frozen ones are zero
   };
 
@@ -51,7 +51,7 @@ class Isentropic {
     T temperature{};     ///< Θ̄ [K]
     T entropy_defect{};  ///< S^E − S^E_n that the iteration left [J/(m³ K)]
     /// The adiabatic part of the tangent: thermal_factor thermal_left ⊗ thermal_right, beside the members of
-    /// the base. thermal_left = ∂σ/∂Θ, and thermal_right = thermal_left but for Armstrong–Frederick.
+    /// the base. thermal_left = ∂σ/∂Θ, and thermal_right = thermal_left where the law is symmetric.
     Sym<T> thermal_left, thermal_right;
     T thermal_factor{};  ///< 1/F' [m³ K²/J]
   };

@@ -82,6 +82,19 @@ class SensibleEntropy {
   T temperature_, inverse_;
 };
 
+/// n of x ~ γ^(1/n) near a solution of the isothermal mapping.
+template <class T>
+[[gnu::always_inline]] inline T rate_exponent(const Material& material, const Isentropic::Properties<T>& p,
+                                              double dt, const Viscoplastic::Response<T>& r) {
+  if (!material.flow || !material.flow->added_rate()) return p.flow.rate[Perzyna::exponent];
+  const T zero(0.0), one(1.0);
+  const auto flows = r.overstress > zero;
+  const T rate = select(flows, r.flow_increment, one) /
+                 (T(dt) * select(flows, liquid_shares(material, p.solid_fraction).flow, one));
+  const Overstress<T> x = overstress(material.flow->rate_dependence, p.flow, rate);
+  return select(flows, T(x.stress / (rate * x.slope)), one);
+}
+
 /// Newton's method in γ and Θ̄ together (4.97) from a solution of the isothermal mapping, whose overstress it
 /// continues as x ~ γ^(1/n).
 /// @param r, at     the solution at `theta`
@@ -98,6 +111,7 @@ template <class T>
   const auto flows = r.flow_increment > zero;
   const T old_gamma = select(flows, r.flow_increment, one);
   const T close = T(k_last_defect) * p.capacity.value;
+  const T exponent = rate_exponent(material, p, s.dt(), r);
   T result = by_newton, largest = magnitude(defect);
   T gamma =
       r.flow_increment + select(flows, T(r.inverse_stiffness * at.flow.yield_theta * (result - theta)), zero);
@@ -105,7 +119,7 @@ template <class T>
     const auto next = s.at(p, elastic_along(material, p, result), result, gamma);
     T excess = zero, gamma_theta = zero;  // γ less the solution at this temperature
     if (any(flows)) {
-      const T ratio = select(flows, T(gamma / old_gamma), one), n = p.flow.exponent;
+      const T ratio = select(flows, T(gamma / old_gamma), one), &n = exponent;
       const T overstress =
           r.overstress * (material.flow->linear_rate() ? ratio : power<T>(ratio, T(one / n)));
       const T stiffness = overstress / (n * ratio * old_gamma) - next.flow.yield_gamma;  // x_γ − Φ_γ
@@ -169,7 +183,7 @@ Isentropic::Properties<T> Isentropic::properties_at(const T& temperature, const 
   p.solid_fraction = now.elastic.solid_fraction;
   p.viscosity = now.elastic.viscosity;
   p.held_shear = zero;
-  if (m.liquid_model == LiquidModel::modified_shear && m.solidification() != nullptr)
+  if (holds_modulus(m.liquid_model) && m.solidification() != nullptr)
     p.held_shear = select(temperature < T(m.solidification()->fraction.solidus()), zero, now.elastic.shear);
 
   detail::Range<T> range(temperature);
@@ -218,21 +232,16 @@ T Isentropic::entropy(const Properties<T>& p, const Sym<T>& strain, const State<
   const T zero(0.0), one(1.0);
   const auto at = elastic_along(law_.material(), p, p.temperature);
   const Sym<T> elastic = dev(strain) - state.viscous_strain - state.plastic_strain;
-  const T squared = dot(elastic, elastic), f = p.solid_fraction, shear = T(0.5) * at.twice_shear.d;
+  const T squared = dot(elastic, elastic), shear = T(0.5) * at.twice_shear.d;
+  const T a = liquid_shares(law_.material(), p.solid_fraction).spring;
   T spring = shear * squared;
-  switch (law_.material().liquid_model) {
-    case LiquidModel::modified_shear:
-      spring *= f;
-      break;
-    case LiquidModel::degenerated:
-      break;
-    case LiquidModel::maxwell: {
-      const auto mushy = f < one;
-      const T kept = T(k_spring_strain * k_spring_strain) * f * f;
-      const T held = select(squared < kept, squared, kept);
-      spring = select(mushy, T(shear * held / select(f > zero, f, one)), spring);
-      break;
-    }
+  if (has_dashpot(law_.material().liquid_model)) {
+    const auto mushy = p.solid_fraction < one;
+    const T kept = T(k_spring_strain * k_spring_strain) * a * a;
+    const T held = select(squared < kept, squared, kept);
+    spring = select(mushy, T(shear * held / select(a > zero, a, one)), spring);
+  } else {
+    spring *= a;
   }
   T s = elastic_entropy(volumetric_energy(law_.material(), at.bulk, at.thermal_strain, T(trace(strain))), one,
                         spring);

@@ -46,7 +46,7 @@ template <class T>
                     detail::ratio(p.young, {one + nu.value, nu.slope}, change),
                     {thrice * from_reference + p.strain_offset,
                      thrice + T(3.0) * alpha.slope * from_reference, T(6.0) * alpha.slope}};
-  if (m.liquid_model == LiquidModel::modified_shear) {
+  if (holds_modulus(m.liquid_model)) {
     const auto held = p.held_shear > zero;
     r.twice_shear = {select(held, T(T(2.0) * p.held_shear), r.twice_shear.v),
                      select(held, zero, r.twice_shear.d), select(held, zero, r.twice_shear.dd)};

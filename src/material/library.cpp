@@ -10,6 +10,7 @@
 #include "material/elasticity.hpp"
 #include "material/external_keys.hpp"
 #include "material/laws/fraction_law.hpp"
+#include "material/laws/liquid_law.hpp"
 
 namespace solidus::material {
 namespace {
@@ -93,17 +94,37 @@ Value load_with_base(const fs::path& file, std::span<const fs::path> library, in
   return document;
 }
 
+void add_liquid_model(Material& m, const MaterialData& data) {
+  m.liquid_model = data.liquid_model;
+  const auto parameters = liquid_law(m.liquid_model).parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto given = data.liquid_numbers.find(parameters[i].key);
+    if (given != data.liquid_numbers.end()) {
+      m.liquid_numbers[i] = given->second.table.value(0);
+      m.notes.push_back(note_of(parameters[i].key, given->second));
+    } else if (parameters[i].optional) {
+      m.liquid_numbers[i] = parameters[i].left_out;
+    } else {
+      throw InputError(data.where, fmt::format("the key '{}' is missing", parameters[i].key),
+                       fmt::format("liquid_model = \"{}\" needs it", liquid_law(m.liquid_model).name()));
+    }
+  }
+}
+
 void check_liquid_model(const Material& m, const MaterialData& data) {
   if (m.liquid_model == LiquidModel::maxwell) return;
-  const std::string model = m.liquid_model == LiquidModel::degenerated ? "degenerated" : "modified_shear";
+  const LiquidLaw& law = liquid_law(m.liquid_model);
   if (m.solidification() == nullptr)
-    throw InputError(data.where, "liquid_model = \"" + model + "\", but '" + m.name + "' does not solidify",
-                     "a [[phase_change]] with solidification = true");
-  if (m.liquid_model == LiquidModel::degenerated && (!m.flow || m.flow->rate_independent()))
     throw InputError(data.where,
-                     "liquid_model = \"degenerated\", but the flow of '" + m.name +
-                         "' does not depend on the rate: the liquid would have no viscosity",
-                     "[plasticity] with rate_dependence = \"perzyna\"");
+                     fmt::format("liquid_model = \"{}\", but '{}' does not solidify", law.name(), m.name),
+                     "a [[phase_change]] with solidification = true");
+  if (law.needs_rate() && (!m.flow || m.flow->rate_independent()))
+    throw InputError(
+        data.where,
+        fmt::format("liquid_model = \"{}\", but the flow of '{}' does not depend on the rate: the liquid "
+                    "would have no viscosity",
+                    law.name(), m.name),
+        "[plasticity] with rate_dependence = \"perzyna\"");
 }
 
 /// C_v = C_p − 9 α² k Θ must be positive, α the slope of the expansion: no material stores less at fixed
@@ -119,8 +140,7 @@ void check_heat_of_expansion(const Material& m, const MaterialData& data) {
     if (!(at > 0)) continue;
     for (const double temperature : {at * (1 - 1e-9), at * (1 + 1e-9)}) {
       const auto p = properties_at(m, temperature, temperature, PhaseState<double>{1.0, 0.0});
-      const auto alpha = m.expansion.line(temperature);
-      const double slope = 3 * (alpha.value + alpha.slope * (temperature - m.expansion_reference));
+      const double slope = expansion_slope(m, temperature);
       const double expansion = p.bulk * slope * slope * temperature / m.density,
                    measured = m.specific_heat.value(temperature);
       if (expansion < measured) continue;
@@ -162,7 +182,7 @@ Material make_material(std::string name, const MaterialData& data) {
   m.name = std::move(name);
   m.title = data.title.empty() ? m.name : data.title;
   m.expansion_reference = data.expansion_reference;
-  m.liquid_model = data.liquid_model;
+  add_liquid_model(m, data);
   const auto note = [&m](const char* property, const Function& f) {
     m.notes.push_back(note_of(property, f));
     return f.table;

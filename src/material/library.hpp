@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -43,6 +44,7 @@ struct MaterialData {
   std::optional<Function> young_modulus, poisson_ratio, expansion, twice_shear_viscosity;
   double expansion_reference = 0;  ///< [K]
   LiquidModel liquid_model = LiquidModel::maxwell;
+  std::map<std::string, Function> liquid_numbers;  ///< the parameters of the models of the liquid
   std::optional<FlowData> plasticity;
   std::optional<ExternalData> external;
   Casting casting;

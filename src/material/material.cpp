@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "material/external_law.hpp"
+#include "material/liquid.hpp"
 
 namespace solidus::material {
 
@@ -32,8 +33,7 @@ double Material::solid_fraction(double temperature) const {
 }
 
 bool Material::chooses_viscosity() const {
-  return liquid_model == LiquidModel::maxwell && solidification() != nullptr &&
-         !(liquid_viscosity.max_value() > 0);
+  return has_dashpot(liquid_model) && solidification() != nullptr && !(liquid_viscosity.max_value() > 0);
 }
 
 const ExternalLaw* external_law(const Material& material) {

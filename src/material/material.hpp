@@ -45,7 +45,8 @@ struct Material {
   /// (zero): the mechanical phase chooses it (material/melt.hpp).
   Table liquid_viscosity;
   LiquidModel liquid_model = LiquidModel::maxwell;
-  std::optional<Flow> flow;  ///< absent: the solid is elastic
+  LiquidNumbers liquid_numbers{};  ///< the parameters of that model in its order
+  std::optional<Flow> flow;        ///< absent: the solid is elastic
   /// The law of the solid from a shared object, instead of `flow`; null: the laws of the program.
   std::shared_ptr<const ExternalLaw> external;
   Casting casting;  ///< for criteria; no law uses it
@@ -63,7 +64,7 @@ struct Material {
   /// Whether a change, or a part of it, gives off its heat at one temperature: then the temperature does not
   /// tell how much has changed.
   bool changes_isothermally() const { return !enthalpy().jumps().empty(); }
-  /// True when the melt is a Maxwell element whose viscosity is not given: η then comes from
+  /// True when the melt has a dashpot whose viscosity is not given: η then comes from
   /// material/melt.hpp.
   bool chooses_viscosity() const;
 };

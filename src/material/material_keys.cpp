@@ -1,6 +1,10 @@
 /// The keys of a material file.
+#include <map>
+#include <string_view>
+
 #include "material/external_keys.hpp"
 #include "material/laws/fraction_law.hpp"
+#include "material/laws/liquid_law.hpp"
 #include "material/library.hpp"
 
 namespace solidus::material {
@@ -80,6 +84,30 @@ Section<Casting> casting_keys() {
   return s;
 }
 
+void liquid_keys(Section<MaterialData>& s) {
+  std::vector<Section<MaterialData>::Choice<LiquidModel>> models;
+  for (const LiquidLaw* law : liquid_laws())
+    models.push_back(
+        {std::string(law->name()), static_cast<LiquidModel>(models.size()), std::string(law->doc())});
+  s.choice("liquid_model", &MaterialData::liquid_model, models)
+      .initially("maxwell")
+      .doc("How what is not yet solid answers shear; f_S is the solid fraction.");
+  std::map<std::string_view, std::vector<std::string>> models_with;
+  for (const LiquidLaw* law : liquid_laws())
+    for (const LawParameter& parameter : law->parameters())
+      models_with[parameter.key].emplace_back(law->name());
+  for (const LiquidLaw* law : liquid_laws())
+    for (const LawParameter& parameter : law->parameters()) {
+      if (models_with.at(parameter.key).front() != law->name()) continue;  // declared by another one
+      Key& key = s.function(parameter.key, &MaterialData::liquid_numbers, parameter.unit);
+      key.range(parameter.least, parameter.greatest)
+          .when("liquid_model", models_with.at(parameter.key))
+          .doc(parameter.doc);
+      key.lower_open = parameter.above_least;
+      if (parameter.optional) key.required = false;
+    }
+}
+
 Section<MaterialData> material_keys() {
   Section<MaterialData> s(
       "", "A material: every property with unit, source and the temperatures for which it holds.");
@@ -133,18 +161,7 @@ Section<MaterialData> material_keys() {
           "shear viscosity. Left out, the program chooses it: the melt then has in every step a modulus that "
           "is small against the metallostatic head and the strength of the shell, and says which. The real "
           "1e-3 Pa s has no effect on stress.");
-  s.choice(
-       "liquid_model", &MaterialData::liquid_model,
-       {{"maxwell", LiquidModel::maxwell,
-         "spring G/f_S in series with a dashpot eta/(1 - f_S), eta = twice_shear_viscosity (2.50, 2.104)"},
-        {"modified_shear", LiquidModel::modified_shear,
-         "elastic with the shear modulus f_S G(T_S), zero in the liquid: what was deformed when liquid "
-         "springs back when solid (2.77, 2.78)"},
-        {"degenerated", LiquidModel::degenerated,
-         "viscoplastic with the yield stress times f_S; in the liquid s = eta d(eps_vp)/dt with eta = "
-         "plasticity.viscosity (2.79 - 2.83)"}})
-      .initially("maxwell")
-      .doc("How what is not yet solid answers shear; f_S is the solid fraction.");
+  liquid_keys(s);
   s.sections("phase_change", &MaterialData::phase_changes, phase_change_keys());
   s.section("plasticity", &MaterialData::plasticity, flow_section());
   s.section("external", &MaterialData::external, external_section());

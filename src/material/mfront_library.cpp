@@ -34,7 +34,7 @@ struct DataView {
 using EntryPoint = int (*)(DataView*);
 
 constexpr unsigned short k_version = 1;
-constexpr double k_consistent_tangent = 4;
+constexpr double k_no_tangent = 0, k_consistent_tangent = 4;
 constexpr const char* k_hypothesis = "Tridimensional";
 /// The component of Sym of each of MFront's.
 constexpr std::array<int, 6> k_component{0, 1, 2, 3, 5, 4};
@@ -164,6 +164,7 @@ class MfrontLibrary final : public ExternalLibrary {
   }
 
   std::size_t n_internal() const override { return names_.size(); }
+  std::size_t n_scratch() const override { return names_.size() + 2 * (external_.size() + 1); }
   std::vector<std::string> internal_names() const override { return names_; }
   bool tells_stored() const override { return stores_; }
   bool tells_dissipated() const override { return dissipates_; }
@@ -171,7 +172,7 @@ class MfrontLibrary final : public ExternalLibrary {
   double stored(const double* energies) const override { return energies[0]; }
 
   bool integrate(ExternalCall& c) const override {
-    double old_strain[6], strain[6], old_stress[6], stress[6], stiffness[36] = {}, sound = 0, longer = 1;
+    double old_strain[6], strain[6], old_stress[6], stress[6], stiffness[36], sound = 0, longer = 1;
     for (std::size_t i = 0; i < 6; ++i) {
       const int k = k_component[i];
       const double factor = i < 3 ? 1 : k_root_two;
@@ -181,27 +182,32 @@ class MfrontLibrary final : public ExternalLibrary {
     }
     const double* old_state = c.old_internal;
     if (c.fresh && elastic_strain_ >= 0) {
-      old_state_.assign(c.old_internal, c.old_internal + names_.size());
-      std::copy_n(old_strain, 6, old_state_.begin() + elastic_strain_);
-      old_state = old_state_.data();
+      std::copy_n(c.old_internal, names_.size(), c.scratch);
+      std::copy_n(old_strain, 6, c.scratch + elastic_strain_);
+      old_state = c.scratch;
     }
     std::copy_n(old_state, names_.size(), c.internal);
     std::copy_n(c.old_energies, k_external_energies, c.energies);
-    old_external_[0] = c.old_temperature;
-    new_external_[0] = c.temperature;
+    double* const old_external = c.scratch + names_.size();
+    double* const new_external = old_external + external_.size() + 1;
+    old_external[0] = c.old_temperature;
+    new_external[0] = c.temperature;
+    for (std::size_t i = 0; i < external_.size(); ++i)
+      old_external[i + 1] = new_external[i + 1] = external_[i];
     char message[513];
     message[0] = 0;
     constexpr double density = 0;
-    stiffness[0] = k_consistent_tangent;
+    std::fill_n(stiffness, 36, 0.0);
+    stiffness[0] = c.wants_tangent ? k_consistent_tangent : k_no_tangent;
     DataView view{message,
                   c.dt,
                   stiffness,
                   &longer,
                   &sound,
                   {old_strain, old_stress, &density, properties_.data(), old_state, &c.old_energies[0],
-                   &c.old_energies[1], old_external_.data()},
+                   &c.old_energies[1], old_external},
                   {strain, stress, &density, properties_.data(), c.internal, &c.energies[0], &c.energies[1],
-                   new_external_.data()}};
+                   new_external}};
     const int status = entry_(&view);
     if (status != 1) {  // 0: an answer that is not reliable
       message[512] = 0;
@@ -213,6 +219,7 @@ class MfrontLibrary final : public ExternalLibrary {
     for (std::size_t i = 0; i < 6; ++i) {
       const double row = i < 3 ? 1 : 1 / k_root_two;
       c.stress[k_component[i]] = row * stress[i];
+      if (!c.wants_tangent) continue;
       for (std::size_t j = 0; j < 6; ++j)
         c.tangent[k_component[i]][static_cast<std::size_t>(k_component[j])] =
             row * (j < 3 ? 1 : 1 / k_root_two) * stiffness[i * 6 + j];
@@ -239,9 +246,6 @@ class MfrontLibrary final : public ExternalLibrary {
       s.refuse(fmt::format("has {} external state variables beside the temperature{}, [external] gives {}",
                            names.size(), list(names), data.external_state_variables.size()),
                "external_state_variables, in this order");
-    old_external_.assign(1, 0);
-    old_external_.insert(old_external_.end(), external_.begin(), external_.end());
-    new_external_ = old_external_;
   }
 
   EntryPoint entry_ = nullptr;
@@ -249,7 +253,6 @@ class MfrontLibrary final : public ExternalLibrary {
   std::vector<std::string> names_;
   int elastic_strain_ = -1;  ///< where it is in the state; negative: nowhere
   bool stores_ = false, dissipates_ = false;
-  mutable std::vector<double> old_state_, old_external_, new_external_;  ///< of the call
 };
 
 }  // namespace

@@ -4,14 +4,13 @@
 ///                                       mean stress (positive in tension), ρ g_0 the body force
 ///   K(f_S) = λ₂² (1 − f_S)³/(180 f_S²)  Blake and Kozeny, λ₂ the spacing of secondary dendrite arms
 ///
-/// λ₂ = c (t/1 s)ⁿ of the material's [casting] after k_coarsening_time, within a factor of two that of parts
-/// which freeze in 10 to 1000 s; K hardly depends on it beside (1 − f_S)³. Below k_least_solid K rises no
-/// more: nothing holds melt back there. K. D. Carlson, C. Beckermann, Metall. Mater. Trans. A 40 (2009)
-/// 163-175; M. C. Flemings, Solidification Processing, 1974, section 7.4.
+/// λ₂ is that of the material's [casting] (casting.hpp) after k_coarsening_time, within a factor of two that
+/// of parts which freeze in 10 to 1000 s; K hardly depends on it beside (1 − f_S)³. Below k_least_solid K
+/// rises no more: nothing holds melt back there. K. D. Carlson, C. Beckermann, Metall. Mater. Trans. A 40
+/// (2009) 163-175; M. C. Flemings, Solidification Processing, 1974, section 7.4.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "material/casting.hpp"
 #include "numbers/simd.hpp"
@@ -31,9 +30,7 @@ inline constexpr double k_least_solid = 0.25;
 class Permeability {
  public:
   explicit Permeability(const Casting& casting) {
-    const double spacing =
-        casting.arm_spacing ? *casting.arm_spacing * std::pow(k_coarsening_time, casting.arm_spacing_exponent)
-                            : k_usual_arm_spacing;
+    const double spacing = casting.secondary_arm_spacing(k_coarsening_time).value_or(k_usual_arm_spacing);
     factor_ = spacing * spacing / (k_blake_kozeny * casting.melt_viscosity.value_or(k_usual_melt_viscosity));
   }
 

@@ -2,15 +2,15 @@
 /// temperature Θ, with their derivatives: the unknowns of Newton's method for 4.97. The tensors of the trial
 /// state enter through tr ε, ê:ê, ê:ζ* and ζ*:ζ* only.
 ///
-///   β̂ = s ê + m ζ*,  s = 2Ĝ,  m = ⅔wK B,  B = 1/(1 + b γ),  ν = ‖β̂‖,  n = β̂/ν
+///   β̂ = s ê + m ζ*,  s = 2Ĝ,  m = ⅔wK B,  B = 1/(1 + b(ξ) γ),  ν = ‖β̂‖,  n = β̂/ν
 ///   Φ = ν − (s + w m) γ − w√⅔ [σ_0 + K_ξ(ξ, Θ)],  ξ = ξ* + w√⅔ γ                        (4.138, errata)
 ///   S = −½ k_Θ tr² + (k e^θ)_Θ tr − R_Θ − ½ s_Θ a:a − K_Θ(ξ, Θ) − ⅓ K_Θ ζ:ζ             (2.52b)
 ///   a:a = ê:ê − 2γ n:ê + γ²,  ζ:ζ = B² (ζ*:ζ* − 2wγ n:ζ* + w²γ²)
 ///
 /// R is that of volumetric_energy(); K with arguments is the hardening potential, alone the kinematic
 /// modulus; other symbols are those of viscoplastic.hpp. S is S^E without its sensible part. What is frozen
-/// keeps its value while Θ varies, the rest follows its line; then S_γ = Φ_Θ, but for Armstrong–Frederick (b
-/// > 0). Included by isentropic.hpp only.
+/// keeps its value while Θ varies, the rest follows its line; then S_γ = Φ_Θ, but where back strain is
+/// recalled (b > 0). Included by isentropic.hpp only.
 #pragma once
 
 #include "material/isentropic_lines.hpp"
@@ -82,6 +82,8 @@ class ReducedEntropy {
         ez_(dot(trial_, back_)),
         zz_(dot(back_, back_)) {}
 
+  double dt() const { return dt_; }
+
   /// Whether the trial state at Θ_n lies beyond the yield surface in any lane.
   [[gnu::always_inline]] bool yields(const Properties& p) const {
     if (flow_ == nullptr) return false;
@@ -100,7 +102,8 @@ class ReducedEntropy {
     const T zero(0.0), half(0.5);
     const auto shear = law_.shear(elastic_values(p, e), dt_);
     const Jet<T>& t = e.twice_shear;
-    T share = spring_share(p.solid_fraction), curvature = zero;  // of t_Θ in s_Θ; −(s_Θ/t_Θ)_t/(s_Θ/t_Θ)
+    T share = liquid_shares(law_.material(), p.solid_fraction).spring,
+      curvature = zero;  // of t_Θ in s_Θ; −(s_Θ/t_Θ)_t/(s_Θ/t_Θ)
     if (any(shear.viscous_share > zero)) {
       const T inverse = T(1.0) / t.v, ratio = shear.twice_shear * inverse;
       share *= ratio * ratio;
@@ -119,8 +122,9 @@ class ReducedEntropy {
               none()};
     const T xi = hardening_ + T(return_mapping::k_root_two_thirds) * shear.strength * gamma;
     const HardeningSlopes<T> hardening = detail::hardening_slopes<T>(*flow_, p, temperature, xi);
-    const Flowing f =
-        any(gamma > zero) ? flowing(p, temperature, s, s_theta, shear.strength, hardening, gamma) : none();
+    const Flowing f = any(gamma > zero)
+                          ? flowing(p, temperature, s, s_theta, shear.strength, hardening, xi, gamma)
+                          : none();
     const T squared = ee_ + f.squared, back_squared = zz_ + f.back_squared;
     return {elastic_entropy(volumetric, T(half * s_theta), squared) + hardening.entropy -
                 T(1.0 / 3.0) * p.flow_slope.kinematic_modulus * back_squared,
@@ -142,7 +146,7 @@ class ReducedEntropy {
     return combined(at, turning, pull, along_normal);
   }
 
-  /// −dS/dε at fixed temperature, γ eliminated: stress_slope but for Armstrong–Frederick.
+  /// −dS/dε at fixed temperature, γ eliminated: stress_slope but where back strain is recalled.
   [[gnu::always_inline]] Sym<T> minus_entropy_slope(const Point& at, const T& gamma, const T& inverse) const {
     const T turning = at.stiffness * gamma * at.flow.inverse_norm;
     const T along_normal =
@@ -152,11 +156,6 @@ class ReducedEntropy {
   }
 
  private:
-  /// s_Θ/(2G)_Θ, that of a Maxwell element over (Ĝ/G)².
-  [[gnu::always_inline]] T spring_share(const T& solid_fraction) const {
-    return law_.material().liquid_model == LiquidModel::degenerated ? T(1.0) : solid_fraction;
-  }
-
   static Flowing none() {
     const T zero(0.0);
     return {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
@@ -164,16 +163,18 @@ class ReducedEntropy {
 
   [[gnu::always_inline]] Flowing flowing(const Properties& p, const T& temperature, const T& s,
                                          const T& s_theta, const T& w, const HardeningSlopes<T>& k,
-                                         const T& gamma) const {
+                                         const T& xi, const T& gamma) const {
     const T zero(0.0), one(1.0), two(2.0);
     const bool recalls = !law_.symmetric();
-    const T radius = T(return_mapping::k_root_two_thirds) * w, recall = radius * p.flow.recall;
-    const T fading = recalls ? T(one / (one + recall * gamma)) : one;
+    const T radius = T(return_mapping::k_root_two_thirds) * w;
+    return_mapping::Fading<T> b{zero, one, zero};
+    if (recalls) b = return_mapping::fading(flow_->kinematic, p.flow, w, xi, gamma);
+    const T fading = b.value;
     const T modulus_slope = T(return_mapping::k_two_thirds) * p.flow_slope.kinematic_modulus;
     const T modulus = T(return_mapping::k_two_thirds) * p.flow.kinematic_modulus +
                       modulus_slope * (temperature - p.temperature);
     const T m = w * fading * modulus, m_theta = w * fading * modulus_slope;
-    const T m_gamma = recalls ? T(zero - m * recall * fading) : zero;
+    const T m_gamma = recalls ? T(zero - m * b.fall * fading) : zero;
 
     const T by_e = s * ee_ + m * ez_, by_z = s * ez_ + m * zz_;  // β̂:ê, β̂:ζ*
     const T norm2 = s * by_e + m * by_z;
@@ -195,7 +196,7 @@ class ReducedEntropy {
       yield_gamma += norm_gamma - w * m_gamma * gamma;
       entropy_gamma = s_theta * (e + gamma * (e_gamma - one)) +
                       kinematic_theta * (z + gamma * (z_gamma - w)) - radius * k.stress_theta +
-                      modulus_slope * recall * fading * back_squared;
+                      modulus_slope * b.fall * fading * back_squared;
     }
     return {.squared = gamma * (gamma - two * e),
             .back_squared = back_squared - zz_,

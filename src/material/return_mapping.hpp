@@ -1,8 +1,8 @@
 /// The local equation of the closest point projection in the flow multiplier γ (monograph 4.138–4.142).
 ///
-///   Φ(γ) = ‖β̂(γ)‖ − (2Ĝ + ⅔w²K B) γ − w √⅔ [σ_0 + K_ξ(ξ* + w √⅔ γ)]
-///   β̂(γ) = 2Ĝ ê + ⅔wK B ζ*,   B = 1/(1 + b γ)  (Prager: b = 0, β̂ fixed)
-///   Φ(γ) = x,  γ = m Δt/η x (x/D)^(n−1)                                                (4.142, errata)
+///   Φ(γ) = ‖β̂(γ)‖ − (2Ĝ + ⅔w²K B) γ − w √⅔ [σ_0 + K_ξ(ξ)],   ξ = ξ* + w √⅔ γ
+///   β̂(γ) = 2Ĝ ê + ⅔wK B ζ*,   B = 1/(1 + b γ),   b = w √⅔ r(ξ)  (Prager: b = 0, β̂ fixed)
+///   Φ(γ) = x(γ/(m Δt)),  Perzyna: γ = m Δt/η x (x/D)^(n−1)                             (4.142, errata)
 ///
 /// Newton's method inside a bracket. Φ falls with γ and is convex for every hardening that levels off: there
 /// Newton's method converges by itself, and the bracket rules where a table makes Φ concave or where a back
@@ -13,6 +13,8 @@
 #include <limits>
 
 #include "material/hardening.hpp"
+#include "material/kinematic.hpp"
+#include "material/laws/perzyna.hpp"
 #include "numbers/tensor.hpp"
 
 namespace solidus::material::return_mapping {
@@ -38,18 +40,19 @@ template <class T>
 template <class T>
 struct Problem {
   IsotropicHardening isotropic;
+  KinematicHardening kinematic;
+  RateDependence rate_dependence;
   const FlowCurves* curves;
   const FlowProperties<T>* flow;
   bool recalls;               ///< b > 0
   T twice_shear, strength;    ///< 2Ĝ, w
   T rate;                     ///< m Δt [s]
-  T recall;                   ///< b
   const Sym<T>& trial;        ///< 2Ĝ ê, the trial deviator
   const Sym<T>& back_strain;  ///< ζ*
   T hardening;                ///< ξ*
 
-  T kinematic() const { return T(k_two_thirds) * strength * flow->kinematic_modulus; }  ///< ⅔wK
-  T stiffness() const { return twice_shear + strength * kinematic(); }                  ///< 2Ĝ + ⅔w²K
+  T pull() const { return T(k_two_thirds) * strength * flow->kinematic_modulus; }  ///< ⅔wK
+  T stiffness() const { return twice_shear + strength * pull(); }                  ///< 2Ĝ + ⅔w²K
 };
 
 /// Φ and its derivatives and noise at one γ.
@@ -60,8 +63,23 @@ struct Yield {
   Sym<T> relative;  ///< β̂; n = β̂/‖β̂‖
   T norm;           ///< ‖β̂‖
   T fading;         ///< B
-  T drift;          ///< ∂β̂/∂γ = drift ζ* (Armstrong–Frederick; else 0)
+  T recall;         ///< b, zero where nothing is recalled
+  T drift;          ///< ∂β̂/∂γ = drift ζ*, zero where nothing is recalled
 };
+
+/// b, B and −B_γ/B² = b + γ b_γ of a law that recalls.
+template <class T>
+struct Fading {
+  T recall, value, fall;
+};
+/// @param strength, xi  w, and ξ at the end
+template <class T>
+[[gnu::always_inline]] inline Fading<T> fading(KinematicHardening kind, const FlowProperties<T>& flow,
+                                               const T& strength, const T& xi, const T& gamma) {
+  const Recall<T> r = kinematic_recall(kind, flow, xi);
+  const T step = T(k_root_two_thirds) * strength, recall = step * r.value;
+  return {recall, T(T(1.0) / (T(1.0) + recall * gamma)), recall + gamma * (step * step * r.slope)};
+}
 
 /// Subtracts the radius from Φ and its slope from Φ'.
 /// @return what enters the rounding of the radius [Pa]: hardening cancels (saturation) or is steep in ξ
@@ -79,20 +97,22 @@ template <class T>
 
 template <class T>
 [[gnu::always_inline]] inline Yield<T> yield(const Problem<T>& p, const T& gamma) {
-  const T modulus = p.kinematic(), zero(0.0), one(1.0), w = p.strength;
-  const T fading = p.recalls ? T(one / (one + p.recall * gamma)) : one;
-  const T pull = modulus * fading;
+  const T modulus = p.pull(), zero(0.0), one(1.0), w = p.strength;
+  Fading<T> f{zero, one, zero};
+  if (p.recalls)
+    f = fading(p.kinematic, *p.flow, w, T(p.hardening + T(k_root_two_thirds) * w * gamma), gamma);
+  const T pull = modulus * f.value;
   const Sym<T> relative = p.trial + pull * p.back_strain;
   const T norm = smooth_norm(relative);
-  T value = norm - (p.twice_shear + w * pull) * gamma, slope = -(p.twice_shear + w * pull * fading);
+  T value = norm - (p.twice_shear + w * pull) * gamma, slope = -(p.twice_shear + w * pull * f.value);
   T drift = zero, terms = norm;
   if (p.recalls) {
-    drift = -pull * p.recall * fading;
-    slope += drift * dot(relative, p.back_strain) / norm;
+    drift = -pull * f.fall * f.value;
+    slope += drift * dot(relative, p.back_strain) / norm + w * pull * f.value * gamma * (f.fall - f.recall);
     terms = smooth_norm(p.trial) + modulus * smooth_norm(p.back_strain);
   }
   const T noise = T(k_rounding) * (terms + subtract_radius(p, gamma, value, slope));
-  return {value, slope, noise, relative, norm, fading, drift};
+  return {value, slope, noise, relative, norm, f.value, f.recall, drift};
 }
 
 /// The scalars of Yield alone, which suffice for the iteration.
@@ -112,7 +132,7 @@ template <class T>
   return {value, slope, noise};
 }
 
-/// A γ with Φ(γ) <= 0. Prager: Φ falls at least as fast as (2Ĝ + ⅔w²K) γ. Armstrong–Frederick:
+/// A γ with Φ(γ) <= 0. Prager: Φ falls at least as fast as (2Ĝ + ⅔w²K) γ. With recall:
 /// Φ <= (2Ĝ‖ê‖ − 2Ĝ γ) + ⅔wK B (‖ζ*‖ − w γ) − R, and both terms are negative beyond ‖ê‖ and ‖ζ*‖/w.
 template <class T>
 T upper_bound(const Problem<T>& p, const Yield<T>& trial) {
@@ -126,8 +146,7 @@ T upper_bound(const Problem<T>& p, const Yield<T>& trial) {
   return T(k_beyond) * select(elastic > kinematic, elastic, kinematic);
 }
 
-/// The largest Φ(γ) that Armstrong–Frederick allows: ‖β̂‖ is convex in B and stays below its values at B = 1
-/// and 0.
+/// The largest Φ(γ) that recall allows: ‖β̂‖ is convex in B and stays below its values at B = 1 and 0.
 template <class T>
 T largest_overstress(const Problem<T>& p, const Yield<T>& trial) {
   const T freed = smooth_norm(p.trial) - trial.norm;
@@ -188,7 +207,7 @@ auto within(const T& a, const T& b) {
 /// n = 1: m Δt Φ(γ) = η γ.
 template <class T>
 [[gnu::always_inline]] inline Solution<T> solve_linear_rate(const Problem<T>& p, const Yield<T>& trial) {
-  const T zero(0.0), one(1.0), eta = p.flow->viscosity, c = p.rate;
+  const T zero(0.0), one(1.0), eta = p.flow->rate[Perzyna::viscosity], c = p.rate;
   const auto plastic = flows(p, trial);
   // The first step of Newton's method solves a linear equation.
   const T first = c / select(plastic, T(eta - c * trial.slope), one);
@@ -227,9 +246,9 @@ template <class T>
 template <class T>
 Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
   const T zero(0.0), one(1.0), tiny(1e-280);
-  const T n = p.flow->exponent, inverse_n = one / n, drag = p.flow->drag_stress;
+  const T n = p.flow->rate[Perzyna::exponent], inverse_n = one / n, drag = p.flow->rate[Perzyna::drag_stress];
   const auto plastic = flows(p, trial);
-  const T inverse_a = p.flow->viscosity / (select(plastic, p.rate, one) * drag);
+  const T inverse_a = p.flow->rate[Perzyna::viscosity] / (select(plastic, p.rate, one) * drag);
   const auto flow_curve = [&](const T& base, const T& exponent) {  // base^exponent, base >= 0
     return select(base > tiny, power<T>(select(base > tiny, base, one), exponent), zero);
   };
@@ -281,7 +300,43 @@ Solution<T> solve_power_rate(const Problem<T>& p, const Yield<T>& trial) {
   return s;
 }
 
+/// Any law x(γ̇) that rises from zero: Newton's method in γ for Φ(γ) = x(γ/(m Δt)), and in ln γ where that
+/// would leave the bracket, since x may rise with a small power of γ.
+template <class T>
+Solution<T> solve_rate_law(const Problem<T>& p, const Yield<T>& trial) {
+  using std::exp;
+  const T zero(0.0), one(1.0);
+  const auto plastic = flows(p, trial);
+  const T time = select(plastic, p.rate, one), per_time = one / time, last = last_correction(p);
+  Bracket<T> bracket(upper_bound(p, trial));
+  T gamma = select(plastic, bracket.inside(trial.value / select(plastic, T(zero - trial.slope), one)), one);
+  auto done = !plastic;
+  Solution<T> s{zero, zero, zero, false};
+  for (int i = 0; i < k_max_iterations; ++i) {
+    const Point<T> at = point(p, trial, gamma);
+    const Overstress<T> x = overstress(p.rate_dependence, *p.flow, T(gamma * per_time));
+    const T rise = x.slope * per_time, inverse = one / select(plastic, T(rise - at.slope), one);
+    const T r = at.value - x.stress, by = inverse * r;
+    done = either(done, within(r, at.noise));
+    s.converged = all(done);
+    if (s.converged) {  // the last correction, free of the bracket, so that derivatives pass through it
+      const T flow = gamma + by, stress = x.stress + rise * by;
+      s.gamma = select(plastic, select(flow > zero, flow, gamma), zero);
+      s.overstress = select(plastic, select(stress > zero, stress, x.stress), zero);
+      s.inverse_stiffness = select(plastic, inverse, zero);
+      break;
+    }
+    const T newton = gamma + by, scaled = gamma * T(exp(T(by / gamma)));
+    const T next = select(done, gamma, bracket.next(gamma, r, select(newton > zero, newton, scaled)));
+    done = either(done, within(T(next - gamma), T(last * next)));  // a lane that is done stays
+    gamma = next;
+  }
+  return s;
+}
+
 extern template Solution<double> solve_power_rate(const Problem<double>&, const Yield<double>&);
 extern template Solution<Lane> solve_power_rate(const Problem<Lane>&, const Yield<Lane>&);
+extern template Solution<double> solve_rate_law(const Problem<double>&, const Yield<double>&);
+extern template Solution<Lane> solve_rate_law(const Problem<Lane>&, const Yield<Lane>&);
 
 }  // namespace solidus::material::return_mapping

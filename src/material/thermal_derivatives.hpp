@@ -25,8 +25,8 @@ namespace solidus::material {
 struct Frozen {
   bool phase = false;        ///< f_S, the straining e^pc, and with f_S the strength factor (4.76, 4.81)
   bool flow_stress = false;  ///< σ_0 of the yield radius (4.85)
-  bool viscosity = false;    ///< η_l, and η, n, D of the overstress
-  bool recall = false;       ///< of Armstrong–Frederick
+  bool viscosity = false;    ///< η_l, and the parameters of rate dependence
+  bool recall = false;       ///< those of the recall of back strain
   static constexpr Frozen dissipation() { return {true, true, true, true}; }
 };
 

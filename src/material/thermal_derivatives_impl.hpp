@@ -16,11 +16,13 @@ Viscoplastic::Properties<Jet<T>> thermal_properties(const Viscoplastic& law, con
       p.elastic.thermal_strain.d -= T(change.volume_change) * detail::slope(change.fraction, temperature);
   }
   if (frozen.flow_stress) hold(p.flow.flow_stress);
-  if (frozen.viscosity)
-    for (Jet<T>* a :
-         {&p.elastic.viscosity, &p.flow.viscosity, &p.flow.exponent, &p.flow.drag_stress, &p.flow.heat_share})
-      hold(*a);
-  if (frozen.recall) hold(p.flow.recall);
+  if (frozen.viscosity) {
+    hold(p.elastic.viscosity);
+    hold(p.flow.heat_share);
+    for (Jet<T>& a : p.flow.rate) hold(a);
+  }
+  if (frozen.recall)
+    for (Jet<T>& a : p.flow.recall) hold(a);
   return p;
 }
 
@@ -64,7 +66,8 @@ class Variation {
     const J& k = p_.elastic.bulk;
     const J pull = k * p_.elastic.thermal_strain;
     const J volumetric_part = volumetric_energy(law_.material(), k, p_.elastic.thermal_strain, trace_);
-    const J q = spring_slope();
+    const J q =
+        spring_slope(law_.material(), p_.elastic.shear, shear_.twice_shear, p_.elastic.solid_fraction);
     const T squared = dot(elastic_, elastic_);
     const T volumetric = k.d * trace_ - pull.d;
     Derivatives<T> s;
@@ -136,21 +139,25 @@ class Variation {
 
  private:
   J radius() const { return J(T(return_mapping::k_root_two_thirds)) * shear_.strength; }  // w √⅔
-  J recall() const { return radius() * p_.flow.recall; }                                  // b
 
   /// D_plas Δt = γ f,  f = x + w √⅔ σ_0 + ⅔ K b ζ:ζ, without a Taylor–Quinney factor.
   Derivatives<T> unstored() const {
     const T zeta2 = dot(zeta_, zeta_);
     const J fixed = radius() * p_.flow.flow_stress;
-    const J recalled = law_.symmetric()
-                           ? J(T(0.0))
-                           : J(T(return_mapping::k_two_thirds)) * p_.flow.kinematic_modulus * recall();
+    J recalled(T(0.0));
+    T gained(0.0);  // in f with γ, as b does
+    if (!law_.symmetric()) {
+      const J modulus = J(T(return_mapping::k_two_thirds)) * p_.flow.kinematic_modulus;
+      recalled = modulus * recall_;
+      gained = modulus.v * recall_gamma_ * zeta2;
+    }
     const T force = overstress_ + fixed.v + recalled.v * zeta2;
     const T force_theta = overstress_theta_ + overstress_gamma_ * gamma_theta_ + fixed.d +
-                          recalled.d * zeta2 + T(2.0) * recalled.v * dot(zeta_, zeta_theta_);
-    return {
-        gamma_ * force, gamma_theta_ * force + gamma_ * force_theta,
-        along_strain(zeros(), T(T(2.0) * gamma_ * recalled.v) * zeta_, force + gamma_ * overstress_gamma_)};
+                          recalled.d * zeta2 + T(2.0) * recalled.v * dot(zeta_, zeta_theta_) +
+                          gained * gamma_theta_;
+    return {gamma_ * force, gamma_theta_ * force + gamma_ * force_theta,
+            along_strain(zeros(), T(T(2.0) * gamma_ * recalled.v) * zeta_,
+                         force + gamma_ * (overstress_gamma_ + gained))};
   }
 
   /// β times the plastic work P = s γ (n : ê − γ) of the step.
@@ -172,22 +179,6 @@ class Variation {
   /// a − n (n : a).
   Sym<T> across(const Sym<T>& a) const { return a - dot(normal_, a) * normal_; }
 
-  /// W_Θ/(a:a) at fixed elastic strain, and its derivative.
-  [[gnu::always_inline]] J spring_slope() const {
-    const J &g = p_.elastic.shear, &f = p_.elastic.solid_fraction;
-    const J g_theta(g.d, g.dd, T(0.0)), f_theta(f.d, T(0.0), T(0.0));
-    switch (law_.material().liquid_model) {
-      case LiquidModel::modified_shear:
-        return f * g_theta + f_theta * g;
-      case LiquidModel::degenerated:
-        return g_theta;
-      case LiquidModel::maxwell:
-        break;
-    }
-    const J share = shear_.twice_shear / (J(T(2.0)) * g);  // Ĝ/G
-    return (f * g_theta - f_theta * g) * share * share;
-  }
-
   [[gnu::always_inline]] void add_flow(const State& start, const Viscoplastic::Response<T>& r) {
     const T zero(0.0), one(1.0);
     const auto flows = r.flow_increment > zero;
@@ -202,10 +193,16 @@ class Variation {
     const J& stiff = shear_.twice_shear;
     const J& w = shear_.strength;
     const J modulus = J(T(return_mapping::k_two_thirds)) * w * p_.flow.kinematic_modulus;
-    const bool recalls = !law_.symmetric();
-    const J fading = recalls ? J(one) / (J(one) + recall() * J(gamma_)) : J(one);
-    const T fading_gamma = recalls ? T(T(0.0) - recall().v * fading.v * fading.v) : zero;
     const J xi = J(start.hardening) + radius() * J(gamma_);
+    J fading(one);
+    T fading_gamma = zero;
+    if (!law_.symmetric()) {
+      const auto b = return_mapping::fading(flow.kinematic, p_.flow, w, xi, J(gamma_));
+      fading = b.value;
+      fading_gamma = T(0.0) - b.fall.v * fading.v * fading.v;
+      recall_ = b.recall;
+      recall_gamma_ = select(flows, T((b.fall.v - b.recall.v) / select(flows, gamma_, one)), zero);
+    }
     const HardeningStress<J> k = hardening_stress<J>(flow.isotropic, flow.curves, p_.flow, xi);
     stress_theta_ = k.stress.d - k.slope.v * xi.d;
 
@@ -216,7 +213,7 @@ class Variation {
     rate_derivatives(flow);
     gamma_theta_ = inverse_ * (phi.d - overstress_theta_);
 
-    // β̂ turns with temperature and, for Armstrong–Frederick, with γ
+    // β̂ turns with temperature and, where back strain is recalled, with γ
     per_norm_ = inverse_norm;
     drift_ = across(T(modulus.v * fading_gamma) * start.back_strain);
     const Sym<T> turn = across(stiff.d * trial_ + pull.d * start.back_strain) + gamma_theta_ * drift_;
@@ -233,10 +230,22 @@ class Variation {
     xi_theta_ = xi.d + radius().v * gamma_theta_;
   }
 
-  /// x_γ and x_Θ of γ = m Δt/η x (x/D)^(n−1), each at fixed other.
+  /// x_γ and x_Θ of x(γ/(m Δt), Θ), each at fixed other; Perzyna: γ = m Δt/η x (x/D)^(n−1).
   [[gnu::always_inline]] void rate_derivatives(const Flow& flow) {
     const T zero(0.0), one(1.0);
-    const J &m = shear_.flow_share, &eta = p_.flow.viscosity, &n = p_.flow.exponent, &d = p_.flow.drag_stress;
+    const J& m = shear_.flow_share;
+    if (flow.added_rate()) {
+      const auto flows = overstress_ > zero;
+      const J time =
+          J(T(dt_)) * J(select(flows, m.v, one), select(flows, m.d, zero), select(flows, m.dd, zero));
+      const Overstress<J> x =
+          material::overstress<J>(flow.rate_dependence, p_.flow, J(select(flows, gamma_, one)) / time);
+      overstress_gamma_ = select(flows, T(x.slope.v / time.v), zero);
+      overstress_theta_ = select(flows, x.stress.d, zero);
+      return;
+    }
+    const J &eta = p_.flow.rate[Perzyna::viscosity], &n = p_.flow.rate[Perzyna::exponent],
+            &d = p_.flow.rate[Perzyna::drag_stress];
     const auto liquid = !(m.v > zero);
     const auto viscous = overstress_ > zero;
     const T x = overstress_, m_safe = select(liquid, one, m.v);
@@ -270,6 +279,8 @@ class Variation {
   Sym<T> trial_, elastic_;  ///< ê, a
   Sym<T> zeta_;
   T xi_;
+  J recall_{T(0.0)};     ///< b at fixed γ, of a law that recalls
+  T recall_gamma_{0.0};  ///< b_γ
   // Zero without flow:
   T gamma_{0.0}, inverse_{0.0}, per_norm_{0.0}, overstress_{0.0};
   T overstress_gamma_{0.0}, overstress_theta_{0.0}, stress_theta_{0.0};  ///< x_γ, x_Θ, K_ξΘ

@@ -39,6 +39,7 @@ class UmatLibrary final : public ExternalLibrary {
   }
 
   std::size_t n_internal() const override { return n_state_; }
+  std::size_t n_scratch() const override { return 0; }
   std::vector<std::string> internal_names() const override {
     std::vector<std::string> names;
     for (std::size_t i = 1; i <= n_state_; ++i) names.push_back("STATEV(" + std::to_string(i) + ")");

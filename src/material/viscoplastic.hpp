@@ -5,24 +5,27 @@
 ///   σ = p 1 + s,  p = k (tr ε − e^θ),  s = 2Ĝ (dev ε − ε^v* − ε^vp)                    (2.57, 4.131)
 ///   Φ = ‖s − w q‖ − w √⅔ (σ_0 + K_ξ),  n = (s − w q)/‖s − w q‖                          (2.106, 2.107)
 ///   ε̇^vp = γ̇ n,  ξ̇ = w √⅔ γ̇,  ζ̇ = −γ̇ (w n + b ζ),  q = −⅔ K ζ                          (2.108)
-///   γ̇ = m/η Φ (Φ/D)^(n−1),  η = 0: Φ <= 0                                              (2.109b, 2.112)
+///   Φ = x(γ̇/m),  Perzyna: γ̇ = m/η Φ (Φ/D)^(n−1),  η = 0: Φ <= 0                         (2.109, 2.112)
 ///   Ṡ^I = −γ̇ w √⅔ dσ_0/dΘ                                                              (2.119b, 4.43b)
 ///   ε̇^v = λ/η_l s,  λ = 1 − f_S                                                        (2.104)
 ///
-/// The liquid models (2.3.1) differ in 2Ĝ, in the share m of the flow and in the strength factor w:
+/// The liquid models (2.3.1, laws/liquid_law.hpp) differ in 2Ĝ, in the share m of the flow and in the
+/// strength factor w:
 ///   maxwell         1/(2Ĝ) = f_S/(2G) + Δt λ/η_l,  m = f_S,  w = 1                      (2.50, errata)
 ///   modified_shear  2Ĝ = 2 f_S G(Θ_S),             m = 1,    w = 1                      (2.77, 2.78)
 ///   degenerated     2Ĝ = 2G,                       m = 1,    w = f_S                    (2.79–2.83)
 ///
-/// Symbols: k, G moduli, q back stress, K kinematic modulus, σ_0 flow stress, D drag stress [Pa], η, η_l
-/// [Pa s], b = w √⅔ recall (Armstrong–Frederick; b = 0: Prager), f_S solid fraction, ξ equivalent plastic
-/// strain, ζ back strain, γ flow multiplier. Validity: infinitesimal strain, f_S > 0 for plastic flow.
-/// The time integration enters through the start state * and the effective step: the values at t_n and Δt for
-/// backward Euler, those of time_integration.hpp for the two-step method.
-/// Source: Chiumenti, Agelet de Saracibar, Cervera, CIMNE monograph 48 (1999); errata.
+/// Symbols: k, G moduli, q back stress, K kinematic modulus, σ_0 flow stress, x overstress
+/// (laws/rate_law.hpp), D drag stress [Pa], η, η_l [Pa s], b = w √⅔ r of the law of kinematic hardening
+/// (laws/kinematic_law.hpp; b = 0: Prager), f_S solid fraction, ξ equivalent plastic strain, ζ back strain, γ
+/// flow multiplier. Validity: infinitesimal strain, f_S > 0 for plastic flow. The time integration enters
+/// through the start state * and the effective step: the values at t_n and Δt for backward Euler, those of
+/// time_integration.hpp for the two-step method. Source: Chiumenti, Agelet de Saracibar, Cervera, CIMNE
+/// monograph 48 (1999); errata.
 #pragma once
 
 #include "material/hardening.hpp"
+#include "material/liquid.hpp"
 #include "material/return_mapping.hpp"
 #include "material/viscoelastic.hpp"
 #include "numbers/tensor.hpp"
@@ -57,7 +60,7 @@ class Viscoplastic {
     Sym<T> stress;  ///< σ [Pa]
     State<T> state;
     T bulk, twice_shear;    ///< the tangent: κ 1⊗1 + 2μ I_dev + left ⊗ right [Pa];
-    Sym<T> left, right;     ///< left = c right (symmetric) but for Armstrong–Frederick
+    Sym<T> left, right;     ///< left = c right (symmetric) but where back strain is recalled
     Sym<T> direction;       ///< n, where flow_increment > 0
     T flow_increment;       ///< γ over the effective step
     T viscous_dissipation;  ///< 2.114 [W/m³]
@@ -67,7 +70,7 @@ class Viscoplastic {
     T dissipation;          ///< D_mech, the sum of both (2.113) [W/m³]
     Status status = Status::converged;
     // These members are read by thermal_derivatives.hpp and isentropic.hpp if flow_increment > 0:
-    T overstress{};         ///< x = η γ̇/m for n = 1 [Pa]
+    T overstress{};         ///< x [Pa]
     T inverse_stiffness{};  ///< ∂γ/∂Φ^trial [1/Pa]
     T relative_norm{1.0};   ///< ‖β̂‖ [Pa]
   };
@@ -76,7 +79,9 @@ class Viscoplastic {
   explicit Viscoplastic(const Material& material)
       : material_(&material),
         flow_(material.flow ? &*material.flow : nullptr),
-        linear_rate_(flow_ != nullptr && flow_->linear_rate()) {}
+        recalls_(flow_ != nullptr && kinematic_law(flow_->kinematic).recalls()),
+        linear_rate_(flow_ != nullptr && flow_->linear_rate()),
+        powered_rate_(flow_ != nullptr && flow_->powered_rate()) {}
 
   /// @param initial_temperature Θ_0 of 2.51 [K]
   template <class T>
@@ -100,7 +105,7 @@ class Viscoplastic {
   template <class T>
   Sym<T> loading(const Properties<T>& p, const State<T>& state, const Sym<T>& strain, double dt) const;
 
-  /// Stiffness and strength with the liquid model.
+  /// Stiffness and strength with the model of the liquid.
   template <class T>
   struct Shear {
     T twice_shear;    ///< 2Ĝ [Pa]
@@ -111,8 +116,8 @@ class Viscoplastic {
   template <class T>
   Shear<T> shear(const PointProperties<T>& p, double dt) const;
 
-  /// False where the tangent is not symmetric (Armstrong–Frederick).
-  bool symmetric() const { return !recalls(); }
+  /// False where the tangent is not symmetric, since back strain is recalled.
+  bool symmetric() const { return !recalls_; }
   const Material& material() const { return *material_; }
 
  private:
@@ -121,9 +126,6 @@ class Viscoplastic {
   template <class T>
   return_mapping::Problem<T> problem(const Properties<T>& p, const Shear<T>& shear, const State<T>& start,
                                      const Sym<T>& trial, double dt) const;
-  bool recalls() const {
-    return flow_ != nullptr && flow_->kinematic == KinematicHardening::armstrong_frederick;
-  }
   /// Result of plastic flow at a point: members as in Response and State.
   template <class T>
   struct Flowed {
@@ -153,7 +155,9 @@ class Viscoplastic {
 
   const Material* material_;
   const Flow* flow_;
-  bool linear_rate_;  ///< n = 1 at every temperature
+  bool recalls_;       ///< the law of kinematic hardening does
+  bool linear_rate_;   ///< Flow::linear_rate
+  bool powered_rate_;  ///< Flow::powered_rate
 };
 
 /// The tangent as a 6×6 matrix.

@@ -12,7 +12,7 @@ Viscoplastic::Properties<T> Viscoplastic::properties_at(const T& temperature, co
   Properties<T> p;
   p.elastic = material::properties_at(*material_, temperature, initial_temperature, phase);
   if (flow_ != nullptr) p.flow = flow_properties_at(*flow_, temperature);
-  if (material_->liquid_model == LiquidModel::modified_shear && material_->solidification() != nullptr) {
+  if (holds_modulus(material_->liquid_model) && material_->solidification() != nullptr) {
     const T solidus(material_->solidification()->fraction.solidus());  // 2.77: G(Θ_S) in the mushy zone
     const T cold = select(temperature < solidus, temperature, solidus);
     p.elastic.shear = detail::value(material_->young_modulus, cold) /
@@ -25,35 +25,29 @@ template <class T>
 [[gnu::always_inline]] inline Viscoplastic::Shear<T> Viscoplastic::shear(const PointProperties<T>& p,
                                                                          double dt) const {
   const T zero(0.0), one(1.0), twice_shear = T(2.0) * p.shear;
-  switch (material_->liquid_model) {
-    case LiquidModel::modified_shear:
-      return {T(p.solid_fraction * twice_shear), zero, one, one};
-    case LiquidModel::degenerated:
-      return {twice_shear, zero, one, p.solid_fraction};
-    case LiquidModel::maxwell:
-      break;
-  }
-  // 1/(2Ĝ) = f_S/(2G) + Δt λ/η times 2G η: neither limit divides by zero.
-  const T lambda = one - p.solid_fraction;
-  const auto fluid = lambda > zero;
-  if (!any(fluid)) return {twice_shear, zero, one, one};
-  const T flowing = T(dt) * lambda * twice_shear;
-  const T inverse = one / select(fluid, T(p.solid_fraction * p.viscosity + flowing), one);
+  const LiquidShares<T> s = liquid_shares(*material_, p.solid_fraction);
+  if (!has_dashpot(material_->liquid_model)) return {T(s.spring * twice_shear), zero, s.flow, s.strength};
+  // 1/(2Ĝ) = a/(2G) + Δt λ/η times 2G η: neither limit divides by zero.
+  const auto fluid = s.fluid > zero;
+  if (!any(fluid)) return {twice_shear, zero, s.flow, s.strength};
+  const T flowing = T(dt) * s.fluid * twice_shear;
+  const T inverse = one / select(fluid, T(s.spring * p.viscosity + flowing), one);
   return {select(fluid, T(twice_shear * p.viscosity * inverse), twice_shear),
-          select(fluid, T(flowing * inverse), zero), p.solid_fraction, one};
+          select(fluid, T(flowing * inverse), zero), s.flow, s.strength};
 }
 
 template <class T>
 [[gnu::always_inline]] inline return_mapping::Problem<T> Viscoplastic::problem(
     const Properties<T>& p, const Shear<T>& sh, const State<T>& start, const Sym<T>& trial, double dt) const {
   return {flow_->isotropic,
+          flow_->kinematic,
+          flow_->rate_dependence,
           &flow_->curves,
           &p.flow,
-          recalls(),
+          recalls_,
           sh.twice_shear,
           sh.strength,
           T(sh.flow_share * T(dt)),
-          T(T(return_mapping::k_root_two_thirds) * sh.strength * p.flow.recall),
           trial,
           start.back_strain,
           start.hardening};
@@ -146,8 +140,9 @@ template <class T>
     const Sym<T>& strain, double dt, const return_mapping::Problem<T>& problem,
     const return_mapping::Yield<T>& trial) const {
   using namespace return_mapping;
-  const Solution<T> solution =
-      linear_rate_ ? solve_linear_rate(problem, trial) : solve_power_rate(problem, trial);
+  const Solution<T> solution = linear_rate_    ? solve_linear_rate(problem, trial)
+                               : powered_rate_ ? solve_power_rate(problem, trial)
+                                               : solve_rate_law(problem, trial);
   const bool shares_heat = flow_->heat_share.has_value();
   if (problem.recalls)
     return returned<true>(p, start, sh, free, strain, dt, problem, solution, yield(problem, solution.gamma),
@@ -173,7 +168,7 @@ template <bool recalls, class T>
   Sym<T> left = T(stiff * turning - along) * n;
   if constexpr (recalls) {
     dissipation +=
-        rate * T(k_two_thirds) * p.flow.kinematic_modulus * problem.recall * dot(back_strain, back_strain);
+        rate * T(k_two_thirds) * p.flow.kinematic_modulus * end.recall * dot(back_strain, back_strain);
     left -=
         T(along * gamma * inverse_norm * end.drift) * (problem.back_strain - dot(n, problem.back_strain) * n);
   }

@@ -36,18 +36,4 @@ class CoupledKernel {
   virtual void drop_carried() = 0;
 };
 
-/// One maker per analysis kind, each in its own translation unit.
-/// Throws std::invalid_argument for a shape that the kind does not have.
-template <AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_coupled_block(const mesh::Mesh& mesh, const mesh::Block& block,
-                                                const material::Material& material, bool b_bar);
-using CoupledMaker = std::unique_ptr<BlockKernel>(const mesh::Mesh&, const mesh::Block&,
-                                                  const material::Material&, bool);
-template <>
-CoupledMaker make_coupled_block<AnalysisKind::plane_strain>;
-template <>
-CoupledMaker make_coupled_block<AnalysisKind::axisymmetric>;
-template <>
-CoupledMaker make_coupled_block<AnalysisKind::solid>;
-
 }  // namespace solidus::mechanics

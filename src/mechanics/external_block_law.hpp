@@ -28,10 +28,15 @@ class ExternalBlockLaw {
       return {{from[0], from[1], from[2], from[3], from[4], from[5]}};
     }
   };
-  /// Its state lives until the next update.
+  /// Its state lies in the workspace of the call.
   template <class T>
   struct Response : material::ExternalLaw::Response<T> {
     State<T> state;
+  };
+  struct Workspace : material::ExternalLaw::Workspace {
+    explicit Workspace(const ExternalBlockLaw& law)
+        : material::ExternalLaw::Workspace(*law.law_), state(law.size()) {}
+    PackVector<Lane> state;
   };
 
   /// Keeps a reference to the material. Throws InputError where its law is not loaded.
@@ -40,7 +45,6 @@ class ExternalBlockLaw {
     if (!law_->loaded())
       throw InputError(law_->data().where, "the law from outside of '" + material.name + "' is not loaded",
                        "--trust-laws, where you trust it");
-    now_.resize(law_->size());
   }
 
   template <class T>
@@ -49,15 +53,14 @@ class ExternalBlockLaw {
     return {material::properties_at(*material_, temperature, initial_temperature, phase), temperature,
             initial_temperature};
   }
-  Response<Lane> update(const Properties<Lane>& p, const State<Lane>& old, const Sym<Lane>& strain,
-                        double dt) const {
-    if (failed_) failures_ = {};
-    Response<Lane> r{law_->update(p, old.values, now_.data(), strain, dt, failures_.data()), {now_.data()}};
-    failed_ = r.status != material::Status::converged;
+  Response<Lane> update(const Properties<Lane>& p, const State<Lane>& old, const Sym<Lane>& strain, double dt,
+                        Workspace& space) const {
+    Response<Lane> r;
+    law_->update(p, old.values, space.state.data(), strain, dt, space,
+                 static_cast<material::ExternalLaw::Response<Lane>&>(r));
+    r.state.values = space.state.data();
     return r;
   }
-  /// Why the last update had no answer for an element; empty if it had one.
-  const std::string& failure(int lane) const { return failures_[static_cast<std::size_t>(lane)]; }
 
   bool symmetric() const { return law_->symmetric(); }
   const material::Material& material() const { return *material_; }
@@ -66,9 +69,6 @@ class ExternalBlockLaw {
  private:
   const material::Material* material_;
   const material::ExternalLaw* law_;
-  mutable std::vector<Lane> now_;
-  mutable std::array<std::string, k_lanes> failures_;
-  mutable bool failed_ = false;  ///< the last update
 };
 
 // The overloads of law_parts.hpp.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mechanics/element_matrix.hpp"
+#include "mechanics/kept_tangents.hpp"
 #include "mechanics/padding.hpp"
 #include "mechanics/point_block.hpp"
 
@@ -42,6 +43,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
 
   double prepare(const StepStart& start) override {
     this->begin_step(start);
+    tangents_.clear();
     Lane scale(0.0);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       [[maybe_unused]] const Vectors held_displacement = gather(start.held_displacement, batch);
@@ -60,12 +62,16 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
 
   double add_forces(std::span<const double> u, std::span<double> forces) override {
     Lane total(0.0);
+    Workspace<Law> space(this->law_);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
       Vectors f{};
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
-        const auto response = this->update_and_keep(batch, q, b.strain(displacement));
+        const Sym<Lane> strain = b.strain(displacement);
+        const Response response = this->update(batch, q, strain, space);
+        if constexpr (KeepsStateInPlace<Law>)
+          tangents_.keep(this->properties_.size(), this->index(batch, q), strain, response.tangent);
         b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
         if (response.status != material::Status::converged) this->invalidate(f);
       }
@@ -76,6 +82,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
   }
 
   void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) override {
+    Workspace<Law> space(this->law_);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
       Matrix symmetric;
@@ -84,26 +91,22 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Lane w = geometry_.weight_at(batch, q);
-        const auto response = this->answer_at(batch, q, b.strain(displacement));
+        const Sym<Lane> strain = b.strain(displacement);
         if constexpr (IsotropicTangent<Response>) {
+          const Response response = this->update(batch, q, strain, space);
           add_isotropic(b, w * response.bulk, w * response.twice_shear, symmetric);
+          if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, q, response, w, symmetric, skew);
+          if constexpr (AdiabaticTangent<Response>)
+            this->add_rank_one(b, response.thermal_left, response.thermal_right, w * response.thermal_factor,
+                               Lane(1.0), symmetric, skew);
         } else {
-          const Lane half = Lane(0.5) * w;
-          const Sym4<Lane>& full = response.tangent;
-          Sym4<Lane> c, turned;  // symmetric and skew part
-          for (int i = 0; i < 6; ++i)
-            for (int j = 0; j < 6; ++j) {
-              const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
-              c[i][column] = half * (full[i][column] + full[j][row]);
-              turned[i][column] = half * (full[i][column] - full[j][row]);
-            }
-          add_general(b, c, symmetric);
-          if (skew) add_general(b, turned, *skew);
+          Sym4<Lane> full;
+          if (!tangents_.find(this->index(batch, q), strain, full))
+            full = this->update(batch, q, strain, space).tangent;
+          const SplitTangent c(full, w, !skew);
+          add_general(b, c.symmetric, symmetric);
+          if (skew) add_general(b, c.skew, *skew);
         }
-        if constexpr (RankOneTangent<Response>) this->add_flow(b, batch, q, response, w, symmetric, skew);
-        if constexpr (AdiabaticTangent<Response>)
-          this->add_rank_one(b, response.thermal_left, response.thermal_right, w * response.thermal_factor,
-                             Lane(1.0), symmetric, skew);
       }
       scatter<1>(symmetric, this->slots_of(batch), matrix);
       if (skew) scatter<-1>(*skew, this->slots_of(batch), matrix);
@@ -112,14 +115,16 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
 
   BlockWork finish(std::span<const double> old_u, std::span<const double> u, BlockHistory& trial) override {
     typename Base::Tally tally;
+    Workspace<Law> space(this->law_);
+    if constexpr (KeepsStateInPlace<Law>) space.wants_tangent = false;
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
       typename Base::Average average;
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
         const Sym<Lane> strain = b.strain(displacement);
-        this->record(batch, q, b.strain(old_displacement), strain, this->update(batch, q, strain), trial,
-                     average, tally);
+        this->record(batch, q, b.strain(old_displacement), strain, this->update(batch, q, strain, space),
+                     trial, average, tally);
       }
       this->keep(batch, average);
     }
@@ -129,12 +134,13 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
   FlowChange restart_flow(const StepStart& start, std::span<const double> old_u, std::span<const double> u,
                           BlockHistory& trial) override {
     typename Base::Restart restart;
+    Workspace<Law> space(this->law_);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors old_displacement = gather(old_u, batch), displacement = gather(u, batch);
       typename Base::Average average;
       for (int q = 0; q < geometry_.n_points; ++q) {
         const Operator b = at_point(batch, q);
-        this->restart_point(start, batch, q, b.strain(old_displacement), b.strain(displacement), trial,
+        this->restart_point(start, batch, q, b.strain(old_displacement), b.strain(displacement), space, trial,
                             average, restart);
       }
       this->keep(batch, average);
@@ -170,6 +176,13 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         this->add_flowing(batch, q, at_point(batch, q).strain(displacement), volume);
     }
     return volume;
+  }
+
+  std::size_t bytes() const override {
+    if constexpr (KeepsStateInPlace<Law>)
+      return Base::bytes() + tangents_.bytes();
+    else
+      return Base::bytes();
   }
 
  protected:  // for the kernel of the simultaneous scheme (coupled_block.hpp)
@@ -237,6 +250,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
     held_batch_ = batch;
   }
 
+  KeptTangents tangents_;  ///< of a law whose state lies in place, which is not to be asked twice
   // B-bar only: the modes, [point][mode]; and of the batch that was asked for last, as the gradients are,
   // the factors of Ψ in b̄_a, [mode][node][dim].
   std::vector<double> modes_;

@@ -187,12 +187,13 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   FlowChange restart_flow(const StepStart& start, std::span<const double> old_u, std::span<const double> u,
                           BlockHistory& trial) override {
     typename Base::Restart restart;
+    Workspace<Law> space(this->law_);
     for (Index batch = 0; batch < n_batches(); ++batch) {
       const Operator b = at_point(batch);
       typename Base::Average average;
       this->restart_point(
           start, batch, 0, strain(b.strain(gather(old_u, batch)), kept_volume(*this->old_history_, batch)),
-          strain(b.strain(gather(u, batch)), kept_volume(trial, batch)), trial, average, restart);
+          strain(b.strain(gather(u, batch)), kept_volume(trial, batch)), space, trial, average, restart);
       this->keep(batch, average);
     }
     return this->total(restart);

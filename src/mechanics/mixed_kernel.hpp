@@ -86,21 +86,6 @@ class MixedKernel {
   virtual void add_saddle(double unit, linear::SaddleMatrix& matrix) const = 0;
 };
 
-/// One maker per analysis kind, each in its own translation unit.
-/// Throws std::invalid_argument for another shape than the linear triangle or tetrahedron of the kind.
-template <AnalysisKind kind>
-std::unique_ptr<BlockKernel> make_mixed_block(const mesh::Mesh& mesh, const mesh::Block& block,
-                                              const material::Material& material, Mapping mapping,
-                                              Stabilisation stabilisation);
-using MixedMaker = std::unique_ptr<BlockKernel>(const mesh::Mesh&, const mesh::Block&,
-                                                const material::Material&, Mapping, Stabilisation);
-template <>
-MixedMaker make_mixed_block<AnalysisKind::plane_strain>;
-template <>
-MixedMaker make_mixed_block<AnalysisKind::axisymmetric>;
-template <>
-MixedMaker make_mixed_block<AnalysisKind::solid>;
-
 /// Throws std::invalid_argument where the kind has no such maker.
 std::unique_ptr<BlockKernel> make_mixed_kernel(const mesh::Mesh& mesh, const mesh::Block& block,
                                                AnalysisKind kind, const material::Material& material,

@@ -1,6 +1,7 @@
 #include "mechanics/simplices.hpp"
 
 #include "material/external_law.hpp"
+#include "mesh/shape_table.hpp"
 
 namespace solidus::mechanics {
 
@@ -15,7 +16,7 @@ bool nearly_incompressible(const material::Material& material) {
 }
 
 bool is_mixed(const mesh::Block& block, const material::Material& material, Simplices simplices) {
-  if (block.shape != mesh::Shape::tri3 && block.shape != mesh::Shape::tet4) return false;
+  if (!mesh::row_of(block.shape).mixed) return false;
   return simplices == Simplices::mixed ||
          (simplices == Simplices::automatic && nearly_incompressible(material));
 }

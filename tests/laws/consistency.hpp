@@ -78,35 +78,40 @@ double tangent_error(const Response& r, const Sym<double>& strain, double twice_
   return error / twice_shear;
 }
 
-/// Both mappings from rest, at a temperature where the material is solid.
+/// Both mappings.
+/// @param start  the state at the start of the step
 inline void expect_consistent_tangents(const material::Material& m, double temperature,
-                                       const Sym<double>& strain) {
+                                       const Sym<double>& strain,
+                                       const material::Viscoplastic::State<double>& start = {}) {
   using J = Jet<double>;
   constexpr double k_start = 300, k_step = 0.1;
   const material::Isentropic law(m);
   const material::Viscoplastic& isothermal = law.isothermal();
   const auto p = isothermal.properties_at(temperature, k_start);
   const auto p_jet = isothermal.properties_at(J(temperature), J(k_start));
-  const auto r = isothermal.update(p, {}, strain, k_step);
+  material::Viscoplastic::State<J> start_jet;
+  for (int i = 0; i < 6; ++i) {
+    start_jet.viscous_strain[i] = J(start.viscous_strain[i]);
+    start_jet.plastic_strain[i] = J(start.plastic_strain[i]);
+    start_jet.back_strain[i] = J(start.back_strain[i]);
+  }
+  start_jet.hardening = J(start.hardening);
+  const auto r = isothermal.update(p, start, strain, k_step);
   EXPECT_GT(r.flow_increment, 0);
   EXPECT_LT(
       tangent_error(r, strain, 2 * p.elastic.shear,
-                    [&](const Sym<J>& e) {
-                      return isothermal.update(p_jet, material::Viscoplastic::State<J>{}, e, k_step).stress;
-                    }),
+                    [&](const Sym<J>& e) { return isothermal.update(p_jet, start_jet, e, k_step).stress; }),
       1e-9);
 
   auto q = law.properties_at(temperature, k_start);
-  q.entropy = law.entropy(q, Sym<double>{}, {});
+  q.entropy = law.entropy(q, Sym<double>{}, start);
   auto q_jet = law.properties_at(J(temperature), J(k_start));
   q_jet.entropy = J(q.entropy);
-  const auto s = law.update(q, {}, strain, k_step);
+  const auto s = law.update(q, start, strain, k_step);
   EXPECT_EQ(s.status, material::Status::converged);
   EXPECT_NE(s.temperature, temperature);
   EXPECT_LT(tangent_error(s, strain, 2 * p.elastic.shear,
-                          [&](const Sym<J>& e) {
-                            return law.update(q_jet, material::Isentropic::State<J>{}, e, k_step).stress;
-                          }),
+                          [&](const Sym<J>& e) { return law.update(q_jet, start_jet, e, k_step).stress; }),
             1e-9);
 }
 

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "../laws/logarithmic.hpp"
+#include "../laws/marquis.hpp"
 #include "coupling_bodies.hpp"
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus {
 namespace {
@@ -38,8 +40,8 @@ Coupled bar(IsotropicHardening isotropic, KinematicHardening kinematic) {
                        {"log_strain", 2e-3}});
   flow.kinematic = kinematic;
   if (kinematic != KinematicHardening::none) flow.kinematic_modulus = Table({300, 900}, {1e10, 4e9});
-  flow.recall = 80.0;
-  flow.viscosity = 1e9;
+  flow.recall = {80.0, 2.0};
+  flow.rate[material::Perzyna::viscosity] = 1e9;
   m.flow = flow;
   c.materials = {m};
   c.start = {800};
@@ -60,7 +62,8 @@ const std::pair<IsotropicHardening, KinematicHardening> k_kinds[] = {
     {IsotropicHardening::saturation, KinematicHardening::none},
     {IsotropicHardening::linear, KinematicHardening::linear},
     {IsotropicHardening::power, KinematicHardening::armstrong_frederick},
-    {test::k_logarithmic.kind, KinematicHardening::linear}};
+    {test::k_logarithmic.kind, KinematicHardening::linear},
+    {IsotropicHardening::linear, test::k_marquis.kind}};
 
 TEST(EnergyForm, ClosesTheFirstLawWithPlasticFlowAndHardening) {
   for (const auto& [isotropic, kinematic] : k_kinds)

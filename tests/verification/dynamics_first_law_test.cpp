@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling_bodies.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus {
 namespace {
@@ -31,7 +32,7 @@ Coupled bar(const Motion& motion, bool plastic) {
   if (plastic) {
     m.flow.emplace();
     m.flow->flow_stress = Table({300, 900}, {3e8, 1e8});
-    m.flow->viscosity = 0.0;
+    m.flow->rate[material::Perzyna::viscosity] = 0.0;
   }
   c.materials = {m};
   c.start = {700};

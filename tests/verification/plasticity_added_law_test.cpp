@@ -1,7 +1,10 @@
-/// A law of isotropic hardening that the sources do not name, in finite elements: a bar is pulled,
-/// σ = σ_0 + B ln(1 + ξ/ε_0) with ξ = ε − σ/E, in every element.
+/// Laws that the sources do not name, in finite elements: a bar is pulled, and in every element
+///
+///   isotropic   σ = σ_0 + B ln(1 + ξ/ε_0) with ξ = ε − σ/E
+///   rate        σ = σ_0 + √(3/2) S asinh(√(3/2) Δξ/(A Δt)), each step of backward Euler
 #include <gtest/gtest.h>
 
+#include "../laws/hyperbolic_sine.hpp"
 #include "../laws/logarithmic.hpp"
 #include "plasticity_bodies.hpp"
 
@@ -40,6 +43,39 @@ TEST(BarWithAnAddedLaw, HasTheStressOfTheLawInEveryElement) {
         for (const auto& stress : fields.stress)
           for (std::size_t i = 0; i < 6; ++i) ASSERT_NEAR(stress[i], i == 1 ? exact : 0.0, 1e-6 * k_yield);
     }
+  }
+}
+
+TEST(BarWithAnAddedLaw, HasTheOverstressOfTheRateInEveryElement) {
+  constexpr double k_scale = 3e7, k_rate = 1e-4;
+  material::Material m = verification::plastic_material(k_young, 0.3, k_yield);
+  m.flow->rate_dependence = test::k_hyperbolic_sine.kind;
+  m.flow->rate = {k_scale, k_rate, 0.0};
+  test::Body body(
+      {.shape = mesh::Shape::hex8, .cells = {2, 3, 2}, .size = {0.1, 0.3, 0.1}, .distortion = 0.1},
+      AnalysisKind::solid, m);
+  body.hold("bottom", 1);
+  body.hold("left", 0);
+  body.hold("back", 2);
+  body.hold("top", 1, Table({0, 4}, {0, 0.3 * 0.02}));
+  verification::March march(body);
+  double xi = 0;
+  const double root = std::sqrt(1.5);
+  for (int step = 1; step <= 4; ++step) {
+    ASSERT_TRUE(march.to(step));
+    const double strain = 0.005 * step;
+    double low = xi, high = strain;
+    for (int i = 0; i < 80; ++i) {
+      const double middle = 0.5 * (low + high),
+                   over = root * k_scale * std::asinh(root * (middle - xi) / k_rate);
+      (k_yield + over + k_young * middle < k_young * strain ? low : high) = middle;
+    }
+    xi = low;
+    const double exact = k_young * (strain - xi);
+    EXPECT_GT(exact, 2 * k_yield);
+    for (const auto& fields : march.fields())
+      for (const auto& stress : fields.stress)
+        for (std::size_t i = 0; i < 6; ++i) ASSERT_NEAR(stress[i], i == 1 ? exact : 0.0, 1e-6 * k_yield);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "plasticity_bodies.hpp"
 
 namespace solidus {
@@ -61,14 +62,14 @@ Body block(const Element& element, Kind kind) {
     case Kind::armstrong_frederick:
       m.flow->kinematic = material::KinematicHardening::armstrong_frederick;
       m.flow->kinematic_modulus = 4e10;
-      m.flow->recall = 200.0;
+      m.flow->recall[0] = 200.0;
       m.flow->isotropic = material::IsotropicHardening::linear;
       set_hardening(*m.flow, {{"hardening_modulus", 2e9}});
       break;
     case Kind::perzyna:
-      m.flow->viscosity = 1e12;
-      m.flow->exponent = 3.0;
-      m.flow->drag_stress = 1e8;
+      m.flow->rate[material::Perzyna::viscosity] = 1e12;
+      m.flow->rate[material::Perzyna::exponent] = 3.0;
+      m.flow->rate[material::Perzyna::drag_stress] = 1e8;
       break;
   }
   test::Lattice lattice{

@@ -1,6 +1,14 @@
-/// A law of isotropic hardening that the sources do not name, through the point driver: a tensile test,
-/// σ = σ_0 + B ln(1 + ξ/ε_0) with ξ = ε − σ/E.
+/// Laws that the sources do not name, through the point driver, in tensile tests:
+///
+///   isotropic   σ = σ_0 + B ln(1 + ξ/ε_0),  ξ = ε − σ/E
+///   kinematic   σ = σ_0 + X,  dX = (K − r(ξ) X) dξ
+///   rate        σ = σ_0 + √(3/2) S asinh(√(3/2) ε̇/A), once the stress is steady
+///   liquid      σ = f_Sᵖ σ_0 + √(3/2) x(√(3/2) ε̇), likewise
+#include "../laws/hyperbolic_sine.hpp"
+#include "../laws/late_strength.hpp"
 #include "../laws/logarithmic.hpp"
+#include "../laws/marquis.hpp"
+#include "material/tensile.hpp"
 #include "point_paths.hpp"
 
 namespace solidus::verification {
@@ -21,6 +29,39 @@ TEST(AddedLawAtAPoint, FollowsItsFlowCurveInATensileTest) {
     EXPECT_NEAR(r.stress[0], 100e6 + 40e6 * std::log1p(xi / 0.002), 1e-6 * 100e6) << r.strain[0];
   }
   EXPECT_GT(yielding, 35);
+}
+
+TEST(AddedLawAtAPoint, RecallsItsBackStressInATensileTest) {
+  material::Material m = point_material();
+  m.flow.emplace();
+  m.flow->flow_stress = 100e6;
+  m.flow->kinematic = test::k_marquis.kind;
+  m.flow->kinematic_modulus = 5e9;
+  m.flow->recall = {50.0, 3.0};
+  double coarse = 0, fine = 0;
+  for (const int steps : {100, 200}) {
+    const History h = run_all(m, {300, 300}, {segment(1, steps, {{0, strain_to(0.04)}})});
+    const Record& last = h.records.back();
+    const double xi = last.strain[0] - last.stress[0] / k_young;
+    (steps == 100 ? coarse : fine) = last.stress[0] - material::tensile_stress(*m.flow, xi, 300);
+  }
+  // of first order in the step, to what of a stress of 200 MPa
+  EXPECT_LT(std::abs(fine), 1e6);
+  EXPECT_NEAR(coarse / fine, 2, 0.1);
+}
+
+TEST(AddedLawAtAPoint, HasTheOverstressOfItsRate) {
+  material::Material m = point_material();
+  m.flow.emplace();
+  m.flow->flow_stress = 100e6;
+  m.flow->rate_dependence = test::k_hyperbolic_sine.kind;
+  m.flow->rate = {20e6, 1e-3, 0.0};
+  for (const double duration : {1.0, 100.0}) {
+    const History h = run_all(m, {300, 300}, {segment(duration, 100, {{0, strain_to(0.05)}})});
+    const double rate = 0.05 / duration, root = std::sqrt(1.5);
+    EXPECT_NEAR(h.records.back().stress[0], 100e6 + root * 20e6 * std::asinh(root * rate / 1e-3),
+                1e-6 * 100e6);
+  }
 }
 
 }  // namespace

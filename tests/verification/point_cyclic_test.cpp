@@ -76,7 +76,7 @@ material::Material armstrong_frederick() {
   material::Material m = combined();
   m.flow->isotropic = material::IsotropicHardening::none;
   m.flow->kinematic = material::KinematicHardening::armstrong_frederick;
-  m.flow->recall = k_recall;
+  m.flow->recall[0] = k_recall;
   return m;
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "point_paths.hpp"
 
 namespace solidus::verification {
@@ -30,10 +31,10 @@ material::Material sample() {
   set_hardening(f, {{"saturation_stress", k_saturation}, {"saturation_rate", k_rate}});
   f.kinematic = material::KinematicHardening::armstrong_frederick;
   f.kinematic_modulus = k_kin;
-  f.recall = k_recall;
-  f.viscosity = k_eta;
-  f.exponent = 3;
-  f.drag_stress = k_drag;
+  f.recall[0] = k_recall;
+  f.rate[material::Perzyna::viscosity] = k_eta;
+  f.rate[material::Perzyna::exponent] = 3;
+  f.rate[material::Perzyna::drag_stress] = k_drag;
   return m;
 }
 

@@ -1,6 +1,7 @@
 /// Paths on which temperature matters: a bar of σ_y(Θ) whose ends are held, heating by plastic shear, cooling
 /// by elastic strain, and the three models of the liquid on the way from melt to solid.
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "point_paths.hpp"
 
 namespace solidus::verification {
@@ -128,7 +129,7 @@ TEST(LiquidModels, OnlyTheModifiedShearModulusRemembersWhatTheMeltWasStrained) {
     if (model == LiquidModel::degenerated) {  // elastic but in the liquid: a strength beyond any stress
       m.flow.emplace();
       m.flow->flow_stress = 1e11;
-      m.flow->viscosity = 1e7;
+      m.flow->rate[material::Perzyna::viscosity] = 1e7;
     }
     Segment cool = segment(100, 400, {{3, strain_held()}});
     cool.temperature.target = 700;

@@ -4,6 +4,7 @@
 ///   steady flow at ε̇:  σ = σ_0 + √(3/2) D (η √(3/2) ε̇/D)^(1/n)
 ///   strain held:        ẋ = −c x^n,  x = Φ/D,  c = ⅔ E/η
 ///                       x = x_0 exp(−c t) for n = 1,  x^(1−n) = x_0^(1−n) + (n − 1) c t else
+#include "material/laws/perzyna.hpp"
 #include "point_paths.hpp"
 
 namespace solidus::verification {
@@ -16,9 +17,9 @@ material::Material viscoplastic(double n, double eta) {
   material::Material m = point_material();
   m.flow.emplace();
   m.flow->flow_stress = k_flow_stress;
-  m.flow->viscosity = eta;
-  m.flow->exponent = n;
-  m.flow->drag_stress = k_drag;
+  m.flow->rate[material::Perzyna::viscosity] = eta;
+  m.flow->rate[material::Perzyna::exponent] = n;
+  m.flow->rate[material::Perzyna::drag_stress] = k_drag;
   return m;
 }
 

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "coupling_bodies.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus::verification {
 
@@ -34,7 +35,7 @@ inline material::Material steel(double expansion_factor, bool plastic) {
   if (plastic) {
     m.flow.emplace();
     m.flow->flow_stress = 3.2e8;
-    m.flow->viscosity = 0.0;
+    m.flow->rate[material::Perzyna::viscosity] = 0.0;
   }
   return m;
 }

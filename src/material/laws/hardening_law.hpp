@@ -4,10 +4,10 @@
 ///
 ///   struct Ludwik {
 ///     static constexpr std::string_view name = "ludwik", equation = "…";
-///     static constexpr LawParameter parameters[] = {…};                       // at most
-///     k_hardening_parameters template <class T> static HardeningStress<T> stress(const FlowProperties<T>& p,
-///     const T& xi);   // K_ξ and K_ξξ template <class T> static T energy(const FlowProperties<T>& p, const
-///     T& xi);                    // K, zero at ξ = 0
+///     static constexpr LawParameter parameters[] = {…};   // at most k_hardening_parameters
+///     template <class T> static HardeningStress<T> stress(const FlowProperties<T>& p, const T& xi);   // K_ξ
+///     and K_ξξ template <class T> static T energy(const FlowProperties<T>& p, const T& xi); // K, zero at ξ
+///     = 0
 ///   };
 ///   const AddHardening<Ludwik> k_ludwik;   // at namespace scope: the key isotropic_hardening knows "ludwik"
 ///
@@ -25,7 +25,7 @@
 #include <string_view>
 
 #include "material/flow_properties.hpp"
-#include "material/laws/parameter.hpp"
+#include "material/laws/law_list.hpp"
 #include "numbers/jet.hpp"
 
 namespace solidus::material {
@@ -106,21 +106,16 @@ class HardeningLaw : public HardeningOn<double>,
   ~HardeningLaw() = default;
 };
 
-/// All laws, built in and added, each at the place that its IsotropicHardening says. From the first call on
-/// no more may be added: the keys of the material file are made of them.
+/// All laws, built in and added, each at the place that its IsotropicHardening says (LawList::all).
 std::span<const HardeningLaw* const> hardening_laws();
 
-/// Adds a law; throws std::logic_error where its name is taken, it has too many parameters, a parameter is
-/// declared otherwise by another law, or hardening_laws() has been asked.
-/// @param law  lives as long as the program
+/// @param law  lives as long as the program. Throws as LawList::add does.
 IsotropicHardening add_hardening_law(const HardeningLaw& law);
 
 namespace detail {
 
-inline constexpr std::size_t k_most_hardening_laws = 32;
-/// hardening_laws(), of a fixed size since every return mapping reads it.
-extern const HardeningLaw* hardening_table[k_most_hardening_laws];
-extern bool hardening_kinks[k_most_hardening_laws];  ///< HardeningLaw::kinks of each
+extern LawList<HardeningLaw> hardening_list;
+extern bool hardening_kinks[LawList<HardeningLaw>::k_most];  ///< HardeningLaw::kinks of each
 
 template <class Law, class T>
 [[gnu::always_inline]] inline HardeningStress<T> stress_of(const FlowCurves& curves,
@@ -141,7 +136,7 @@ template <class Law, class T>
 }  // namespace detail
 
 inline const HardeningLaw& hardening_law(IsotropicHardening kind) {
-  return *detail::hardening_table[static_cast<std::size_t>(kind)];
+  return *detail::hardening_list.laws[static_cast<std::size_t>(kind)];
 }
 
 /// Sets the parameters of the law that `flow` names from numbers by key; those of other laws are passed over.
@@ -154,12 +149,7 @@ class HardeningLawOf final : public HardeningLaw {
  public:
   std::string_view name() const override { return Law::name; }
   std::string_view equation() const override { return Law::equation; }
-  std::span<const LawParameter> parameters() const override {
-    if constexpr (requires { Law::parameters; })
-      return Law::parameters;
-    else
-      return {};
-  }
+  std::span<const LawParameter> parameters() const override { return detail::parameters_of<Law>(); }
   bool kinks() const override {
     if constexpr (requires { Law::kinks; })
       return Law::kinks;

@@ -2,6 +2,7 @@
 /// tables that `solidus materials` shows and the numbers that the law reads follow from it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -20,8 +21,9 @@ struct LawParameter {
   const char* doc;
   double least = 0, greatest = std::numeric_limits<double>::infinity();  ///< of its values, in SI
   bool above_least = true;                                               ///< `least` itself is not allowed
-  bool optional = false;                                                 ///< left out, it is zero
+  bool optional = false;                                                 ///< left out, it is `left_out`
   Continuation continuation = Continuation::any;
+  double left_out = 0;
 };
 
 /// The same parameter of a law that takes it as zero where it is left out.
@@ -30,7 +32,11 @@ constexpr LawParameter left_out_as_zero(LawParameter parameter) {
   return parameter;
 }
 
-/// Most parameters that a law of isotropic hardening may have: as many numbers are kept at every point.
-inline constexpr std::size_t k_hardening_parameters = 4;
+/// Most parameters that a law of isotropic hardening, of kinematic hardening beside its modulus and of rate
+/// dependence may have: as many numbers are kept at every point.
+inline constexpr std::size_t k_hardening_parameters = 4, k_kinematic_parameters = 2, k_rate_parameters = 3;
+/// The same of a model of the liquid, whose numbers do not depend on temperature.
+inline constexpr std::size_t k_liquid_parameters = 2;
+using LiquidNumbers = std::array<double, k_liquid_parameters>;
 
 }  // namespace solidus::material

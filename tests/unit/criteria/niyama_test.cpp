@@ -46,7 +46,7 @@ TEST(FeedingLaw, IsNotThereForWhatDoesNotShrinkOrHasNoRangeOrNoArms) {
   material::Material unknown = test::metal(40);
   unknown.casting.arm_spacing.reset();
   EXPECT_FALSE(FeedingLaw::of(unknown));
-  EXPECT_EQ(criteria::arm_spacing(unknown.casting, 100), 0);
+  EXPECT_FALSE(unknown.casting.secondary_arm_spacing(100));
 }
 
 TEST(Niyama, IsZeroWithoutACoolingRate) {

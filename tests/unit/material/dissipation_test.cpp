@@ -1,5 +1,5 @@
 /// The second law and the frozen entropy in random materials, states and increments.
-#include "material/dissipation.hpp"
+#include "dissipation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -42,10 +42,10 @@ inline Material flow_material(const FlowCase& c) {
         FlowCurves({0, 2e-3, 0.01, 0.05}, {300, 900}, {120e6, 150e6, 200e6, 230e6, 60e6, 70e6, 95e6, 110e6});
   f.kinematic = c.kinematic;
   f.kinematic_modulus = c.kinematic == KinematicHardening::none ? 0 : 5e9;
-  f.recall = c.kinematic == KinematicHardening::armstrong_frederick ? 100 : 0;
-  f.viscosity = c.viscosity;
-  f.exponent = c.exponent;
-  f.drag_stress = 50e6;
+  f.recall[0] = c.kinematic == KinematicHardening::armstrong_frederick ? 100 : 0;
+  f.rate[Perzyna::viscosity] = c.viscosity;
+  f.rate[Perzyna::exponent] = c.exponent;
+  f.rate[Perzyna::drag_stress] = 50e6;
   if (c.heat_share) f.heat_share = *c.heat_share;
   return m;
 }
@@ -100,10 +100,8 @@ Viscoplastic::Properties<T> convert(const Viscoplastic::Properties<From>& p) {
            T(f.hardening_origin),
            {T(f.hardening[0]), T(f.hardening[1]), T(f.hardening[2]), T(f.hardening[3])},
            T(f.kinematic_modulus),
-           T(f.recall),
-           T(f.viscosity),
-           T(f.exponent),
-           T(f.drag_stress),
+           {T(f.recall[0]), T(f.recall[1])},
+           {T(f.rate[0]), T(f.rate[1]), T(f.rate[2])},
            T(f.temperature),
            T(f.beyond),
            T(f.softening),

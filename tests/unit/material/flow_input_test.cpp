@@ -7,6 +7,7 @@
 #include "input/document.hpp"
 #include "input/key_docs.hpp"
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "material/library.hpp"
 
 namespace solidus::material {
@@ -143,7 +144,7 @@ kinematic_modulus = "2 GPa"
 recall = 100)")
                                .flow;
   EXPECT_EQ(recovering.kinematic, KinematicHardening::armstrong_frederick);
-  EXPECT_DOUBLE_EQ(recovering.recall.value(300), 100);
+  EXPECT_DOUBLE_EQ(recovering.recall[0].value(300), 100);
 }
 
 TEST(FlowInput, ReadsTheRateDependence) {
@@ -154,9 +155,9 @@ drag_stress = "30 MPa")")
                       .flow;
   EXPECT_FALSE(f.rate_independent());
   EXPECT_FALSE(f.linear_rate());
-  EXPECT_DOUBLE_EQ(f.viscosity.value(300), 1e7);
-  EXPECT_DOUBLE_EQ(f.exponent.value(600), 12);
-  EXPECT_DOUBLE_EQ(f.drag_stress.value(300), 30e6);
+  EXPECT_DOUBLE_EQ(f.rate[Perzyna::viscosity].value(300), 1e7);
+  EXPECT_DOUBLE_EQ(f.rate[Perzyna::exponent].value(600), 12);
+  EXPECT_DOUBLE_EQ(f.rate[Perzyna::drag_stress].value(300), 30e6);
   const Flow linear = *with_flow(k_falling + R"(rate_dependence = "perzyna"
 viscosity = "1e7 Pa s")")
                            .flow;
@@ -168,14 +169,14 @@ rate_exponent = 0.5
 drag_stress = "30 MPa"
 taylor_quinney = { argument_unit = "K", points = [[300, 0.9], [900, 0.7]] })")
                           .flow;
-  EXPECT_DOUBLE_EQ(steep.exponent.value(300), 0.5);
+  EXPECT_DOUBLE_EQ(steep.rate[Perzyna::exponent].value(300), 0.5);
   EXPECT_DOUBLE_EQ(steep.heat_share->value(600), 0.8);
 }
 
 TEST(FlowInput, WithoutAViscosityTheLiquidsIsTaken) {
   const Material m =
       read(k_elastic + k_solidifies + "[plasticity]\n" + k_falling + "rate_dependence = \"perzyna\"");
-  EXPECT_EQ(m.flow->viscosity.value(500), 1e9);
+  EXPECT_EQ(m.flow->rate[Perzyna::viscosity].value(500), 1e9);
   EXPECT_THAT(m.notes.back().source, HasSubstr("2.98"));
   EXPECT_THAT(flow_refusal(k_falling + "rate_dependence = \"perzyna\""),
               AllOf(HasSubstr("test.toml:7"), HasSubstr("'viscosity' is missing"),

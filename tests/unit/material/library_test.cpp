@@ -11,6 +11,7 @@
 
 #include "input/document.hpp"
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus::material {
 namespace {
@@ -305,10 +306,10 @@ TEST_F(MaterialOnDisk, TakesPlasticityKeyByKey) {
   write("slow.toml", k_plastic_child + "viscosity = \"1e5 Pa s\"\n");
   const Flow base = *find_material("aluminium_99_7_plastic", k_library).flow;
   const Flow slow = *load_material(folder_ / "slow.toml", k_library).flow;
-  EXPECT_EQ(slow.viscosity.value(800), 1e5);
+  EXPECT_EQ(slow.rate[Perzyna::viscosity].value(800), 1e5);
   EXPECT_EQ(slow.isotropic, base.isotropic);
   EXPECT_EQ(slow.flow_stress.value(500), base.flow_stress.value(500));
-  EXPECT_EQ(slow.exponent.value(500), base.exponent.value(500));
+  EXPECT_EQ(slow.rate[Perzyna::exponent].value(500), base.rate[Perzyna::exponent].value(500));
 }
 
 TEST_F(MaterialOnDisk, AnotherKindDropsTheKeysOfTheOldOneButNotOfItsChildren) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "material/elasticity.hpp"
+#include "material/laws/perzyna.hpp"
 #include "sample_material.hpp"
 
 namespace solidus::material {
@@ -40,7 +41,7 @@ TEST(MeltModulus, WithoutGravityIsTenAtmospheres) {
 TEST(MeltModulus, IsNoMoreThanTheStrengthOfTheShell) {
   Material m = open_melt();
   m.flow.emplace();
-  m.flow->viscosity = Table(1e9);
+  m.flow->rate[Perzyna::viscosity] = Table(1e9);
   m.flow->flow_stress = Table(1e5);
   const MeltModulus shell = melt_modulus(m, 9.81, 10.0);
   EXPECT_EQ(shell.bound, MeltModulus::Bound::strength);

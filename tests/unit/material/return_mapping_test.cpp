@@ -48,7 +48,18 @@ struct Posed {
 
   Posed(const Posed&) = delete;
   Posed(Random& random, IsotropicHardening isotropic, bool recalls, const FlowCurves& curves)
-      : problem{isotropic, &curves, &flow, recalls, 0, 1, 1, 0, trial, back_strain, 0} {
+      : problem{isotropic,
+                recalls ? KinematicHardening::armstrong_frederick : KinematicHardening::linear,
+                RateDependence::perzyna,
+                &curves,
+                &flow,
+                recalls,
+                0,
+                1,
+                1,
+                trial,
+                back_strain,
+                0} {
     const auto zero_or = [&](double low, double high) {
       return uniform(random, 0, 1) < 0.15 ? 0.0 : decades(random, low, high);
     };
@@ -60,28 +71,27 @@ struct Posed {
     if (isotropic == IsotropicHardening::saturation) flow.hardening = {saturation, rate, modulus};
     if (isotropic == IsotropicHardening::power) flow.hardening = {reference, exponent};
     flow.kinematic_modulus = recalls ? decades(random, 3, 11) : zero_or(3, 11);
-    flow.recall = recalls ? decades(random, -1, 4) : 0;
-    flow.exponent = uniform(random, 0, 1) < 0.2
-                        ? 1.0
-                        : decades(random, std::log10(k_least_rate_exponent), std::log10(50.0));
-    flow.drag_stress = decades(random, 3, 9);
+    flow.recall[0] = recalls ? decades(random, -1, 4) : 0;
+    flow.rate[Perzyna::exponent] = uniform(random, 0, 1) < 0.2
+                                       ? 1.0
+                                       : decades(random, std::log10(k_least_rate_exponent), std::log10(50.0));
+    flow.rate[Perzyna::drag_stress] = decades(random, 3, 9);
     flow.temperature = 500;
 
     problem.twice_shear = decades(random, 0, 11.5);
     problem.strength = uniform(random, 0, 1) < 0.3 ? decades(random, -12, 0) : 1.0;
-    problem.recall = k_root_two_thirds * problem.strength * flow.recall;
     problem.rate = decades(random, -12, 3);
-    flow.viscosity = problem.rate * zero_or(-12, 20);
+    flow.rate[Perzyna::viscosity] = problem.rate * zero_or(-12, 20);
     problem.hardening = zero_or(-8, 0);
     // 1/(√⅔ recall) is the most that loading can reach; three times that after heating
-    const double most = recalls ? 3 / (k_root_two_thirds * flow.recall) : zero_or(-6, -1);
+    const double most = recalls ? 3 / (k_root_two_thirds * flow.recall[0]) : zero_or(-6, -1);
     back_strain = dev(random_tensor(random, 1));
     back_strain *= uniform(random, 0, 1) * most / norm(back_strain);
     const double k = hardening_stress(isotropic, curves, flow, problem.hardening).stress;
     const double radius = k_root_two_thirds * problem.strength * (flow.flow_stress + k);
     Sym<double> relative = dev(random_tensor(random, 1));
     relative *= radius * (1 + decades(random, -12, 6)) / norm(relative);
-    trial = relative - problem.kinematic() * back_strain;
+    trial = relative - problem.pull() * back_strain;
     // An elastic strain of 10 is no small strain any more.
     problem.twice_shear = std::max(problem.twice_shear, 0.1 * norm(trial));
   }
@@ -96,10 +106,11 @@ struct Copy {
 
   explicit Copy(const std::vector<std::unique_ptr<Posed>>& from)
       : problem{from[0]->problem.isotropic,
+                from[0]->problem.kinematic,
+                from[0]->problem.rate_dependence,
                 from[0]->problem.curves,
                 &flow,
                 from[0]->problem.recalls,
-                {},
                 {},
                 {},
                 {},
@@ -118,15 +129,14 @@ struct Copy {
     for (std::size_t i = 0; i < k_hardening_parameters; ++i)
       flow.hardening[i] = gather([i](P p) { return p.flow.hardening[i]; });
     flow.kinematic_modulus = gather([](P p) { return p.flow.kinematic_modulus; });
-    flow.recall = gather([](P p) { return p.flow.recall; });
-    flow.viscosity = gather([](P p) { return p.flow.viscosity; });
-    flow.exponent = gather([](P p) { return p.flow.exponent; });
-    flow.drag_stress = gather([](P p) { return p.flow.drag_stress; });
+    flow.recall[0] = gather([](P p) { return p.flow.recall[0]; });
+    flow.rate[Perzyna::viscosity] = gather([](P p) { return p.flow.rate[Perzyna::viscosity]; });
+    flow.rate[Perzyna::exponent] = gather([](P p) { return p.flow.rate[Perzyna::exponent]; });
+    flow.rate[Perzyna::drag_stress] = gather([](P p) { return p.flow.rate[Perzyna::drag_stress]; });
     flow.temperature = gather([](P p) { return p.flow.temperature; });
     problem.twice_shear = gather([](P p) { return p.problem.twice_shear; });
     problem.strength = gather([](P p) { return p.problem.strength; });
     problem.rate = gather([](P p) { return p.problem.rate; });
-    problem.recall = gather([](P p) { return p.problem.recall; });
     problem.hardening = gather([](P p) { return p.problem.hardening; });
     for (int c = 0; c < 6; ++c) {
       trial[c] = gather([c](P p) { return p.trial[c]; });
@@ -146,10 +156,10 @@ FlowCurves bent_curves() {
 /// |Φ(γ) − x| and the distance of (γ, x) from the rate curve, in parts of what rounding leaves of Φ.
 double defect(const Problem<double>& p, const Yield<double>& trial, const Solution<double>& s) {
   const Yield<double> end = yield(p, s.gamma);
-  const double drag = p.flow->drag_stress, n = p.flow->exponent;
+  const double drag = p.flow->rate[Perzyna::drag_stress], n = p.flow->rate[Perzyna::exponent];
   // γ = A (x/D)^n underflows for a small overstress and a large n.
   const double gamma = std::max(s.gamma, 1e-280);
-  const double x = drag * std::pow(gamma * p.flow->viscosity / (p.rate * drag), 1 / n);
+  const double x = drag * std::pow(gamma * p.flow->rate[Perzyna::viscosity] / (p.rate * drag), 1 / n);
   const double curve = s.gamma < 1e-280 && s.overstress < x ? 0 : std::abs(x - s.overstress);
   // the last places of γ and x, too
   const double noise = std::max(end.noise, trial.noise) +
@@ -169,7 +179,7 @@ TEST(ReturnMapping, SolvesAMillionProblemsToRounding) {
     if (!flows(p, trial)) continue;  // rounding of a small overstress
     const auto s = solve_power_rate(p, trial);
     if (!s.converged) {  // a step is cut
-      ASSERT_LT(posed.flow.exponent, 0.2) << i;
+      ASSERT_LT(posed.flow.rate[Perzyna::exponent], 0.2) << i;
       ++unsolved;
       continue;
     }
@@ -178,16 +188,38 @@ TEST(ReturnMapping, SolvesAMillionProblemsToRounding) {
     ASSERT_GE(s.inverse_stiffness, 0) << i;
     worst = std::max(worst, defect(p, trial, s));
     ++(s.overstress > 0.5 * trial.value ? viscous : plastic);
-    if (posed.flow.exponent == 1) {
+    if (posed.flow.rate[Perzyna::exponent] == 1) {
       const auto linear = solve_linear_rate(p, trial);
       ASSERT_TRUE(linear.converged) << i;
       worst = std::max(worst, defect(p, trial, linear));
     }
-    ASSERT_LT(worst, 10) << i << " kind " << i % 5 << " n " << posed.flow.exponent;
+    ASSERT_LT(worst, 10) << i << " kind " << i % 5 << " n " << posed.flow.rate[Perzyna::exponent];
   }
   EXPECT_GT(viscous, 100'000);
   EXPECT_LE(unsolved, 1);
   EXPECT_GT(plastic, 100'000);
+}
+
+TEST(ReturnMapping, TheSolverOfAnyRateLawFindsWhatThatOfPerzynaFinds) {
+  const FlowCurves curves = bent_curves();
+  Random random(23);
+  double worst = 0;
+  int solved = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const Posed posed(random, k_isotropic[i % 5], i / 5 % 3 == 2, curves);
+    const auto& p = posed.problem;
+    const double n = posed.flow.rate[Perzyna::exponent];
+    if (n < 1 || n > 20 || posed.flow.rate[Perzyna::viscosity] == 0) continue;
+    const Yield<double> trial = yield(p, 0.0);
+    if (!flows(p, trial)) continue;
+    const auto s = solve_power_rate(p, trial), any = solve_rate_law(p, trial);
+    if (s.gamma < 1e-250) continue;
+    ASSERT_TRUE(any.converged) << i << " n " << n;
+    ++solved;
+    worst = std::max(worst, defect(p, trial, any));
+    ASSERT_LT(worst, 10) << i << " kind " << i % 5 << " n " << n;
+  }
+  EXPECT_GT(solved, 20'000);
 }
 
 TEST(ReturnMapping, NeedsFewIterations) {
@@ -217,8 +249,8 @@ TEST(ReturnMapping, APackOfUnlikeProblemsIsSolvedAsEachAlone) {
     std::vector<std::unique_ptr<Posed>> lanes;
     for (int l = 0; l < k_lanes; ++l) {
       lanes.push_back(std::make_unique<Posed>(random, k_isotropic[i % 5], i / 5 % 2 == 1, curves));
-      if (l == 3) lanes[3]->trial = -1.0 * lanes[3]->problem.kinematic() * lanes[3]->back_strain;  // inside
-      if (l == 5) lanes[5]->problem.rate = 0;                                                      // liquid
+      if (l == 3) lanes[3]->trial = -1.0 * lanes[3]->problem.pull() * lanes[3]->back_strain;  // inside
+      if (l == 5) lanes[5]->problem.rate = 0;                                                 // liquid
     }
     const Copy<Lane> packed(lanes);
     const auto s = solve_power_rate(packed.problem, yield(packed.problem, Lane(0.0)));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus::material {
 namespace {
@@ -39,7 +40,7 @@ TEST(Tensile, TheBackStressAddsToIt) {
   flow.kinematic_modulus = 1e9;
   EXPECT_DOUBLE_EQ(tensile_stress(flow, 0.01, 600), 50e6);
   flow.kinematic = KinematicHardening::armstrong_frederick;
-  flow.recall = 50;
+  flow.recall[0] = 50;
   EXPECT_NEAR(tensile_stress(flow, 0.01, 600), 40e6 + 20e6 * (1 - std::exp(-0.5)), 1e-6);
   EXPECT_NEAR(tensile_stress(flow, 10, 600), 60e6, 1e-6) << "saturated";
 }
@@ -47,10 +48,10 @@ TEST(Tensile, TheBackStressAddsToIt) {
 TEST(Tensile, TheOverstressFlowsAtTheRate) {
   Flow flow = plain();
   EXPECT_EQ(tensile_overstress(flow, 1e-3, 600), 0);
-  flow.viscosity = 1e9;
+  flow.rate[Perzyna::viscosity] = 1e9;
   EXPECT_NEAR(tensile_overstress(flow, 1e-3, 600), 1.5e6, 1e-6) << "n = 1: 3/2 eta times the rate";
-  flow.exponent = 5;
-  flow.drag_stress = 10e6;
+  flow.rate[Perzyna::exponent] = 5;
+  flow.rate[Perzyna::drag_stress] = 10e6;
   const double phi = std::sqrt(2.0 / 3) * tensile_overstress(flow, 1e-3, 600);
   const double gamma_rate = phi / 1e9 * std::pow(phi / 10e6, 4);
   EXPECT_NEAR(std::sqrt(2.0 / 3) * gamma_rate, 1e-3, 1e-15);

@@ -27,10 +27,10 @@ inline Material varying_material(const FlowCase& c) {
                     {"reference_strain", falls(1e-3, 2e-3)},
                     {"hardening_exponent", falls(0.25, 0.15)}});
   if (c.kinematic != KinematicHardening::none) f.kinematic_modulus = falls(6e9, 2e9);
-  if (c.kinematic == KinematicHardening::armstrong_frederick) f.recall = falls(80, 150);
-  f.viscosity = falls(c.viscosity, 0.3 * c.viscosity);
-  if (c.exponent != 1) f.exponent = falls(c.exponent, 0.7 * c.exponent + 0.3);
-  f.drag_stress = falls(60e6, 20e6);
+  if (c.kinematic == KinematicHardening::armstrong_frederick) f.recall[0] = falls(80, 150);
+  f.rate[Perzyna::viscosity] = falls(c.viscosity, 0.3 * c.viscosity);
+  if (c.exponent != 1) f.rate[Perzyna::exponent] = falls(c.exponent, 0.7 * c.exponent + 0.3);
+  f.rate[Perzyna::drag_stress] = falls(60e6, 20e6);
   f.flow_stress = falls(120e6, 50e6);
   if (c.heat_share) f.heat_share = falls(*c.heat_share, 0.5 * *c.heat_share);
   return m;

@@ -38,10 +38,8 @@ Viscoplastic::Properties<Ad> properties(const Viscoplastic& law, const Ad& theta
             {reseeded(f.hardening[0]), reseeded(f.hardening[1]), reseeded(f.hardening[2]),
              reseeded(f.hardening[3])},
             reseeded(f.kinematic_modulus),
-            reseeded(f.recall),
-            reseeded(f.viscosity),
-            reseeded(f.exponent),
-            reseeded(f.drag_stress),
+            {reseeded(f.recall[0]), reseeded(f.recall[1])},
+            {reseeded(f.rate[0]), reseeded(f.rate[1]), reseeded(f.rate[2])},
             reseeded(f.temperature),
             Ad(0.0),
             reseeded(f.softening),
@@ -187,8 +185,8 @@ TEST(ThermalDerivatives, OfFrozenPropertiesAreZeroAndTheOthersStay) {
   const auto held = thermal_properties(law, 905.0, k_start_temperature, Frozen::dissipation());
   EXPECT_EQ(held.elastic.solid_fraction.d, 0);
   EXPECT_EQ(held.flow.flow_stress.d, 0);
-  EXPECT_EQ(held.flow.viscosity.d, 0);
-  EXPECT_EQ(held.flow.recall.d, 0);
+  EXPECT_EQ(held.flow.rate[Perzyna::viscosity].d, 0);
+  EXPECT_EQ(held.flow.recall[0].d, 0);
   EXPECT_NE(all.flow.flow_stress.d, 0);
   EXPECT_EQ(held.flow.hardening_origin.d, all.flow.hardening_origin.d);
   EXPECT_EQ(held.elastic.bulk.d, all.elastic.bulk.d);

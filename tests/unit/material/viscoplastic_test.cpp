@@ -51,8 +51,9 @@ TEST(Viscoplastic, ReturnsAStateThatSatisfiesItsEquations) {
     if (gamma > 0) {  // 4.142
       ++flowing;
       if (p.elastic.solid_fraction < 1) ++mushy;
-      const double d = p.flow.drag_stress;
-      const double x = d * std::pow(p.flow.viscosity * gamma / (m * dt * d), 1 / p.flow.exponent);
+      const double d = p.flow.rate[Perzyna::drag_stress];
+      const double x = d * std::pow(p.flow.rate[Perzyna::viscosity] * gamma / (m * dt * d),
+                                    1 / p.flow.rate[Perzyna::exponent]);
       ASSERT_NEAR(phi, x, 20 * k_eps * stress + 1e-12 * x);
     } else if (m > 0) {
       ASSERT_LE(phi, 4 * k_eps * stress);  // 2.112
@@ -64,7 +65,7 @@ TEST(Viscoplastic, ReturnsAStateThatSatisfiesItsEquations) {
     ASSERT_NEAR(norm(flow), gamma, small);
     ASSERT_NEAR(trace(r.state.plastic_strain), 0, small);
     ASSERT_NEAR(r.state.hardening - start.hardening, w * k_root * gamma, small);  // 4.144c
-    const double b = w * k_root * p.flow.recall;
+    const double b = w * k_root * p.flow.recall[0];
     for (int i = 0; i < 6; ++i) {
       ASSERT_NEAR(r.state.back_strain[i] * (1 + b * gamma), start.back_strain[i] - w * gamma * r.direction[i],
                   small * (1 + b * gamma));

@@ -4,6 +4,7 @@
 #include "heated.hpp"
 #include "material/free_energy.hpp"
 #include "material/hardening.hpp"
+#include "material/laws/perzyna.hpp"
 #include "mechanics/structural_heat.hpp"
 #include "plastic_material.hpp"
 
@@ -28,7 +29,7 @@ material::Material material_of(material::IsotropicHardening isotropic, Kinematic
                           {"hardening_modulus", Table({300, 500}, {1e9, 7e8})},
                           {"reference_strain", 1e-3},
                           {"hardening_exponent", Table({300, 500}, {0.3, 0.2})}});
-  m.flow->viscosity = 0.0;
+  m.flow->rate[material::Perzyna::viscosity] = 0.0;
   return m;
 }
 

@@ -3,6 +3,7 @@
 
 #include "body.hpp"
 #include "material/laws/hardening_law.hpp"
+#include "material/laws/perzyna.hpp"
 
 namespace solidus::test {
 
@@ -19,8 +20,8 @@ inline material::Material plastic_material(
                        {"hardening_modulus", Table({300, 500}, {1e9, 7e8})}});
   flow.kinematic = kinematic;
   flow.kinematic_modulus = Table({300, 500}, {2e10, 1.6e10});
-  flow.recall = 300.0;
-  flow.viscosity = 1e9;
+  flow.recall[0] = 300.0;
+  flow.rate[material::Perzyna::viscosity] = 1e9;
   m.flow = flow;
   return m;
 }
@@ -30,7 +31,7 @@ inline material::Material perfectly_plastic(double flow_stress) {
   material::Material m = elastic_material(2e11, 0.3, 1e-5);
   material::Flow flow;
   flow.flow_stress = flow_stress;
-  flow.viscosity = 0.0;
+  flow.rate[material::Perzyna::viscosity] = 0.0;
   m.flow = flow;
   return m;
 }

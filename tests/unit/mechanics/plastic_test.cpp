@@ -154,7 +154,7 @@ struct Pull {
   Body body{{.shape = Shape::hex8, .cells = {1, 1, 1}}, AnalysisKind::solid, test::plastic_material()};
 
   explicit Pull(TimeIntegration integration) {
-    body.materials[0].flow->viscosity = 4e10;  // flows from the start: a smooth path
+    body.materials[0].flow->rate[material::Perzyna::viscosity] = 4e10;  // flows from the start: a smooth path
     body.materials[0].flow->flow_stress = 1.0;
     body.options.integration = integration;
     body.hold("left", 0);

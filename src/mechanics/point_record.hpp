@@ -1,0 +1,185 @@
+/// The record of a step at the points: the trial history, values for results, sums over the block and the
+/// deformation that the thermal phase needs.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "mechanics/point_state.hpp"
+
+namespace solidus::mechanics {
+
+template <class Law, int n_nodes, AnalysisKind kind, bool b_bar, int n_extra = 0>
+class PointRecord : public PointState<Law, n_nodes, kind, b_bar, n_extra> {
+  using Base = PointState<Law, n_nodes, kind, b_bar, n_extra>;
+
+ public:
+  using typename Base::Lanes, typename Base::Properties, typename Base::Response, typename Base::State;
+  using Values = decltype(values_of(std::declval<Law>(), std::declval<Properties>(), std::declval<Response>(),
+                                    Sym<Lane>{}));
+
+  PointRecord(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
+      : Base(mesh, block, material), averages_(static_cast<std::size_t>(Base::geometry_.n_batches)) {}
+
+  void get_field(ElementField which, std::span<double> out) const override {
+    const int n_components = component_count(which);
+    const CommonPacks<Values>& averages = kept_averages_ ? *kept_averages_ : averages_;
+    double* to = out.data();
+    for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
+      const Values values = averages[static_cast<std::size_t>(batch)];
+      for (int lane = 0; lane < k_lanes && batch * k_lanes + lane < geometry_.n_elements; ++lane) {
+        put(which, element_of<typename Values::OfOne>(values, lane), to);
+        to += n_components;
+      }
+    }
+  }
+  void keep_fields() override {
+    kept_averages_.reset();
+    keeps_averages_ = true;
+  }
+
+  std::size_t bytes() const override {
+    return Base::bytes() + averages_.bytes() + (kept_averages_ ? kept_averages_->bytes() : 0) +
+           kept_stress_.capacity() * sizeof(Sym<Lane>);
+  }
+
+ protected:
+  using Base::counted, Base::deformation, Base::dt_, Base::geometry_, Base::index, Base::is_solid,
+      Base::kept_, Base::law_, Base::n_kept_, Base::old_base, Base::old_state, Base::points_,
+      Base::properties_;
+
+  /// Sums of a step over the counted elements, lane by lane.
+  struct Tally {
+    Lane internal_work{0.0}, stabilisation_work{0.0}, dissipation{0.0}, least{0.0}, largest{0.0},
+        inelastic_entropy{0.0};
+    PlasticPower plastic;
+  };
+  /// Average over the points of a batch, weighted with their volumes.
+  struct Average {
+    Values sums;
+    Lane volume{0.0};
+  };
+
+  void begin_step(const StepStart& start) {
+    Base::begin_step(start);
+    old_stress_ = start.old_stress;
+    new_stress_ = start.new_stress;
+    stress_share_ = start.stress_share;
+    work_ = start.work;
+  }
+
+  /// Keeps the answer of a point at the end of a step: history, values for results, what the thermal phase
+  /// needs; strains are those that the law has seen.
+  /// @return the stress whose work the step does
+  Sym<Lane> record(Index batch, int q, const Sym<Lane>& old_strain, const Sym<Lane>& strain,
+                   const Response& response, BlockHistory& trial, Average& average, Tally& tally) {
+    const Lane w = geometry_.weight_at(batch, q), share = counted(batch) * w;
+    const Properties p = properties_[index(batch, q)];
+    Lane* to = trial.values.data() + index(batch, q) * n_kept_;
+    if constexpr (KeepsStateInPlace<Law>) {
+      std::copy_n(response.state.values, kept_.size(), to);
+    } else {
+      const auto lanes = std::bit_cast<Lanes>(response.state);
+      for (const std::size_t lane : kept_) *to++ = lanes[lane];
+    }
+    average.volume += w;
+    add_weighted(average.sums, w, values_of(law_, p, response, strain));
+
+    const Sym<Lane> at_work = stress_at_work(batch, q, mean_stress(batch, q, response.stress));
+    const Lane work = dot(at_work, strain - old_strain);
+    if (points_.kept()) {
+      const LaneMask solid = elastic_part(law_, p).solid_fraction >= Lane(1.0);
+      auto& point = points_.at(batch, q);
+      if constexpr (HoldsEntropy<Properties>) point.pass_temperature = response.temperature;
+      const State old = old_state(batch, q);
+      point.now = deformation(strain, response.state, solid);
+      point.change = change(strain, response.state, old_strain, old, solid);
+      point.dissipated = Lane(dt_) * response.dissipation;
+      point.work = work;
+      const StructuralBase base = old_base(batch, q);
+      points_.set_old(batch, q, deformation(old_strain, old, base.solid > Lane(0.0)), base);
+      if (this->keeps_base_) this->keep_base(trial, batch, q, points_.base(batch, q, solid));
+    }
+
+    const PlasticPower power = plastic_power(law_, response);
+    tally.internal_work += share * work;
+    tally.dissipation += share * response.dissipation;
+    tally.plastic.dissipation += share * power.dissipation;
+    tally.plastic.power += share * power.power;
+    tally.inelastic_entropy +=
+        share * (inelastic_entropy(response.state) - inelastic_entropy(old_state(batch, q)));
+    tally.least = min(tally.least, counted(batch) * response.dissipation);
+    tally.largest = max(tally.largest, counted(batch) * response.dissipation);
+    return at_work;
+  }
+
+  void keep(Index batch, const Average& average) {
+    if (std::exchange(keeps_averages_, false)) kept_averages_ = averages_;
+    const Lane inverse = select(average.volume > Lane(0.0), Lane(1.0) / average.volume,
+                                Lane(0.0));  // padding has no volume
+    Values mean{};
+    add_weighted(mean, inverse, average.sums);
+    averages_.set(static_cast<std::size_t>(batch), mean);
+  }
+
+  BlockWork total(const Tally& tally) const {
+    BlockWork work;
+    work.internal_work = sum(tally.internal_work);
+    work.stabilisation_work = sum(tally.stabilisation_work);
+    work.dissipation = dt_ * sum(tally.dissipation);
+    work.plastic_dissipation = dt_ * sum(tally.plastic.dissipation);
+    work.plastic_work = dt_ * sum(tally.plastic.power);
+    work.inelastic_entropy = sum(tally.inelastic_entropy);
+    for (int lane = 0; lane < k_lanes; ++lane) {
+      work.least_dissipation = std::min(work.least_dissipation, tally.least[lane]);
+      work.largest_dissipation = std::max(work.largest_dissipation, tally.largest[lane]);
+    }
+    return work;
+  }
+
+  /// The mean of the stresses at both ends of a dynamic step; leaves that of its end for the next one.
+  Sym<Lane> mean_stress(Index batch, int point, const Sym<Lane>& stress) const {
+    if (new_stress_ == nullptr) return stress;
+    constexpr std::size_t n = sizeof(Sym<Lane>) / sizeof(Lane);
+    Sym<Lane> old;
+    std::memcpy(static_cast<void*>(&old), old_stress_->values.data() + index(batch, point) * n, sizeof old);
+    std::memcpy(static_cast<void*>(new_stress_->values.data() + index(batch, point) * n), &stress,
+                sizeof stress);
+    return Lane(stress_share_) * stress + Lane(1.0 - stress_share_) * old;
+  }
+
+  /// Now : Δ since the old state.
+  static Deformation change(const Sym<Lane>& strain, const State& state, const Sym<Lane>& old_strain,
+                            const State& old, const LaneMask& solid) {
+    const Sym<Lane> elastic = dev(strain - inelastic_strain(state));
+    const Sym<Lane> old_elastic = dev(old_strain - inelastic_strain(old));
+    const auto [hardening, back] = hardening_change(state, old);
+    return {trace(strain - old_strain) - (inelastic_volume(state) - inelastic_volume(old)),
+            select(solid, dot(elastic, elastic - old_elastic), Lane(0.0)), hardening, back,
+            cold_work(state) - cold_work(old)};
+  }
+
+  double stress_share_ = 1;  ///< of the end of the step in the stress at work
+  BlockHistory* new_stress_ = nullptr;
+  StressAtWork work_ = StressAtWork::end;
+
+ private:
+  /// The stress whose work the step does; keeps the one of its end where that is asked for.
+  const Sym<Lane>& stress_at_work(Index batch, int point, const Sym<Lane>& stress) {
+    if (work_ == StressAtWork::end) return stress;
+    kept_stress_.resize(properties_.size());
+    Sym<Lane>& kept = kept_stress_[index(batch, point)];
+    if (work_ == StressAtWork::end_kept) kept = stress;
+    return kept;
+  }
+
+  CommonPacks<Values> averages_;  ///< [batch], of the last finish()
+  /// Those that are kept, from the next finish() until the one after it is committed.
+  std::optional<CommonPacks<Values>> kept_averages_;
+  bool keeps_averages_ = false;  ///< the next finish() sets them aside
+  const BlockHistory* old_stress_ = nullptr;
+  PackVector<Sym<Lane>> kept_stress_;  ///< [batch][point] [Pa]; empty where it is not requested
+};
+
+}  // namespace solidus::mechanics
