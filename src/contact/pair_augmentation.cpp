@@ -76,7 +76,12 @@ double ContactPair::excess() const {
   if (law_.normal.kind != NormalKind::augmented_lagrangian || !active_) return 0;
   double largest = 0;
   for (const double g : nodal_penetration()) largest = std::max(largest, std::abs(g));
-  return parallel::global_max(largest) / allowed_penetration_;
+  largest = parallel::global_max(largest);
+  if (!spec_.pressure_tolerance) return largest / allowed_penetration_;
+  double pressure = 0;
+  for (const PointState& point : now_.points) pressure = std::max(pressure, point.pressure);
+  const double allowed = *spec_.pressure_tolerance * parallel::global_max(pressure) / law_.normal.penalty;
+  return allowed > 0 ? largest / allowed : 0;
 }
 
 std::string ContactPair::worst_penetration() const {
