@@ -198,7 +198,6 @@ title = "Two blocks in a box"
 [analysis]
 kind = "plane_strain"
 physics = "mechanics"
-temperature = "20 degC"
 [mesh]
 shape = "two_blocks"
 element = "quad4"
@@ -213,9 +212,11 @@ step = "1 s"
 [[body]]
 name = "upper"
 material = "block.toml"
+initial_temperature = "20 degC"
 [[body]]
 name = "lower"
 material = "block.toml"
+initial_temperature = "20 degC"
 [[mechanical_condition]]
 name = "foot"
 group = "lower_y_min"
@@ -254,6 +255,8 @@ master = "lower_top"
 
 const std::string k_block = R"(
 density = "7800 kg/m3"
+conductivity = "40 W/m/K"
+specific_heat = "500 J/kg/K"
 young_modulus = "200 GPa"
 poisson_ratio = 0.3
 expansion = "1e-5 1/K"
