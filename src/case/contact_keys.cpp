@@ -133,13 +133,17 @@ Section<ContactSpec> contact_keys() {
       .when("formulation", {"large_sliding"})
       .doc("Averaged normals of the master: no jumps of the force from face to face.");
   using Normal = C::Normal;
-  s.choice("normal", &C::normal,
-           {{"automatic", Normal::automatic, "penalty; with [dynamics] energy_conserving"},
-            {"penalty", Normal::penalty, "pressure = penalty x penetration (3.43)"},
-            {"augmented_lagrangian", Normal::augmented_lagrangian,
-             "the same with multipliers, until the penetration is within its tolerance"},
-            {"energy_conserving", Normal::energy_conserving,
-             "mean over the step by the difference quotient of the energy (5.19)"}})
+  s.choice(
+       "normal", &C::normal,
+       {{"automatic", Normal::automatic,
+         "penalty; with [dynamics] energy_conserving; augmented_lagrangian, until a turn changes pressures "
+         "by less than 1 % of the largest, in small sliding without friction in a case in which nothing "
+         "melts, unless it gives a penalty"},
+        {"penalty", Normal::penalty, "pressure = penalty x penetration (3.43)"},
+        {"augmented_lagrangian", Normal::augmented_lagrangian,
+         "the same with multipliers, until the penetration is within its tolerance"},
+        {"energy_conserving", Normal::energy_conserving,
+         "mean over the step by the difference quotient of the energy (5.19)"}})
       .initially("automatic")
       .doc("How pressure follows penetration.");
   s.key("penetration_tolerance", &C::penetration_tolerance)

@@ -77,7 +77,12 @@ double AugmentedLagrangian::excess(const ContactState& now) const {
   if (!acts()) return 0;
   double largest = 0;
   for (const double g : nodal_penetration(now)) largest = std::max(largest, std::abs(g));
-  return parallel::global_max(largest) / allowed_;
+  largest = parallel::global_max(largest);
+  if (!pressure_tolerance_) return largest / allowed_;
+  double pressure = 0;
+  for (const PointState& point : now.points) pressure = std::max(pressure, point.pressure);
+  const double allowed = *pressure_tolerance_ * parallel::global_max(pressure) / law_.penalty;
+  return allowed > 0 ? largest / allowed : 0;
 }
 
 std::string AugmentedLagrangian::worst_penetration(const ContactState& now) const {

@@ -8,6 +8,7 @@
 /// from 1 to 30: a node at the edge of contact has few closed points, hence a weak spring.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,11 @@ namespace solidus::contact {
 class AugmentedLagrangian {
  public:
   /// Keeps references.
-  /// @param allowed  penetration that may be left [m]
-  AugmentedLagrangian(const ContactGeometry& geometry, const NormalLaw& law, double allowed)
-      : geometry_(geometry), law_(law), allowed_(allowed) {}
+  /// @param allowed             penetration that may be left [m]
+  /// @param pressure_tolerance  in place of it, ContactSpec::pressure_tolerance
+  AugmentedLagrangian(const ContactGeometry& geometry, const NormalLaw& law, double allowed,
+                      std::optional<double> pressure_tolerance)
+      : geometry_(geometry), law_(law), allowed_(allowed), pressure_tolerance_(pressure_tolerance) {}
   /// Whether the law has multipliers; without them the functions below do nothing.
   bool acts() const { return law_.kind == NormalKind::augmented_lagrangian; }
   /// The turns of another step follow.
@@ -44,6 +47,7 @@ class AugmentedLagrangian {
   const ContactGeometry& geometry_;
   const NormalLaw& law_;
   double allowed_;
+  std::optional<double> pressure_tolerance_;
   /// ḡ_a [m] and a_N in the last turn of this step, [local node]; empty in the first turn.
   std::vector<double> last_penetration_, step_factor_;
 };

@@ -32,7 +32,8 @@ ContactForces::ContactForces(const ContactGeometry& geometry, const ContactSpec&
       step_(step),
       law_(law_of(spec, penalty_of(geometry.mesh(), spec, surfaces, body_modulus))),
       symmetric_(spec.friction ? spec.friction->symmetric : geometry.kinematics().symmetric()),
-      multipliers_(geometry, law_.normal, spec.penetration_tolerance * geometry.face_size()),
+      multipliers_(geometry, law_.normal, spec.penetration_tolerance * geometry.face_size(),
+                   spec.pressure_tolerance),
       term_(spec.name, geometry, law_, step, spec.stabilisation, spec.friction && spec.friction->symmetric) {}
 
 void ContactForces::activate(bool on) {

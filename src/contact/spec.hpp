@@ -38,6 +38,9 @@ struct ContactSpec {
   /// Tolerance of the augmented Lagrangian: the penetration that may be left, as a share of the mean size of
   /// the slave's faces.
   double penetration_tolerance = 1e-6;
+  /// Another tolerance in place of it: the largest pressure that the penetrations around a node may still
+  /// make, as a share of the largest contact pressure of the pair.
+  std::optional<double> pressure_tolerance;
   std::optional<FrictionSpec> friction;  ///< absent: none
   std::optional<WearSpec> wear;          ///< absent: no depth of wear; needs friction
   double interface_heat_capacity = 0;    ///< C_co [J/(m² K)]

@@ -181,8 +181,7 @@ bool BlockIterative::agrees(const State& old, const Iterate& it) const {
            change <= k_rounding * largest(now);
   };
   const double of_fractions =
-      it.phases.any() ? it.phases.difference(it.now.heat.temperature, plateau_share(phases_, it.now.heat))
-                      : 0.0;
+      it.phases.any() ? it.phases.difference(it.now.heat) : 0.0;
   return it.solved && of_fractions <= options_.tolerance &&
          small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature) &&
          small(changes_.back().displacement, it.now.mechanics.displacement, old.mechanics.displacement);
@@ -232,7 +231,7 @@ void BlockIterative::relax(Iterate& it) {
   for (std::size_t i = 0; i < change.size(); ++i) change[i] = from[i] + factor * change[i];
   it.before = std::exchange(it.temperature, std::move(change));
   it.interface = interface_temperatures(it.now.contacts);
-  it.phases.advance(it.now.heat.temperature, plateau_share(phases_, it.now.heat));
+  it.phases.advance(it.now.heat);
 }
 
 }  // namespace solidus::coupling

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "coupling/largest_difference.hpp"
+#include "heat/nodal_enthalpy.hpp"
 
 namespace solidus::coupling {
 
@@ -19,37 +20,59 @@ bool changes_phase(const Phases& phases) {
   return false;
 }
 
+/// The state whose nodal heats lie a share of the way from those of `a` to those of `b`, with the
+/// temperatures that follow; where nodes hold no heat, the temperatures lie there. Collective.
+heat::ThermalState between(const heat::ThermalPhase& phase, const heat::ThermalState& a,
+                           const heat::ThermalState& b, double share) {
+  const auto part = [share](double from, double to) { return from + share * (to - from); };
+  heat::ThermalState state = b;
+  if (a.enthalpy.empty()) {
+    std::ranges::transform(a.temperature, b.temperature, state.temperature.begin(), part);
+    return state;
+  }
+  std::ranges::transform(a.enthalpy, b.enthalpy, state.enthalpy.begin(), part);
+  const heat::NodalEnthalpy& storage = phase.storage();
+  for (Index i = 0; i < storage.n_nodes(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    if (storage.capacity(i, b.temperature[node]) > 0)
+      state.temperature[node] = storage.temperature(i, state.enthalpy[node]);
+  }
+  parallel::GhostExchange(phase.mesh()).update(state.temperature, 1);
+  return state;
+}
+
 }  // namespace
 
 PhaseIterate::PhaseIterate(const Phases& phases, const heat::ThermalState& old)
-    : any_(changes_phase(phases)), plateau_share_(coupling::plateau_share(phases, old)) {
-  if (!any_) return;
-  old_ = old.temperature;
-  temperature_ = old.temperature;
+    : any_(changes_phase(phases)),
+      phases_(&phases),
+      old_(&old),
+      plateau_share_(coupling::plateau_share(phases, old)) {
+  if (any_) held_ = old;
 }
 
 void PhaseIterate::hold(mechanics::MechanicalPass& pass) const {
-  pass.phase_temperature = temperature_;
+  pass.phase_temperature = held_.temperature;
   pass.plateau_share = plateau_share_;
 }
 
-void PhaseIterate::advance(std::span<const double> temperature, std::vector<double> plateau_share,
-                           double share) {
+void PhaseIterate::advance(const heat::ThermalState& now, double share) {
   if (!any_) return;
-  const auto go = [share](double from, double to) { return share == 1 ? to : from + share * (to - from); };
-  std::ranges::transform(temperature_, temperature, temperature_.begin(), go);
-  std::ranges::transform(plateau_share_, plateau_share, plateau_share_.begin(), go);
+  held_ = share == 1 ? now : between(*phases_->heat, held_, now, share);
+  plateau_share_ = coupling::plateau_share(*phases_, held_);
 }
 
-double PhaseIterate::difference(std::span<const double> temperature,
-                                std::span<const double> plateau_share) const {
+double PhaseIterate::distance(const heat::ThermalState& a, const heat::ThermalState& b) const {
+  if (a.enthalpy.empty()) return largest_difference(b.temperature, a.temperature);
+  const std::vector<double> change = phases_->heat->change_in_kelvin(a, b);
+  return largest_difference(change, std::vector<double>(change.size(), 0.0));
+}
+
+double PhaseIterate::difference(const heat::ThermalState& now) const {
   if (!any_) return 0;
   constexpr double k_rounding = 1e-9;  // [K]
-  const double change = largest_difference(temperature, old_),
-               left = largest_difference(temperature, temperature_);
-  const double of_temperature = left > k_rounding ? left / change : 0.0;
-  const double of_share = plateau_share_.empty() ? 0.0 : largest_difference(plateau_share, plateau_share_);
-  return std::max(of_temperature, of_share);
+  const double left = distance(held_, now);
+  return left > k_rounding ? left / distance(*old_, now) : 0.0;
 }
 
 }  // namespace solidus::coupling

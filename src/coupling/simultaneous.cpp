@@ -150,9 +150,8 @@ void SimultaneousScheme::warn_of_held_fractions(double time) {
       time, k_fraction_turns);
 }
 
-bool SimultaneousScheme::settled(const PhaseIterate& fractions, std::span<const double> plateau_share,
-                                 int turn) {
-  const double left = fractions.difference(newton_->thermal().temperature(), plateau_share);
+bool SimultaneousScheme::settled(const PhaseIterate& fractions, int turn) {
+  const double left = fractions.difference(newton_->thermal().state());
   if (left <= k_settled) return true;
   const CoupledResidual& start = report_.residuals.front();
   return turn > 0 && left <= k_balanced && start.force <= phases_.mechanics->options().newton.tolerance &&
@@ -184,14 +183,12 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
       continue;
     }
     if (fractions == nullptr || !fractions->any()) break;
-    std::vector<double> share = newton_->thermal().plateau_share();
-    if (settled(*fractions, share, fraction_turns)) break;
+    if (settled(*fractions, fraction_turns)) break;
     if (++fraction_turns > k_fraction_turns) {
       warn_of_held_fractions(pass.time);
       break;
     }
-    fractions->advance(newton_->thermal().temperature(), std::move(share),
-                       std::ldexp(1.0, -fraction_turns / k_whole_turns));
+    fractions->advance(newton_->thermal().state(), std::ldexp(1.0, -fraction_turns / k_whole_turns));
     fractions->hold(pass);
   }
   const mechanics::PhaseReport solved = phases_.mechanics->conclude(old, pass, std::move(x), trial.mechanics);

@@ -32,8 +32,8 @@ class ThermalIteration {
 
   /// Θ of now, [local node], ghosts up to date.
   std::span<const double> temperature() const { return now_.temperature; }
-  /// ThermalPhase::plateau_share of now. Collective.
-  std::vector<double> plateau_share() const { return phase_.plateau_share(now_); }
+  /// The state of now, ghosts up to date.
+  const ThermalState& state() const { return now_; }
   /// Evaluates F at the present Θ with the present contributions. Collective.
   void evaluate();
   /// F, [owned node] [W]; where the temperature is prescribed, the heat that holds it.

@@ -88,7 +88,7 @@ TEST(Crankshaft, FreezesIsShakenOutAndCools) {
 TEST(Crankshaft, EnergyIsClosed) {
   const CaseRun& r = whole();
   for (std::size_t i = 1; i < r.history.at("time[s]").size(); ++i)
-    EXPECT_LT(std::abs(r.history.at("energy_defect[J]")[i]), 1e-6 * r.history.at("heat_exchanged[J]")[i])
+    EXPECT_LT(std::abs(r.history.at("energy_defect[J]")[i]), 1e-10 * r.history.at("heat_exchanged[J]")[i])
         << i;
 }
 
@@ -99,34 +99,37 @@ TEST(Crankshaft, FreezesLastInsideTheThickestSection) {
   ASSERT_LT(i, c.at("time[s]").size());
   const double core = std::max(c.at("T_journal[degC]")[i], c.at("T_web[degC]")[i]);
   EXPECT_NEAR(core, c.at("T_max_part[degC]")[i],
-              5);  // within the mushy range of 30 K the places differ little
+              3);  // within the mushy range of 30 K the places differ little
   for (const char* thin : {"T_counterweight[degC]", "T_flange[degC]", "T_nose[degC]"})
-    EXPECT_LT(c.at(thin)[i], core - 30) << thin;
+    EXPECT_LT(c.at(thin)[i], core - 80) << thin;
 }
 
 TEST(Crankshaft, IsAsSymmetricAsItsMesh) {
   const Columns& c = whole().history;
   const std::vector<double>& t = c.at("time[s]");
   for (std::size_t i = 0; i < t.size(); ++i) {
-    // Mirror images of one another but for nose and flange, which are far; the mesh is not symmetric: 30 K
-    // apart at the pins while the shell leaves the sand, where a second is 10 K.
+    // Mirror images of one another but for nose and flange, which are far; the mesh is not symmetric: 13 K apart
+    // at the webs as they freeze.
     for (const auto& [one, other] :
          {std::pair{"T_journal_2[degC]", "T_journal_4[degC]"}, std::pair{"T_pin[degC]", "T_pin_3[degC]"},
           std::pair{"T_web_above[degC]", "T_web_below[degC]"}})
-      EXPECT_NEAR(c.at(one)[i], c.at(other)[i], 40) << one << " at " << t[i] << " s";
+      EXPECT_NEAR(c.at(one)[i], c.at(other)[i], 20) << one << " at " << t[i] << " s";
   }
 }
 
 TEST(Crankshaft, BothSplitsAgree) {
   const CaseRun r = solidus::testing::run(short_case("isothermal"), "crankshaft/isothermal");
   ASSERT_TRUE(r.finished) << r.reason;
-  // The steps of the two differ, and those of this test are long: a fifth of the part freezes in one.
-  for (const double time : {100.0, 300.0, 700.0, 1000.0})
-    for (const char* column : {"T_journal[degC]", "T_web[degC]"})
-      EXPECT_NEAR(solidus::testing::at(r.history, column, time),
-                  solidus::testing::at(whole().history, column, time), 15)
+  // Temperatures of the part and its change of length in every row: both splits choose the same steps.
+  const Columns& other = whole().history;
+  for (const double time : other.at("time[s]")) {
+    for (const char* column : {"T_journal[degC]", "T_web[degC]", "T_pin[degC]", "T_nose[degC]"})
+      EXPECT_NEAR(solidus::testing::at(r.history, column, time), solidus::testing::at(other, column, time), 0.5)
           << column << " at " << time;
-  EXPECT_NEAR(r.history.at("length_change[mm]").back(), whole().history.at("length_change[mm]").back(), 0.1);
+    EXPECT_NEAR(solidus::testing::at(r.history, "length_change[mm]", time),
+                solidus::testing::at(other, "length_change[mm]", time), 0.03)
+        << time;
+  }
 }
 
 TEST(Crankshaft, TwoProcessesAgree) {

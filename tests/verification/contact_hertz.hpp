@@ -12,6 +12,7 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
 
 #include "contact_steps.hpp"
 
@@ -26,6 +27,8 @@ struct HertzCase {
   contact::NormalKind normal = contact::NormalKind::penalty;
   double stiffness = 1.5;  ///< ε_N over n E/a; the smallest elements have 0.4 n E/a
   contact::IntegrationRule rule = contact::IntegrationRule::segments;  ///< of small sliding
+  std::optional<double> penalty_factor{};      ///< of a case file, in place of `stiffness`
+  std::optional<double> pressure_tolerance{};  ///< of the augmented Lagrangian; absent: by penetration
 };
 
 inline constexpr double k_hertz_radius = 1, k_hertz_width = 0.6, k_hertz_young = 200e9, k_hertz_poisson = 0.3;
@@ -77,7 +80,9 @@ struct Hertz {
         c.formulation == contact::Formulation::small_sliding ? c.rule : contact::IntegrationRule::gauss;
     spec.normal = c.normal;
     spec.penalty = c.stiffness * c.n * k_hertz_young / k_hertz_half_width;
-    spec.penalty_is_factor = false;
+    spec.penalty_is_factor = c.penalty_factor.has_value();
+    if (c.penalty_factor) spec.penalty = *c.penalty_factor;
+    spec.pressure_tolerance = c.pressure_tolerance;
     spec.search_distance = 0.05;
     // Gives a half width of about 0.03 R.
     const bool block = c.bodies == HertzCase::Bodies::round_on_block;

@@ -161,6 +161,35 @@ TEST(Hertz, HasPressuresThatDoNotDependOnThePenaltyAtMeansAroundNodes) {
   }
 }
 
+// As a case of solid bodies has it that says nothing of its normal law (docs/decisions/0033): multipliers
+// with the penalty of segments, until a turn changes pressures by less than 1 % of the largest.
+TEST(Hertz, HasPressuresByDefaultNoFartherFromTheEllipseThanWithThePenaltyAlone) {
+  auto table = verification::table("contact_hertz_default", "kind,n,law,p0,deviation,turns,iterations");
+  for (const auto kind : {AnalysisKind::plane_strain, AnalysisKind::axisymmetric})
+    for (const int n : {32, 64}) {
+      std::map<NormalKind, Errors> found;
+      for (const auto normal : {NormalKind::penalty, NormalKind::augmented_lagrangian}) {
+        const bool augmented = normal == NormalKind::augmented_lagrangian;
+        Hertz hertz({.kind = kind,
+                     .formulation = Formulation::small_sliding,
+                     .n = n,
+                     .normal = normal,
+                     .penalty_factor = 10,
+                     .pressure_tolerance = augmented ? std::optional(0.01) : std::nullopt});
+        hertz.run->step(1);
+        const Errors e = found[normal] = errors(hertz);
+        table << fmt::format("{},{},{},{:.2e},{:.2e},{},{}\n",
+                             kind == AnalysisKind::plane_strain ? "line" : "point", n,
+                             augmented ? "augmented" : "penalty", e.pressure, e.deviation,
+                             hertz.run->turns.size(), hertz.run->iterations());
+        EXPECT_NEAR(e.pressure, 0, 0.01) << n;
+      }
+      EXPECT_LT(found[NormalKind::augmented_lagrangian].deviation,
+                found[NormalKind::penalty].deviation + 0.01)
+          << n;
+    }
+}
+
 // The mesh on which the augmented Lagrangian once took 60 turns and more: 48 triangles under half the
 // contact.
 TEST(Hertz, OfAFineMeshOfTrianglesEndsInFewTurnsOfTheAugmentedLagrangian) {

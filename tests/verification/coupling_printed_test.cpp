@@ -53,19 +53,20 @@ constexpr Printed k_printed[] = {
     {"isothermal_collapsed", Mapping::isothermal, StructuralForm::entropy, SensibleForm::entropy},
     {"isothermal_temperature", Mapping::isothermal, StructuralForm::temperature, SensibleForm::temperature}};
 
-// Elastic: what structural heat reaches the nodes by in axisymmetry, and the reference's six digits. Plastic:
-// the reference maps the flow again in the thermal phase, here that of the mechanical phase is kept.
+// With the return mapping of the thermal phase as printed (4.45, 4.49, 4.54). What is left is how structural
+// heat reaches the nodes in axisymmetry, and the reference's digits.
 TEST(PrintedForms, GiveTheReferenceOfSection71) {
   auto out = verification::table("coupling_printed", "scheme,law,expansion_factor,u[mm],T[K],first_law");
   for (const Printed& p : k_printed)
     for (const bool plastic : {false, true})
       for (const int factor : {1, 6}) {
         if (factor == 6 && p.mapping == Mapping::isothermal) continue;  // blows up
-        const Difference d = difference({plastic, factor, p.mapping, p.form, p.sensible}, p.scheme);
+        const Difference d = difference(
+            {plastic, factor, p.mapping, p.form, p.sensible, coupling::ThermalFlow::restarted}, p.scheme);
         out << p.scheme << "," << (plastic ? "tp" : "te") << "," << factor << "," << d.u << ","
             << d.temperature << "," << d.first_law << "\n";
-        EXPECT_LT(d.u, plastic ? 1e-3 : 1e-5) << p.scheme << factor;
-        EXPECT_LT(d.temperature, plastic ? 2e-2 : 1e-3) << p.scheme << factor;
+        EXPECT_LT(d.u, 1e-5) << p.scheme << factor;
+        EXPECT_LT(d.temperature, 1e-3) << p.scheme << factor;
       }
 }
 
