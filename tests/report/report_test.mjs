@@ -2,7 +2,7 @@
 // Each check is a sentence; the last line counts them.
 import { spawn, spawnSync } from "node:child_process";
 import { request } from "node:http";
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { Browser } from "./browser.mjs";
 import { checkInFirefox } from "./firefox_test.mjs";
@@ -157,8 +157,9 @@ for (const [name, ...set] of [["block"], ["ring"], ["pores"]]) {
   if (run.code !== 0) console.log(run.text);
   check(`the run '${name}' ends well`, run.code === 0, run.text.slice(-400));
 }
-const second = solidus("run", "block.toml", "-o", "warmer", "--no-progress", "--set", "thermal_condition.wall.coefficient=\"800 W/m2/K\"");
+const second = solidus("run", "block.toml", "-o", "warmer", "--no-progress", "--report", "--set", "thermal_condition.wall.coefficient=\"800 W/m2/K\"");
 check("a second block runs", second.code === 0, second.text.slice(-400));
+check("run --report writes the page and says so", second.text.includes("warmer/report.html") && existsSync(join(folder, "warmer/report.html")), second.text.slice(-400));
 
 const wheels = solidus("run", "--heat-only", resolve("cases/wheel_in_die"), "-o", "shots", "--no-progress", "--set", "cycle.shots.repeat=2");
 check("two shots into a die run", wheels.code === 0, wheels.text.slice(-400));
