@@ -265,19 +265,14 @@ try {
   await page.drag(cx, cy, cx + 120, cy + 40);
   check("a drag turns the picture", Math.max(...(await turn()).map((q, i) => Math.abs(q - before[i]))) > 0.05);
 
-  // Where pictures are slow a drag draws drafts, of half as many pixels each way, and the picture when it rests.
+  // Where pictures are slow what moves is drawn as a draft, of half as many pixels each way, and as the picture when it rests.
   const width = () => page.run(`${view}.canvas.width`), whole = await width();
-  await page.run(`${view}.painter.cost = 1000`);
-  await page.mouse("mousePressed", cx, cy);
-  for (let i = 1; i <= 3; ++i) await page.mouse("mouseMoved", cx + 5 * i, cy);
-  await page.settle();
-  const draft = await width();
-  await page.mouse("mouseReleased", cx + 15, cy);
-  check("a drag draws drafts where pictures are slow", draft === Math.floor(whole / 2), [draft, whole]);
-  check("in the colours of the scale", colourful(await shot()).colours > 12);
+  const draft = await page.run(`(() => { ${view}.painter.cost = 1000; ${view}.render(true); return ${view}.canvas.width; })()`);
+  check("what moves is a draft where pictures are slow", draft === Math.floor(whole / 2), [draft, whole]);
   let settled = draft;
   for (const end = Date.now() + 10000; Date.now() < end && settled !== whole; settled = await width()) await page.settle();
   check("and the picture when it rests", settled === whole, [settled, whole]);
+  check("which is not blank", colourful(await shot()).n > 500);
 
   await page.run("(() => { const b = [...document.querySelectorAll('button.figure')][0]; b.click(); return new Promise((r) => setTimeout(r, 900)); })()");
   const where = JSON.parse(readFileSync(join(folder, "block/summary.json"))).criteria["solidified_at_max_at[m]"];
