@@ -81,7 +81,7 @@ def dead_paths(page, root=ROOT):
         named = first in SOURCES or (name.startswith(OF_DEVELOPERS) and first not in MADE)
         if not named or re.search(r"\b[A-Z]{3,}\b|\bmy_", path):
             continue
-        places = (root, root / "src", root / "cases", root / "tests", root / "tests/verification", page.parent)
+        places = (root, root / "src", root / "python", root / "cases", root / "tests", root / "tests/verification", page.parent)
         if not all(any(found_below(place, one) for place in places) for one in alternatives(path)):
             found.append(path)
     return found

@@ -165,6 +165,8 @@ ExitCode parse_and_run(int argc, char** argv) {
                      "Continue a run that was stopped, from its checkpoint in the folder of the results");
   run_verb->add_flag("--profile", arguments.profile,
                      "Print at the end where the wall time went (always in summary.json)");
+  run_verb->add_flag("--report", arguments.report,
+                     "Write report.html, a page for the browser, into the folder of the results at the end");
   run_verb->add_flag("--watch", arguments.watch,
                      "Show the report while the run goes on, at an address of this machine alone");
   CLI::App* check_verb = program.add_subcommand("check", "Check a case: everything but solving");

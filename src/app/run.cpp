@@ -53,6 +53,7 @@ ExitCode run(const CaseArguments& arguments) {
   const model::RunResult result = model::run_case(c, options);
   if (watch) watch->finish();
   note_folder(options.folder);  // a run that stopped is drawn as far as it came
+  if (arguments.report && rank == 0) write_report({.folders = {options.folder.string()}, .output = {}});
   if (!result.finished) {
     if (rank == 0)
       std::cerr << painted("solidus:", Colour::red, has_colours(STDERR_FILENO)) << " " << result.reason

@@ -23,6 +23,7 @@ struct CaseArguments {
   bool heat_only = false;        ///< heat alone, whatever the case says
   bool coupled = false;          ///< heat and mechanics, whatever the case says
   bool watch = false;            ///< serve the report while the run goes on
+  bool report = false;           ///< write the report at the end
 };
 
 /// Writes to stdout on process 0; says so when that is not possible (a full disk behind a redirection).

@@ -41,8 +41,8 @@ class Pieces {
   }
 
  private:
-  /// So few pieces are compared with all lanes at once, more are looked up: where bench/numbers_bench.cpp finds
-  /// equal costs.
+  /// So few pieces are compared with all lanes at once, more are looked up: where bench/numbers_bench.cpp
+  /// finds equal costs.
   static constexpr std::size_t k_few = k_registers <= 2 ? 16 : 3;
 
   Line<Lane> line_by_comparison(const Lane& x) const;

@@ -84,7 +84,7 @@ class Guide(ProgramTest):
                 skip = False
             elif word in ("-o", "--output"):
                 skip = True
-            elif word not in ("--restart", "--no-progress", "--profile", "--watch"):
+            elif word not in ("--restart", "--no-progress", "--profile", "--watch", "--report"):
                 kept.append(word)
         return kept
 
