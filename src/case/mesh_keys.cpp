@@ -204,9 +204,8 @@ Section<MeshLayersSpec> layers_keys() {
   s.quantity("first", &L::first, "m")
       .positive()
       .doc(
-          "Thickness of the layer on the surface; without it all layers together are half as thick as an "
-          "edge "
-          "of the surface is long. Thinner where there is no room.");
+          "Thickness of the layer on the surface; without it all layers together are 0.8 times as thick as "
+          "an edge of the surface is long. Thinner where there is no room.");
   s.place(&L::where);
   return s;
 }

@@ -16,6 +16,7 @@
 #include "input/keys.hpp"
 #include "mesh/casting_geometry.hpp"
 #include "mesh/file_format.hpp"
+#include "mesh/gmsh_curved_faces.hpp"
 #include "mesh/gmsh_elements.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/raw_mesh.hpp"
@@ -278,7 +279,8 @@ void make_casting(const MeshSource& source, const std::function<void()>& make) {
 }
 
 /// The mesh that Gmsh has.
-RawMesh mesh_of_session(const MeshSource& source) {
+/// @param has_geometry  whether Gmsh has made it of a geometry
+RawMesh mesh_of_session(const MeshSource& source, bool has_geometry) {
   RawMesh mesh;
   mesh.dimension = mesh_dimension();
   if (mesh.dimension == 0)
@@ -288,6 +290,8 @@ RawMesh mesh_of_session(const MeshSource& source) {
         mesh_formats());
   const auto index = read_nodes(source.unit_in_metres, mesh);
   read_groups(source.path, index, mesh);
+  if (has_geometry && mesh.dimension == 3 && source.element_order == 1)
+    enclose_curved_volume(index, source.unit_in_metres, mesh);
   return mesh;
 }
 
@@ -297,7 +301,7 @@ RawMesh mesh_in_gmsh(const MeshSource& source, const std::function<void()>& make
   const Session session;
   gmsh::model::add("casting");
   make_casting(source, make);
-  return mesh_of_session(source);
+  return mesh_of_session(source, false);
 }
 
 RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const CastingGeometry* casting) {
@@ -311,7 +315,7 @@ RawMesh read_with_gmsh(const MeshSource& source, FileFormat format, const Castin
     name_groups(path, source.geometry, source.unit_in_metres, format);
     generate(path, source.element_size / source.unit_in_metres, source.element_order);
   }
-  return mesh_of_session(source);
+  return mesh_of_session(source, casting != nullptr || is_geometry(format));
 }
 
 void require_gmsh(const std::string&) {}
