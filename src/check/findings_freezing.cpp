@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "build/body_input.hpp"
 #include "build/mechanics_input.hpp"
 #include "case/roles.hpp"
 #include "check/findings.hpp"
