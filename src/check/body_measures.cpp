@@ -173,16 +173,20 @@ void measure_block(const mesh::Mesh& mesh, AnalysisKind kind, const mesh::Block&
     body.volume += volume_of(geometry, e);
     const mesh::Shape face = mesh::face_shape(block.shape);
     const int corners = mesh::vertex_count(face);
+    double shortest = std::numeric_limits<double>::max(), longest = 0;
     for (int f = 0; f < mesh::face_count(block.shape); ++f)
       for (int i = 0; i < (corners == 2 ? 1 : corners); ++i) {
         const auto local = mesh::face_nodes(block.shape, f);
         const double length =
             distance(at(mesh, block.element(e)[local[static_cast<std::size_t>(i)]]),
                      at(mesh, block.element(e)[local[static_cast<std::size_t>((i + 1) % corners)]]));
-        body.shortest_edge = std::min(body.shortest_edge, length);
-        body.longest_edge = std::max(body.longest_edge, length);
+        shortest = std::min(shortest, length);
+        longest = std::max(longest, length);
         edges += length, ++n_edges;
       }
+    body.shortest_edge = std::min(body.shortest_edge, shortest);
+    body.longest_edge = std::max(body.longest_edge, longest);
+    if (shortest > 0) body.flattest = std::max(body.flattest, longest / shortest);
   }
 }
 
@@ -221,6 +225,7 @@ void reduce(BodyMeasures& body, double edges, double n_edges) {
   for (GlobalIndex& n : body.shared_nodes) n = global_count(n);
   body.shortest_edge = parallel::global_min(body.shortest_edge);
   body.longest_edge = parallel::global_max(body.longest_edge);
+  body.flattest = parallel::global_max(body.flattest);
   body.mean_edge = parallel::global_sum(edges) / std::max(1.0, parallel::global_sum(n_edges));
   body.nodes = global_count(body.nodes);
   body.elements = global_count(body.elements);

@@ -17,6 +17,7 @@ struct BodyMeasures {
   std::vector<double> shared;  ///< [other body] part of it that is a face of both bodies [m²]
   double shortest_edge = 0, longest_edge = 0;  ///< between vertices of elements [m]
   double mean_edge = 0;                        ///< [m]
+  double flattest = 1;  ///< longest edge of an element over its shortest one, the largest of all elements
   GlobalIndex nodes = 0, elements = 0;
   std::vector<GlobalIndex> shared_nodes;  ///< [other body]
 };

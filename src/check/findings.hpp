@@ -44,6 +44,9 @@ void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 /// Conditions that keep a casting from freezing, runs that end before it has frozen, steps that are too long
 /// for it, feeders and chills. Collective.
 void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Bodies that can move as a whole at the start, in a direction in which neither a support nor a contact
+/// holds them: whole groups of bodies, and single ones that fall. Translations alone. Collective.
+void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Supports and loads. Collective.
 void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Runs that do not fit into the machine or the year, and outputs without number.

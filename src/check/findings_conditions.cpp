@@ -90,7 +90,7 @@ void rooms_in_kelvins(const CaseSpec& spec, const Assembly& a, Findings& finding
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const std::string body = fmt::format("the body '{}' has an initial temperature", spec.bodies[b].name);
     compare(spec.bodies[b].where, body, a.start[b].low);
-    if (a.start[b].low < 200)
+    if (a.start[b].low < 260)
       findings.push_back({false, spec.bodies[b].where,
                           fmt::format("{} of {:.0f} degC", body, a.start[b].low - k_zero_celsius),
                           "moulds start at 0 to 400 degC"});
@@ -162,10 +162,37 @@ void gravity(const CaseSpec& spec, Findings& findings) {
 void steps(const CaseSpec& spec, Findings& findings) {
   if (spec.time.steady || spec.time.adaptive || !spec.stages.empty() || !spec.time.end || !spec.time.step)
     return;
+  if (spec.output.every && *spec.output.every < 0.51 * *spec.time.step)
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("outputs every {:g} s cut the steps of {:g} s, {:.0f} for each", *spec.output.every,
+                     *spec.time.step, *spec.time.step / *spec.output.every),
+         "output.every of one step or more; probes and history.csv have every step"});
   if (*spec.time.step > 0.99 * *spec.time.end)
     findings.push_back({false, spec.time.where,
                         fmt::format("one step of {:g} s is the whole run", *spec.time.step),
                         "some hundred steps; time.adaptive chooses them"});
+}
+
+/// A table of time that begins when the run has ended is a number in it.
+void tables_of_later(const CaseSpec& spec, Findings& findings) {
+  if (spec.time.steady || !spec.time.end) return;
+  const auto compare = [&](const std::string& what, const Function& f, const SourceLocation& where) {
+    if (f.place != nullptr || f.of != Argument::time || f.table.constant()) return;
+    if (const double first = f.table.x().front(); first >= *spec.time.end)
+      findings.push_back({false, where,
+                          fmt::format("the table of {} begins at {:g} s, but the run ends at {:g} s", what,
+                                      first, *spec.time.end),
+                          "is its argument_unit right?"});
+  };
+  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+    for (const Function* f : {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power})
+      compare("'" + c.name + "'", *f, c.where);
+  for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+    compare("'" + c.name + "'", c.pressure, c.where);
+    for (const auto* u : {&c.ux, &c.uy, &c.uz, &c.ur})
+      if (*u) compare("'" + c.name + "'", **u, c.where);
+  }
 }
 
 /// Compares the error allowed per step with the range of temperatures of the run.
@@ -178,6 +205,10 @@ void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
                         fmt::format("each step may be wrong by {:g} K, where bodies start {:.0f} K apart",
                                     allowed, high - low),
                         "time.temperature_error of 0.5 to 10 K"});
+  if (const double change = spec.time.solid_fraction_change.value_or(0); spec.time.adaptive && change > 0.5)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("{:.0f} % of the casting may freeze in one step", 100 * change),
+                        "time.solid_fraction_change of 0.02 to 0.2"});
   if (const double allowed = spec.time.temperature_error.value_or(1); allowed < 1e-3)
     findings.push_back({false, spec.time.where,
                         fmt::format("each step may be wrong by {:g} K alone", allowed),
@@ -208,6 +239,7 @@ void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findi
   if (spec.has_heat()) tolerance(spec, a, findings);
   if (spec.has_heat()) rooms_in_kelvins(spec, a, findings);
   outputs(spec, findings);
+  tables_of_later(spec, findings);
   size(spec, a, findings);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "build/body_input.hpp"
 #include "build/mechanics_input.hpp"
 #include "case/roles.hpp"
 #include "check/findings.hpp"
@@ -102,6 +103,17 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
         {false, spec.time.where,
          fmt::format("steps of {}, but '{}' freezes within some {}", duration(step), name, duration(time)),
          "twenty steps and more while it freezes; time.adaptive chooses them"});
+  if (const double least = spec.time.adaptive ? spec.time.min_step.value_or(0) : 0; k_fine * least > time)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("steps of {} at least, but '{}' freezes within some {}", duration(least),
+                                    name, duration(time)),
+                        "a smaller time.min_step, or none"});
+  constexpr double k_many = 5e4;
+  if (const double step = fixed_step(spec, a); step > 0 && time > k_many * step && a.stages.empty())
+    findings.push_back(
+        {false, spec.time.where,
+         fmt::format("steps of {:g} s: '{}' freezes in some {:.0f} of them", step, name, time / step),
+         "some hundred steps while it freezes; time.adaptive chooses them"});
   if (time > k_days)
     findings.push_back({false, spec.mesh.where,
                         fmt::format("'{}' takes some {} to freeze", name, duration(time)),
@@ -171,9 +183,22 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   if (m.pours.empty() || !spec.criteria.follow) return;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     const material::PhaseChange* freezing = a.materials[b].solidification();
-    if (freezing == nullptr || a.start[b].high >= freezing->fraction.solidus()) continue;
+    if (freezing == nullptr || a.start[b].high >= freezing->fraction.liquidus()) continue;
     const Role role = role_of(spec.bodies[b], a.materials[b]);
     if (role != Role::casting && role != Role::riser) continue;  // the case says that it is a chill
+    if (a.start[b].high >= freezing->fraction.solidus()) {
+      const bool hottest = std::none_of(a.start.begin(), a.start.end(),
+                                        [&](const auto& s) { return s.high > a.start[b].high; });
+      if (!hottest)  // else find_in_pour says it
+        findings.push_back(
+            {false, spec.bodies[b].where,
+             fmt::format(
+                 "the body '{}' starts at {:.0f} degC, partly solid: the liquidus of '{}' is {:.0f} degC",
+                 spec.bodies[b].name, celsius(a.start[b].high), spec.bodies[b].material,
+                 celsius(freezing->fraction.liquidus())),
+             "what is poured together is poured at one temperature, 20 to 150 K above the liquidus"});
+      continue;
+    }
     findings.push_back(
         {false, spec.bodies[b].where,
          fmt::format(
@@ -183,6 +208,38 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
          "a material without solidification for chills and moulds, such as 'iron_chill', 'copper_chill' or "
          "'steel_mould'"});
   }
+}
+
+/// Melt beside melt: a contact parts them, and common nodes make two alloys one liquid.
+void melts_side_by_side(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  const auto poured = [&](int body) {
+    return std::any_of(m.pours.begin(), m.pours.end(),
+                       [&](const Pour& p) { return static_cast<int>(p.body) == body; });
+  };
+  for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+    const ContactMeasures& contact = m.contacts[c];
+    if (!poured(contact.slave_body) || !poured(contact.master_body) ||
+        contact.slave_body == contact.master_body || !holds(spec, spec.contacts[c], a.mesh, a.first_stage()))
+      continue;
+    findings.push_back(
+        {false, spec.contacts[c].where,
+         fmt::format("the contact '{}' joins '{}' and '{}', which are both poured: melt does not flow across "
+                     "it, and one does not feed the other",
+                     spec.contacts[c].name, spec.bodies[static_cast<std::size_t>(contact.slave_body)].name,
+                     spec.bodies[static_cast<std::size_t>(contact.master_body)].name),
+         "a riser shares the nodes of its casting: mesh.conforming, or one geometry"});
+  }
+  for (const Pour& one : m.pours)
+    for (const Pour& other : m.pours)
+      if (other.body < one.body && m.bodies[one.body].shared_nodes[other.body] > 0 &&
+          spec.bodies[one.body].material != spec.bodies[other.body].material)
+        findings.push_back(
+            {false, spec.bodies[one.body].where,
+             fmt::format(
+                 "'{}' of '{}' and '{}' of '{}' are both poured and share nodes: two alloys as one melt",
+                 spec.bodies[other.body].name, spec.bodies[other.body].material, spec.bodies[one.body].name,
+                 spec.bodies[one.body].material),
+             "one alloy for a casting and its risers"});
 }
 
 /// Feeders that touch no melt, or that lie where melt does not flow down from. Collective.
@@ -243,6 +300,7 @@ void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   rounds_without_a_shot(spec, a, m, findings);
   nothing_to_wait_for(spec, m.pours, findings);
   cold_castings(spec, a, m, findings);
+  melts_side_by_side(spec, a, m, findings);
   feeders(spec, a, m, findings);
 }
 

@@ -119,6 +119,28 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
   }
 }
 
+/// Elements whose edges differ so much that what crosses them and what runs along them cannot both be seen;
+/// castings so small that their unit is in doubt.
+void shapes_and_sizes(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  constexpr double k_flat = 150, k_small = 3e-3;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b)
+    if (m.bodies[b].flattest > k_flat)
+      findings.push_back({false, spec.mesh.where,
+                          fmt::format("an element of the body '{}' is {:.0f} times as long as wide",
+                                      spec.bodies[b].name, m.bodies[b].flattest),
+                          "up to 10, in thin layers up to 100"});
+  for (const Pour& pour : m.pours) {
+    const BodyMeasures& body = m.bodies[pour.body];
+    double largest = 0;
+    for (std::size_t d = 0; d < 3; ++d) largest = std::max(largest, body.high[d] - body.low[d]);
+    if (largest < k_small)
+      findings.push_back(
+          {false, spec.mesh.where,
+           fmt::format("the casting '{}' is {:.3g} mm large", spec.bodies[pour.body].name, 1e3 * largest),
+           "is the unit of the mesh right?"});
+  }
+}
+
 /// The mould's first element against the depth that heat reaches until the casting is solid.
 void coarse_moulds(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
   for (const Pour& pour : m.pours) {
@@ -154,6 +176,7 @@ void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   shared_nodes(spec, a, m, findings);
   coarse_castings(spec, m, findings);
   coarse_moulds(spec, m, findings);
+  shapes_and_sizes(spec, m, findings);
 }
 
 }  // namespace solidus::model

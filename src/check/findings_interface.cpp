@@ -150,6 +150,10 @@ void films_beside_contacts(const CaseSpec& spec, const Assembly& a, Findings& fi
 
 void conductances(const CaseSpec& spec, Findings& findings) {
   for (const ContactSpec& contact : spec.contacts) {
+    if (const double capacity = contact.interface.heat_capacity; capacity > 1e6)
+      findings.push_back({false, contact.where,
+                          fmt::format("the interface of '{}' stores {:g} J/m2/K", contact.name, capacity),
+                          "1000 J/m2/K is a skin of 0.3 mm of steel"});
     if (!contact.heat) continue;
     for (const contact::ConductanceLaw* law : std::initializer_list<const contact::ConductanceLaw*>{
              contact.heat->contact_law.get(), contact.heat->gap_law.get()})

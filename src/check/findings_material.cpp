@@ -62,7 +62,9 @@ void compare_argument(const BodySpec& body, const material::Property& property, 
 
 /// Elastic properties and expansion.
 void compare_solid(const BodySpec& body, const material::Material& m, Findings& findings) {
-  if (const double stiffest = m.young_modulus.max_value(); m.solidification() != nullptr && stiffest < 1e9)
+  // What is as dense and conducts as well as metal is one, also where its card has no freezing.
+  const bool metal = m.solidification() != nullptr || (m.density > 5000 && m.conductivity.min_value() > 8);
+  if (const double stiffest = m.young_modulus.max_value(); metal && stiffest < 1e9)
     findings.push_back({false, body.where,
                         fmt::format("body '{}', material '{}': young_modulus of {:g} Pa at most", body.name,
                                     body.material, stiffest),
@@ -77,6 +79,27 @@ void compare_solid(const BodySpec& body, const material::Material& m, Findings& 
         {false, body.where,
          fmt::format("body '{}', material '{}': expansion of {:g} 1/K", body.name, body.material, largest),
          "usual are 5e-7 to 3e-5 1/K, or zero"});
+}
+
+/// Volume that no metal gains or loses as it freezes, a strength or stiffness that no metal has.
+void compare_strength(const BodySpec& body, const material::Material& m, Findings& findings) {
+  const auto say = [&](const std::string& what, const char* usual) {
+    findings.push_back({false, body.where,
+                        fmt::format("body '{}', material '{}': {}", body.name, body.material, what), usual});
+  };
+  for (const material::PhaseChange& change : m.phase_changes)
+    if (std::abs(change.volume_change) > 0.15)
+      say(fmt::format("'{}' changes the volume by {:.3g} %", change.name, 100 * change.volume_change),
+          "metals shrink by 1 to 7 % as they freeze (-0.07 to -0.01), bismuth and silicon expand by up to 10 "
+          "%");
+  if (m.flow && m.solidification() != nullptr && m.flow->flow_stress.max_value() < 1e6)
+    say(fmt::format("flow_stress of {:g} Pa at most", m.flow->flow_stress.max_value()),
+        "cold metals have 10 to 2000 MPa");
+  const Table& young = m.young_modulus;
+  if (!young.constant() && young.y().back() > 1.2 * young.y().front())
+    say(fmt::format("young_modulus rises with temperature, from {:.3g} to {:.3g} GPa",
+                    1e-9 * young.y().front(), 1e-9 * young.y().back()),
+        "metals soften as they warm; are the columns of the table in their places?");
 }
 
 /// The lowest temperature that starts, surroundings and prescribed ones name [K].
@@ -102,7 +125,7 @@ void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findin
     for (const material::Property& property : m.properties())
       if (spec.has_heat()) compare_argument(spec.bodies[b], property, low, m.solidification(), findings);
     if (spec.has_mechanics() && m.mechanical() && !only_conducts(spec.bodies[b]))
-      compare_solid(spec.bodies[b], m, findings);
+      compare_solid(spec.bodies[b], m, findings), compare_strength(spec.bodies[b], m, findings);
     compare(spec.bodies[b], {"density", "kg/m3", metal ? 1000.0 : 10.0, 25000}, m.density, m.density,
             findings);
     if (!spec.has_heat()) continue;
@@ -113,6 +136,14 @@ void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findin
     if (metal)
       compare(spec.bodies[b], {"latent heat", "J/kg", 1e4, 2e6}, m.solidification()->latent_heat,
               m.solidification()->latent_heat, findings);
+    if (metal)
+      if (const double range =
+              m.solidification()->fraction.liquidus() - m.solidification()->fraction.solidus();
+          range > 400)
+        findings.push_back({false, spec.bodies[b].where,
+                            fmt::format("body '{}', material '{}': it freezes over {:.0f} K",
+                                        spec.bodies[b].name, spec.bodies[b].material, range),
+                            "alloys freeze over 0 to 250 K; are solidus and liquidus right?"});
   }
 }
 

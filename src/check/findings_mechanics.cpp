@@ -17,12 +17,11 @@ namespace {
 /// Nodes of each body, and how many of them are held in all directions, in the first stage. Collective.
 struct Held {
   double nodes = 0, held = 0;
-  double touched = 0;  ///< by any mechanical condition
 };
 
 std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
   const int components = displacement_components(spec.analysis.kind);
-  std::vector<std::uint8_t> directions(a.mesh.x.size(), 0), touched(a.mesh.x.size(), 0);
+  std::vector<std::uint8_t> directions(a.mesh.x.size(), 0);
   for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
     const auto nodes = a.mesh.node_sets.find(c.group);
     if (nodes == a.mesh.node_sets.end()) continue;
@@ -30,10 +29,8 @@ std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
         c.kind == MechanicalConditionSpec::Kind::displacement && holds(c.stages, a.first_stage());
     unsigned bits = 0;
     if (held) bits = (c.ux || c.ur ? 1U : 0U) | (c.uy ? 2U : 0U) | (c.uz ? (components == 2 ? 2U : 4U) : 0U);
-    for (const Index node : nodes->second) {
+    for (const Index node : nodes->second)
       directions[static_cast<std::size_t>(node)] |= static_cast<std::uint8_t>(bits);
-      touched[static_cast<std::size_t>(node)] = 1;
-    }
   }
   const unsigned all = components == 2 ? 3U : 7U;
   std::vector<Held> of_body(spec.bodies.size());
@@ -47,21 +44,12 @@ std::vector<Held> held_nodes(const CaseSpec& spec, const Assembly& a) {
         last[i] = static_cast<int>(b);
         of_body[b].nodes += 1;
         of_body[b].held += directions[i] == all ? 1 : 0;
-        of_body[b].touched += touched[i];
       }
     }
     of_body[b].nodes = parallel::global_sum(of_body[b].nodes);
     of_body[b].held = parallel::global_sum(of_body[b].held);
-    of_body[b].touched = parallel::global_sum(of_body[b].touched);
   }
   return of_body;
-}
-
-bool in_contact(const CaseMeasures& m, std::size_t body) {
-  return std::any_of(m.contacts.begin(), m.contacts.end(), [&](const ContactMeasures& c) {
-    return c.slave_body == static_cast<int>(body) || c.master_body == static_cast<int>(body) ||
-           c.slave_body == k_several_bodies || c.master_body == k_several_bodies;
-  });
 }
 
 void supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
@@ -77,12 +65,6 @@ void supports(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Fi
            fmt::format("{:.0f} % of the nodes of '{}' are held in all directions: it cannot shrink",
                        100 * held[b].held / held[b].nodes, body.name),
            "supports on a few nodes or a plane of symmetry; the mould holds it by contact"});
-    const bool glued = std::any_of(m.bodies[b].shared_nodes.begin(), m.bodies[b].shared_nodes.end(),
-                                   [](GlobalIndex n) { return n > 0; });
-    if (held[b].touched == 0 && !in_contact(m, b) && !glued && !spec.dynamics)
-      findings.push_back({false, body.where,
-                          fmt::format("nothing holds the body '{}': no support, no contact", body.name),
-                          "a [[mechanical_condition]] that takes its motion as a whole, or a [[contact]]"});
   }
 }
 
@@ -110,6 +92,39 @@ void held_skins(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, 
       }
     }
   }
+}
+
+/// A support along one axis on a surface of the casting is a plane of symmetry: no heat crosses it.
+void films_on_planes_of_symmetry(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  using Film = ThermalConditionSpec::Kind;
+  for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
+    const ThermalConditionSpec& film = spec.thermal_conditions[t];
+    const bool poured = std::any_of(m.pours.begin(), m.pours.end(), [&](const Pour& p) {
+      return m.surfaces[t].body == static_cast<int>(p.body);
+    });
+    if (!poured || (film.kind != Film::film && film.kind != Film::radiation)) continue;
+    for (const MechanicalConditionSpec& c : spec.mechanical_conditions) {
+      const int held = (c.ux || c.ur ? 1 : 0) + (c.uy ? 1 : 0) + (c.uz ? 1 : 0);
+      if (c.kind != MechanicalConditionSpec::Kind::displacement || c.group != film.group || held != 1)
+        continue;
+      findings.push_back(
+          {false, film.where,
+           fmt::format("'{}' cools the surface '{}' of the casting, which '{}' holds along one axis, as on "
+                       "a plane of symmetry",
+                       film.name, film.group, c.name),
+           "no heat crosses a plane of symmetry: no condition there"});
+    }
+  }
+}
+
+/// Waves cross a casting in microseconds: inertia over steps so much longer only costs.
+void useless_inertia(const CaseSpec& spec, Findings& findings) {
+  constexpr double k_long = 0.1;  // [s]
+  if (!spec.dynamics || !spec.time.step || *spec.time.step < k_long) return;
+  findings.push_back({false, spec.time.where,
+                      fmt::format("inertia with steps of {:g} s: waves cross the bodies within a millisecond",
+                                  *spec.time.step),
+                      "no [dynamics]: castings freeze in equilibrium; inertia is for shocks and vibrations"});
 }
 
 /// Springs of contacts, and gaps that count as closed.
@@ -210,6 +225,9 @@ void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   loads(spec, m, findings);
   pressed_melts(spec, a, m, findings);
   friction_numbers(spec, findings);
+  find_loose_bodies(spec, a, m, findings);
+  if (spec.has_heat()) films_on_planes_of_symmetry(spec, m, findings);
+  useless_inertia(spec, findings);
 }
 
 }  // namespace solidus::model

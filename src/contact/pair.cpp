@@ -76,6 +76,7 @@ void ContactPair::begin(const ContactState& old, const ContactPass& pass) {
     const PointState &before = pass.iterate->points[p], &from = step_.from[p];
     step_.iterate.push_back(
         {before.temperature > 0 ? before.temperature : from.temperature, before.internal_variable});
+    step_.from[p].multiplier = std::max(before.multiplier, least_multiplier(from));
   }
 }
 

@@ -46,7 +46,8 @@ struct ContactPass {
   bool isentropic = false;    ///< the pass holds the entropy of the interface, not Θ_c
   bool simultaneous = false;  ///< Θ_c is found together with the slip (5.40), see set_temperature()
   /// Result of the pass before in a scheme whose phases take turns within the step: friction holds its Θ_c,
-  /// or its entropy. Null: that of t_n.
+  /// or its entropy, and multipliers start from the ones found there, so that passes that have not come to
+  /// their end go on where they were. Null: that of t_n.
   const ContactState* iterate = nullptr;
   double share = 1;  ///< s of normal.hpp
 };

@@ -57,8 +57,11 @@ mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalSta
       const profile::Part of_contact("contact");
       for (contact::ContactPair* pair : phases.contacts) pair->update(next.displacement);
     }
-    if (penetrations_small(phases, n_turns)) break;
+    // Penetrations of an iterate that is not in equilibrium say nothing of the multipliers; those of one that
+    // is are brought down in equilibrium too.
+    if (!report.newton.converged || penetrations_small(phases, n_turns)) break;
     turn.start = next.displacement;
+    turn.newton_steps = 0;
   }
   trial.mechanics = std::move(next);
   trial.contacts = contact_states(phases);

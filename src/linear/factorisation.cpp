@@ -55,7 +55,9 @@ void Factorisation::set_type(PC pc, const std::string& prefix, bool symmetric, G
   petsc::set_default_option(option_, std::to_string(workspace_));
 }
 
-bool Factorisation::try_again(PC pc, Mat matrix) {
+bool Factorisation::try_again(KSP ksp, Mat matrix) {
+  PC pc = nullptr;
+  petsc::check(KSPGetPC(ksp, &pc), "KSPGetPC");
   PC inner = innermost(pc);
   PCFailedReason why = PC_NOERROR;
   petsc::check(PCGetFailedReason(inner, &why), "PCGetFailedReason");
@@ -82,6 +84,9 @@ bool Factorisation::try_again(PC pc, Mat matrix) {
   petsc::check(MatDestroy(&a), "MatDestroy");
   petsc::check(MatDestroy(&p), "MatDestroy");
   petsc::check(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)), "PetscObjectStateIncrease");
+  // A solver that has seen its matrices sets nothing up and hands on the failure of before.
+  petsc::check(KSPGetOperators(ksp, &a, &p), "KSPGetOperators");
+  petsc::check(KSPSetOperators(ksp, a, p), "KSPSetOperators");
   return true;
 }
 

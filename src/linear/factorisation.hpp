@@ -21,7 +21,7 @@ class Factorisation {
   void set_type(PC pc, const std::string& prefix, bool symmetric, GlobalIndex n_unknowns);
   /// After a failure, whether it is worth another attempt: MUMPS may need more workspace than its analysis
   /// foresaw, as pivoting is not known beforehand. Then it gets it. Collective.
-  bool try_again(PC pc, Mat matrix);
+  bool try_again(KSP ksp, Mat matrix);
   /// After try_again() has found no other way, in words, why there are no factors. Collective.
   std::string failure(Mat matrix) const;
   /// A new matrix, or one that has been factorised.

@@ -79,9 +79,8 @@ KSPConvergedReason KrylovSolver::Implementation::run(int& iterations) {
 }
 
 bool KrylovSolver::Implementation::try_again() {
-  PC pc = nullptr;
-  petsc::check(KSPGetPC(ksp, &pc), "KSPGetPC");
-  return factorisation.try_again(pc, preconditioner);
+  stale = true;
+  return factorisation.try_again(ksp, preconditioner);
 }
 
 KrylovSolver::KrylovSolver(KrylovOptions options) : implementation_(std::make_unique<Implementation>()) {

@@ -359,9 +359,7 @@ bool LinearSolver::Implementation::refine(LinearReport& report) {
 }
 
 bool LinearSolver::Implementation::try_again() {
-  PC pc = nullptr;
-  petsc::check(KSPGetPC(ksp, &pc), "KSPGetPC");
-  return factorisation.try_again(pc, matrix);
+  return factorisation.try_again(ksp, matrix);
 }
 
 }  // namespace solidus::linear

@@ -45,6 +45,20 @@ struct SpotsContact {
       return Objection{"the gas between spots needs the hardness", "a hardness above zero"};
     return std::nullopt;
   }
+  std::vector<Remark> remarks(std::string_view contact) const {
+    std::vector<Remark> remarks;
+    if (asperities.roughness < 1e-8 || asperities.roughness > 2e-4)
+      remarks.push_back({false,
+                         fmt::format("the surfaces of the contact '{}' have a roughness of {:g} um", contact,
+                                     1e6 * asperities.roughness),
+                         "usual are 0.1 um of polished to 100 um of cast surfaces"});
+    if (asperities.slope > 1)
+      remarks.push_back({false,
+                         fmt::format("the asperities of the contact '{}' have a mean slope of {:g}", contact,
+                                     asperities.slope),
+                         "usual are 0.03 to 0.4: a tangent, not an angle"});
+    return remarks;
+  }
 
  private:
   static Section<Asperities> asperity_keys() {

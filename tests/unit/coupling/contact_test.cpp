@@ -9,6 +9,7 @@
 #include "coupling/contact_states.hpp"
 #include "coupling/contact_work.hpp"
 #include "coupling/isothermal.hpp"
+#include "coupling/passes.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
@@ -398,6 +399,44 @@ TEST(AugmentedLagrangian, LeavesNoPenetrationWhereThePenaltyDoes) {
     // The next step starts from the multipliers and has nothing to do.
     EXPECT_LE(run.step(1).mechanics.iterations, 2);
   }
+}
+
+// A scheme that takes one Newton iteration in every pass: multipliers that grew from iterates out of
+// equilibrium, or that began anew in every pass, would go round.
+TEST(AugmentedLagrangian, SettlesInPassesOfOneIterationAsInPassesToEquilibrium) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  mechanics::Conditions c = test::symmetric_supports(2);
+  c.pressures.push_back({"upper_y_max", 1e8});
+  contact::ContactSpec s = test::interface();
+  s.penalty = 1;
+  s.normal = contact::NormalKind::augmented_lagrangian;
+  s.penetration_tolerance = 1e-8;
+  Rubbed whole(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
+  whole.step(1);
+  Rubbed single(mesh, AnalysisKind::plane_strain, s, c, test::strict_mechanics());
+  coupling::State trial = single.state;
+  mechanics::MechanicalPass pass{.time = 1, .dt = 1, .temperature = single.phases.temperature};
+  pass.newton_steps = 1;
+  int iterations = 0;
+  const auto take = [&] {
+    coupling::StepEffort effort;
+    const std::vector<contact::ContactState> before = trial.contacts;
+    const bool solved = coupling::mechanical_pass(single.phases, single.state, trial, pass, effort, before);
+    iterations = effort.mechanics.iterations;
+    pass.iterate = &trial.mechanics;
+    return solved;
+  };
+  bool solved = take();
+  for (int passes = 1; passes < 10 && !solved; ++passes) solved = take();
+  EXPECT_TRUE(solved);
+  EXPECT_GE(iterations, 2) << "of the turns in which the multipliers grew";
+  EXPECT_TRUE(take());
+  EXPECT_LE(iterations, 1) << "what was found is the start of the next pass";
+  EXPECT_LE(single.pair.excess(), 1);
+  for (std::size_t i = 0; i < trial.contacts[0].points.size(); ++i)
+    EXPECT_NEAR(trial.contacts[0].points[i].multiplier, whole.state.contacts[0].points[i].multiplier, 1e3);
+  for (std::size_t i = 0; i < trial.mechanics.displacement.size(); ++i)
+    EXPECT_NEAR(trial.mechanics.displacement[i], whole.state.mechanics.displacement[i], 1e-8 * 0.06);
 }
 
 }  // namespace
