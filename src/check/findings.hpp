@@ -44,6 +44,8 @@ void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 /// Conditions that keep a casting from freezing, runs that end before it has frozen, steps that are too long
 /// for it, feeders and chills. Collective.
 void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Castings that shrink in elements without pores and feeding. Collective.
+void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Supports and loads. Collective.
 void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Runs that do not fit into the machine or the year, and outputs without number.

@@ -308,7 +308,7 @@ std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasu
     pour.body = b;
     const bool heated =
         std::any_of(spec.thermal_conditions.begin(), spec.thermal_conditions.end(), [&](const auto& c) {
-          return c.kind == ThermalConditionSpec::Kind::source && c.group == spec.bodies[b].mesh_group();
+          return c.in_volume() && c.group == spec.bodies[b].mesh_group();
         });
     if (heated)
       pour.no_estimate = "a source heats it";

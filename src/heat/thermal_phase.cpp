@@ -288,6 +288,16 @@ ThermalState ThermalPhase::start(const ThermalState& old, double time) {
   return next;
 }
 
+void ThermalPhase::begin_burning(const BurningState& state, double begin, double end) {
+  system_->set_burning(state, begin, end);
+}
+
+BurningState ThermalPhase::burnt(const BurningState& state, const ThermalState& before,
+                                 const ThermalState& after, double begin, double end) const {
+  if (state.lit.empty() || system_->ignition().empty()) return state;
+  return burn(state, system_->ignition(), before.temperature, after.temperature, begin, end);
+}
+
 PhaseReport ThermalPhase::solve(const ThermalState& old, ThermalState& trial, const ThermalPass& pass) {
   assert(old.temperature.size() == mesh_.x.size() && pass.dt > 0);
   follow_graph();

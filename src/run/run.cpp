@@ -182,6 +182,7 @@ class Transient {
     if (recorder != nullptr) simulation_.add(*recorder);
     simulation_.add(why_);
     if (a.criteria) simulation_.follow(*a.criteria);
+    if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
     simulation_.stop_when(options.stop_asked);
     simulation_.at_stage(
         [this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
