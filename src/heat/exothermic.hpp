@@ -5,9 +5,9 @@
 ///
 ///   B(t) = clamp((t − t_i)/τ, 0, 1),     q = Q dB/dt  [W/m³]
 ///
-/// A step [t_n, t_{n+1}] has the constant power Q (B(t_{n+1}) − B(t_r))/(t_{n+1} − t_n), where t_r is the time
-/// up to which heat has been given off. Every scheme integrates a constant exactly, so that all of Q and no
-/// more is released whatever the steps are. What falls between t_i and the end of the step of ignition is
+/// A step [t_n, t_{n+1}] has the constant power Q (B(t_{n+1}) − B(t_r))/(t_{n+1} − t_n), where t_r is the
+/// time up to which heat has been given off. Every scheme integrates a constant exactly, so that all of Q and
+/// no more is released whatever the steps are. What falls between t_i and the end of the step of ignition is
 /// given off in the step that follows: the heat comes later than it should by less than one step.
 #pragma once
 

@@ -13,9 +13,10 @@ using solidus::testing::CaseRun;
 
 const solidus::testing::CaseFolder k_here("sleeves");
 
+const std::string k_title = "title = \"A casting on a slab that burns\"\n";
+
 /// A block that burns beside a casting; insulated outside.
-const std::string k_block = R"(title = "A casting on a slab that burns"
-[analysis]
+const std::string k_block = R"([analysis]
 kind = "plane_strain"
 physics = "heat"
 [mesh]
@@ -51,6 +52,7 @@ master = "lower_top"
 conductance = "1000 W/m2/K"
 contact_law = "power"
 exponent = 0
+gap_law = "constant"
 )";
 
 /// Of 40 x 10 mm, a metre deep [J].
@@ -62,26 +64,23 @@ std::string block(const std::string& stages) {
   return text.replace(text.find("@stages@"), 8, stages);
 }
 
-double sum_of(const CaseRun& run, const std::string& column) {
-  double sum = 0;
-  for (const double value : run.history.at(column)) sum += value;
-  return sum;
-}
-
 TEST(Sleeves, BringAllOfTheirHeatIntoTheFirstLaw) {
   const CaseRun run =
-      k_here.run("block", block("") + "[time]\nend = \"600 s\"\nstep = \"1 s\"\nadaptive = true\n");
+      k_here.run("block", k_title + block("") + "[time]\nend = \"600 s\"\nstep = \"1 s\"\nadaptive = true\n");
   ASSERT_TRUE(run.finished) << run.reason;
-  EXPECT_NEAR(sum_of(run, "heat_in[J]"), k_heat, 1e-9 * k_heat);  // nothing else crosses the boundary
-  EXPECT_NEAR(sum_of(run, "stored_heat[J]"), k_heat, 1e-8 * k_heat);
+  EXPECT_NEAR(run.history.at("heat_in[J]").back(), k_heat,
+              1e-9 * k_heat);  // nothing else crosses the boundary
+  EXPECT_NEAR(run.history.at("stored_heat[J]").back(), k_heat, 1e-8 * k_heat);
 }
 
 TEST(Sleeves, GoOnBurningAfterARestart) {
-  k_here.expect_exact_restart("restart", block("") + "[time]\nend = \"120 s\"\nstep = \"2 s\"\n", 12);
+  k_here.expect_exact_restart("restart", k_title + block("") + "[time]\nend = \"120 s\"\nstep = \"2 s\"\n",
+                              12);
 }
 
 TEST(Sleeves, AreNewInEveryShot) {
-  const std::string shots = R"(stage = [
+  const std::string shots = R"(title = "Two slabs, one after the other"
+stage = [
   { name = "pour", duration = "200 s", step = "2 s" },
   { name = "eject", duration = "4 s", step = "2 s" },
 ]
@@ -93,7 +92,7 @@ repeat = 2
   // The metal stays, and is hot enough for the second one too.
   const CaseRun run = k_here.run("shots", shots + block("stages = \"pour\""));
   ASSERT_TRUE(run.finished) << run.reason;
-  EXPECT_NEAR(sum_of(run, "heat_in[J]"), 2 * k_heat, 1e-9 * k_heat);
+  EXPECT_NEAR(run.history.at("heat_in[J]").back(), 2 * k_heat, 1e-9 * k_heat);
 }
 
 TEST(Sleeves, LetARiserLiveLongerThanSandDoes) {
@@ -106,7 +105,7 @@ TEST(Sleeves, LetARiserLiveLongerThanSandDoes) {
     froze[k] = run.history.at("time[s]").back();
   }
   EXPECT_GT(froze[1], 1.1 * froze[0]);
-  EXPECT_GT(froze[2], 1.05 * froze[1]);
+  EXPECT_GT(froze[2], 1.02 * froze[1]);
 }
 
 }  // namespace
