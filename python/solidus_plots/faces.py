@@ -1,4 +1,4 @@
-"""Pictures of the faces of bodies by number, as `solidus mesh-info --pictures FOLDER` has written them: one sheet a body, from four sides."""
+"""Pictures of the faces of bodies by number, from what `solidus mesh-info --pictures FOLDER` writes: one sheet a body, four sides."""
 
 import argparse
 from pathlib import Path

@@ -24,7 +24,8 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
   Section<C> s("thermal_condition",
                "Heat at the boundary or in the volume. Where nothing is said, a surface is insulated.");
   s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
-  s.key("group", &C::group).doc("Surface group of the mesh; for kind = \"source\" and \"exothermic\" a body.");
+  s.key("group", &C::group)
+      .doc("Surface group of the mesh; for kind = \"source\" and \"exothermic\" a body.");
   s.choice("kind", &C::kind,
            {{"temperature", C::Kind::temperature, "prescribed temperature"},
             {"flux", C::Kind::flux, "prescribed heat flux"},
