@@ -212,6 +212,11 @@ ExitCode parse_and_run(int argc, char** argv) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   mesh_verb->add_option("--unit", unit, "Unit of length of a mesh file, for example mm")->type_name("UNIT");
+  std::string pictures;
+  mesh_verb
+      ->add_option("--pictures", pictures,
+                   "Folder for pictures of every body's faces by their numbers, and for faces.vtk (ParaView)")
+      ->type_name("FOLDER");
   add_trust(*mesh_verb, arguments.trust_script);
   CLI::App* materials_verb =
       program.add_subcommand("materials", "List the material library, or print one material");
@@ -320,7 +325,7 @@ ExitCode parse_and_run(int argc, char** argv) {
   if (*point_verb) return check_law ? check_point_laws(arguments) : run_point(arguments);
   if (*explain_verb) return explain(file, key, manual);
   if (*schema_verb) return schema(file);
-  if (*mesh_verb) return mesh_info(arguments, unit);
+  if (*mesh_verb) return mesh_info(arguments, unit, pictures);
   if (*import_verb) return import_material(imported);
   if (*scheil_verb) return solidification_path(freezing);
   if (*materials_verb) return materials(name, arguments.output);

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 
+#include "app/python_tools.hpp"
 #include "app/verbs.hpp"
 #include "build/case_file.hpp"
 #include "build/mesh_input.hpp"
@@ -36,9 +38,27 @@ RawMesh read(const CaseArguments& arguments, const std::string& unit) {
   return mesh;
 }
 
+constexpr const char* k_faces = "faces.vtk";
+
+/// The faces as a file for ParaView, from which the pictures are drawn.
+void write_faces(const RawMesh& mesh, const std::vector<mesh::SkinPatch>& patches,
+                 const std::filesystem::path& folder) {
+  if (mesh.dimension != 3)
+    throw InputError({"--pictures", 0, 0}, "the mesh is plane", "the table: it has places and neighbours");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  std::ofstream file(folder / k_faces);
+  file << mesh::to_vtk(patches);
+  file.flush();
+  if (error || !file)
+    throw InputError({"--pictures", 0, 0}, fmt::format("'{}' cannot be written", (folder / k_faces).string()),
+                     "a folder with room");
+}
+
 }  // namespace
 
-ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit) {
+ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
+                   const std::filesystem::path& pictures) {
   std::string text;
   results::on_first_process([&] {
     const RawMesh mesh = read(arguments, unit);
@@ -47,10 +67,13 @@ ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit) {
     for (const auto& [name, group] : mesh.groups)
       if (group.dimension == mesh.dimension) bodies.push_back(name);
     constexpr double k_edge = std::numbers::pi / 6;  // neighbours that bend by more begin a face
-    text += mesh::to_text(mesh::skin_patches(mesh, bodies, k_edge));
+    const std::vector<mesh::SkinPatch> patches = mesh::skin_patches(mesh, bodies, k_edge);
+    text += mesh::to_text(patches);
+    if (!pictures.empty()) write_faces(mesh, patches, pictures);
   });
   print(text);
-  return k_done;
+  if (pictures.empty()) return k_done;
+  return run_python("solidus_plots.faces", {(pictures / k_faces).string()});
 }
 
 }  // namespace solidus::app

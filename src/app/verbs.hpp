@@ -2,6 +2,7 @@
 /// thrown.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,9 @@ enum class FileKind { case_file, material_file, point_file };
 ExitCode explain(FileKind file, const std::string& key, bool manual);
 ExitCode schema(FileKind file);
 /// @param path a case, or a mesh file with the unit of its lengths
-ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit);
+/// @param pictures  folder for pictures of the faces by number; empty: none
+ExitCode mesh_info(const CaseArguments& arguments, const std::string& unit,
+                   const std::filesystem::path& pictures);
 /// @param name   a material of the library or a file; empty: the list
 /// @param output a folder for its tables (CSV); empty: none
 ExitCode materials(const std::string& name, const std::string& output);

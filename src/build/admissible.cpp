@@ -38,6 +38,7 @@ const Function* surroundings(const ThermalConditionSpec& c) {
       return &c.ambient;
     case Kind::flux:
     case Kind::source:
+    case Kind::exothermic:
       break;
   }
   return nullptr;
@@ -79,6 +80,8 @@ void check_heat(const CaseSpec& spec, Admissibility& a) {
       a.violations.push_back(fmt::format("'{}' is a flux", c.name));
     else if (c.kind == Kind::source && !zero(c.power))
       a.violations.push_back(fmt::format("'{}' is a source", c.name));
+    else if (c.kind == Kind::exothermic)
+      a.violations.push_back(fmt::format("'{}' burns", c.name));
   }
   for (const auto& [name, around] : all_surroundings(spec)) {
     if (!steady(*around))

@@ -119,6 +119,10 @@ void build_heat(const CaseSpec& spec, const InitialTemperatures& start, Assembly
                                                 contributions);
   a.phases.heat = a.heat.get();
   a.initial.heat = a.heat->initial_state_of([&](Index node, int body) { return start.enthalpy(node, body); });
+  const bool burns = std::ranges::any_of(spec.thermal_conditions, [](const ThermalConditionSpec& c) {
+    return c.kind == ThermalConditionSpec::Kind::exothermic;
+  });
+  if (burns) a.initial.burning = heat::unlit(a.mesh.x.size());
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -194,6 +198,8 @@ coupling::BodyHeat apply(const CaseSpec& spec, std::size_t number, const std::ve
       begins != nullptr && std::any_of(fresh.begin(), fresh.end(), [](char f) { return f != 0; });
   for (std::size_t i = 0; i < a.contacts.size(); ++i)
     a.contacts[i]->activate(holds(spec, spec.contacts[i], a.mesh, &stage));
+  if (comes && !begins->burning.lit.empty())
+    heat::renew(mechanics::nodes_of_bodies(a.mesh, fresh), begins->burning);
   if (a.mechanics) {
     if (comes) mechanics::renew_nodes(a.mesh, fresh, begins->mechanics);
     a.mechanics->set_conditions(mechanical_conditions(spec, &stage),

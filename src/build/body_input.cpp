@@ -180,7 +180,7 @@ std::vector<std::string> without_body(const CaseSpec& spec, const mesh::Mesh& me
   for (const ThermalConditionSpec& c : spec.thermal_conditions) {
     using Kind = ThermalConditionSpec::Kind;
     if (!holds(c.stages, stage)) continue;
-    const bool needs_faces = c.kind != Kind::temperature && c.kind != Kind::source;
+    const bool needs_faces = c.kind != Kind::temperature && !c.in_volume();
     if (stands(mesh, there, c.group, needs_faces)) continue;
     if (named(c.stages, stage)) refuse(c.where, "the thermal condition '" + c.name + "'", *stage);
     idle.push_back(c.name);

@@ -423,6 +423,10 @@ void check_case(const CaseSpec& spec) {
   if (!spec.time.steady && spec.output.every && *spec.time.end / *spec.output.every > 1e6)
     throw InputError(spec.time.where, "more than a million outputs are asked for",
                      "a longer `every` in [output]");
+  for (const ThermalConditionSpec& c : spec.thermal_conditions)
+    if (spec.time.steady && c.kind == ThermalConditionSpec::Kind::exothermic)
+      throw InputError(c.where, fmt::format("'{}' burns, and a steady analysis has no time for it", c.name),
+                       "steady = false, or kind = \"source\"");
   if (spec.time.steady && spec.dynamics)
     throw InputError(spec.dynamics->where, "inertia in a steady analysis, in which nothing moves",
                      "no [dynamics], or steady = false");

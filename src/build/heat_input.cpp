@@ -40,6 +40,9 @@ heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage)
       case Kind::source:
         conditions.sources.push_back({c.name, c.group, placed(c.power), placed(c.factor)});
         break;
+      case Kind::exothermic:
+        conditions.exothermics.push_back({c.name, c.group, c.heat, c.ignition, c.duration});
+        break;
     }
   }
   return conditions;

@@ -138,7 +138,7 @@ void check_groups(const CaseSpec& spec, const RawMesh& mesh) {
   }
   for (const auto& c : spec.thermal_conditions) {
     const std::string user = "thermal condition '" + c.name + "'";
-    if (c.kind == ThermalConditionSpec::Kind::source)
+    if (c.in_volume())
       require_body(spec, c.group, c.where, user);
     else
       require(mesh, c.group, c.kind == ThermalConditionSpec::Kind::temperature ? -1 : surface, c.where, user);

@@ -204,7 +204,9 @@ struct BodySpec {
 };
 
 struct ThermalConditionSpec {
-  enum class Kind { temperature, flux, film, radiation, source };
+  enum class Kind { temperature, flux, film, radiation, source, exothermic };
+  /// Whether it acts in the volume of a body, and its group is one.
+  bool in_volume() const { return kind == Kind::source || kind == Kind::exothermic; }
   std::string name, group;
   Kind kind = Kind::temperature;
   // Functions of time, or of position and time.
@@ -214,6 +216,9 @@ struct ThermalConditionSpec {
   Function emissivity;              ///< [1]; or of the surface's temperature
   Function ambient;                 ///< [K]
   Function power;                   ///< [W/m³]
+  double heat = 0;                  ///< of what burns [J/m³]
+  double ignition = 0;              ///< [K]
+  double duration = 0;              ///< of burning [s]
   Function factor;                  ///< of flux, coefficient, emissivity or power [1]
   std::vector<std::string> stages;  ///< in which it holds; empty: all
   Clock clock = Clock::run;

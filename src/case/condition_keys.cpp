@@ -24,13 +24,17 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
   Section<C> s("thermal_condition",
                "Heat at the boundary or in the volume. Where nothing is said, a surface is insulated.");
   s.key("name", &C::name).doc("A name of your choice; a variant refers to it.");
-  s.key("group", &C::group).doc("Surface group of the mesh; for kind = \"source\" a body.");
+  s.key("group", &C::group)
+      .doc("Surface group of the mesh; for kind = \"source\" and \"exothermic\" a body.");
   s.choice("kind", &C::kind,
            {{"temperature", C::Kind::temperature, "prescribed temperature"},
             {"flux", C::Kind::flux, "prescribed heat flux"},
             {"film", C::Kind::film, "h (ambient - T)"},
             {"radiation", C::Kind::radiation, "grey body: emissivity x Stefan-Boltzmann (ambient^4 - T^4)"},
-            {"source", C::Kind::source, "heat released in the volume of a body"}})
+            {"source", C::Kind::source, "heat released in the volume of a body"},
+            {"exothermic", C::Kind::exothermic,
+             "heat that a body releases once, place after place, when it has become hot enough: a sleeve or "
+             "a topping that burns"}})
       .doc("What acts there.");
   s.function("temperature", &C::temperature, "K")
       .of({Argument::time})
@@ -66,6 +70,18 @@ Section<ThermalConditionSpec> thermal_condition_keys() {
       .anywhere()
       .when("kind", {"source"})
       .doc("Heat released per volume and time.");
+  s.quantity("heat", &C::heat, "J/m3")
+      .positive()
+      .when("kind", {"exothermic"})
+      .doc("Heat that the body releases in all, per volume: heat per mass times its density.");
+  s.quantity("ignition", &C::ignition, "K")
+      .positive()
+      .when("kind", {"exothermic"})
+      .doc("The temperature at which a place ignites.");
+  s.quantity("duration", &C::duration, "s")
+      .positive()
+      .when("kind", {"exothermic"})
+      .doc("How long a place burns; its heat comes evenly.");
   s.function("factor", &C::factor, "1")
       .of({Argument::time})
       .anywhere()

@@ -47,6 +47,8 @@ void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasure
 /// Bodies that can move as a whole at the start, in a direction in which neither a support nor a contact
 /// holds them: whole groups of bodies, and single ones that fall. Translations alone. Collective.
 void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
+/// Castings that shrink in elements without pores and feeding. Collective.
+void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Supports and loads. Collective.
 void find_in_mechanics(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 /// Runs that do not fit into the machine or the year, and outputs without number.

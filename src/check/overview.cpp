@@ -127,6 +127,11 @@ results::SkinOverview condition_overview(const CaseSpec& spec, const ThermalCond
       skin.faces = "source";
       skin.law = values(c.power, "W/m3");
       break;
+    case Kind::exothermic:
+      skin.faces = "burns";
+      skin.law = fmt::format("{:.4g} J/m3 in {:.4g} s from {:.0f} degC", c.heat, c.duration,
+                             units::to_display(c.ignition, "K", "degC"));
+      break;
   }
   return skin;
 }

@@ -307,9 +307,8 @@ std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasu
     Pour pour;
     pour.body = b;
     const bool heated =
-        std::any_of(spec.thermal_conditions.begin(), spec.thermal_conditions.end(), [&](const auto& c) {
-          return c.kind == ThermalConditionSpec::Kind::source && c.group == spec.bodies[b].mesh_group();
-        });
+        std::any_of(spec.thermal_conditions.begin(), spec.thermal_conditions.end(),
+                    [&](const auto& c) { return c.in_volume() && c.group == spec.bodies[b].mesh_group(); });
     if (heated)
       pour.no_estimate = "a source heats it";
     else if (spec.time.steady)

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "heat/thermal_phase.hpp"
 #include "linear/interruption.hpp"
 #include "parallel/parallel.hpp"
 #include "system/errors.hpp"
@@ -317,6 +318,7 @@ Simulation::Try Simulation::try_step(Progress& p) {
   const PlannedStep step = p.control->plan(p.committed.time);
   StepMeasure measure;
   StepRecord record;
+  if (heat_ != nullptr) heat_->begin_burning(p.committed.burning, p.committed.time, step.time);
   try {
     const MeasuredStep::Taken taken = p.step->take(p.committed, p.trial, step.time, step.dt);
     measure = {std::max(taken.effort.heat.hard(), taken.effort.mechanics.hard()), taken.error.temperature,
@@ -339,6 +341,9 @@ Simulation::Try Simulation::try_step(Progress& p) {
     p.stop = {false, rejection.reason(), rejection.where(), p.record.rejected, step.dt};
     return Try::stuck;
   }
+  if (heat_ != nullptr)
+    p.trial.burning =
+        heat_->burnt(p.committed.burning, p.committed.heat, p.trial.heat, p.committed.time, step.time);
   p.trial.time = step.time;
   p.trial.shot = p.committed.shot;
   p.trial.poured = p.committed.poured;

@@ -18,6 +18,10 @@
 #include "coupling/step_control.hpp"
 #include "criteria/criteria.hpp"
 
+namespace solidus::heat {
+class ThermalPhase;
+}
+
 namespace solidus::coupling {
 
 /// A part of the run with conditions of its own. Its first step starts anew: no step size, no rates and no
@@ -60,6 +64,9 @@ class Simulation {
   void add(Observer& observer) { observers_.push_back(&observer); }
   /// Brings State::criteria along with every step that is committed; must outlive the simulation.
   void follow(criteria::Criteria& criteria) { criteria_ = &criteria; }
+  /// Gives this phase the heat of bodies that burn, and brings State::burning along; must outlive the
+  /// simulation.
+  void follow_burning(heat::ThermalPhase& heat) { heat_ = &heat; }
   /// Asked before each step, on every process; the run stops when one of them says so.
   void stop_when(std::function<bool()> asked) { stop_asked_ = std::move(asked); }
   /// Called when a stage of the run begins, also where a run goes on inside it: gives the phases its
@@ -140,6 +147,7 @@ class Simulation {
   std::optional<ErrorEstimate> estimate_;
   std::vector<Observer*> observers_;
   criteria::Criteria* criteria_ = nullptr;
+  heat::ThermalPhase* heat_ = nullptr;
   std::function<bool()> stop_asked_;
   StageBegins stage_begins_;
   const ShotMap* shot_map_ = nullptr;

@@ -5,6 +5,7 @@
 
 #include "contact/state.hpp"
 #include "criteria/state.hpp"
+#include "heat/exothermic.hpp"
 #include "heat/thermal_state.hpp"
 #include "mechanics/mechanical_state.hpp"
 
@@ -23,8 +24,9 @@ struct State {
   std::vector<double> displacement_rate;
   /// The same of the nodal pressure of mixed elements [Pa/s], [local node][field].
   std::vector<double> pressure_rate;
-  /// Schemes leave it alone: the simulation brings it to the state that it commits.
+  /// Schemes leave these alone: the simulation brings them to the state that it commits.
   criteria::State criteria;
+  heat::BurningState burning;
 };
 
 }  // namespace solidus::coupling

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "heat/exothermic.hpp"
 #include "numbers/place_function.hpp"
 
 namespace solidus::heat {
@@ -66,6 +67,7 @@ struct Conditions {
   std::vector<Film> films;
   std::vector<Radiation> radiations;
   std::vector<Source> sources;
+  std::vector<Exothermic> exothermics;
   /// Names of the bodies that have been removed: their elements neither conduct nor store heat, nodes that
   /// belong to them alone keep their temperature, and conditions hold only where another body is.
   std::vector<std::string> absent_bodies;

@@ -33,6 +33,7 @@ void HeatSystem::add_conditions(const Conditions& conditions) {
   for (const Film& film : conditions.films) add_surface(film);
   for (const Radiation& radiation : conditions.radiations) add_surface(radiation);
   add_sources(conditions.sources);
+  add_burning(conditions.exothermics);
   add_prescribed(conditions.temperatures);
   surface_power_.resize(surfaces_.size());
   source_power_.resize(sources_.size());
@@ -43,12 +44,16 @@ void HeatSystem::add_conditions(const Conditions& conditions) {
                   [](const Prescribed& p) { return !p.value.uniform(); });
 }
 
+int HeatSystem::body_named(const std::string& name) const {
+  std::map<std::string, int> bodies;
+  for (std::size_t i = 0; i < mesh_.bodies.size(); ++i) bodies[mesh_.bodies[i].name] = static_cast<int>(i);
+  return find(bodies, name, "body");
+}
+
 // Spread over the nodes as their heat is stored, so that a uniform source warms them alike.
 void HeatSystem::add_sources(const std::vector<Source>& sources) {
   for (const Source& source : sources) {
-    std::map<std::string, int> bodies;
-    for (std::size_t i = 0; i < mesh_.bodies.size(); ++i) bodies[mesh_.bodies[i].name] = static_cast<int>(i);
-    const int body = find(bodies, source.body, "body");
+    const int body = body_named(source.body);
     Volume volume{.name = source.name, .power = source.power, .factor = source.factor};
     if (volume.placed() && at_nodes_[static_cast<std::size_t>(body)] == 0)
       add_gauss_shares(body, volume);
@@ -56,6 +61,25 @@ void HeatSystem::add_sources(const std::vector<Source>& sources) {
       add_nodal_shares(body, volume);
     volume.heat.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
     sources_.push_back(std::move(volume));
+  }
+}
+
+void HeatSystem::add_burning(const std::vector<Exothermic>& exothermics) {
+  if (!exothermics.empty()) ignition_.assign(mesh_.x.size(), HUGE_VAL);
+  for (const Exothermic& burning : exothermics) {
+    const int body = body_named(burning.body);
+    Volume volume{.name = burning.name, .power = 0.0, .factor = 1.0};
+    volume.burning = burning;
+    add_nodal_shares(body, volume);
+    volume.heat.resize(static_cast<std::size_t>(mesh_.n_owned_nodes));
+    sources_.push_back(std::move(volume));
+    if (!active_.body(body)) continue;
+    for (const mesh::Block& block : mesh_.blocks)
+      if (block.body == body)
+        for (const Index node : block.nodes) {
+          double& lowest = ignition_[static_cast<std::size_t>(node)];
+          lowest = std::min(lowest, burning.ignition);
+        }
   }
 }
 
@@ -135,6 +159,17 @@ void HeatSystem::Volume::set_time(double time) {
   for (const Share& share : shares) {
     const auto point = static_cast<std::size_t>(share.point);
     heat[static_cast<std::size_t>(share.node)] += now[point] * factor_now[point] * share.weight;
+  }
+}
+
+void HeatSystem::Volume::burn(const BurningState& state, double begin, double end) {
+  std::fill(heat.begin(), heat.end(), 0.0);
+  if (state.lit.empty()) return;
+  for (const Share& share : shares) {
+    const auto node = static_cast<std::size_t>(share.node);
+    const double after = burnt_share(state.lit[node], burning->duration, end),
+                 before = burnt_share(state.lit[node], burning->duration, state.released[node]);
+    heat[node] += burning->heat * (after - before) / (end - begin) * share.weight;
   }
 }
 

@@ -68,6 +68,7 @@ bool HeatSystem::set_conditions(const Conditions& conditions) {
   if (others) change_bodies(active);
   surfaces_.clear();
   sources_.clear();
+  ignition_.clear();
   prescribed_.clear();
   add_conditions(conditions);
   if (others) matrix_->set_graph(graph());
@@ -120,8 +121,14 @@ void HeatSystem::set_time(double time) {
 
 void HeatSystem::evaluate(double time) {
   for (SurfaceHeat& surface : surfaces_) surface.set_time(time);
-  for (Volume& source : sources_) source.set_time(time);
+  for (Volume& source : sources_)
+    if (!source.burning) source.set_time(time);
   for (Prescribed& p : prescribed_) p.value.values(p.x, time, p.now);
+}
+
+void HeatSystem::set_burning(const BurningState& state, double begin, double end) {
+  for (Volume& source : sources_)
+    if (source.burning) source.burn(state, begin, end);
 }
 
 void HeatSystem::prescribe(std::span<double> temperature) const {

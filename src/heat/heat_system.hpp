@@ -43,6 +43,13 @@ class HeatSystem {
   /// Collective where a condition varies with position. Throws InputError, on every process, where it has no
   /// value that is allowed.
   void set_time(double time);
+  /// The power of the bodies that burn, constant from here on until the next call.
+  /// @param state       at the start of the step, of all local nodes; empty: nothing burns
+  /// @param begin, end  of the step [s]
+  void set_burning(const BurningState& state, double begin, double end);
+  /// Temperatures at which the nodes of bodies that burn ignite, infinite at others; at a node of several
+  /// such bodies the lowest one. [local node] [K]; empty where no body burns.
+  const std::vector<double>& ignition() const { return ignition_; }
   /// Off: nothing flows, only the contributions that store are terms.
   void exchange(bool on) { exchange_ = on; }
   /// Writes the prescribed temperatures of the time set, ghosts too.
@@ -136,8 +143,10 @@ class HeatSystem {
     std::vector<Position> x = {};   ///< of the points; empty where power and factor are the same everywhere
     std::vector<double> heat = {};  ///< into the owned nodes at the time set [W]
     std::vector<double> now = {}, factor_now = {};  ///< work, [point]
+    std::optional<Exothermic> burning = {};         ///< its power comes from set_burning()
     bool placed() const { return !power.uniform() || !factor.uniform(); }
     void set_time(double time);
+    void burn(const BurningState& state, double begin, double end);
   };
   /// Kirchhoff's potential at the nodes of one body whose conductivity varies.
   struct Field {
@@ -146,6 +155,8 @@ class HeatSystem {
   };
   void add_prescribed(const std::vector<PrescribedTemperature>& conditions);
   void add_sources(const std::vector<Source>& sources);
+  void add_burning(const std::vector<Exothermic>& exothermics);
+  int body_named(const std::string& name) const;
   void add_nodal_shares(int body, Volume& volume) const;
   void add_gauss_shares(int body, Volume& volume) const;
   void evaluate(double time);
@@ -184,6 +195,7 @@ class HeatSystem {
   std::vector<SharedPair> shared_;
   std::vector<SurfaceHeat> surfaces_;
   std::vector<Volume> sources_;
+  std::vector<double> ignition_;
   std::vector<Prescribed> prescribed_;
   std::vector<char> fixed_;
   bool placed_ = false;  ///< some condition varies with position

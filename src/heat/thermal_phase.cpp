@@ -127,4 +127,14 @@ TemperatureRange ThermalPhase::ambient_range(bool with_contributions) const {
   return system_->ambient_range(with_contributions);
 }
 
+void ThermalPhase::begin_burning(const BurningState& state, double begin, double end) {
+  system_->set_burning(state, begin, end);
+}
+
+BurningState ThermalPhase::burnt(const BurningState& state, const ThermalState& before,
+                                 const ThermalState& after, double begin, double end) const {
+  if (state.lit.empty() || system_->ignition().empty()) return state;
+  return burn(state, system_->ignition(), before.temperature, after.temperature, begin, end);
+}
+
 }  // namespace solidus::heat

@@ -139,6 +139,14 @@ class ThermalPhase {
   /// From nodal temperatures [K], [local node], ghosts up to date.
   ThermalState initial_state_at_nodes(std::span<const double> temperature) const;
 
+  /// Gives bodies that burn the power of the step that begins (heat/exothermic.hpp), constant in all its
+  /// passes.
+  /// @param state  at the start of the step; empty: nothing burns
+  void begin_burning(const BurningState& state, double begin, double end);
+  /// The burning state at the end of that step, from the temperatures at its ends; empty if `state` is.
+  BurningState burnt(const BurningState& state, const ThermalState& before, const ThermalState& after,
+                     double begin, double end) const;
+
   /// Solves for t_{n+1} from the state at t_n. `trial` is written only on success; it may be `old` or the
   /// iterate. Prescribed temperatures hold at t_{n+1}; at the temperature of an isothermal change such a node
   /// keeps as much of its old heat as that temperature allows. Throws StepRejected (on all processes) when

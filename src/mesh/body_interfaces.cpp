@@ -67,6 +67,34 @@ bool lies_in(const std::optional<HalfSpace>& plane, const SkinFace& face) {
          k_near * std::sqrt(face.area);
 }
 
+/// Of each face of the skins the body whose face has the same corners, as those of bodies have that were
+/// meshed together; −1 of others. [body][face]
+std::vector<std::vector<int>> coincident(const std::vector<std::vector<SkinFace>>& skins) {
+  std::map<std::vector<Point>, std::pair<std::size_t, std::size_t>> first;  // by sorted corners
+  std::vector<std::vector<int>> partner;
+  for (std::size_t b = 0; b < skins.size(); ++b) {
+    partner.emplace_back(skins[b].size(), -1);
+    for (std::size_t f = 0; f < skins[b].size(); ++f) {
+      std::vector<Point> corners(skins[b][f].corners.begin(), skins[b][f].corners.end());
+      std::sort(corners.begin(), corners.end());
+      const auto [other, is_new] = first.try_emplace(std::move(corners), b, f);
+      if (is_new || other->second.first == b) continue;
+      partner[b][f] = static_cast<int>(other->second.first);
+      partner[other->second.first][other->second.second] = static_cast<int>(b);
+    }
+  }
+  return partner;
+}
+
+/// The faces of a body that may face another one: those that coincide with a face of a third do not, though
+/// it be near, as around the edge where three bodies meet.
+std::vector<std::size_t> candidates(const std::vector<int>& partner, int other) {
+  std::vector<std::size_t> faces;
+  for (std::size_t f = 0; f < partner.size(); ++f)
+    if (partner[f] < 0 || partner[f] == other) faces.push_back(f);
+  return faces;
+}
+
 }  // namespace
 
 std::vector<SplitNodes> shared_by(const RawMesh& mesh, const std::vector<std::string>& bodies) {
@@ -132,6 +160,7 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
     skins.push_back(skin_of(mesh, body));
     faces_somebody.emplace_back(skins.back().size(), 0);
   }
+  const std::vector<std::vector<int>> partner_of = coincident(skins);
   std::vector<Facing> found;
   for (const FacingWish& wish : wishes) {
     const std::array<int, 2> pair = {wish.bodies.first, wish.bodies.second};
@@ -142,8 +171,11 @@ std::vector<Facing> find_facing(RawMesh& mesh, const std::vector<std::string>& b
     std::array<Side, 2> sides;
     for (std::size_t s = 0; s < 2; ++s) {
       const std::vector<SkinFace>& own = skins[at(pair[s])];
-      const FaceSearch search(skins[at(pair[1 - s])], distance);
-      for (std::size_t f = 0; f < own.size(); ++f) {
+      std::vector<SkinFace> others;
+      for (const std::size_t f : candidates(partner_of[at(pair[1 - s])], pair[s]))
+        others.push_back(skins[at(pair[1 - s])][f]);
+      const FaceSearch search(others, distance);
+      for (const std::size_t f : candidates(partner_of[at(pair[s])], pair[1 - s])) {
         const std::vector<Point> points = sample_points(own[f]);
         const double share = own[f].area / static_cast<double>(points.size());
         double covered = 0;

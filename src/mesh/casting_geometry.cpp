@@ -53,7 +53,9 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
   double best_quality = 0;
   int best_way = 0;
   std::vector<std::string> complaints;
+  const int n_cheap = solids ? n_cheap_meshing_attempts() : n_attempts;
   for (geometry.attempt = 0; geometry.attempt < n_attempts; ++geometry.attempt) {
+    if (geometry.attempt >= n_cheap && best_quality >= k_usable_quality) break;
     try {
       RawMesh mesh = read_in_one_way(source, &geometry);
       if (enough > 0 && source.element_order == 1) smooth_poor_tetrahedra(mesh);
@@ -79,7 +81,7 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
   }
   if (best_quality < enough)
     logging::warn("the best of {} ways to mesh '{}' has elements of quality {:.2g}; 0.15 is sound",
-                  n_attempts, source.path, best_quality);
+                  geometry.attempt, source.path, best_quality);
   else if (best_way > 0 && enough > 0)
     logging::info("meshed in way {} ({}), after: {}", best_way + 1, attempt_text(best_way),
                   complaints.back());

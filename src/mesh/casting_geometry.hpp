@@ -50,8 +50,13 @@ struct CastingGeometry {
 
 /// Least quality (mesh/quality.hpp) of a mesh that is taken at once.
 inline constexpr double k_sound_quality = 0.15;
+/// Least quality of a mesh that is good enough not to try others with elements of less than 0.8 of the size,
+/// which cost several times as much and seldom are better.
+inline constexpr double k_usable_quality = 0.05;
 /// Number of meshing attempts of solids of a CAD program: as the file is, with HXT, healed, finer, …
 int n_meshing_attempts();
+/// Those of them that are tried whatever the quality of the meshes before is.
+int n_cheap_meshing_attempts();
 /// Describes an attempt for messages: "healed, elements of 0.7 of the size".
 std::string meshing_attempt(int attempt);
 /// The same of skins of triangles (mesh/faceted_casting.hpp).
@@ -59,10 +64,11 @@ int n_faceted_attempts();
 std::string faceted_attempt(int attempt);
 
 /// Meshes a STEP, BREP, IGES or STL file, or what the skins of the bodies of a mesh enclose, in one way after
-/// the other until every body has elements and the least quality is k_sound_quality; else takes the best of
-/// those that gave a mesh, with a warning. The first way of those that succeeds is said where it is not the
-/// first of all. Each way is a reader process of its own. Throws InputError with the complaints of each way
-/// where none gives a mesh.
+/// the other until every body has elements and the least quality is k_sound_quality, those that are much
+/// finer only where the least quality of the others is below k_usable_quality; else takes the best of those
+/// that gave a mesh, with a warning. The first way of those that succeeds is said where it is not the first
+/// of all. Each way is a reader process of its own. Throws InputError with the complaints of each way where
+/// none gives a mesh.
 /// @param enough  the least quality, 0 where any mesh will do
 RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough = k_sound_quality);
 

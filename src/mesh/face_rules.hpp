@@ -36,11 +36,16 @@ struct SkinPatch {
   Point centre{}, normal{};             ///< means by area [m]; normal of length below one where it is curved
   Point low{}, high{};                  ///< corners of its box [m]
   std::vector<std::size_t> neighbours;  ///< patches of the same list across its edges
+  std::vector<std::array<Point, 3>> triangles;  ///< of its faces, in three dimensions [m]
 };
 
 /// All patches of the bodies' skins, body by body, the largest first.
 std::vector<SkinPatch> skin_patches(const RawMesh& mesh, const std::vector<std::string>& bodies,
                                     double angle);
+
+/// The patches as a file of ParaView (legacy VTK, text): triangles with the number of their patch, as in the
+/// table, and that of their body in the order of the list; lengths in m.
+std::string to_vtk(const std::vector<SkinPatch>& patches);
 
 /// The patches as a table; lengths in mm.
 std::string to_text(const std::vector<SkinPatch>& patches);

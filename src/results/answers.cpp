@@ -1,7 +1,5 @@
 #include "results/answers.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -9,7 +7,6 @@
 #include "criteria/gather.hpp"
 #include "criteria/pools.hpp"
 #include "heat/nodal_enthalpy.hpp"
-#include "input/units.hpp"
 #include "mesh/block_geometry.hpp"
 #include "numbers/types.hpp"
 #include "parallel/parallel.hpp"
@@ -206,168 +203,6 @@ std::optional<Answers::Pores> pores(const mesh::Mesh& mesh, AnalysisKind kind, c
   return Answers::Pores{.volume = volume, .share = volume / whole, .densest = *largest};
 }
 
-/// Relative defect of the first law beyond which it is not reported as closed.
-constexpr double k_closed = 1e-6;
-
-/// Values in the units that the user wants to read.
-class Formatter {
- public:
-  explicit Formatter(const DisplayUnits& units) : units_(units) {}
-
-  std::string place(const mesh::Point& p) const {
-    const auto shown = [this](double x) {
-      return std::abs(x) < 1e-9 ? 0.0 : units::to_display(x, "m", units_.length);
-    };
-    return fmt::format("at ({:.4g}, {:.4g}, {:.4g}) {}", shown(p[0]), shown(p[1]), shown(p[2]),
-                       units_.length);
-  }
-  std::string length(double metres) const {
-    return fmt::format("{:.4g} {}", units::to_display(metres, "m", units_.length), units_.length);
-  }
-  std::string temperature(double kelvin) const {
-    return fmt::format("{:.4g} {}", units::to_display(kelvin, "K", units_.temperature), units_.temperature);
-  }
-  /// Of a change of temperature [K].
-  std::string change(double kelvin) const {
-    constexpr auto k_difference = units::Temperature::difference;
-    const std::string unit = units_.temperature == "degC" ? "K" : units_.temperature;
-    return fmt::format("{:.3g} {}", units::to_display(kelvin, "K", unit, k_difference), unit);
-  }
-  std::string stress(double pascal) const {
-    return fmt::format("{:.4g} {}", units::to_display(pascal, "Pa", units_.stress), units_.stress);
-  }
-  std::string volume(double cubic_metres) const {
-    return units_.length == "mm"
-               ? fmt::format("{:.4g} cm3", 1e6 * cubic_metres)
-               : fmt::format("{:.4g} {}3",
-                             cubic_metres * std::pow(units::to_display(1, "m", units_.length), 3),
-                             units_.length);
-  }
-
- private:
-  const DisplayUnits& units_;
-};
-
-std::string line(std::string_view what, const std::string& answer) {
-  return fmt::format("  {:<36}{}\n", what, answer);
-}
-
-std::string cast_text(const CastAnswer& answer, double time, const Formatter& format) {
-  if (!answer.there)
-    return answer.froze ? fmt::format("has left; its last melt froze {:.4g} s after pouring {}",
-                                      answer.froze->value, format.place(answer.froze->where))
-                        : "has left";
-  if (answer.solid_fraction == 1)
-    return answer.froze ? fmt::format("solid; its last melt froze {:.4g} s after pouring {}",
-                                      answer.froze->value, format.place(answer.froze->where))
-                        : "solid";
-  // A body that is not solid is never reported as "100 % solid".
-  const double percent = std::min(100 * answer.solid_fraction, 99.9);
-  std::string text = fmt::format("{:.1f} % solid {:.6g} s after pouring", percent, time);
-  if (answer.hottest)
-    text += fmt::format("; the melt is hottest, {}, {}", format.temperature(answer.hottest->value),
-                        format.place(answer.hottest->where));
-  return text;
-}
-
-/// What the shots did to casting and die.
-std::string shot_lines(const std::vector<ShotRow>& shots, const Formatter& format) {
-  if (shots.empty()) return "";
-  const coupling::ShotRecord &first = shots.front().shot, &last = shots.back().shot;
-  const auto both = [&](const std::string& of_first, const std::string& of_last) {
-    return shots.size() == 1
-               ? of_last
-               : fmt::format("{} in shot {}, {} in shot {}", of_first, first.number, of_last, last.number);
-  };
-  const auto solid = [](const ShotRow& row) {
-    return row.time_to_solidify ? fmt::format("{:.4g} s", *row.time_to_solidify)
-                                : std::string("(not solid when it left)");
-  };
-  const std::string n = shots.size() == 1 ? "1 shot" : fmt::format("{} shots", shots.size());
-  std::string text =
-      line("the die is periodic",
-           last.periodic ? fmt::format("after {}: within {} from shot to shot", n, format.change(last.change))
-                         : fmt::format("not to see after {}: it changed by up to {} in the last", n,
-                                       format.change(last.change)));
-  text += line("time to solidify", both(solid(shots.front()), solid(shots.back())));
-  text += line("die when a shot begins, mean",
-               both(format.temperature(first.at_pour.mean), format.temperature(last.at_pour.mean)));
-  text += line("die when a shot begins, hottest",
-               both(format.temperature(first.at_pour.highest), format.temperature(last.at_pour.highest)));
-  return text;
-}
-
-/// Of each riser: whether it fed the castings to the end.
-std::string riser_lines(const Answers& answers) {
-  bool part_solid = true, any_part = false;
-  double part = 0;
-  for (const CastAnswer& a : answers.castings) {
-    if (a.cast.feeds || (!a.there && !a.froze)) continue;
-    any_part = true;
-    part_solid = part_solid && a.froze;
-    if (a.froze) part = std::max(part, a.froze->value);
-  }
-  std::string text;
-  for (const CastAnswer& riser : answers.castings) {
-    if (!riser.cast.feeds || (!riser.there && !riser.froze) || !any_part) continue;
-    std::string verdict;
-    if (riser.froze && part_solid)
-      verdict = riser.froze->value > part
-                    ? fmt::format("outlived the part by {:.4g} s", riser.froze->value - part)
-                    : fmt::format("froze {:.4g} s before the part: it could not feed to the end",
-                                  part - riser.froze->value);
-    else if (part_solid)
-      verdict = "outlived the part";
-    else if (riser.froze)
-      verdict = "is solid while the part is not: it cannot feed any more";
-    else
-      verdict = "still has melt, as the part has";
-    text += line(fmt::format("riser '{}'", riser.cast.name), verdict);
-  }
-  return text;
-}
-
-std::string pools_text(const Answers::CutOffPools& pools, const Formatter& format) {
-  if (pools.number == 0) return "none";
-  return fmt::format(
-      "{}; the largest had {} and {} {}", pools.number, format.volume(pools.largest),
-      pools.frozen ? fmt::format("froze after {:.4g} s", *pools.frozen) : std::string("is still there"),
-      format.place(pools.where));
-}
-
-/// Line of the printed answers on a criterion, and the name of the finding that it shows.
-struct Line {
-  std::string_view text, finding, unit;
-  double factor;
-};
-constexpr Line k_lines[] = {{"longest local solidification time", "local_solidification_time_max", "s", 1},
-                            {"largest arm spacing", "secondary_arm_spacing_max", "um", 1e6},
-                            {"least Niyama", "niyama_min", "K0.5 s0.5/mm", 1e-3},
-                            {"least dimensionless Niyama", "dimensionless_niyama_min", "", 1},
-                            {"largest estimate of porosity", "shrinkage_porosity_max", "%", 100}};
-
-std::string criteria_lines(const std::vector<criteria::Finding>& found, const Formatter& format) {
-  std::string text;
-  for (const Line& wanted : k_lines) {
-    const auto f = std::find_if(found.begin(), found.end(), [&](const criteria::Finding& finding) {
-      return finding.name == wanted.finding;
-    });
-    if (f == found.end()) continue;
-    std::string answer = fmt::format("{:.4g}", f->value * wanted.factor);
-    if (!wanted.unit.empty()) answer += fmt::format(" {}", wanted.unit);
-    if (f->somewhere) answer += " " + format.place(f->where);
-    text += line(wanted.text, answer);
-  }
-  return text;
-}
-
-Json value_json(const ValueAt& value, const std::string& unit) {
-  Json json;
-  json.add("value[" + unit + "]", value.value)
-      .add("at[m]", Json::Array(value.where.begin(), value.where.end()));
-  return json;
-}
-
 }  // namespace
 
 Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const coupling::State& state,
@@ -414,72 +249,6 @@ double solid_fraction(const coupling::Phases& phases, const coupling::State& sta
     solid += volume * phases.heat->mean_solid_fraction(state.heat, cast.body);
   }
   return whole > 0 ? solid / whole : 1.0;
-}
-
-std::string text(const Answers& a, const std::vector<criteria::Finding>& criteria,
-                 const DisplayUnits& units) {
-  const Formatter format(units);
-  std::string text = shot_lines(a.shots, format);
-  for (const CastAnswer& cast : a.castings)
-    text += line(fmt::format("{} '{}'", cast.cast.feeds ? "riser" : "casting", cast.cast.name),
-                 cast_text(cast, a.time - a.poured, format));
-  text += riser_lines(a);
-  if (a.pools) text += line("pools of melt cut off", pools_text(*a.pools, format));
-  if (!a.castings.empty()) text += criteria_lines(criteria, format);
-  if (a.pores)
-    text += line("shrinkage that nothing fed (pores)",
-                 fmt::format("{:.3g} % of the casting; the densest, {:.3g} %, {}", 100 * a.pores->share,
-                             100 * a.pores->densest.value, format.place(a.pores->densest.where)));
-  for (const GapAnswer& gap : a.gaps)
-    text += line(fmt::format("largest gap of '{}'", gap.contact),
-                 fmt::format("{} {}", format.length(gap.gap.value), format.place(gap.gap.where)));
-  if (a.distortion)
-    text += line("largest distortion",
-                 fmt::format("{} {}", format.length(a.distortion->value), format.place(a.distortion->where)));
-  if (a.stress)
-    text += line("largest von Mises stress", fmt::format("{} in '{}' {}", format.stress(a.stress->value),
-                                                         a.stressed_body, format.place(a.stress->where)));
-  if (a.energy_defect)
-    text += line("energy", fmt::format("{} {:.1e} of the heat exchanged",
-                                       std::abs(*a.energy_defect) < k_closed ? "closed to" : "not closed by",
-                                       std::abs(*a.energy_defect)));
-  return text;
-}
-
-Json json(const Answers& a) {
-  Json json;
-  Json castings;
-  for (const CastAnswer& cast : a.castings) {
-    Json of_body;
-    of_body.add("riser", cast.cast.feeds).add("there", cast.there);
-    if (cast.there) of_body.add("solid_fraction", cast.solid_fraction);
-    if (cast.froze) of_body.add("last_melt_froze", value_json(*cast.froze, "s"));
-    if (cast.hottest) of_body.add("hottest_melt", value_json(*cast.hottest, "K"));
-    castings.add(cast.cast.name, std::move(of_body));
-  }
-  json.add("time[s]", a.time).add("castings", std::move(castings));
-  if (a.pools) {
-    Json pools;
-    pools.add("number", a.pools->number);
-    if (a.pools->number > 0) {
-      pools.add("largest[m3]", a.pools->largest)
-          .add("at[m]", Json::Array(a.pools->where.begin(), a.pools->where.end()));
-      if (a.pools->frozen) pools.add("frozen[s]", *a.pools->frozen);
-    }
-    json.add("pools_cut_off", std::move(pools));
-  }
-  if (a.pores)
-    json.add("pores", value_json(a.pores->densest, "1")
-                          .add("volume[m3]", a.pores->volume)
-                          .add("share_of_casting", a.pores->share));
-  Json gaps;
-  for (const GapAnswer& gap : a.gaps) gaps.add(gap.contact, value_json(gap.gap, "m"));
-  json.add("largest_gaps", std::move(gaps));
-  if (a.distortion) json.add("largest_distortion", value_json(*a.distortion, "m"));
-  if (a.stress) json.add("largest_von_mises", value_json(*a.stress, "Pa").add("body", a.stressed_body));
-  if (!a.shots.empty()) json.add("shots", results::json(a.shots));
-  if (a.energy_defect) json.add("relative_energy_defect", *a.energy_defect);
-  return json;
 }
 
 }  // namespace solidus::results

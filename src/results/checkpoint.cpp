@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_format = "Solidus checkpoint 12";
+constexpr const char* k_format = "Solidus checkpoint 13";
 constexpr const char* k_known = "known";
 
 std::string block_name(const mesh::Mesh& mesh, std::size_t b) {
@@ -169,6 +169,8 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
   const Places nodes = places_of(mesh.input_node);
   take_nodes(in, "temperature", nodes, c.state.heat.temperature);
   take_nodes(in, "enthalpy", nodes, c.state.heat.enthalpy);
+  take_nodes(in, "lit", nodes, c.state.burning.lit);
+  take_nodes(in, "released", nodes, c.state.burning.released);
   take_nodes(in, "displacement", nodes, c.state.mechanics.displacement);
   take_nodes(in, "pressure", nodes, c.state.mechanics.pressure);
   take_nodes(in, "velocity", nodes, c.state.mechanics.velocity);
@@ -254,6 +256,8 @@ void CheckpointFolder::write(const mesh::Mesh& mesh, const Fingerprint& fingerpr
   };
   nodal("temperature", c.state.heat.temperature);
   nodal("enthalpy", c.state.heat.enthalpy);
+  nodal("lit", c.state.burning.lit);
+  nodal("released", c.state.burning.released);
   nodal("displacement", c.state.mechanics.displacement);
   nodal("pressure", c.state.mechanics.pressure);
   nodal("velocity", c.state.mechanics.velocity);

@@ -68,6 +68,7 @@ Transient::Transient(const CaseSpec& spec, const RunOptions& options, Assembly& 
   if (recorder != nullptr) simulation_.add(*recorder);
   simulation_.add(why_);
   if (a.criteria) simulation_.follow(*a.criteria);
+  if (!a.initial.burning.lit.empty()) simulation_.follow_burning(*a.heat);
   simulation_.stop_when(options.stop_asked);
   simulation_.at_stage([this](std::size_t stage, const coupling::StageStart& start, coupling::State* begins) {
     return apply(spec_, stage, start.displacement, begins, a_);

@@ -73,6 +73,18 @@ class NewCase(ProgramTest):
         self.assertAlmostEqual(volumes["pump_housing"], 88e-6, delta=1e-11)
         self.assertAlmostEqual(volumes["core"], 8e-6, delta=1e-12)
 
+    def test_of_an_assembly_takes_roles_from_names_and_says_which_body_is_which(self):
+        text = self.done("new", str(SOURCES / "tests/parts/valve.step"), "--alloy", "brass", "--fineness", "0.6", "-o", "case")
+        case = tomllib.loads((self.folder / "case/case.toml").read_text())
+        roles = {body.get("group", body["name"]): body["role"] for body in case["body"]}
+        self.assertEqual(roles, {"valve_body": "casting", "core": "core", "mould": "mould"})
+        self.assertRegex(text, r"casting +valve_body of brass, \d+ degC, 9\d\.\d cm3 in a box of 100 x 5\d(\.\d+)? x 71 mm")
+        pictures = self.folder / "faces"
+        table = self.done("mesh-info", "case", "--pictures", "faces")
+        numbers = [int(line.split()[0]) for line in table.splitlines() if line.split()[1:2] == ["valve_body"]]
+        self.assertTrue((pictures / f"faces_{min(numbers)}_to_{max(numbers)}.png").stat().st_size > 20000)
+        self.assertIn("SCALARS face int 1", (pictures / "faces.vtk").read_text())
+
     def test_of_a_part_of_millimetres_does_not_spend_its_nodes_on_the_mould(self):
         self.write("chip.stl", stl("chip", box((0, 0, 0), (3, 2, 1))))
         text, _ = self.new("chip.stl", "--process", "gravity_die")

@@ -19,8 +19,11 @@ namespace {
 using namespace solidus;
 using namespace solidus::model;
 using namespace solidus::model::test;
+using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 TEST_F(FindingsTest, ANormalPourGivesNone) {
   EXPECT_THAT(said_of(k_casting), IsEmpty());
@@ -89,7 +92,16 @@ TEST_F(FindingsTest, NormalPoursOfAllAlloysIntoAllMouldsGiveNone) {
 }
 
 TEST_F(FindingsTest, ANormalPourWithMechanicsGivesNone) {
-  EXPECT_THAT(said_of(deforming()), IsEmpty());
+  EXPECT_THAT(said_of(changed(deforming(), "quad4", "tri3")), IsEmpty());
+}
+
+TEST_F(FindingsTest, ShrinkingMetalInElementsWithoutPoresIsNamedOnce) {
+  EXPECT_THAT(said_of(deforming()), ElementsAre(HasSubstr("'upper' shrinks by 4.5 % as it freezes")));
+  EXPECT_THAT(said_of(changed(deforming(), "quad4", "tri3") + "[mechanics]\nsimplices = \"displacement\"\n"),
+              Contains(HasSubstr("neither open pores nor feed")));
+  // Heat alone, a mould that only conducts, and metal that does not shrink have nothing to feed.
+  EXPECT_THAT(said_of(changed(deforming(), "aluminium_alsi7mg", "aluminium_99_7")),
+              Not(Contains(HasSubstr("neither open pores"))));
 }
 
 TEST_F(FindingsTest, WhatKeepsACastingFromFreezingIsNamed) {

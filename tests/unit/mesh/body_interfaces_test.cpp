@@ -69,6 +69,36 @@ TEST(BodyInterfaces, BodiesThatShareNodesAreSplitAndTheGroupsOfTheirFacesStayWit
   }
 }
 
+// Three slabs in a row, the middle one thinner than the distance that is looked within: the outer ones do not
+// face each other through it, for each of their faces is one with a face of the middle.
+TEST(BodyInterfaces, AFaceThatIsOneWithAnothersFacesNoThirdBody) {
+  RawMesh mesh = test::split_block(Shape::hex8, {3, 2, 1}, {30, 2, 1}, 1);
+  RawBlock& rest = mesh.groups.at("right").blocks[0];
+  RawGroup thin = mesh.groups.at("right");
+  thin.blocks[0].nodes.clear();
+  std::vector<Index> kept;
+  for (std::size_t e = 0; e < rest.nodes.size(); e += 8) {
+    double x = 0;
+    for (std::size_t k = 0; k < 8; ++k) x += mesh.x[static_cast<std::size_t>(rest.nodes[e + k])][0] / 8;
+    std::vector<Index>& to = x < 1.1 ? thin.blocks[0].nodes : kept;
+    to.insert(to.end(), rest.nodes.begin() + static_cast<long>(e),
+              rest.nodes.begin() + static_cast<long>(e) + 8);
+  }
+  rest.nodes = kept;
+  mesh.groups["thin"] = thin;
+  const std::vector<std::string> bodies = {"left", "thin", "right"};
+  split_nodes(mesh, bodies, {{0, 1}, {1, 2}, {0, 2}});
+  const std::vector<Facing> found =
+      find_facing(mesh, bodies, bodies, {{{0, 1}, 0.3}, {{0, 2}, 0.3}, {{1, 2}, 0.3}}, {}, "block");
+  ASSERT_EQ(found.size(), 2U);
+  for (const Facing& facing : found) {
+    EXPECT_NE(facing.bodies, (BodyPair{0, 2}));
+    EXPECT_NEAR(facing.area_a, 2, 1e-12);
+    EXPECT_NEAR(facing.area_b, 2, 1e-12);
+    EXPECT_NEAR(facing.covered_a, 2, 1e-12);
+  }
+}
+
 TEST(BodyInterfaces, FacesOfMeshesThatDoNotMatchAreFoundAcrossAGap) {
   RawMesh mesh = make_two_blocks({{4, 4, 1}, {2, 2, 1}, {3, 3, 1}, {5, 5, 1}, 0.05}, Shape::hex8);
   const std::vector<std::string> bodies = {"lower", "upper"};

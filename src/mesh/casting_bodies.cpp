@@ -1,0 +1,274 @@
+// Makes the bodies of a casting, its riser and its mould out of a geometry (mesh/casting_parts.hpp).
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "mesh/casting_parts.hpp"
+#include "mesh/geometry_groups.hpp"
+#include "system/errors.hpp"
+
+namespace solidus::mesh {
+
+namespace {
+
+namespace occ = gmsh::model::occ;
+
+/// The last part of a label, with characters that group names do well with; empty for a label that a kernel
+/// made up.
+std::string tidy_label(int volume) {
+  std::string label;
+  gmsh::model::getEntityName(3, volume, label);
+  while (!label.empty() && label.back() == '/') label.pop_back();
+  label = label.substr(label.find_last_of('/') + 1);
+  if (label.starts_with("Open CASCADE") || label == "SOLID" || label == "Solid" ||
+      label == "the product name" || label == "Rhino Product")
+    return "";  // what programs write that know no name
+  std::replace_if(
+      label.begin(), label.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; }, '_');
+  return label;
+}
+
+class PartMaker {
+ public:
+  PartMaker(const MeshSource& source, const CastingGeometry& geometry, double healing)
+      : source_(source), geometry_(geometry), healing_(healing), unit_(source.unit_in_metres) {}
+
+  std::vector<Part> make() {
+    close_shells();
+    if (healing_ > 0) heal();
+    name_parts();
+    if (geometry_.symmetry) halve();
+    fragment();
+    occ::synchronize();
+    return std::move(parts_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what, const std::string& allowed = {}) const {
+    throw InputError({source_.path}, what, allowed);
+  }
+
+  /// Shells without a solid are sewn and filled.
+  void close_shells() {
+    if (!all_volumes().empty()) return;
+    gmsh::vectorpair surfaces, made;
+    occ::getEntities(surfaces, 2);
+    if (surfaces.empty()) refuse("the geometry has no surfaces");
+    const double tolerance = 1e-4 * extent_of(surfaces).diagonal();
+    occ::healShapes(made, surfaces, tolerance, true, true, true, true, true);
+    occ::remove(surfaces, true);
+    occ::synchronize();
+    if (all_volumes().empty())
+      refuse("the geometry has surfaces but no solid, and they do not close to one",
+             "a file with solids, or closed shells with gaps below 0.01 % of the extent");
+  }
+
+  void heal() {
+    gmsh::vectorpair made;
+    const gmsh::vectorpair before = all_volumes();
+    std::map<int, std::string> labels;
+    for (const auto& [dimension, tag] : before) labels[tag] = tidy_label(tag);
+    for (const auto& volume : before) {
+      gmsh::vectorpair one;
+      occ::healShapes(one, {volume}, healing_ * extent_of({volume}).diagonal(), true, true, true, true, true);
+      for (const auto& [dimension, tag] : one)
+        if (dimension == 3 && tag != volume.second) healed_label_[tag] = labels[volume.second];
+    }
+    for (const auto& volume : before)
+      if (healed_label_.size() == before.size()) occ::remove({volume}, true);
+    occ::synchronize();
+    if (all_volumes().empty()) refuse("healing the geometry left no solid");
+  }
+
+  std::string label_of(int volume) const {
+    const auto healed = healed_label_.find(volume);
+    return healed != healed_label_.end() ? healed->second : tidy_label(volume);
+  }
+
+  /// By the groups of the case, by labels, or as body_1, body_2, …
+  void name_parts() {
+    std::map<std::string, int> labels;
+    const gmsh::vectorpair all = all_volumes();
+    for (const auto& [dimension, tag] : all) ++labels[label_of(tag)];
+    std::map<std::string, int> used;
+    int number = 0;
+    for (const auto& volume : all) {
+      ++number;
+      std::string name;
+      for (const GeometryGroup& group : source_.geometry.groups)
+        if (group.bodies && (std::count(group.numbers.begin(), group.numbers.end(), number) > 0 ||
+                             (!group.label.empty() && group.label == label_of(volume.second)) ||
+                             (group.box && lies_in(*group.box, volume))))
+          name = group.name;
+      const std::string label = label_of(volume.second);
+      if (name.empty())
+        name = label.empty()           ? "body_" + std::to_string(number)
+               : labels.at(label) == 1 ? label
+                                       : label + "_" + std::to_string(++used[label]);
+      const auto same =
+          std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.name == name; });
+      if (same != parts_.end())
+        same->volumes.push_back(volume);
+      else
+        parts_.push_back({name, {volume}});
+    }
+    for (const GeometryGroup& group : source_.geometry.groups) {
+      if (!group.bodies)
+        refuse("the group '" + group.name +
+                   "' chooses surfaces by their numbers, which change where parts "
+                   "and mould are meshed together",
+               "a rule: owner, normal, plane, nearest");
+      if (std::none_of(parts_.begin(), parts_.end(), [&](const Part& p) { return p.name == group.name; }))
+        refuse("no body of the geometry fits the group '" + group.name + "'",
+               "numbers 1 to " + std::to_string(number) + ", or a label of the file");
+    }
+  }
+
+  bool lies_in(const std::array<Point, 2>& box, const std::pair<int, int>& volume) const {
+    const Extent extent = extent_of({volume});
+    const double slack = 1e-6 * extent.diagonal();
+    for (std::size_t i = 0; i < 3; ++i)
+      if (extent.low[i] < box[0][i] / unit_ - slack || extent.high[i] > box[1][i] / unit_ + slack)
+        return false;
+    return true;
+  }
+
+  void halve() {
+    const auto axis = static_cast<std::size_t>(geometry_.symmetry->axis);
+    Extent box = extent_of(all_volumes());
+    const double margin = box.diagonal(), at = geometry_.symmetry->at / unit_;
+    if (!(at > box.low[axis] && at < box.high[axis]))
+      refuse("the plane of symmetry does not cut the geometry");
+    for (std::size_t i = 0; i < 3; ++i) box.low[i] -= margin, box.high[i] += margin;
+    box.high[axis] = at;
+    for (Part& part : parts_) {
+      const int tool = occ::addBox(box.low[0], box.low[1], box.low[2], box.high[0] - box.low[0],
+                                   box.high[1] - box.low[1], box.high[2] - box.low[2]);
+      gmsh::vectorpair kept;
+      std::vector<gmsh::vectorpair> map;
+      occ::intersect(part.volumes, {{3, tool}}, kept, map);
+      part.volumes.clear();
+      for (const auto& entity : kept)
+        if (entity.first == 3) part.volumes.push_back(entity);
+    }
+    std::erase_if(parts_, [](const Part& part) { return part.volumes.empty(); });
+  }
+
+  /// Cuts all bodies, riser and mould with each other, so that they share the faces in which they touch.
+  void fragment() {
+    gmsh::vectorpair objects, tools, out;
+    std::vector<gmsh::vectorpair> map;
+    std::vector<std::size_t> part_of;  // of each object
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (const auto& volume : parts_[p].volumes) objects.push_back(volume), part_of.push_back(p);
+    int riser = -1, block = -1;
+    if (geometry_.riser) {
+      const RiserCylinder& r = *geometry_.riser;
+      riser = occ::addCylinder(r.foot[0] / unit_, r.foot[1] / unit_, r.foot[2] / unit_, 0, 0,
+                               r.height / unit_, r.diameter / unit_ / 2);
+      if (geometry_.symmetry) riser = half_of(riser);
+      tools.emplace_back(3, riser);
+    }
+    if (geometry_.mould) {
+      block = add_block();
+      tools.emplace_back(3, block);
+    }
+    if (objects.size() + tools.size() < 2) return;
+    if (tools.empty()) {
+      tools.push_back(objects.back());
+      objects.pop_back();
+    }
+    occ::fragment(objects, tools, out, map);
+    std::set<int> taken;
+    const auto take = [&](std::size_t input) {
+      gmsh::vectorpair pieces;
+      for (const auto& piece : map[input])
+        if (piece.first == 3 && taken.insert(piece.second).second) pieces.push_back(piece);
+      return pieces;
+    };
+    for (Part& part : parts_) part.volumes.clear();
+    for (std::size_t i = 0; i < part_of.size(); ++i) {
+      const gmsh::vectorpair pieces = take(i);
+      gmsh::vectorpair& all = parts_[part_of[i]].volumes;
+      all.insert(all.end(), pieces.begin(), pieces.end());
+    }
+    std::size_t next = part_of.size();
+    if (riser >= 0) parts_.push_back({geometry_.riser->name, take(next++)});
+    if (block >= 0) sort_mould(take(next));
+    for (const Part& part : parts_)
+      if (part.volumes.empty())
+        refuse("nothing is left of the body '" + part.name + "' beside the others: they overlap",
+               "bodies that touch and do not overlap");
+  }
+
+  int half_of(int volume) {
+    const auto axis = static_cast<std::size_t>(geometry_.symmetry->axis);
+    Extent box = extent_of({{3, volume}});
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double margin = box.high[i] - box.low[i];
+      box.low[i] -= margin, box.high[i] += margin;
+    }
+    box.high[axis] = geometry_.symmetry->at / unit_;
+    const int tool = occ::addBox(box.low[0], box.low[1], box.low[2], box.high[0] - box.low[0],
+                                 box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    gmsh::vectorpair kept;
+    std::vector<gmsh::vectorpair> map;
+    occ::intersect({{3, volume}}, {{3, tool}}, kept, map);
+    if (kept.empty()) refuse("the riser lies beyond the plane of symmetry");
+    return kept.front().second;
+  }
+
+  int add_block() {
+    gmsh::vectorpair inside = all_volumes();
+    block_ = extent_of(inside);
+    // Bounding boxes are a little large, and a face of the mould must lie in that of the part.
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double low = geometry_.mould->walls[2 * i] / unit_,
+                   high = geometry_.mould->walls[2 * i + 1] / unit_;
+      block_.low[i] -= low > 0 ? low : -k_slack;
+      block_.high[i] += high > 0 ? high : -k_slack;
+    }
+    if (geometry_.symmetry)
+      block_.high[static_cast<std::size_t>(geometry_.symmetry->axis)] = geometry_.symmetry->at / unit_;
+    return occ::addBox(block_.low[0], block_.low[1], block_.low[2], block_.high[0] - block_.low[0],
+                       block_.high[1] - block_.low[1], block_.high[2] - block_.low[2]);
+  }
+
+  /// Pieces of the block that reach one of its walls are mould, others lie in cavities.
+  void sort_mould(const gmsh::vectorpair& pieces) {
+    Part mould{geometry_.mould->name, {}};
+    gmsh::vectorpair cores;
+    const double slack = 1e-5 * block_.diagonal();
+    for (const auto& piece : pieces) {
+      const Extent box = extent_of({piece});
+      bool outside = false;
+      for (std::size_t i = 0; i < 3; ++i) {
+        outside = outside || (geometry_.mould->walls[2 * i] > 0 && box.low[i] < block_.low[i] + slack);
+        outside = outside || (geometry_.mould->walls[2 * i + 1] > 0 && box.high[i] > block_.high[i] - slack);
+      }
+      (outside ? mould.volumes : cores).push_back(piece);
+    }
+    parts_.push_back(mould);
+    for (std::size_t c = 0; c < cores.size(); ++c)
+      parts_.push_back(
+          {geometry_.mould->core + (cores.size() > 1 ? "_" + std::to_string(c + 1) : ""), {cores[c]}});
+  }
+
+  static constexpr double k_slack = 1e-7;  ///< margin of bounding boxes of Gmsh, in units of the file
+
+  const MeshSource& source_;
+  const CastingGeometry& geometry_;
+  double healing_, unit_;
+  std::vector<Part> parts_;
+  std::map<int, std::string> healed_label_;
+  Extent block_{};
+};
+
+}  // namespace
+
+std::vector<Part> make_parts(const MeshSource& source, const CastingGeometry& geometry, double healing) {
+  return PartMaker(source, geometry, healing).make();
+}
+
+}  // namespace solidus::mesh

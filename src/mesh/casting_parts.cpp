@@ -1,0 +1,81 @@
+#include "mesh/casting_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+
+namespace solidus::mesh {
+
+namespace occ = gmsh::model::occ;
+
+double Extent::diagonal() const {
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+Extent extent_of(const gmsh::vectorpair& entities) {
+  constexpr double k_huge = 1e300;
+  Extent all{{k_huge, k_huge, k_huge}, {-k_huge, -k_huge, -k_huge}};
+  for (const auto& [dimension, tag] : entities) {
+    Point low{}, high{};
+    occ::getBoundingBox(dimension, tag, low[0], low[1], low[2], high[0], high[1], high[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      all.low[i] = std::min(all.low[i], low[i]);
+      all.high[i] = std::max(all.high[i], high[i]);
+    }
+  }
+  return all;
+}
+
+gmsh::vectorpair all_volumes() {
+  gmsh::vectorpair all;
+  occ::getEntities(all, 3);
+  return all;
+}
+
+std::vector<int> boundary_of(int volume) {
+  gmsh::vectorpair faces;
+  gmsh::model::getBoundary({{3, volume}}, faces, false, false, false);
+  std::vector<int> tags;
+  for (const auto& face : faces) tags.push_back(std::abs(face.second));
+  return tags;
+}
+
+std::string place_of_complaints(const std::vector<Part>& parts) {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  std::set<int> faces;
+  std::string last;
+  for (const std::string& line : log) {
+    if (!line.starts_with("Error") && !line.starts_with("Warning")) continue;
+    if (line.starts_with("Error")) last = line;
+    for (std::size_t at = line.find("urface "); at != std::string::npos; at = line.find("urface ", at + 1))
+      if (const int tag = std::atoi(line.c_str() + at + 7); tag > 0) faces.insert(tag);
+  }
+  std::string text;
+  std::size_t said = 0;
+  for (const int face : faces) {
+    constexpr std::size_t k_most = 4;
+    if (said == k_most) break;
+    std::string owner;
+    for (const Part& part : parts)
+      for (const auto& volume : part.volumes) {
+        const std::vector<int> boundary = boundary_of(volume.second);
+        if (std::find(boundary.begin(), boundary.end(), face) != boundary.end() && owner.empty())
+          owner = part.name;
+      }
+    if (owner.empty()) continue;
+    Point low{}, high{};
+    gmsh::model::getBoundingBox(2, face, low[0], low[1], low[2], high[0], high[1], high[2]);
+    char place[160];
+    std::snprintf(place, sizeof place, "%s a face of '%s' around (%.4g, %.4g, %.4g), %.3g long",
+                  said++ == 0 ? "; at fault:" : ",", owner.c_str(), (low[0] + high[0]) / 2,
+                  (low[1] + high[1]) / 2, (low[2] + high[2]) / 2,
+                  std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]));
+    text += place;
+  }
+  return (last.empty() ? "" : " (" + last + ")") + text;
+}
+
+}  // namespace solidus::mesh

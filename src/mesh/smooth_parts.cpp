@@ -1,0 +1,45 @@
+#include "mesh/smooth_parts.hpp"
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace solidus::mesh {
+
+namespace {
+
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+}  // namespace
+
+SmoothParts smooth_parts(const std::vector<const SkinFace*>& faces, double angle) {
+  std::vector<std::size_t> root(faces.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  std::map<std::pair<Index, Index>, std::vector<std::size_t>> edges;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const std::size_t n = faces[f]->corners.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Index a = faces[f]->nodes[i], b = n == 2 ? a : faces[f]->nodes[(i + 1) % n];
+      edges[{std::min(a, b), std::max(a, b)}].push_back(f);
+    }
+  }
+  for (const auto& [edge, around] : edges)
+    for (std::size_t i = 1; i < around.size(); ++i)
+      if (dot(faces[around[0]]->normal, faces[around[i]]->normal) >= std::cos(angle))
+        root[find(around[i])] = find(around[0]);
+  SmoothParts parts;
+  for (std::size_t f = 0; f < faces.size(); ++f) parts.of_face.push_back(find(f));
+  for (const auto& [edge, around] : edges)
+    for (const std::size_t a : around)
+      for (const std::size_t b : around)
+        if (parts.of_face[a] != parts.of_face[b]) parts.meet.insert({parts.of_face[a], parts.of_face[b]});
+  return parts;
+}
+
+}  // namespace solidus::mesh

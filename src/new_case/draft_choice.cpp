@@ -1,0 +1,191 @@
+#include "new_case/draft_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/keys.hpp"
+#include "new_case/riser_choice.hpp"
+#include "new_case/rounding.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+class Choice {
+ public:
+  Choice(const NewCaseOptions& options, const CastingProcess& process, const material::Material& alloy,
+         const PartMeasures& part)
+      : options_(options), process_(process), alloy_(alloy), part_(part) {}
+
+  Draft choose() {
+    draft_.meshed = part_.meshed;
+    draft_.geometry = options_.geometry;
+    draft_.unit = options_.unit;
+    draft_.process = process_.name;
+    draft_.alloy = options_.alloy;
+    draft_.coupled = alloy_.mechanical();
+    const auto& curve = alloy_.solidification()->fraction;
+    constexpr double k_celsius = 273.15;
+    draft_.pouring = rounded_up(curve.liquidus() - k_celsius + process_.superheat, 5);
+    draft_.liquidus = curve.liquidus() - k_celsius;
+    draft_.superheat = draft_.pouring - draft_.liquidus;
+    choose_sizes(1);
+    thickest_ = 2 * (part_.spheres.empty() ? part_.thickness_at(0.9) / 2 : part_.spheres.front().radius);
+    if (!options_.symmetry.empty()) choose_symmetry();
+    if (options_.riser) {
+      if (part_.has_riser())
+        throw InputError({"--riser"}, "the geometry has a riser already", "no --riser auto");
+      draft_.riser = choose_riser(part_, std::abs(alloy_.solidification()->volume_change));
+      thickest_ = std::max(thickest_, draft_.riser->diameter);
+    }
+    choose_bodies();
+    if (!part_.has_mould) choose_mould();
+    for (const mesh::InscribedSphere& sphere : part_.spheres) draft_.hot_spots.push_back(sphere);
+    for (mesh::InscribedSphere& sphere : draft_.hot_spots) fold(sphere.centre);
+    if (draft_.riser) fold(draft_.riser->foot, 0);
+    draft_.film = process_.film;
+    draft_.film_source = process_.film_source;
+    draft_.end = 3600;
+    draft_.step = 1;
+    draft_.every = 30;
+    if (options_.shots > 0)
+      draft_.shots = {options_.shots, process_.pour,       600,
+                      process_.open,  process_.eject,      process_.spray,
+                      process_.close, process_.spray_film, process_.spray_source};
+    return draft_;
+  }
+
+ private:
+  /// Into the half that is kept; what is near the plane of symmetry comes as near to it as a share of the
+  /// thickest place.
+  void fold(mesh::Point& x, double inside = 1e-3) const {
+    if (!draft_.symmetry) return;
+    double& c = x[static_cast<std::size_t>(draft_.symmetry->axis)];
+    const double at = draft_.symmetry->at, near = 0.1 * thickest_;
+    if (c > at) c = 2 * at - c;
+    if (at - c < near) c = at - inside * thickest_;
+  }
+
+  void choose_symmetry() {
+    const auto axis = static_cast<std::size_t>(options_.symmetry[0] - 'x');
+    const double middle = 0.5 * (part_.low[axis] + part_.high[axis]);
+    double first = 0, whole = 0;
+    for (const GeometryBody& body : part_.bodies)
+      first += body.extent.volume * body.extent.centre[axis], whole += body.extent.volume;
+    constexpr double k_even = 2e-3;
+    if (std::abs(first / whole - middle) > k_even * (part_.high[axis] - part_.low[axis]))
+      throw InputError(
+          {"--symmetry"},
+          fmt::format(
+              "the geometry is not symmetric in {}: its centre of volume lies at {:.4g} mm, the middle "
+              "of its box at {:.4g} mm",
+              options_.symmetry, 1e3 * first / whole, 1e3 * middle),
+          "an axis normal to a plane of symmetry");
+    draft_.symmetry = {static_cast<int>(axis), middle};
+  }
+
+  /// Sizes for about 3500 nodes of metal, with two elements through walls where those suffice.
+  void choose_sizes(double scale) {
+    constexpr double k_nodes = 3500, k_nodes_per_cube = 3;
+    const double volume = part_.volume * (options_.symmetry.empty() ? 1 : 0.5);
+    const double by_number = std::cbrt(k_nodes_per_cube * volume / k_nodes) / options_.fineness;
+    draft_.size = two_digits(scale * by_number);
+    draft_.smallest =
+        two_digits(scale * std::clamp(0.5 * part_.thickness_at(0.1), 0.6 * by_number, by_number));
+    draft_.mould_size = two_digits(std::max(
+        2.5 * draft_.size, 0.6 * (part_.high[0] - part_.low[0] + part_.high[1] - part_.low[1]) / 20));
+  }
+
+  void choose_bodies() {
+    int castings = 0;
+    for (const GeometryBody& body : part_.bodies) castings += body.role == Role::casting;
+    for (const GeometryBody& body : part_.bodies) {
+      DraftBody& draft = draft_.bodies.emplace_back();
+      draft.group = body.name;
+      draft.name = castings == 1 && body.role == Role::casting && body.name.starts_with("body_") ? "casting"
+                                                                                                 : body.name;
+      draft.role = body.role;
+      describe(draft_, process_, draft);
+    }
+    if (draft_.riser) {
+      DraftBody& riser = draft_.bodies.emplace_back();
+      riser.name = riser.group = draft_.riser->name;
+      riser.role = Role::riser;
+      describe(draft_, process_, riser);
+    }
+  }
+
+  void choose_mould() {
+    DraftMould& mould = draft_.mould.emplace();
+    // A part of a few millimetres has no walls of the usual least thickness: nearly all nodes would be
+    // theirs.
+    constexpr double k_small_part = 4;
+    const double least = std::min(process_.least_wall, k_small_part * thickest_);
+    const double wall = of_wall(std::max(least, process_.walls * thickest_));
+    mould.walls.fill(wall);
+    if (draft_.symmetry) mould.walls[2 * static_cast<std::size_t>(draft_.symmetry->axis) + 1] = 0;
+    if (draft_.riser) mould.walls[5] = 0;  // open at the top
+    DraftBody& body = draft_.bodies.emplace_back();
+    body.name = body.group = process_.mould == Role::die ? "die" : "mould";
+    mould.name = body.name;
+    body.role = process_.mould;
+    describe(draft_, process_, body);
+    draft_.law = process_.law;
+    draft_.layers = process_.layers;
+    // Away from the metal elements grow with the wall that they fill, not with the part.
+    draft_.mould_size = std::clamp(draft_.mould_size, two_digits(wall / 4),
+                                   two_digits(std::max(wall / 1.5, std::max(draft_.size, wall / 4))));
+  }
+
+  const NewCaseOptions& options_;
+  const CastingProcess& process_;
+  const material::Material& alloy_;
+  const PartMeasures& part_;
+  double thickest_ = 0;  ///< diameter of the largest sphere in the metal [m]
+  Draft draft_;
+};
+
+}  // namespace
+
+void describe(const Draft& draft, const CastingProcess& process, DraftBody& body) {
+  switch (body.role) {
+    case Role::casting:
+    case Role::riser:
+      body.material = draft.alloy;
+      body.start = draft.pouring;
+      body.comment =
+          fmt::format("{:.0f} K above the liquidus of {:.0f} degC", draft.superheat, draft.liquidus);
+      break;
+    case Role::chill:
+      body.material = first_known({"iron_chill"});
+      body.start = 20;
+      body.heat_only = true;
+      break;
+    case Role::sleeve:
+    case Role::insulation:
+      body.material = first_known({"insulating_sleeve", "ceramic_fibre", "green_sand"});
+      body.start = 20;
+      break;
+    case Role::core:
+      body.material = first_known({"furan_sand", "green_sand"});
+      body.start = process.mould == Role::die ? 80 : 20;
+      break;
+    case Role::mould:
+    case Role::die:
+      body.material = first_known(process.materials);
+      body.start = process.mould_start;
+      body.heat_only = process.mould == Role::die;
+      if (body.heat_only) body.comment = "physics = \"all\" gives its stresses too, at the price of time";
+      break;
+  }
+  body.heat_only = body.heat_only && draft.coupled;
+}
+
+Draft choose_draft(const NewCaseOptions& options, const CastingProcess& process,
+                   const material::Material& alloy, const PartMeasures& part) {
+  return Choice(options, process, alloy, part).choose();
+}
+
+}  // namespace solidus::model

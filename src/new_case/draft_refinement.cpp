@@ -1,0 +1,160 @@
+#include "new_case/draft_refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "build/case_file.hpp"
+#include "build/geometry_bodies.hpp"
+#include "build/mesh_input.hpp"
+#include "input/keys.hpp"
+#include "new_case/draft_choice.hpp"
+#include "new_case/rounding.hpp"
+#include "run/run.hpp"
+#include "system/log.hpp"
+
+namespace solidus::model {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Refinement {
+ public:
+  Refinement(Draft& draft, const CastingProcess& process, double fineness)
+      : draft_(draft), process_(process), fineness_(fineness) {}
+
+  DraftEstimate refine() {
+    const logging::Level level = logging::level();
+    logging::set_level(std::max(level, logging::Level::silent));
+    try {
+      constexpr int k_turns = 4;
+      for (int turn = 0; turn < k_turns; ++turn) {
+        if (turn == 0) find_skins();  // sizes do not change which skins there are
+        write_draft(draft_);
+        const Case c = load_case(draft_.folder / "case.toml", {}, Physics::heat);
+        const bool good = adapt(check_run(c)) || turn + 1 == k_turns;
+        write_draft(draft_);
+        if (good) break;
+      }
+      if (draft_.coupled) check_run(load_case(draft_.folder / "case.toml", {}, Physics::thermomechanical));
+    } catch (...) {
+      logging::set_level(level);
+      std::error_code error;  // no case that does not run
+      fs::remove(draft_.folder / "case.toml", error);
+      throw;
+    }
+    logging::set_level(level);
+    return estimate_;
+  }
+
+ private:
+  mesh::RawMesh drafted_mesh() const {
+    Draft bare = draft_;  // conditions come when the skins are known
+    bare.films.clear();
+    bare.symmetric.clear();
+    bare.layers = false;
+    bare.cavity.clear();
+    write_draft(bare);
+    return raw_mesh(load_case(draft_.folder / "case.toml", {}, Physics::heat).spec);
+  }
+
+  /// Cores in cavities are bodies that only the mesh tells of; so are the skins that nothing faces.
+  void find_skins() {
+    mesh::RawMesh mesh = drafted_mesh();
+    bool more = false;
+    for (const auto& [group, content] : mesh.groups) {
+      if (content.dimension != mesh.dimension || std::ranges::count(draft_.bodies, group, &DraftBody::group))
+        continue;
+      DraftBody& core = draft_.bodies.emplace_back();
+      core.name = core.group = group;
+      core.role = Role::core;
+      describe(draft_, process_, core);
+      more = true;
+    }
+    if (more) mesh = drafted_mesh();
+    draft_.films.clear();
+    draft_.symmetric.clear();
+    draft_.cavity.clear();
+    for (const DraftBody& die : draft_.bodies)
+      for (const DraftBody& body : draft_.bodies)
+        if (die.role == Role::die && body.role != Role::die && body.role != Role::chill &&
+            mesh.groups.contains(die.name + "_to_" + body.name))
+          draft_.cavity.push_back(die.name + "_to_" + body.name);
+    for (const DraftBody& body : draft_.bodies) {
+      if (mesh.groups.contains(body.name + "_free")) draft_.films.push_back(body.name);
+      if (is_metal(body.role) && mesh.groups.contains(body.name + "_symmetry"))
+        draft_.symmetric.push_back(body.name);
+    }
+  }
+
+  /// @return whether sizes and walls may stay
+  bool adapt(const CheckedRun& checked) {
+    double time = 0, reach = 0;
+    estimate_.nodes = estimate_.metal_nodes = 0;
+    for (const results::PourOverview& pour : checked.overview.pours) {
+      time = std::max(time, pour.freezing_time.value_or(0));
+      reach = std::max(reach, pour.mould_reach);
+    }
+    for (const results::BodyOverview& body : checked.overview.bodies) {
+      estimate_.nodes += static_cast<double>(body.nodes);
+      for (const DraftBody& draft : draft_.bodies)
+        if (draft.name == body.name && is_metal(draft.role))
+          estimate_.metal_nodes += static_cast<double>(body.nodes);
+    }
+    // The estimate is of one dimension: the run ends when all is solid, well before this where it is right.
+    constexpr double k_latest = 6, k_usual = 1.8, k_margin_of_shots = 1.3;
+    estimate_.freezing = time;
+    if (time > 0) {
+      draft_.end = two_digits(std::max(k_latest * time, 1.0));
+      draft_.step = two_digits(std::max(k_usual * time, 1.0) / 600);
+      draft_.every = two_digits(std::max(k_usual * time, 1.0) / 20);
+      if (draft_.shots) draft_.shots->solidify = two_digits(std::max(k_margin_of_shots * time, 1.0));
+    }
+    bool good = true;
+    constexpr double k_most = 6000, k_wanted = 3500, k_reaches = 2;
+    const double finer = fineness_ * fineness_ * fineness_;
+    if (estimate_.metal_nodes > k_most * finer && !draft_.meshed) {
+      const double scale = std::cbrt(estimate_.metal_nodes / (k_wanted * finer));
+      draft_.size = two_digits(draft_.size * scale);
+      draft_.smallest = std::min(draft_.size, two_digits(draft_.smallest * scale));
+      draft_.mould_size = two_digits(draft_.mould_size * std::sqrt(scale));
+      good = false;
+    }
+    if (draft_.mould && process_.walls > 0 && process_.mould == Role::mould)
+      for (double& wall : draft_.mould->walls)
+        if (wall > 0 && wall < k_reaches * reach) {
+          wall = of_wall(k_reaches * reach);
+          draft_.mould_size = std::max(draft_.mould_size, two_digits(wall / 4));
+          good = false;
+        }
+    return good;
+  }
+
+  Draft& draft_;
+  const CastingProcess& process_;
+  double fineness_;
+  DraftEstimate estimate_;
+};
+
+}  // namespace
+
+void write_draft(const Draft& draft) {
+  std::error_code error;
+  fs::create_directories(draft.folder, error);
+  const fs::path copy = draft.folder / draft.geometry.filename();
+  if (!fs::exists(copy) || !fs::equivalent(copy, draft.geometry, error))
+    fs::copy_file(draft.geometry, copy, fs::copy_options::overwrite_existing, error);
+  std::ofstream file(draft.folder / "case.toml");
+  file << case_text(draft);
+  file.flush();
+  if (error || !file)
+    throw InputError({draft.folder.string()}, "the case cannot be written there", "a folder with room");
+}
+
+DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, double fineness) {
+  return Refinement(draft, process, fineness).refine();
+}
+
+}  // namespace solidus::model

@@ -1,0 +1,24 @@
+/// Refines the draft of a new case by building it: the built case shows cores and free skins, the number of
+/// nodes and the freezing time, from which bodies, films, sizes, walls and the end of the run follow.
+#pragma once
+
+#include "new_case/casting_processes.hpp"
+#include "new_case/new_case_text.hpp"
+
+namespace solidus::model {
+
+/// The last draft as it was built.
+struct DraftEstimate {
+  double nodes = 0, metal_nodes = 0;
+  double freezing = 0;  ///< [s]
+};
+
+/// Writes the folder of the draft: case.toml and a copy of the geometry. Throws InputError.
+void write_draft(const Draft& draft);
+
+/// Builds, checks and writes the case until its sizes and walls fit, at most four times.
+/// @param fineness  so many times as many elements along each edge as usual
+/// Throws InputError, and then leaves no case.toml.
+DraftEstimate refine_draft(Draft& draft, const CastingProcess& process, double fineness);
+
+}  // namespace solidus::model

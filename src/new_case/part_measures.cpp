@@ -1,0 +1,64 @@
+#include "new_case/part_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/keys.hpp"
+#include "input/units.hpp"
+#include "mesh/casting_geometry.hpp"
+#include "mesh/file_format.hpp"
+
+namespace solidus::model {
+
+namespace {
+
+/// Riser and symmetry cut solids, and triangles cannot be cut.
+void refuse_cuts(const NewCaseOptions& options, bool solids) {
+  const char* allowed = "a STEP, BREP or IGES file";
+  if (!solids && options.riser)
+    throw InputError({"--riser"}, "a riser can be joined to solids of a CAD program only", allowed);
+  if (!solids && !options.symmetry.empty())
+    throw InputError({"--symmetry"}, "only solids of a CAD program can be cut", allowed);
+}
+
+}  // namespace
+
+bool PartMeasures::has_riser() const {
+  return std::ranges::any_of(bodies, [](const GeometryBody& b) { return b.role == Role::riser; });
+}
+
+PartMeasures measure_part(const NewCaseOptions& options) {
+  PartMeasures m;
+  mesh::MeshSource source{options.geometry.string(), units::convert(1, options.unit, "m")};
+  mesh::check_readable(source.path);
+  const mesh::FileFormat format = mesh::file_format(source.path);
+  const bool solids = mesh::is_cad(format), meshed = !solids && format != mesh::FileFormat::stl;
+  refuse_cuts(options, solids);
+  m.mesh = meshed ? mesh::read_mesh(source) : mesh::mesh_casting(source, {}, 0);
+  if (m.mesh.dimension != 3)
+    throw InputError({source.path}, "the mesh is plane", "a solid: STEP, BREP, IGES, STL, or a mesh of one");
+  m.bodies = bodies_of(m.mesh, options.as);
+  for (const GeometryBody& body : m.bodies) {
+    if (body.role == Role::mould || body.role == Role::die) m.has_mould = true;
+    if (is_metal(body.role)) m.metal.push_back(body.name);
+  }
+  m.meshed = meshed && m.has_mould;
+  for (std::size_t i = 0; i < 3; ++i) {
+    m.low[i] = 1e300, m.high[i] = -1e300;
+    for (const GeometryBody& body : m.bodies)
+      m.low[i] = std::min(m.low[i], body.extent.low[i]), m.high[i] = std::max(m.high[i], body.extent.high[i]);
+  }
+  for (const GeometryBody& body : m.bodies)
+    if (is_metal(body.role)) {
+      m.volume += body.extent.volume;
+      m.area += body.extent.area;
+      const std::vector<double> one = mesh::thickness_by_area(m.mesh, body.name);
+      m.thickness.insert(m.thickness.end(), one.begin(), one.end());
+    }
+  std::sort(m.thickness.begin(), m.thickness.end());
+  if (m.thickness.empty()) m.thickness = {std::cbrt(m.volume)};
+  m.spheres = mesh::inscribed_spheres(m.mesh, m.metal, 3);
+  return m;
+}
+
+}  // namespace solidus::model
