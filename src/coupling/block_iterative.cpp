@@ -180,8 +180,7 @@ bool BlockIterative::agrees(const State& old, const Iterate& it) const {
     return change <= options_.tolerance * largest_difference(now, before) ||
            change <= k_rounding * largest(now);
   };
-  const double of_fractions =
-      it.phases.any() ? it.phases.difference(it.now.heat) : 0.0;
+  const double of_fractions = it.phases.any() ? it.phases.difference(it.now.heat) : 0.0;
   return it.solved && of_fractions <= options_.tolerance &&
          small(changes_.back().temperature, it.now.heat.temperature, old.heat.temperature) &&
          small(changes_.back().displacement, it.now.mechanics.displacement, old.mechanics.displacement);

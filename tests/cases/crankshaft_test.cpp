@@ -108,8 +108,8 @@ TEST(Crankshaft, IsAsSymmetricAsItsMesh) {
   const Columns& c = whole().history;
   const std::vector<double>& t = c.at("time[s]");
   for (std::size_t i = 0; i < t.size(); ++i) {
-    // Mirror images of one another but for nose and flange, which are far; the mesh is not symmetric: 13 K apart
-    // at the webs as they freeze.
+    // Mirror images of one another but for nose and flange, which are far; the mesh is not symmetric: 13 K
+    // apart at the webs as they freeze.
     for (const auto& [one, other] :
          {std::pair{"T_journal_2[degC]", "T_journal_4[degC]"}, std::pair{"T_pin[degC]", "T_pin_3[degC]"},
           std::pair{"T_web_above[degC]", "T_web_below[degC]"}})
@@ -124,7 +124,8 @@ TEST(Crankshaft, BothSplitsAgree) {
   const Columns& other = whole().history;
   for (const double time : other.at("time[s]")) {
     for (const char* column : {"T_journal[degC]", "T_web[degC]", "T_pin[degC]", "T_nose[degC]"})
-      EXPECT_NEAR(solidus::testing::at(r.history, column, time), solidus::testing::at(other, column, time), 0.5)
+      EXPECT_NEAR(solidus::testing::at(r.history, column, time), solidus::testing::at(other, column, time),
+                  0.5)
           << column << " at " << time;
     EXPECT_NEAR(solidus::testing::at(r.history, "length_change[mm]", time),
                 solidus::testing::at(other, "length_change[mm]", time), 0.03)

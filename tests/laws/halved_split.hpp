@@ -1,7 +1,6 @@
 /// The isentropic split in two halves of the step, a scheme that the sources do not have.
 #pragma once
 #include "coupling/add_scheme.hpp"
-#include "coupling/contact_work.hpp"
 #include "coupling/isentropic.hpp"
 
 namespace solidus::coupling {
@@ -16,7 +15,7 @@ class HalvedSplit final : public CouplingScheme {
     StepEffort effort = split_.advance(old, half, time - 0.5 * dt, 0.5 * dt);
     const contact::InterfaceSums first = effort.energy.interface;
     effort += split_.advance(half, trial, time, 0.5 * dt);
-    add(first, effort.energy.interface);
+    effort.energy.interface.add(first);
     return effort;
   }
 
