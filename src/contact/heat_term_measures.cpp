@@ -50,7 +50,7 @@ std::vector<double> HeatTerm::conductances(std::span<const double> temperature) 
   for (Index p = 0; p < partners_.n_points(); ++p) {
     const HeatPoint& point = points_[at(p)];
     if (temperature.empty())
-      h[at(p)] = law_.at(-point.penetration, point.pressure, k_room_temperature).value;
+      h[at(p)] = law_.at(point.penetration, point.pressure, k_room_temperature).value;
     else if (partners_.partnered[at(p)] != 0)
       h[at(p)] = see(p, temperature).h.value;
   }

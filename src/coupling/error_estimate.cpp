@@ -46,8 +46,12 @@ double ErrorEstimate::size_of_displacement(std::span<const double> error,
   return displacement_ == Displacement::motion ? norm_(error, counts) : norm_.of_distortion(error, counts);
 }
 
+bool ErrorEstimate::measures(const heat::StageFlows& flows) const {
+  return phases_ != nullptr && phases_->heat != nullptr && flows.known();
+}
+
 double ErrorEstimate::change_of(const State& old, const State& now, const heat::StageFlows& flows) const {
-  return flows.known() ? norm_(phases_->heat->change_in_kelvin(old.heat, now.heat)) : 0.0;
+  return measures(flows) ? norm_(phases_->heat->change_in_kelvin(old.heat, now.heat)) : 0.0;
 }
 
 /// The part of the error `mean` of a step that is not forgotten [K]: it may be committed once for every
@@ -59,7 +63,7 @@ double ErrorEstimate::lasting(double mean, double before, double change) const {
 LocalError ErrorEstimate::predictor(const State& old, const State& now, double dt, const Rates& rates,
                                     const heat::StageFlows& flows) const {
   double temperature = 0;
-  if (flows.known() && !rates.heat_flow.empty()) {
+  if (measures(flows) && !rates.heat_flow.empty()) {
     const std::vector<double> error = phases_->heat->time_error(now.heat, flows, rates.heat_flow);
     temperature =
         std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now, flows)));
@@ -76,7 +80,7 @@ LocalError ErrorEstimate::predictor(const State& old, const State& now, double d
 LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves,
                                    const Rates& rates, const heat::StageFlows& flows) const {
   double temperature = norm_(difference(whole.heat.temperature, halves.heat.temperature));
-  if (flows.known())
+  if (measures(flows))
     temperature =
         std::max(temperature, lasting(norm_.mean(phases_->heat->change_in_kelvin(whole.heat, halves.heat)),
                                       rates.changed, change_of(old, halves, flows)));
@@ -88,7 +92,7 @@ LocalError ErrorEstimate::doubling(const State& old, const State& whole, const S
 Rates ErrorEstimate::rates_of(const State& old, const State& now, double dt,
                               const heat::StageFlows& flows) const {
   Rates rates;
-  if (flows.known())
+  if (measures(flows))
     rates.heat_flow = phases_->heat->flow_at_end(flows);
   else
     rates.temperature = difference(old.heat.temperature, now.heat.temperature, dt);

@@ -54,7 +54,8 @@ enum class Displacement { distortion, motion };
 /// Sizes are those of BodyNorm. All calls are collective.
 class ErrorEstimate {
  public:
-  /// @param phases  which know what is melt and must outlive the estimate; null: nothing melts
+  /// @param phases  which know what is melt and how heat has flowed, and must outlive the estimate; null:
+  ///                nothing melts, and temperatures are compared alone
   explicit ErrorEstimate(BodyNorm norm, const Phases* phases = nullptr,
                          Displacement displacement = Displacement::motion)
       : norm_(std::move(norm)), phases_(phases), displacement_(displacement) {}
@@ -75,6 +76,8 @@ class ErrorEstimate {
   Rates rates_of(const State& old, const State& now, double dt, const heat::StageFlows& flows) const;
 
  private:
+  /// Whether the error of the heat is taken from these flows.
+  bool measures(const heat::StageFlows& flows) const;
   std::vector<double> coherency(const State& state) const;
   double size_of_displacement(std::span<const double> error, std::span<const char> counts) const;
   double lasting(double mean, double before, double change) const;

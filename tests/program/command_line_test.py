@@ -79,7 +79,7 @@ class CommandLine(ProgramTest):
 
         self.assertLessEqual(VERBS, set(completed("solidus", "''")))
         self.assertEqual(completed("solidus", "mesh"), ["mesh-info"])
-        self.assertEqual(completed("solidus", "run", "--re"), ["--restart"])
+        self.assertEqual(completed("solidus", "run", "--res"), ["--restart"])
         self.assertIn("time.step=", completed("solidus", "run", "--set", "time.st"))
         self.assertIn("time.step", completed("solidus", "explain", "time.st"))
         self.assertEqual(completed("solidus", "materials", "green"), ["green_sand"])

@@ -78,7 +78,7 @@ class NewCase(ProgramTest):
         case = tomllib.loads((self.folder / "case/case.toml").read_text())
         roles = {body.get("group", body["name"]): body["role"] for body in case["body"]}
         self.assertEqual(roles, {"valve_body": "casting", "core": "core", "mould": "mould"})
-        self.assertRegex(text, r"casting +valve_body of brass, \d+ degC, 9\d\.\d cm3 in a box of 100 x 5\d(\.\d+)? x 71 mm")
+        self.assertRegex(text, r"casting +valve_body of brass, \d+ degC, 9\d\.\d cm3 in a box of 100 x 5\d(\.\d+)? x 71(\.\d+)? mm")
         pictures = self.folder / "faces"
         table = self.done("mesh-info", "case", "--pictures", "faces")
         numbers = [int(line.split()[0]) for line in table.splitlines() if line.split()[1:2] == ["valve_body"]]

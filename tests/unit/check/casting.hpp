@@ -63,9 +63,11 @@ inline std::string changed(std::string text, const std::string& what, const std:
   return at == std::string::npos ? text : text.replace(at, what.size(), with);
 }
 
-/// The same blocks with mechanics: the upper one shrinks on the lower one.
+/// The same blocks with mechanics, of triangles that open pores: the upper one shrinks on the lower one.
 inline std::string deforming() {
-  return changed(k_casting, "physics = \"heat\"", "physics = \"thermomechanical\"") + R"(
+  return changed(changed(k_casting, "quad4", "tri3"), "physics = \"heat\"",
+                 "physics = \"thermomechanical\"") +
+         R"(
 [[mechanical_condition]]
 name = "table"
 group = "lower_y_min"
