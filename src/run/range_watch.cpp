@@ -40,6 +40,13 @@ std::vector<material::LeftRange> left_ranges(const CaseSpec& spec, std::size_t b
   return left;
 }
 
+/// " of 1380 degC", "s of 20 to 1380 degC".
+std::string span_text(double low, double high) {
+  const std::string from = fmt::format("{:.0f}", low - k_zero_celsius),
+                    to = fmt::format("{:.0f}", high - k_zero_celsius);
+  return from == to ? fmt::format(" of {} degC", to) : fmt::format("s of {} to {} degC", from, to);
+}
+
 }  // namespace
 
 std::string left_data(const CaseSpec& spec, std::size_t body, const material::Material& material, double low,
@@ -58,8 +65,8 @@ std::string left_data(const CaseSpec& spec, std::size_t body, const material::Ma
     if (std::find(said.begin(), said.end(), left.property) != said.end()) continue;
     said.push_back(left.property);
     if (text.empty())
-      text = fmt::format("{}it is used between {:.1f} and {:.1f} degC; beyond their data are {}", used,
-                         low - k_zero_celsius, high - k_zero_celsius, left.property);
+      text = fmt::format("{}data that do not reach its temperature{}: {}", used, span_text(low, high),
+                         left.property);
     else if (left.valid_from == from && left.valid_to == to)
       text.insert(text.rfind(" ("), ", " + left.property);
     else
