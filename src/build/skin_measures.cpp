@@ -66,7 +66,11 @@ std::vector<mesh::Point> gather(const std::vector<mesh::Point>& points) {
   return all;
 }
 
-ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPair& pair, AnalysisKind kind) {
+ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPair& pair, AnalysisKind kind,
+                                const mesh::Point& gravity) {
+  constexpr double k_level = 0.05;  // cosine of the angle to gravity below which a face stands upright
+  const double weight =
+      std::sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
   ContactMeasures m;
   m.slave = pair.spec().slave;
   m.master = pair.spec().master;
@@ -84,10 +88,15 @@ ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPa
     if (!motion.partnered) continue;
     m.paired += motion.weight;
     m.mean_gap += motion.weight * std::max(0.0, -motion.penetration);
+    if (weight > 0) {
+      const mesh::Point& n = motion.normal;  // from the slave to the master
+      const double down = (n[0] * gravity[0] + n[1] * gravity[1] + n[2] * gravity[2]) / weight;
+      (down > k_level ? m.below : down < -k_level ? m.above : m.beside) += motion.weight;
+    }
     low = std::min(low, -motion.penetration);
     high = std::max(high, -motion.penetration);
   }
-  m.paired = parallel::global_sum(m.paired);
+  for (double* area : {&m.paired, &m.below, &m.above, &m.beside}) *area = parallel::global_sum(*area);
   m.mean_gap = m.paired > 0 ? parallel::global_sum(m.mean_gap) / m.paired : 0.0;
   m.least_gap = parallel::global_min(low);
   m.largest_gap = parallel::global_max(high);

@@ -20,7 +20,10 @@ struct ContactMeasures {
   double least_gap = 0, largest_gap = 0;  ///< over points with a partner, negative: overlap [m]
   double mean_gap = 0;                    ///< of the gaps above zero, over points with a partner [m]
   double face_size = 0;                   ///< mean of the slave's faces [m]
-  GlobalIndex shared_nodes = 0;           ///< nodes that lie on both surfaces
+  /// Parts of the paired area where the master lies below the slave, as gravity acts, above it or beside it;
+  /// zero without gravity [m²].
+  double below = 0, above = 0, beside = 0;
+  GlobalIndex shared_nodes = 0;  ///< nodes that lie on both surfaces
 };
 
 /// Measures of a named surface.
@@ -34,7 +37,9 @@ struct SurfaceMeasures {
 inline constexpr int k_several_bodies = -2;
 
 /// Collective.
-ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPair& pair, AnalysisKind kind);
+/// @param gravity  of any length; zero: none acts
+ContactMeasures measure_contact(const mesh::Mesh& mesh, const contact::ContactPair& pair, AnalysisKind kind,
+                                const mesh::Point& gravity);
 /// Collective. A group that is no surface has no faces.
 SurfaceMeasures measure_surface(const mesh::Mesh& mesh, const std::string& name, AnalysisKind kind);
 

@@ -1,12 +1,14 @@
 #include "check/case_measures.hpp"
 
+#include "build/mechanics_input.hpp"
+
 namespace solidus::model {
 
 CaseMeasures measure(const CaseSpec& spec, const Assembly& a) {
   CaseMeasures m;
   m.bodies = measure_bodies(a.mesh, spec.analysis.kind);
   for (const auto& pair : a.contacts)
-    m.contacts.push_back(measure_contact(a.mesh, *pair, spec.analysis.kind));
+    m.contacts.push_back(measure_contact(a.mesh, *pair, spec.analysis.kind, gravity(spec.analysis)));
   for (const ThermalConditionSpec& condition : spec.thermal_conditions)
     m.surfaces.push_back(measure_surface(a.mesh, condition.group, spec.analysis.kind));
   if (spec.has_heat()) m.pours = pours(spec, a, m);

@@ -174,16 +174,27 @@ void steps(const CaseSpec& spec, Findings& findings) {
                         "some hundred steps; time.adaptive chooses them"});
 }
 
-/// A table of time that begins when the run has ended is a number in it.
+/// A table of time that begins when the run has ended is a number in it, and of one that goes on for long
+/// after it the run sees next to nothing.
 void tables_of_later(const CaseSpec& spec, Findings& findings) {
   if (spec.time.steady || !spec.time.end) return;
   const auto compare = [&](const std::string& what, const Function& f, const SourceLocation& where) {
     if (f.place != nullptr || f.of != Argument::time || f.table.constant()) return;
-    if (const double first = f.table.x().front(); first >= *spec.time.end)
-      findings.push_back({false, where,
-                          fmt::format("the table of {} begins at {:g} s, but the run ends at {:g} s", what,
-                                      first, *spec.time.end),
-                          "is its argument_unit right?"});
+    constexpr double k_second = 5, k_last = 20;  // times the end
+    const double end = *spec.time.end;
+    const auto say = [&](const char* what_it_does, double at) {
+      findings.push_back(
+          {false, where,
+           fmt::format("the table of {} {} {:g} s, but the run ends at {:g} s", what, what_it_does, at, end),
+           "is its argument_unit right?"});
+    };
+    const auto x = f.table.x();
+    if (x[0] >= end)
+      say("begins at", x[0]);
+    else if (x[1] > k_second * end)
+      say("has its second point at", x[1]);
+    else if (x[x.size() - 1] > k_last * end)
+      say("goes on to", x[x.size() - 1]);
   };
   for (const ThermalConditionSpec& c : spec.thermal_conditions)
     for (const Function* f : {&c.coefficient, &c.ambient, &c.temperature, &c.flux, &c.emissivity, &c.power})

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "build/body_input.hpp"
 #include "build/mechanics_input.hpp"
@@ -210,6 +211,43 @@ void cold_castings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& 
   }
 }
 
+/// The temperature to which all bodies come that heat joins and nothing else cools or heats [K].
+double common_temperature(const Assembly& a, const CaseMeasures& m) {
+  std::vector<material::EnthalpyCurve> curves;
+  double heat = 0, low = std::numeric_limits<double>::max(), high = 0;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    curves.push_back(a.materials[b].enthalpy());
+    heat += m.bodies[b].volume * (curves[b].upper(a.start[b].low) + curves[b].upper(a.start[b].high)) / 2;
+    low = std::min(low, a.start[b].low);
+    high = std::max(high, a.start[b].high);
+  }
+  constexpr int k_halvings = 40;
+  for (int i = 0; i < k_halvings; ++i) {
+    const double middle = (low + high) / 2;
+    double there = 0;
+    for (std::size_t b = 0; b < curves.size(); ++b) there += m.bodies[b].volume * curves[b].lower(middle);
+    (there < heat ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Where nothing is poured: a body that the others heat above its solidus.
+void bodies_that_melt(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (!m.pours.empty() || !spec.criteria.follow || spec.time.steady) return;
+  const double common = common_temperature(a, m);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    const material::PhaseChange* freezing = a.materials[b].solidification();
+    if (freezing == nullptr || common <= freezing->fraction.solidus()) continue;
+    findings.push_back(
+        {false, spec.bodies[b].where,
+         fmt::format("the bodies come to {:.0f} degC together, where nothing else cools them: '{}' of '{}' "
+                     "melts from {:.0f} degC on",
+                     celsius(common), spec.bodies[b].name, spec.bodies[b].material,
+                     celsius(freezing->fraction.solidus())),
+         "a mould that stands the heat of what lies in it, or a colder start"});
+  }
+}
+
 /// Melt beside melt: a contact parts them, and common nodes make two alloys one liquid.
 void melts_side_by_side(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
   const auto poured = [&](int body) {
@@ -300,6 +338,7 @@ void find_in_freezing(const CaseSpec& spec, const Assembly& a, const CaseMeasure
   rounds_without_a_shot(spec, a, m, findings);
   nothing_to_wait_for(spec, m.pours, findings);
   cold_castings(spec, a, m, findings);
+  bodies_that_melt(spec, a, m, findings);
   melts_side_by_side(spec, a, m, findings);
   feeders(spec, a, m, findings);
 }

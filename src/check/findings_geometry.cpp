@@ -116,6 +116,8 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
                "below the cooled skin",
                name, 1e3 * body.mean_edge, 1e3 * std::max(pour.depth, modulus)),
            usual});
+    else if (body.elements == 1)
+      findings.push_back({false, spec.mesh.where, fmt::format("the body '{}' is one element", name), usual});
   }
 }
 

@@ -102,6 +102,20 @@ void compare_strength(const BodySpec& body, const material::Material& m, Finding
         "metals soften as they warm; are the columns of the table in their places?");
 }
 
+/// Metal conducts less as it melts, but not that much less.
+void compare_melt(const BodySpec& body, const material::Material& m, Findings& findings) {
+  constexpr double k_least = 0.2, k_beside = 1;  // [1], [K]
+  const material::PhaseFraction& fraction = m.solidification()->fraction;
+  const double solid = m.conductivity.value(fraction.solidus() - k_beside),
+               melt = m.conductivity.value(fraction.liquidus() + k_beside);
+  if (melt >= k_least * solid) return;
+  findings.push_back({false, body.where,
+                      fmt::format("body '{}', material '{}': conductivity of {:g} W/m/K in the melt, {:g} "
+                                  "W/m/K in the solid",
+                                  body.name, body.material, melt, solid),
+                      "melts conduct 0.4 to 1.5 times what the solid does at its solidus"});
+}
+
 /// The lowest temperature that starts, surroundings and prescribed ones name [K].
 double coldest(const CaseSpec& spec, const Assembly& a) {
   double low = a.coldest_start();
@@ -133,6 +147,7 @@ void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findin
             m.conductivity.max_value(), findings);
     compare(spec.bodies[b], {"specific heat", "J/kg/K", 80, 20000}, m.specific_heat.min_value(),
             m.specific_heat.max_value(), findings);
+    if (metal) compare_melt(spec.bodies[b], m, findings);
     if (metal)
       compare(spec.bodies[b], {"latent heat", "J/kg", 1e4, 2e6}, m.solidification()->latent_heat,
               m.solidification()->latent_heat, findings);

@@ -38,6 +38,11 @@ class Translations {
   std::size_t axis(int direction) const {
     return static_cast<std::size_t>(direction) + (axisymmetric_ ? 1 : 0);
   }
+  /// Whether a support acts on a body along a direction.
+  bool supported(std::size_t body, const Eigen::VectorXd& along) const {
+    const auto first = n_ * static_cast<int>(body);
+    return along.dot(supports_.block(first, 0, n_, n_) * along) > k_nothing;
+  }
   /// What holds the bodies of a group together, [direction][direction].
   Eigen::MatrixXd held(int group) const;
   /// The motion of one body that follows a pull on it alone, where nothing holds it: the part of the pull in
@@ -59,6 +64,7 @@ class Translations {
   std::vector<char> moves_;
   std::vector<int> group_;
   Eigen::MatrixXd form_, fixed_;  ///< fixed_: [body and direction][direction]
+  Eigen::MatrixXd supports_;      ///< the part of fixed_ by supports
 };
 
 Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m)
@@ -74,6 +80,7 @@ Translations::Translations(const CaseSpec& spec, const Assembly& a, const CaseMe
   for (std::size_t b = 0; b < moves_.size(); ++b)
     if (moves_[b] == 0) hold(static_cast<int>(b), Eigen::MatrixXd::Identity(n_, n_));
   add_supports(spec, a);
+  supports_ = fixed_;
   add_contacts(spec, a, m);
   for (std::size_t b = 0; b < m.bodies.size(); ++b)
     for (std::size_t other = 0; other < b; ++other)
@@ -209,23 +216,82 @@ void loose_groups(const CaseSpec& spec, const Translations& t, std::vector<char>
   }
 }
 
-/// Bodies whose weight neither a support nor a contact takes.
-void falling_bodies(const CaseSpec& spec, const Translations& t, const std::vector<char>& told,
-                    Findings& findings) {
+/// The direction of gravity among those in which bodies move, of length one; zero where none acts.
+Eigen::VectorXd direction_of_weight(const CaseSpec& spec, const Translations& t) {
   const std::array<double, 3> g = gravity(spec.analysis);
   Eigen::VectorXd weight(t.directions());
   for (int d = 0; d < t.directions(); ++d) weight[d] = g[t.axis(d)];
-  if (!(weight.norm() > 0)) return;
-  weight.normalize();
+  return weight.norm() > 0 ? Eigen::VectorXd(weight.normalized()) : weight;
+}
+
+/// Bodies whose weight neither a support nor a contact takes.
+void falling_bodies(const CaseSpec& spec, const Translations& t, std::vector<char>& told,
+                    Findings& findings) {
+  const Eigen::VectorXd weight = direction_of_weight(spec, t);
+  if (weight.isZero()) return;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (told[b] != 0 || !t.moves(b)) continue;
-    if (const Eigen::VectorXd motion = t.followed(b, weight); motion.norm() > k_falls)
+    if (const Eigen::VectorXd motion = t.followed(b, weight); motion.norm() > k_falls) {
+      told[b] = 1;
       findings.push_back(
           {false, spec.bodies[b].where,
            fmt::format("nothing holds '{}' against its weight: gravity acts along {}, and no support or "
                        "contact of it faces that way",
                        spec.bodies[b].name, direction_text(t, weight)),
            "is gravity_direction right? Else a support or a mould below"});
+    }
+  }
+}
+
+/// Whether a contact carries the weight of a set of bodies: contacts push and do not pull, so something of it
+/// has to lie below them. Friction on upright faces counts, for a mould may clamp what it holds.
+bool carries(const ContactSpec& contact, const ContactMeasures& sides, const std::vector<char>& bodies) {
+  const auto is_of_them = [&](int body) { return body >= 0 && bodies[static_cast<std::size_t>(body)] != 0; };
+  constexpr double k_little = 0.01;  // of the area
+  const bool slave = is_of_them(sides.slave_body), master = is_of_them(sides.master_body);
+  if (slave == master) return false;
+  const double below = slave ? sides.below : sides.above;
+  return below + (contact.friction ? sides.beside : 0.0) > k_little * sides.paired;
+}
+
+/// Bodies that two-sided contacts would hold, but that gravity takes off what they lie on. A body that shares
+/// nodes with others counts as one with them.
+void lifted_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, const Translations& t,
+                   const std::vector<char>& told, Findings& findings) {
+  const Eigen::VectorXd weight = direction_of_weight(spec, t);
+  if (weight.isZero()) return;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    if (told[b] != 0 || !t.moves(b)) continue;
+    std::vector<char> one(spec.bodies.size(), 0);
+    one[b] = 1;
+    for (bool more = true; more;) {
+      more = false;
+      for (std::size_t i = 0; i < one.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+          if (one[i] != one[k] && m.bodies[i].shared_nodes[k] > 0) one[i] = one[k] = 1, more = true;
+    }
+    bool held = false, touches = false;
+    for (std::size_t i = 0; i < one.size(); ++i)
+      held |= one[i] != 0 && (!t.moves(i) || t.supported(i, weight));
+    for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
+      const ContactMeasures& sides = m.contacts[c];
+      if (!holds(spec, spec.contacts[c], a.mesh, a.first_stage())) continue;
+      held |= sides.slave_body == k_several_bodies || sides.master_body == k_several_bodies ||
+              carries(spec.contacts[c], sides, one);
+      touches |= sides.above + sides.below > 0 &&
+                 (sides.slave_body == static_cast<int>(b) || sides.master_body == static_cast<int>(b));
+    }
+    // A load may press it against what it touches.
+    using Kind = MechanicalConditionSpec::Kind;
+    for (const MechanicalConditionSpec& c : spec.mechanical_conditions)
+      held |= c.kind == Kind::pressure || c.kind == Kind::traction;
+    if (held || !touches) continue;
+    findings.push_back(
+        {false, spec.bodies[b].where,
+         fmt::format("gravity, along {}, takes '{}' off what it lies on: no surface in contact is below it",
+                     (weight.minCoeff() < -0.999 ? "-" : "") + direction_text(t, weight),
+                     spec.bodies[b].name),
+         "is gravity_direction right? Else a support, or a mould below"});
   }
 }
 
@@ -237,6 +303,7 @@ void find_loose_bodies(const CaseSpec& spec, const Assembly& a, const CaseMeasur
   std::vector<char> told(spec.bodies.size(), 0);
   loose_groups(spec, translations, told, findings);
   falling_bodies(spec, translations, told, findings);
+  lifted_bodies(spec, a, m, translations, told, findings);
 }
 
 }  // namespace solidus::model

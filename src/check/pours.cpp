@@ -61,11 +61,11 @@ std::function<double(double, double)> averaged(heat::SurfaceLaw law, const Surfa
   return [shared](double temperature, double time) { return (*shared)(temperature, time); };
 }
 
-/// Returns the parts of the skin of a body that thermal conditions of the first stage cool.
-std::vector<CooledSkin> conditions_on(std::size_t body, const CaseSpec& spec, const Assembly& a,
+/// Returns the parts of the skin of a body that thermal conditions of a stage cool.
+std::vector<CooledSkin> conditions_on(std::size_t body, const CaseSpec& spec, const StageRun* stage,
                                       const CaseMeasures& m) {
   std::vector<CooledSkin> skins;
-  const heat::Conditions conditions = thermal_conditions(spec, a.first_stage());
+  const heat::Conditions conditions = thermal_conditions(spec, stage);
   const auto add = [&](const std::string& group, const auto& law) {
     for (std::size_t c = 0; c < spec.thermal_conditions.size(); ++c)
       if (spec.thermal_conditions[c].group == group && m.surfaces[c].area > 0 &&
@@ -112,8 +112,8 @@ std::function<double(double, double, double)> conductance_of(const ContactSpec& 
   };
 }
 
-std::vector<CooledSkin> contacts_of(std::size_t body, const CaseSpec& spec, const Assembly& a,
-                                    const CaseMeasures& m) {
+std::vector<CooledSkin> contacts_of(std::size_t body, const CaseSpec& spec, const StageRun* stage,
+                                    const Assembly& a, const CaseMeasures& m) {
   std::vector<CooledSkin> skins;
   for (std::size_t c = 0; c < spec.contacts.size(); ++c) {
     const ContactSpec& contact = spec.contacts[c];
@@ -121,7 +121,7 @@ std::vector<CooledSkin> contacts_of(std::size_t body, const CaseSpec& spec, cons
     const double of_slave = share_behind(a.mesh, sides.slave, static_cast<int>(body)),
                  of_master = share_behind(a.mesh, sides.master, static_cast<int>(body));
     const bool slave = of_slave > 0;
-    if (!contact.heat || slave == (of_master > 0) || !holds(spec, contact, a.mesh, a.first_stage())) continue;
+    if (!contact.heat || slave == (of_master > 0) || !holds(spec, contact, a.mesh, stage)) continue;
     const int other = slave ? sides.master_body : sides.slave_body;
     CooledSkin skin;
     skin.area = sides.paired * (slave ? of_slave : of_master);
@@ -214,9 +214,9 @@ double cooling_of(const CooledSkin& skin, double start, const Assembly& a, doubl
 
 /// Heat into the outside of a mould per area of the casting's cooled skin.
 std::function<double(double, double)> outer_heat(std::size_t mould, double cooled_area, double part,
-                                                 const CaseSpec& spec, const Assembly& a,
+                                                 const CaseSpec& spec, const StageRun* stage,
                                                  const CaseMeasures& m) {
-  std::vector<CooledSkin> skins = conditions_on(mould, spec, a, m);
+  std::vector<CooledSkin> skins = conditions_on(mould, spec, stage, m);
   if (skins.empty()) return {};
   return [skins, factor = part / cooled_area](double temperature, double time) {
     double q = 0;
@@ -225,11 +225,17 @@ std::function<double(double, double)> outer_heat(std::size_t mould, double coole
   };
 }
 
-/// Whether a body is there from the start and not solid then.
-bool is_poured(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+/// Whether a body comes in that is not solid then.
+bool is_poured(const Assembly& a, std::size_t body) {
   const material::PhaseChange* freezing = a.materials[body].solidification();
-  return freezing != nullptr && a.start[body].high > freezing->fraction.solidus() &&
-         holds(spec.bodies[body].stages, a.first_stage());
+  return freezing != nullptr && a.start[body].high > freezing->fraction.solidus();
+}
+
+/// The stage in which a body comes in; null without stages.
+const StageRun* stage_of_pour(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+  const auto stage = std::ranges::find_if(
+      a.stages, [&](const StageRun& run) { return holds(spec.bodies[body].stages, &run); });
+  return stage != a.stages.end() ? &*stage : nullptr;
 }
 
 /// Of the parts of the skin those that count as cooled, and the problem in one dimension. Metal that is
@@ -237,11 +243,12 @@ bool is_poured(const CaseSpec& spec, const Assembly& a, std::size_t body) {
 /// by the skin that its mould cools.
 void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Pour& pour) {
   const std::size_t body = pour.body;
+  const StageRun* const stage = stage_of_pour(spec, a, body);
   const double start = a.start[body].high, end = spec.time.end.value_or(0);
-  std::vector<CooledSkin> skins = contacts_of(body, spec, a, m);
+  std::vector<CooledSkin> skins = contacts_of(body, spec, stage, a, m);
   for (CooledSkin& skin : shared_faces_of(body, a, m)) skins.push_back(std::move(skin));
-  for (CooledSkin& skin : conditions_on(body, spec, a, m)) skins.push_back(std::move(skin));
-  std::erase_if(skins, [&](const CooledSkin& s) { return s.other && is_poured(spec, a, *s.other); });
+  for (CooledSkin& skin : conditions_on(body, spec, stage, m)) skins.push_back(std::move(skin));
+  std::erase_if(skins, [&](const CooledSkin& s) { return s.other && is_poured(a, *s.other); });
   double most = 0;
   for (CooledSkin& skin : skins) most = std::max(most, skin.cooling = cooling_of(skin, start, a, end));
   if (!(most > 0)) {
@@ -283,7 +290,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
       coldest = std::min(coldest, a.start[other].low);
       problem.moulds.push_back({share, &a.materials[other], (a.start[other].low + a.start[other].high) / 2,
                                 part * m.bodies[other].volume / m.bodies[body].volume, skin.conductance,
-                                skin.may_open, outer_heat(other, pour.cooled_area, part, spec, a, m)});
+                                skin.may_open, outer_heat(other, pour.cooled_area, part, spec, stage, m)});
     } else {
       problem.open.push_back({[heat = skin.heat, share](double temperature, double time) {
         return share * heat(temperature, time);
@@ -303,7 +310,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
 std::vector<Pour> pours(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m) {
   std::vector<Pour> list;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    if (!is_poured(spec, a, b)) continue;
+    if (!is_poured(a, b)) continue;
     Pour pour;
     pour.body = b;
     const bool heated =

@@ -26,9 +26,9 @@ Asperities::Separation Asperities::separation(double x) const {
   const auto fit_slope = [scale, &fit](double p) { return -0.5 * scale * scale / (p * fit(p)); };
   if (x < k_low) return {fit(k_low) + fit_slope(k_low) * (x - k_low), fit_slope(k_low)};
   if (x <= k_high) return {fit(x), fit_slope(x)};
-  const double rate = fit_slope(k_high) / fit(k_high);
-  const double y = fit(k_high) * std::exp(rate * (x - k_high));
-  return {y, rate * y};
+  const double rate = -fit_slope(k_high) / fit(k_high);
+  const double closer = 1 / (1 + rate * (x - k_high));
+  return {fit(k_high) * closer, -rate * fit(k_high) * closer * closer};
 }
 
 }  // namespace solidus::contact

@@ -23,9 +23,10 @@
 ///
 /// Validity: the fits of h_S hold for 10⁻⁶ < t_N/H_c < 2·10⁻² to 2 % (c_2 = 0), that of Y for 10⁻⁵ < t_N/H_e
 /// < 2·10⁻² to 2 %. Outside, where root and logarithm of Y end (5.59 t_N >= H_e; t_N = 0), Y goes on: along
-/// its tangent towards the separation Y_0 = 4.5 σ at which contact is lost, and with an exponential that
-/// falls to zero under large pressures. So h is positive, grows with the pressure, and has a continuous
-/// slope for t_N > 0.
+/// its tangent towards the separation Y_0 = 4.5 σ at which contact is lost, and as 1/(1 + r t_N) under large
+/// pressures, so that the conductance of the gas grows there as the pressure does, no faster than that of the
+/// spots: iterates of a solution pass through pressures beyond the hardness. So h is positive, grows with the
+/// pressure, and has a continuous slope for t_N > 0.
 ///
 /// Source: Cooper, Mikić and Yovanovich 1969; Yovanovich 1981; Song and Yovanovich 1987; monograph 3.46–3.48.
 #pragma once

@@ -71,9 +71,10 @@ double Moments::distortion(AnalysisKind kind) const {
     inertia[i][i] = second[0][j] + second[0][k] - (place[j] * place[j] + place[k] * place[k]) / weight;
     inertia[j][k] = inertia[k][j] = place[j] * place[k] / weight - second[1][i];
   }
-  const double trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
-  // I = L D Lᵀ: mᵀ I⁻¹ m = Σ y_i² / D_i with L y = m. Nodes on a line do not turn about it.
+  // I = L D Lᵀ: mᵀ I⁻¹ m = Σ y_i² / D_i with L y = m. Nodes on a line do not turn about it, and a node alone
+  // does not turn: what is left of its inertia is rounding of the second moments.
   constexpr double k_singular = 1e-9;
+  const double least = k_singular * (second[0][0] + second[0][1] + second[0][2]);
   std::array<Point, 3> l{};
   Point d{}, y{};
   for (std::size_t i = kind == AnalysisKind::plane_strain ? 2 : 0; i < 3; ++i) {
@@ -87,7 +88,7 @@ double Moments::distortion(AnalysisKind kind) const {
       d[i] -= l[i][j] * l[i][j] * d[j];
       y[i] -= l[i][j] * y[j];
     }
-    if (d[i] > k_singular * trace)
+    if (d[i] > least)
       rest -= y[i] * y[i] / d[i];
     else
       d[i] = 0;

@@ -21,7 +21,10 @@ constexpr int k_full_steps = 15;         ///< before steps are halved for more t
 constexpr std::size_t k_remembered = 5;  ///< residuals that a step may rise to
 constexpr int k_halvings = 8;
 constexpr double k_loosest = 1e-2;  ///< forcing term: assembly costs as much as ten linear iterations
-constexpr double k_far_off = 1e6;   ///< a residual that rises so much even after halving ends the iteration
+/// A step of the displacements, relative to their motion, and heat out of balance, relative to the heat
+/// moved, above which neither counts as rounding.
+constexpr double k_rounding_step = 1e-8, k_rounding_heat = 1e-6;
+constexpr double k_far_off = 1e6;  ///< a residual that rises so much even after halving ends the iteration
 /// Share of the mesh's diagonal that a node goes at most in an iteration. A body that rested on contact
 /// alone, which the step before has opened, has next to no stiffness toward its mould: its step is metres
 /// long, and surfaces that search for their partners (large sliding) would not find each other again.
@@ -125,7 +128,12 @@ double CoupledNewton::goal() const {
 }
 
 bool CoupledNewton::balanced() const {
-  return norm_ <= goal() && thermal_->converged();
+  return norm_ <= goal() && (thermal_->converged() || heat_is_rounding());
+}
+
+bool CoupledNewton::heat_is_rounding() const {
+  return norm_ <= mechanics_.round_off() && next_step_ <= k_rounding_step &&
+         thermal_->unbalanced() <= std::min(2 * shifted_heat_, k_rounding_heat * thermal_->moved());
 }
 
 bool CoupledNewton::converged() const {
@@ -240,6 +248,12 @@ bool CoupledNewton::find_direction(linear::Forcing& forcing, CoupledReport& repo
   mechanics_.matrix().constraints().share(owned_u);
   spread(owned_step_, step_u_);
   multiply_heat(step_u_, further_);
+  shifted_heat_ = 0;
+  if (norm_ <= mechanics_.round_off()) {
+    double sum = 0;
+    for (const double heat : further_) sum += std::abs(heat);
+    shifted_heat_ = parallel::global_sum(sum);
+  }
   thermal_->set_direction(step_t_, further_);
   return true;
 }
@@ -313,6 +327,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
   linear::Forcing forcing(mechanics_.options().newton.inexact, k_loosest);
   in_equilibrium_ = false;
   next_step_ = std::numeric_limits<double>::infinity();
+  shifted_heat_ = 0;
   CoupledResidual residual = evaluate(old, pass, x);
   while (true) {
     report.residuals.push_back(residual);

@@ -90,7 +90,10 @@ class CoupledNewton {
   void set_contact_temperatures();
   /// Residuals of the last evaluation.
   CoupledResidual present() const;
-  bool balanced() const;   ///< both residuals are within their tolerances
+  bool balanced() const;  ///< both residuals are within their tolerances, or rounding
+  /// Whether the heat out of balance is rounding of the displacements: where forces are, pressures of contact
+  /// vary from iteration to iteration within it, and a conductance that follows them does too.
+  bool heat_is_rounding() const;
   bool converged() const;  ///< and the next step would be a small one (linear::NewtonOptions)
   double goal() const;     ///< ‖r_u‖ that ends the iteration [N]
   /// The reciprocals of the heat out of balance and of the forces that the temperatures which balance it
@@ -130,7 +133,8 @@ class CoupledNewton {
   std::vector<double> work_;                      ///< scratch
   double norm_ = 0, reference_ = 0;               ///< of r_u
   double next_step_ = 0;                          ///< its estimated size, MechanicalPhase::relative_step
-  bool in_equilibrium_ = false;                   ///< every iterate is brought there
+  double shifted_heat_ = 0;  ///< Σ|K_Θu δu| of the last step, where it set out from forces of rounding [W]
+  bool in_equilibrium_ = false;  ///< every iterate is brought there
 };
 
 }  // namespace solidus::coupling

@@ -99,6 +99,10 @@ TEST(Gas, GoesOnWhereTheFitOfTheDistanceEnds) {
     const double difference = (a.separation(x + dx).value - a.separation(x - dx).value) / (2 * dx);
     EXPECT_NEAR(y.slope, difference, 1e-5 * std::abs(difference)) << x;
   }
+  // The model itself, far beyond the fit; and a conductance that grows no faster than the pressure.
+  for (double x : {0.05, 0.1, 0.2})
+    EXPECT_NEAR(a.separation(x).value, std::sqrt(2.0) * a.roughness * separation_of(x), 0.25 * lost) << x;
+  EXPECT_LT(a.separation(10).value / a.separation(1000).value, 101);
   for (double end : {1e-5, 2e-2}) {
     const double below = a.separation(end * (1 - 1e-9)).slope, above = a.separation(end * (1 + 1e-9)).slope;
     EXPECT_NEAR(below, above, 1e-7 * std::abs(above)) << "the slope does not jump at " << end;
