@@ -253,7 +253,7 @@ struct ContactSpec {
   std::optional<double> penalty;         ///< ε_N [N/m³]; absent: from the factor
   std::optional<double> penalty_factor;  ///< ε_N = factor × E / height of the slave's elements
   double stabilisation = 0;              ///< share of ε_N added to the tangent only
-  contact::IntegrationRule integration = contact::IntegrationRule::segments;
+  contact::IntegrationRule integration = contact::IntegrationRule::automatic;
   int gauss_degree = 0;
   std::optional<double> search_distance, touching;  ///< [m]
   bool wet = true;                                  ///< liquid metal is held on the wall by the atmosphere

@@ -9,6 +9,7 @@
 #include "contact/fixed_kinematics.hpp"
 #include "contact/master_mesh.hpp"
 #include "contact/penalty.hpp"
+#include "contact/segment_kinematics.hpp"
 #include "contact/sliding_kinematics.hpp"
 #include "parallel/parallel.hpp"
 
@@ -118,9 +119,9 @@ void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactSpec& spec
     throw InputError(spec.where, fmt::format("contact '{}': a rigid surface with small sliding", spec.name),
                      "formulation = \"large_sliding\"");
   if (slides && spec.integration == IntegrationRule::mortar)
-    throw InputError(spec.where,
-                     fmt::format("contact '{}': integration = \"mortar\" with large sliding", spec.name),
-                     "formulation = \"small_sliding\", or integration = \"gauss\" or \"nodal\"");
+    throw InputError(
+        spec.where, fmt::format("contact '{}': integration = \"mortar\" with large sliding", spec.name),
+        "formulation = \"small_sliding\", or integration = \"segments\", \"gauss\" or \"nodal\"");
   const ContactSurface& slave = surfaces.slave;
   const double reach = spec.search_distance.value_or(0.1 * slave.extent());
   if (!slides) {
@@ -135,6 +136,12 @@ void ContactGeometry::make_kinematics(AnalysisKind kind, const ContactSpec& spec
         MeshMasterOptions{.search_distance = reach, .smoothing = spec.smoothing});
   else
     met = std::make_unique<AnalyticMaster>(components_, *spec.rigid_master, reach);
+  // A rigid surface has no faces to cut at.
+  if (spec.integration == IntegrationRule::segments && surfaces.master) {
+    kinematics_ =
+        std::make_unique<SegmentKinematics>(mesh_, kind, slave, *surfaces.master, std::move(met), reach);
+    return;
+  }
   const bool nodal = spec.integration == IntegrationRule::nodal;
   kinematics_ = std::make_unique<SlidingKinematics>(
       mesh_, kind, slave, std::move(met),

@@ -212,7 +212,7 @@ void ContactHeat::add_displacement_tangent(const ContactKinematics& kinematics, 
     if (!motion.partnered) return {};  // of no node of this process
     const std::size_t n = motion.nodes.size();
     share.assign(n * n, Point{});
-    kinematics.add_share_rates(share);
+    kinematics.add_share_rates(p, share);
     trial.clear();
     if (point_law_.friction && now[at(p)].status != PointStatus::open) {
       const double spring = point_law_.friction->tangential_penalty();

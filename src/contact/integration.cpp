@@ -46,36 +46,22 @@ class Builder {
     return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return n < mesh_.n_owned_nodes; });
   }
 
-  // Master faces that a normal line of the slave face within the search distance may meet.
-  std::vector<Index> candidates_of(const Face& face) const {
-    auto [low, high] = face.box();
-    const double reach = options_.search_distance, margin = 1e-6 * distance(low, high);
-    // The normals of a face of straight edges are one; of a curved one they turn, hence every direction.
-    const Point n = face.normal(reference_centre(face.shape));
-    const bool flat = face.affine();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double r = (flat ? std::abs(n[i]) : 1.0) * reach + margin;
-      low[i] -= r;
-      high[i] += r;
-    }
-    return search_.candidates(low, high);
-  }
-
   void add_slave_face(Index f) {
     const Face face = slave_.reference_face(f);
     points_.slave_measure += measure_of(face, kind_);
     const auto slave_nodes = slave_.nodes(f);
-    const std::vector<Index> candidates = candidates_of(face);
+    const std::vector<Index> candidates = faces_within(face, search_, options_.search_distance);
     const bool mine = everything_ || owns_any(slave_nodes) ||
                       std::any_of(candidates.begin(), candidates.end(),
                                   [&](Index m) { return owns_any(master_.nodes(m)); });
     if (!mine) return;
     found_.clear();
     switch (options_.rule) {
+      case IntegrationRule::automatic:
       case IntegrationRule::segments:
       case IntegrationRule::mortar:
-        (face.dimension() == 1 ? cut_line : cut_face)(face, search_, candidates, options_.search_distance,
-                                                      found_);
+        (face.dimension() == 1 ? cut_line : cut_face)(face, search_, candidates,
+                                                      {.search_distance = options_.search_distance}, found_);
         break;
       case IntegrationRule::gauss:
       case IntegrationRule::nodal:
@@ -126,9 +112,8 @@ class Builder {
       for (std::size_t b = 0; b < m.size(); ++b) points_.shape.push_back(-values[b]);
       const Point x = face.at(point.slave_xi), n = face.normal(point.slave_xi);
       // The other rules' measures hold the circumference already.
-      const double w =
-          point.measure *
-          (options_.rule == IntegrationRule::segments || everything_ ? circumference(kind_, x) : 1.0);
+      const bool placed = options_.rule == IntegrationRule::gauss || options_.rule == IntegrationRule::nodal;
+      const double w = point.measure * (placed ? 1.0 : circumference(kind_, x));
       points_.number.push_back(slave_face * k_points_of_a_face + static_cast<GlobalIndex>(place++));
       points_.weight.push_back(w);
       points_.normal.push_back(n);
@@ -151,6 +136,20 @@ class Builder {
 };
 
 }  // namespace
+
+std::vector<Index> faces_within(const Face& slave, const FaceSearch& master, double reach) {
+  auto [low, high] = slave.box();
+  const double margin = 1e-6 * distance(low, high);
+  // The normals of a face of straight edges are one; of a curved one they turn, hence every direction.
+  const Point n = slave.normal(reference_centre(slave.shape));
+  const bool flat = slave.affine();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double r = (flat ? std::abs(n[i]) : 1.0) * reach + margin;
+    low[i] -= r;
+    high[i] += r;
+  }
+  return master.candidates(low, high);
+}
 
 std::size_t ContactPoints::bytes() const {
   return pairings.capacity() * sizeof(Pairing) + nodes.capacity() * sizeof(Index) +

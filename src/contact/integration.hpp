@@ -23,7 +23,9 @@ namespace solidus::contact {
 inline constexpr GlobalIndex k_points_of_a_face = 1 << 20;
 
 enum class IntegrationRule {
-  segments,  ///< slave faces cut where master faces begin and end, Gauss points in each piece (default)
+  automatic,  ///< segments where partners stay, Gauss points where they do not (default)
+  segments,  ///< slave faces cut where master faces begin and end, Gauss points in each piece; where partners
+             ///< do not stay means over cells of the faces (segment_kinematics.hpp)
   nodal,     ///< at the slave's nodes with the weights ∫ N_a dA
   gauss,     ///< Gauss points of the slave's faces, whatever the master
   mortar     ///< means of `segments` around the slave's nodes (nodal_means.hpp)

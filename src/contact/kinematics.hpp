@@ -35,7 +35,11 @@ struct PointMotion {
   double penetration = 0;         ///< g_N [m]
   Point normal{};                 ///< n
   Tensor push{};                  ///< F
-  Point slip{};                   ///< ΔG [m]; zero unless asked for
+  /// Of a point that stands for a part of the slave: the means of B_b n and B_b F over it, which its forces
+  /// have in place of those products. Empty: it is a point.
+  std::span<const Point> normal_share;
+  std::span<const Tensor> push_share;
+  Point slip{};  ///< ΔG [m]; zero unless asked for
   /// T_n of `old` in the tangent plane at the new partner: turned by the smallest rotation that takes the old
   /// reference normal of the master to the new one [Pa]. The trial traction is carried + ε_T ΔG (5.30).
   Point carried{};
@@ -46,6 +50,19 @@ struct PointMotion {
   std::span<const Point> penetration_rate;  ///< ∂g_N/∂x_b
   std::span<const Tensor> slip_rate;        ///< ∂ΔG_i/∂x_bj
   std::span<const Tensor> carried_rate;  ///< ∂carried_i/∂x_bj; empty: zero (masters flat in the reference)
+
+  /// B_b n.
+  Point normal_at(std::size_t b) const {
+    return normal_share.empty() ? scale(share[b], normal) : normal_share[b];
+  }
+  /// B_b F v of a vector in the plane of T.
+  Point pushed_at(std::size_t b, const Point& v) const {
+    return push_share.empty() ? scale(share[b], times(push, v)) : times(push_share[b], v);
+  }
+  /// r_b/w of a pressure and a frictional traction.
+  Point force_at(std::size_t b, double pressure, const Point& traction) const {
+    return contact::add_scaled(pushed_at(b, traction), pressure, normal_at(b));
+  }
 };
 
 class ContactKinematics {
@@ -58,7 +75,7 @@ class ContactKinematics {
     GlobalIndex number = 0;         ///< of all processes alike, and of runs on another number of them
     bool counted = false;           ///< this process counts it in sums; over all processes every point once
     Point position{};               ///< on the slave, reference configuration [m]
-    double weight = 0;              ///< w of every motion() [m²]
+    double weight = 0;              ///< w of motion() as last placed [m²]
     std::span<const Index> nodes;   ///< of the slave's face, local numbers
     std::span<const double> share;  ///< their shape functions
   };
@@ -95,7 +112,7 @@ class ContactKinematics {
   virtual void add_geometric_tangent(Index point, double pressure, const Point& traction,
                                      std::span<Tensor> k) const = 0;
   /// Adds ∂B_a/∂x_b, [a][b], for the nodes of the last motion() with rates: partners that stay have none.
-  virtual void add_share_rates(std::span<Point> /*rates*/) const {}
+  virtual void add_share_rates(Index /*point*/, std::span<Point> /*rates*/) const {}
   /// Returns the displacement of the master's particle at the partner, as last placed, by a prescribed motion
   /// from one time to another [m]: zero for masters with nodes.
   virtual Point master_way(Index /*point*/, double /*from*/, double /*to*/) const { return {}; }

@@ -80,17 +80,17 @@ void MechanicsTerm::add_residual(std::span<const double> x, std::span<double> r)
     count.add(from, motion, f);
     if (f.friction.status != FrictionStatus::converged && failure_ == FrictionStatus::converged)
       failure_ = f.friction.status;
-    Point force = scale(f.normal.balance_pressure, motion.normal);
-    if (law_.friction) force = add(force, times(motion.push, f.traction));
+    double pressure = f.normal.balance_pressure;
     if (f.friction.status != FrictionStatus::converged)
-      force[0] = std::numeric_limits<double>::quiet_NaN();
-    else if (f.status == PointStatus::open && f.normal.balance_pressure == 0)
+      pressure = std::numeric_limits<double>::quiet_NaN();
+    else if (f.status == PointStatus::open && pressure == 0)
       continue;
     for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
       if (motion.nodes[b] >= n_owned_) continue;
       double* rb = r.data() + at(motion.nodes[b]) * n;
-      const double share = motion.weight * motion.share[b];
-      for (std::size_t i = 0; i < n; ++i) rb[i] += share * force[i];
+      const Point force =
+          law_.friction ? motion.force_at(b, pressure, f.traction) : scale(pressure, motion.normal_at(b));
+      for (std::size_t i = 0; i < n; ++i) rb[i] += motion.weight * force[i];
     }
   }
   if (logging::level() == logging::Level::debug) log(count);
@@ -113,39 +113,44 @@ void MechanicsTerm::add_point(const PointMotion& motion, Index point, Run& run) 
   if (!f.normal.closed && f.normal.balance_pressure == 0 && stabilisation_ == 0) return;
   const std::size_t n = motion.nodes.size();
   const double w = motion.weight;
-  std::array<double, dim * dim> slope;
-  Tensor by_trial{};
-  Point by_penetration = scale(f.normal.balance_tangent, motion.normal);
   const bool frictional = law_.friction.has_value() && f.normal.closed;
-  if (frictional) {
-    by_trial = times(motion.push, f.traction_by_trial);
-    if (!symmetric_)
-      by_penetration =
-          add_scaled(by_penetration, f.normal.tangent, times(motion.push, f.traction_by_pressure));
-    if (f.joint && !symmetric_)
-      by_penetration = add_scaled(by_penetration,
-                                  f.conductance.by_pressure * f.normal.tangent + f.conductance.by_penetration,
-                                  times(motion.push, f.traction_by_conductance));
+  Point traction_by_penetration{};
+  if (frictional && !symmetric_) {
+    traction_by_penetration = scale(f.normal.tangent, f.traction_by_pressure);
+    if (f.joint)
+      traction_by_penetration =
+          add_scaled(traction_by_penetration,
+                     f.conductance.by_pressure * f.normal.tangent + f.conductance.by_penetration,
+                     f.traction_by_conductance);
   }
-  const double stabilisation = stabilisation_ * law_.normal.penalty;
+  const double stabilisation = w * stabilisation_ * law_.normal.penalty;
   for (std::size_t c = 0; c < n; ++c) {
     const Point& g = motion.penetration_rate[c];
-    Tensor trial_rate{};
+    Tensor traction_rate{};
     if (frictional) {
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
-          trial_rate[i][j] = law_.friction->tangential_penalty() * motion.slip_rate[c][i][j];
-          if (!motion.carried_rate.empty()) trial_rate[i][j] += motion.carried_rate[c][i][j];
+          traction_rate[i][j] = law_.friction->tangential_penalty() * motion.slip_rate[c][i][j];
+          if (!motion.carried_rate.empty()) traction_rate[i][j] += motion.carried_rate[c][i][j];
         }
-      trial_rate = times(by_trial, trial_rate);
+      traction_rate = times(f.traction_by_trial, traction_rate);
+      add_outer(traction_rate, 1, traction_by_penetration, g);
     }
-    for (std::size_t i = 0; i < dim; ++i)
-      for (std::size_t j = 0; j < dim; ++j)
-        slope[i * dim + j] = w * (by_penetration[i] * g[j] + trial_rate[i][j] +
-                                  (i == j ? stabilisation * motion.share[c] : 0.0));
+    // B_b F of a point is one tensor but for B_b.
+    const bool alike = motion.push_share.empty();
+    const Tensor pushed = frictional && alike ? times(motion.push, traction_rate) : Tensor{};
     for (std::size_t b = 0; b < n; ++b) {
       double* block = run.k.data() + (b * n + c) * dim * dim;
-      for (std::size_t e = 0; e < dim * dim; ++e) block[e] += motion.share[b] * slope[e];
+      const Point normal = scale(w * f.normal.balance_tangent, motion.normal_at(b));
+      for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t j = 0; j < dim; ++j) block[i * dim + j] += normal[i] * g[j];
+      for (std::size_t i = 0; i < dim; ++i)
+        block[i * dim + i] += stabilisation * motion.share[b] * motion.share[c];
+      if (!frictional) continue;
+      const Tensor of_node = alike ? pushed : times(motion.push_share[b], traction_rate);
+      const double share = alike ? w * motion.share[b] : w;
+      for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t j = 0; j < dim; ++j) block[i * dim + j] += share * of_node[i][j];
     }
   }
   if (!kinematics_.partners_change() || (!f.normal.closed && f.normal.balance_pressure == 0)) return;
@@ -219,17 +224,19 @@ void MechanicsTerm::add_temperature_tangent(linear::CoupledMatrix& matrix) {
     by_side[0] += around->master_takes_heat ? 0.5 * by_mean : by_mean;
     by_side[1] += 0.5 * by_mean;
     if (by_side[0] == 0 && by_side[1] == 0) continue;
-    const Point direction = times(motion.push, scale(1 / norm(f.traction), f.traction));
+    const Point along = scale(1 / norm(f.traction), f.traction);
     const std::size_t n = motion.nodes.size();
     const auto slots = coupled_slots_.slots(p, motion.nodes);
-    for (std::size_t row = 0; row < n; ++row)
+    for (std::size_t row = 0; row < n; ++row) {
+      const Point direction = motion.pushed_at(row, along);
       for (std::size_t a = 0; a < n; ++a) {
         const bool slave = a < static_cast<std::size_t>(motion.n_slave);
         const double shape = slave ? motion.share[a] : -motion.share[a];
-        const double slope = motion.weight * motion.share[row] * shape * by_side[slave ? 0 : 1];
+        const double slope = motion.weight * shape * by_side[slave ? 0 : 1];
         double* const to = matrix.force_by_temperature(slots[row * n + a]);
         for (std::size_t i = 0; i < components; ++i) to[i] += slope * direction[i];
       }
+    }
   }
 }
 

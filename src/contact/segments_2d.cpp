@@ -43,8 +43,9 @@ int product_degree(const Face& slave, const Face& master) {
 }
 
 void cut_line(const Face& slave, const FaceSearch& master, const std::vector<Index>& candidates,
-              double search_distance, std::vector<PairedPoint>& points) {
+              const CutOptions& options, std::vector<PairedPoint>& points) {
   std::vector<double> cuts{-1, 1};
+  if (options.cells) cuts.push_back(0);
   for (Index m : candidates)
     for (std::size_t end = 0; end < 2; ++end) {
       double xi;
@@ -56,11 +57,12 @@ void cut_line(const Face& slave, const FaceSearch& master, const std::vector<Ind
     if (length < 2 * k_least_piece) continue;
     const Point centre{middle, 0, 0};
     const SurfacePoint partner =
-        master.along(slave.at(centre), slave.normal(centre), search_distance, 1e-9, candidates);
+        master.along(slave.at(centre), slave.normal(centre), options.search_distance, 1e-9, candidates);
     if (partner.face < 0) continue;
     const Face& partner_face = master.face(partner.face);
     // One degree more than the product for the radius of axisymmetric bodies.
-    for (const auto& q : mesh::gauss_rule(mesh::Shape::line2, product_degree(slave, partner_face) + 1)) {
+    const int degree = options.degree > 0 ? options.degree : product_degree(slave, partner_face) + 1;
+    for (const auto& q : mesh::gauss_rule(mesh::Shape::line2, degree)) {
       const Point xi{middle + 0.5 * length * q.xi[0], 0, 0};
       const Projection projection =
           project_along(partner_face, slave.at(xi), slave.normal(xi), 0.05);  // curved faces end skew

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "contact/face_cells.hpp"
 #include "contact/point_list.hpp"
 #include "contact/polygon.hpp"
 #include "mesh/quadrature.hpp"
@@ -36,26 +37,17 @@ struct Plane {
 };
 
 // The reference cells whose straight-sided images stand for the face: the face itself when its edges are
-// straight, else four cells that follow its mid nodes.
-std::vector<std::vector<Point>> cells(const Face& face) {
+// straight and no cells are asked for, else four cells that follow the middles of its edges.
+std::vector<std::vector<Point>> cells(const Face& face, bool asked) {
   const auto v = reference_vertices(face.shape);
-  if (face.straight_edges()) return {{v.begin(), v.end()}};
-  std::vector<std::vector<Point>> result;
-  const std::size_t n = v.size();
-  std::vector<Point> middle(n);
-  for (std::size_t e = 0; e < n; ++e) middle[e] = scale(0.5, add(v[e], v[(e + 1) % n]));
-  for (std::size_t i = 0; i < n; ++i) {
-    result.push_back({v[i], middle[i], middle[(i + n - 1) % n]});
-    if (n == 4) result.back().insert(result.back().begin() + 2, reference_centre(face.shape));
-  }
-  if (n == 3) result.push_back(middle);
-  return result;
+  if (!asked && face.straight_edges()) return {{v.begin(), v.end()}};
+  return face_cells(face.shape);
 }
 
 // The images of a face's cells in the plane, anticlockwise. Cells seen edge-on or folded are left out.
-std::vector<Polygon> images(const Face& face, const Plane& plane) {
+std::vector<Polygon> images(const Face& face, const Plane& plane, bool in_cells) {
   std::vector<Polygon> result;
-  for (const auto& cell : cells(face)) {
+  for (const auto& cell : cells(face, in_cells)) {
     Polygon image;
     for (const Point& xi : cell) image.push_back(plane(face.at(xi)));
     const double area = signed_area(image);
@@ -77,21 +69,23 @@ double area_ratio(const Face& slave, const Point& xi, const Plane& plane) {
 
 class Cutter {
  public:
-  Cutter(const Face& slave, const FaceSearch& master, double reach, std::vector<PairedPoint>& points)
+  Cutter(const Face& slave, const FaceSearch& master, const CutOptions& options,
+         std::vector<PairedPoint>& points)
       : slave_(slave),
         master_(master),
-        reach_(reach),
+        options_(options),
         plane_(slave),
         points_(points),
-        slave_images_(images(slave, plane_)),
+        slave_images_(images(slave, plane_, options.cells)),
         size_(slave.size()) {}
 
   void cut_with(Index m, const std::vector<Index>& candidates) {
     const Face& partner = master_.face(m);
     if (!facing(partner, plane_.normal)) return;
-    const auto rule = mesh::gauss_rule(mesh::Shape::tri3, std::min(product_degree(slave_, partner), 20));
+    const int degree = options_.degree > 0 ? options_.degree : std::min(product_degree(slave_, partner), 20);
+    const auto rule = mesh::gauss_rule(mesh::Shape::tri3, degree);
     for (const Polygon& window : slave_images_)
-      for (const Polygon& image : images(partner, plane_)) {
+      for (const Polygon& image : images(partner, plane_, false)) {
         const Polygon piece = clip(image, window, 1e-12 * size_);
         if (piece.empty() || signed_area(piece) < k_least_piece * size_ * size_) continue;
         if (!nearest_here(m, centroid(piece), candidates)) continue;
@@ -108,8 +102,9 @@ class Cutter {
     if (!on_slave.found) return false;
     const Face& partner = master_.face(m);
     const Projection own = project_along(partner, on_slave.y, plane_.normal, edge_tolerance(partner));
-    if (!own.found || std::abs(own.distance) > reach_) return false;
-    const SurfacePoint nearest = master_.along(on_slave.y, plane_.normal, reach_, 1e-9, candidates);
+    if (!own.found || std::abs(own.distance) > options_.search_distance) return false;
+    const SurfacePoint nearest =
+        master_.along(on_slave.y, plane_.normal, options_.search_distance, 1e-9, candidates);
     return nearest.face < 0 || nearest.face == m ||
            std::abs(own.distance) <= std::abs(nearest.projection.distance) + 1e-9 * size_;
   }
@@ -136,7 +131,7 @@ class Cutter {
 
   const Face& slave_;
   const FaceSearch& master_;
-  double reach_;
+  CutOptions options_;
   Plane plane_;
   std::vector<PairedPoint>& points_;
   std::vector<Polygon> slave_images_;
@@ -146,8 +141,8 @@ class Cutter {
 }  // namespace
 
 void cut_face(const Face& slave, const FaceSearch& master, const std::vector<Index>& candidates,
-              double search_distance, std::vector<PairedPoint>& points) {
-  Cutter cutter(slave, master, search_distance, points);
+              const CutOptions& options, std::vector<PairedPoint>& points) {
+  Cutter cutter(slave, master, options, points);
   for (Index m : candidates) cutter.cut_with(m, candidates);
 }
 

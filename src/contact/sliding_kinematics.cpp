@@ -60,20 +60,44 @@ void SlidingKinematics::add_points(AnalysisKind kind, const SlidingOptions& opti
   for (Index f = 0; f < slave_.n_faces(); ++f) {
     const Face face = slave_.reference_face(f);
     Index number = 0;
-    for (const SlaveRulePoint& q : slave_rule(face, kind, options.rule, options.gauss_degree)) {
-      face_.push_back(f);
-      number_.push_back(number++);
-      xi_.push_back(q.xi);
-      position_.push_back(face.at(q.xi));
-      weight_.push_back(q.weight);
-      mesh::basis_values(face.shape, q.xi, shape_.emplace_back());
-    }
+    for (const SlaveRulePoint& q : slave_rule(face, kind, options.rule, options.gauss_degree))
+      add_point({.face = f, .xi = q.xi, .weight = q.weight}, number++, face);
   }
+  start_points();
+}
+
+void SlidingKinematics::add_point(const SlavePlace& place, Index number, const Face& face) {
+  face_.push_back(place.face);
+  number_.push_back(number);
+  xi_.push_back(place.xi);
+  position_.push_back(face.at(place.xi));
+  weight_.push_back(place.weight);
+  mesh::basis_values(face.shape, place.xi, shape_.emplace_back());
+  hint_.push_back(place.hint);
+}
+
+void SlidingKinematics::start_points() {
   x_ = position_;
-  partner_.resize(weight_.size());
-  hint_.assign(weight_.size(), -1);
+  partner_.assign(weight_.size(), {});
   behind_.assign(weight_.size(), 0);
   concern_.assign(weight_.size(), reached);
+}
+
+void SlidingKinematics::set_places(std::span<const SlavePlace> places) {
+  for (auto* indices : {&face_, &number_, &hint_}) indices->clear();
+  for (auto* points : {&xi_, &position_}) points->clear();
+  weight_.clear();
+  shape_.clear();
+  Face face;
+  Index number = 0;
+  for (const SlavePlace& place : places) {
+    if (face_.empty() || face_.back() != place.face) {
+      face = slave_.reference_face(place.face);
+      number = 0;
+    }
+    add_point(place, number++, face);
+  }
+  start_points();
 }
 
 bool SlidingKinematics::own_slave(std::size_t point) const {
@@ -321,7 +345,19 @@ void SlidingKinematics::add_geometric_tangent(Index point, double pressure, cons
   }
 }
 
-void SlidingKinematics::add_share_rates(std::span<Point> rates) const {
+SlidingKinematics::ReferenceRates SlidingKinematics::reference_rates(Index point) const {
+  const Partner& met = partner(point);
+  place_rate_.assign(n_nodes_, Tensor{});
+  turn_rate_.assign(n_nodes_, Tensor{});
+  for (std::size_t c = 0; c < n_nodes_; ++c)
+    for (std::size_t alpha = 0; alpha + 1 < components_; ++alpha) {
+      add_outer(place_rate_[c], 1, frame_.reference_tau[alpha], xi_rate_[c][alpha]);
+      add_outer(turn_rate_[c], 1, plane_normal_xi(met, frame_, alpha), xi_rate_[c][alpha]);
+    }
+  return {place_rate_, turn_rate_};
+}
+
+void SlidingKinematics::add_share_rates(Index, std::span<Point> rates) const {
   assert(rates.size() == n_nodes_ * n_nodes_);
   for (std::size_t a = 0; a < static_cast<std::size_t>(frame_.n_face_nodes); ++a)
     for (std::size_t b = 0; b < n_nodes_; ++b) {
@@ -352,8 +388,8 @@ void SlidingKinematics::add_to_graph(CliqueSink& sink) {
   allowed_.clear();
   first_allowed_.assign(1, 0);
   std::vector<Index> faces, wider, clique;
-  for (std::size_t p = 0; p < face_.size();) {
-    const Index slave = face_[p];
+  std::size_t p = 0;
+  for (Index slave = 0; slave < slave_.n_faces(); ++slave) {
     faces.clear();
     for (; p < face_.size() && face_[p] == slave; ++p)
       if (concern_[p] != none && partner_[p].face >= 0 && partner_[p].penetration >= -options_.graph_distance)
@@ -370,9 +406,15 @@ void SlidingKinematics::add_to_graph(CliqueSink& sink) {
       sink.add(own);
       faces.clear();
     }
+    clique.assign(own.begin(), own.end());
     for (Index f : faces) {
-      clique.assign(own.begin(), own.end());
+      if (!options_.meets_several) clique.resize(own.size());
       clique.insert(clique.end(), master_->nodes(f).begin(), master_->nodes(f).end());
+      if (!options_.meets_several) sink.add(clique);
+    }
+    if (options_.meets_several && !faces.empty()) {
+      std::sort(clique.begin(), clique.end());
+      clique.erase(std::unique(clique.begin(), clique.end()), clique.end());
       sink.add(clique);
     }
     allowed_.insert(allowed_.end(), faces.begin(), faces.end());

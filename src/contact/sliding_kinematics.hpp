@@ -19,12 +19,23 @@
 namespace solidus::contact {
 
 struct SlidingOptions {
-  IntegrationRule rule = IntegrationRule::gauss;  ///< gauss or nodal
+  IntegrationRule rule = IntegrationRule::gauss;  ///< gauss or nodal, of the points at the start
   int gauss_degree = 4;
   /// Faces around a partner that the graph of the matrix keeps ready, in rings.
   int graph_rings = 2;
   /// Points with larger openings do not ask for a new graph [m].
   double graph_distance = 1e300;
+  /// The graph holds the pairs of nodes of all faces that one slave face meets: forces at a point may depend
+  /// on the motion of others.
+  bool meets_several = false;
+};
+
+/// A place on the slave that stands for a part of it.
+struct SlavePlace {
+  Index face = 0;
+  Point xi{};
+  double weight = 0;  ///< area in the reference configuration, with 2πr [m²]
+  Index hint = -1;    ///< a face of the master that may be near
 };
 
 class SlidingKinematics : public ContactKinematics {
@@ -32,6 +43,9 @@ class SlidingKinematics : public ContactKinematics {
   /// Places the points at zero displacement and time zero.
   SlidingKinematics(const mesh::Mesh& mesh, AnalysisKind kind, const ContactSurface& slave,
                     std::unique_ptr<Master> master, const SlidingOptions& options);
+
+  /// Other points in place of those there are, sorted by face: without partners until the next place().
+  void set_places(std::span<const SlavePlace> places);
 
   Index n_points() const override { return static_cast<Index>(weight_.size()); }
   Particle particle(Index point) const override;
@@ -44,7 +58,7 @@ class SlidingKinematics : public ContactKinematics {
   PointMotion motion(Index point, const PointState& old, Asked asked) const override;
   void add_geometric_tangent(Index point, double pressure, const Point& traction,
                              std::span<Tensor> k) const override;
-  void add_share_rates(std::span<Point> rates) const override;
+  void add_share_rates(Index point, std::span<Point> rates) const override;
   Point master_way(Index point, double from, double to) const override {
     return master_->way(partner(point), from, to);
   }
@@ -54,9 +68,19 @@ class SlidingKinematics : public ContactKinematics {
   const Partner& partner(Index point) const { return partner_[static_cast<std::size_t>(point)]; }
   Index slave_face(Index point) const { return face_[static_cast<std::size_t>(point)]; }
   const Point& slave_xi(Index point) const { return xi_[static_cast<std::size_t>(point)]; }
+  /// Ȳ of the last motion().
+  const Point& reference_place() const { return frame_.reference_y; }
+  /// ∂Ȳ/∂x_b and ∂ν^ref/∂x_b, [node] of the last motion(), which was asked for rates; valid until the next
+  /// call.
+  struct ReferenceRates {
+    std::span<const Tensor> place, normal;
+  };
+  ReferenceRates reference_rates(Index point) const;
 
  private:
   void add_points(AnalysisKind kind, const SlidingOptions& options);
+  void add_point(const SlavePlace& place, Index number, const Face& face);
+  void start_points();
   void find_faces_that_concern();
   bool own_slave(std::size_t point) const;
   Point place_of(std::size_t point, const Face& face) const;
@@ -102,7 +126,7 @@ class SlidingKinematics : public ContactKinematics {
   mutable std::vector<Point> penetration_rate_;
   mutable std::vector<std::array<Point, 2>> xi_rate_;
   mutable std::vector<Tensor> normal_rate_;  ///< ∂ν/∂x_b
-  mutable std::vector<Tensor> slip_rate_, carried_rate_;
+  mutable std::vector<Tensor> slip_rate_, carried_rate_, place_rate_, turn_rate_;
 };
 
 }  // namespace solidus::contact

@@ -58,7 +58,7 @@ struct ContactSpec {
   /// a body that nothing holds (docs/verification/contact.md): 1e-10 for direct solvers, 1e-6 for iterative
   /// ones. Zero: none.
   double stabilisation = 1e-10;
-  IntegrationRule integration = IntegrationRule::segments;
+  IntegrationRule integration = IntegrationRule::automatic;
   int gauss_degree = 4;  ///< rule `gauss`
   /// Distance up to which partners are searched for along the normal [m]; absent: a tenth of the slave's
   /// extent.

@@ -40,10 +40,11 @@ double force_times_increment(const ContactView& pair, End end, std::span<const d
     const PointState state = start ? pair.step.at_start(at(p)) : pair.end.state.points[at(p)];
     if (state.balance_pressure == 0 && state.status == PointStatus::open) continue;
     const PointMotion motion = kinematics.motion(p, state, ContactKinematics::Asked::motion);
-    const Point force = force_on_master(motion, state, state.balance_pressure);
-    for (std::size_t b = 0; b < motion.nodes.size(); ++b)
+    for (std::size_t b = 0; b < motion.nodes.size(); ++b) {
+      const Point force = motion.force_at(b, state.balance_pressure, state.traction);
       for (std::size_t i = 0; i < n; ++i)
-        work += motion.weight * motion.share[b] * force[i] * increment[at(motion.nodes[b]) * n + i];
+        work += motion.weight * force[i] * increment[at(motion.nodes[b]) * n + i];
+    }
   }
   return work;
 }

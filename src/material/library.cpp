@@ -151,7 +151,9 @@ void check_heat_of_expansion(const Material& m, const MaterialData& data) {
                       m.name, measured, temperature - k_zero_celsius, expansion),
           "usual are 1 to 8 %: look at the units of expansion and young_modulus; a change of volume in a "
           "narrow "
-          "range of temperature is a [[phase_change]] with a volume_change, no steep piece of expansion");
+          "range of temperature is a [[phase_change]] with a volume_change, no steep piece of expansion; "
+          "what is "
+          "nearly incompressible takes specific_heat_at = \"constant_strain\"");
     }
   }
 }

@@ -10,9 +10,9 @@
 
 namespace solidus::results {
 
-std::span<const double> Field::read(std::vector<double>& storage) const {
+std::span<const double> Field::read(std::vector<double>& storage, int body) const {
   if (!compute) return values;
-  storage = compute();
+  storage = body >= 0 && compute_of ? compute_of(body) : compute();
   return storage;
 }
 

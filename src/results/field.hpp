@@ -30,10 +30,14 @@ struct Field {
   /// over a group count it with. Empty: all of it.
   std::span<const double> covered = {};
   bool on_request = false;  ///< written to files only where it is named
+  /// The values that one of Mesh::bodies has at its nodes, where bodies that share them differ; empty: they
+  /// do not. Collective, as `compute` is then.
+  std::function<std::vector<double>(int body)> compute_of = {};
 
   /// Returns the values; computed ones are put into `storage`. They are computed at every call, so a caller
-  /// that needs them several times stores them.
-  std::span<const double> read(std::vector<double>& storage) const;
+  /// that needs them several times stores them. Of fields with compute_of collective.
+  /// @param body  whose values they are; −1: of all
+  std::span<const double> read(std::vector<double>& storage, int body = -1) const;
 };
 
 class FieldSet {

@@ -240,6 +240,8 @@ Probes::Sample Probes::point_sample(const Mesh& mesh, const PointProbe& probe, c
                                  probe.column.name, probe.at[0], probe.at[1], probe.at[2], body),
                      fmt::format("the nearest element is {:.3g} m away", place.distance));
   }
+  const int here = place.here && place.block >= 0 ? mesh.blocks[block].body : -1;
+  sample.body = static_cast<int>(parallel::global_max(static_cast<double>(here)));
   if (place.here && field.place == Place::cell)
     sample.weights = {{cell_offset(mesh, block) + static_cast<std::size_t>(place.element), 1.0}};
   else
@@ -269,6 +271,7 @@ Probes::Sample Probes::group_sample(const Mesh& mesh, AnalysisKind kind, const G
   sample.field = probe.field;
   sample.component = probe.component;
   sample.unit = field.unit;
+  sample.body = body;
   if (extreme) {
     sample.reduce = probe.statistic == Statistic::minimum ? Reduce::minimum : Reduce::maximum;
     if (field.place == Place::node) {
@@ -376,7 +379,14 @@ std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Rea
   const std::size_t n_samples = samples_.size();
   std::vector<double> sums(n_samples, 0.0), peaks(2 * n_samples, 0.0);
   const linear::ActiveSet* active = fields.active();
-  std::map<const Field*, std::vector<std::size_t>> samples_of;  // a field is read once, one at a time
+  // A field is read once, one at a time; on all processes in one order, whoever has its nodes: to compute it
+  // may be collective.
+  struct Read {
+    const Field* field;
+    int body;
+    std::vector<std::size_t> samples;
+  };
+  std::vector<Read> reads;
   for (std::size_t s = 0; s < n_samples; ++s) {
     const Sample& sample = samples_[s];
     if (sample.reduce == Reduce::linear || sample.reduce == Reduce::global) continue;
@@ -384,11 +394,20 @@ std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Rea
     if (field == nullptr) throw std::invalid_argument("probes: no field '" + sample.field + "'");
     if (sample.reduce != Reduce::sum)
       peaks[s] = peaks[n_samples + s] = -std::numeric_limits<double>::infinity();
-    if (!sample.weights.empty()) samples_of[field].push_back(s);
+    const int body = field->compute_of ? sample.body : -1;
+    const auto same = std::ranges::find_if(
+        reads, [&](const Read& read) { return read.field == field && read.body == body; });
+    if (same == reads.end())
+      reads.push_back({field, body, {s}});
+    else
+      same->samples.push_back(s);
   }
-  for (const auto& [field, samples] : samples_of) {
+  for (const auto& [field, body, samples] : reads) {
+    const bool none =
+        std::ranges::all_of(samples, [&](std::size_t s) { return samples_[s].weights.empty(); });
+    if (none && !field->compute_of) continue;
     std::vector<double> storage;
-    const std::span<const double> values = field->read(storage);
+    const std::span<const double> values = field->read(storage, body);
     for (const std::size_t s : samples)
       take(samples_[s], *field, values, active, {sums[s], peaks[s], peaks[n_samples + s]});
   }

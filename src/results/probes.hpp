@@ -88,6 +88,7 @@ class Probes {
     Reduce reduce = Reduce::sum;
     std::string field;  // of a global probe: the column's name
     int component = 0;
+    int body = -1;  ///< of Mesh::bodies, whose values it takes at nodes that bodies share
     std::vector<std::pair<std::size_t, double>> weights;  // of nodes or cells this process counts
     double factor = 1;
     std::vector<std::pair<double, std::size_t>> terms;  // of a linear probe: factor and column

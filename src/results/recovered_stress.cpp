@@ -115,11 +115,12 @@ void StressRecovery::spread(Patch& patch) const {
     for (int j = 0; j < dim; ++j) patch.inverse[at(3 * i + j)] = inverse(i, j);
 }
 
-std::vector<double> StressRecovery::at_nodes(std::span<const double> stress) const {
+std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int asked) const {
   const std::vector<Cell> cells = cells_of(mesh_);
   const std::size_t n = mesh_.x.size();
   std::vector<double> result(k_components * n, 0.0), bodies(n, 0.0);
   for (std::size_t body = 0; body < mesh_.bodies.size(); ++body) {
+    if (asked >= 0 && body != static_cast<std::size_t>(asked)) continue;
     std::vector<double> fits(k_fit * n, 0.0);
     for (const Patch& patch : patches_) {
       if (at(patch.body) != body) continue;

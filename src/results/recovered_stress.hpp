@@ -5,7 +5,8 @@
 /// their centroids, by least squares: superconvergent patch recovery (Zienkiewicz and Zhu 1992, Int. J.
 /// Numer. Meth. Engng 33, 1331). On the boundary the centroids may span fewer directions than around a node
 /// inside (those of hexahedra at a face lie in a plane): such a node takes the mean of what the fits of the
-/// better ones among its neighbours give at its place. At a node of several bodies the mean of the bodies.
+/// better ones among its neighbours give at its place. At a node of several bodies the value of one of
+/// them, or the mean.
 #pragma once
 
 #include <array>
@@ -24,8 +25,10 @@ class StressRecovery {
   StressRecovery(const mesh::Mesh& mesh, AnalysisKind kind);
 
   /// @param stress  [cell][6] as mechanics::MechanicalPhase::element_field has it
-  /// @return [local node][6], ghosts up to date; zero at nodes without elements. Collective.
-  std::vector<double> at_nodes(std::span<const double> stress) const;
+  /// @param body    that of Mesh::bodies whose stress it is at nodes that it shares; −1: the mean of the
+  /// bodies
+  /// @return [local node][6], ghosts up to date; zero at nodes without elements (of the body). Collective.
+  std::vector<double> at_nodes(std::span<const double> stress, int body = -1) const;
 
  private:
   /// Elements of one body around a node.

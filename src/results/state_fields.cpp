@@ -111,7 +111,8 @@ StateFields::StateFields(const mesh::Mesh& mesh, const coupling::Phases& phases,
   const std::size_t n_of_phases = values_.size();
   add_criteria();
   for (const auto& v : values_)
-    bodies_.add({v->name, v->unit, v->components, v->place, v->values, v->compute, {}, v->on_request});
+    bodies_.add(
+        {v->name, v->unit, v->components, v->place, v->values, v->compute, {}, v->on_request, v->compute_of});
   if (phases.contacts.empty()) return;
 
   FieldSet contact;
@@ -219,18 +220,19 @@ void StateFields::add_heat_flux() {
 }
 
 void StateFields::add_nodal_stress() {
-  const auto nodal = [this] {
+  const auto nodal = [this](int body) {
     if (!recovery_) recovery_ = std::make_unique<StressRecovery>(mesh_, kind_);
-    return recovery_->at_nodes(phases_.mechanics->element_field(ElementField::stress));
+    return recovery_->at_nodes(phases_.mechanics->element_field(ElementField::stress), body);
   };
-  const auto add = [this](const char* name, int components, std::function<std::vector<double>()> compute) {
-    values_.push_back(std::make_unique<Values>(
-        Values{name, "Pa", components, Place::node, {}, false, std::move(compute), true}));
+  const auto add = [this](const char* name, int components,
+                          const std::function<std::vector<double>(int body)>& compute) {
+    values_.push_back(std::make_unique<Values>(Values{
+        name, "Pa", components, Place::node, {}, false, [compute] { return compute(-1); }, true, compute}));
   };
   add("nodal_stress", 6, nodal);
-  add("nodal_von_mises", 1, [nodal] { return von_mises_values(nodal()); });
+  add("nodal_von_mises", 1, [nodal](int body) { return von_mises_values(nodal(body)); });
   for (int rank = 0; rank < 3; ++rank)
-    add(k_principal[rank], 1, [nodal, rank] { return principal_values(nodal(), rank); });
+    add(k_principal[rank], 1, [nodal, rank](int body) { return principal_values(nodal(body), rank); });
 }
 
 void StateFields::add_criteria() {

@@ -110,6 +110,26 @@ TEST(Defaults, AHeldBarWhoseFlowStressFallsWhileItIsHeatedHasTheStressOfItsTime)
   EXPECT_NEAR(at(run.history, "plastic[1]", 90), 5.25e-4, 2e-7);
 }
 
+// What a split keeps of plastic flow in the thermal phase is the default because it is the nearer one to what
+// the stress should be, at the same cost (docs/theory/coupling.md).
+TEST(Defaults, KeepingTheFlowInTheThermalPhaseIsNearerThanMappingItAgain) {
+  const CaseFolder folder("defaults_flow");
+  folder.write("softening.toml", k_softening);
+  for (const std::string order : {"heat_first", "mechanics_first"}) {
+    const CaseRun kept = folder.run(order + "_kept", k_bar, {"coupling.order=\"" + order + "\""}),
+                  restarted =
+                      folder.run(order + "_restarted", k_bar,
+                                 {"coupling.order=\"" + order + "\"", "coupling.thermal_flow=\"restarted\""});
+    ASSERT_TRUE(kept.finished && restarted.finished) << kept.reason << restarted.reason;
+    const auto error = [](const CaseRun& run) {
+      return std::max(std::abs(at(run.history, "stress[MPa]", 80) + 100),
+                      std::abs(at(run.history, "stress[MPa]", 90) + 75));
+    };
+    RecordProperty(order, std::to_string(error(kept)) + " and " + std::to_string(error(restarted)));
+    EXPECT_LT(error(kept), 0.5 * error(restarted)) << order;
+  }
+}
+
 /// Two bars between fixed ends that are heated until the gap between them has closed.
 const std::string k_bars = R"(
 title = "Two bars whose gap closes"

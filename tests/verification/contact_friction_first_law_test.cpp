@@ -18,7 +18,7 @@ namespace {
 using mesh::Shape;
 
 /// The upper block goes down, forth and back, up, further and down again, on and back.
-test::Rubbing make_blocks(Shape shape, contact::FrictionSpec friction, bool rigid) {
+test::Rubbing make_blocks(Shape shape, contact::FrictionSpec friction, bool rigid, bool segments) {
   const bool flat = mesh::dimension(shape) == 2;
   mesh::TwoBlocks blocks{{0.2, 0.04}, {0.06, 0.03}, {17, 3}, {7, 3}, 0};
   if (!flat) blocks = {{0.2, 0.06, 0.04}, {0.06, 0.04, 0.03}, {11, 2, 2}, {4, 3, 2}, 0};
@@ -40,6 +40,7 @@ test::Rubbing make_blocks(Shape shape, contact::FrictionSpec friction, bool rigi
   c.displacements.push_back(
       {top, up, Table({0, 1, 7, 7.5, 8.5, 9, 13}, {0, -4e-5, -6e-5, 1e-3, 1e-3, -4e-5, -4e-5})});
   contact::ContactSpec spec = test::rubbing(std::move(friction), 5e12);
+  if (segments) spec.integration = contact::IntegrationRule::segments;
   mechanics::MechanicsOptions options = test::strict_mechanics();
   options.newton.tolerance = 1e-10;
   return {test::distribute_blocks(raw),
@@ -51,9 +52,9 @@ test::Rubbing make_blocks(Shape shape, contact::FrictionSpec friction, bool rigi
 }
 
 void balance(Shape shape, const contact::FrictionSpec& friction, int steps, const std::string& name,
-             bool rigid = false) {
+             bool rigid = false, bool segments = false) {
   SCOPED_TRACE(name);
-  test::Rubbing blocks = make_blocks(shape, friction, rigid);
+  test::Rubbing blocks = make_blocks(shape, friction, rigid, segments);
   double work = 0, bodies = 0, numerical = 0, least = 0, unbalanced = 0, stored = 0, dissipated = 0;
   double open = 0;
   for (int i = 1; i <= 13 * steps; ++i) {
@@ -103,6 +104,10 @@ TEST(FirstLawOfFriction, HoldsWithNumericalLossesThatAreNotNegative) {
   balance(Shape::quad4, linear(0.2, 0.02), 10, "hardens");
   balance(Shape::quad4, linear(0.3, -0.02), 10, "softens");
   balance(Shape::hex8, test::coulomb(0.3), 4, "hex8");
+  balance(Shape::quad4, linear(0.2, 0.02), 10, "rigid_hardens_segments", true, true);
+  balance(Shape::quad4, test::coulomb(0.3), 10, "coulomb_10_segments", false, true);
+  balance(Shape::quad4, linear(0.2, 0.02), 10, "hardens_segments", false, true);
+  balance(Shape::hex8, test::coulomb(0.3), 4, "hex8_segments", false, true);
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ Tensor rotation(const Point& a, double angle) {
 struct Bodies {
   Shape shape;
   bool curved, smoothing;
+  contact::IntegrationRule rule = contact::IntegrationRule::gauss;
 };
 
 class StickingFriction : public ::testing::TestWithParam<Bodies> {
@@ -55,6 +56,7 @@ TEST_P(StickingFriction, TurnsWithTheBodies) {
   const bool flat = mesh.dimension == 2;
   contact::ContactSpec spec = test::rubbing(test::coulomb(10), 1e11);
   spec.smoothing = GetParam().smoothing;
+  spec.integration = GetParam().rule;
   spec.stabilisation = 0;
   contact::ContactPair pair(mesh, flat ? AnalysisKind::plane_strain : AnalysisKind::solid, spec);
   const Point axis = flat ? Point{0, 0, 1} : Point{2.0 / 7, -3.0 / 7, 6.0 / 7};
@@ -125,10 +127,14 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Bodies{Shape::quad4, false, false}, Bodies{Shape::quad4, true, false},
                       Bodies{Shape::quad4, true, true}, Bodies{Shape::quad8, true, false},
                       Bodies{Shape::hex8, false, false}, Bodies{Shape::hex8, true, false},
-                      Bodies{Shape::hex8, true, true}, Bodies{Shape::tet10, true, false}),
+                      Bodies{Shape::hex8, true, true}, Bodies{Shape::tet10, true, false},
+                      Bodies{Shape::quad4, true, false, contact::IntegrationRule::segments},
+                      Bodies{Shape::quad8, true, true, contact::IntegrationRule::segments},
+                      Bodies{Shape::hex8, true, false, contact::IntegrationRule::segments}),
     [](const auto& setup) {
       return std::string(mesh::name(setup.param.shape)) + (setup.param.curved ? "Curved" : "Flat") +
-             (setup.param.smoothing ? "Smooth" : "");
+             (setup.param.smoothing ? "Smooth" : "") +
+             (setup.param.rule == contact::IntegrationRule::segments ? "Segments" : "");
     });
 
 }  // namespace

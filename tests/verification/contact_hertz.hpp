@@ -26,7 +26,7 @@ struct HertzCase {
   int n = 24;  ///< elements along a side, fine at the contact: 0.4 n of them under half the contact
   contact::NormalKind normal = contact::NormalKind::penalty;
   double stiffness = 1.5;  ///< ε_N over n E/a; the smallest elements have 0.4 n E/a
-  contact::IntegrationRule rule = contact::IntegrationRule::segments;  ///< of small sliding
+  contact::IntegrationRule rule = contact::IntegrationRule::automatic;
   std::optional<double> penalty_factor{};      ///< of a case file, in place of `stiffness`
   std::optional<double> pressure_tolerance{};  ///< of the augmented Lagrangian; absent: by penetration
 };
@@ -76,8 +76,7 @@ struct Hertz {
     contact::ContactSpec spec = interface();
     std::swap(spec.slave, spec.master);
     spec.formulation = c.formulation;
-    spec.integration =
-        c.formulation == contact::Formulation::small_sliding ? c.rule : contact::IntegrationRule::gauss;
+    spec.integration = c.rule;
     spec.normal = c.normal;
     spec.penalty = c.stiffness * c.n * k_hertz_young / k_hertz_half_width;
     spec.penalty_is_factor = c.penalty_factor.has_value();

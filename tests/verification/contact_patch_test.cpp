@@ -170,6 +170,29 @@ TEST_P(ContactPatch, IsMissedByTheErrorOfGaussPointsInLargeSlidingOnMeshesThatDo
   EXPECT_LT(stress.back(), 4e-3);
 }
 
+TEST_P(ContactPatch, PassesAUniformPressureInLargeSlidingWithSegments) {
+  const auto [shape, kind] = GetParam();
+  const mesh::Mesh mesh = test::two_blocks(shape);
+  for (const auto normal : {NormalKind::penalty, NormalKind::augmented_lagrangian})
+    for (const bool swapped : {false, true}) {
+      contact::ContactSpec spec = large_sliding(0);
+      spec.integration = IntegrationRule::segments;
+      spec.normal = normal;
+      if (swapped) std::swap(spec.slave, spec.master);
+      const Deviation d = press(mesh, kind, spec, 5e7, Sides::held);
+      RecordProperty(fmt::format("{}{}", normal == NormalKind::penalty ? "penalty" : "augmented",
+                                 swapped ? "_swapped" : ""),
+                     fmt::format("{:.1e} {:.1e} {}", d.pressure, d.stress, d.iterations));
+      EXPECT_LT(d.pressure, 1e-8);
+      EXPECT_LT(d.stress, 1e-8);
+      if (normal == NormalKind::penalty) {
+        EXPECT_LT(d.penetration, 1e-8);
+      } else {
+        EXPECT_LT(d.left, 6e-8);
+      }
+    }
+}
+
 std::string patch_name(const ::testing::TestParamInfo<Patch>& patch) {
   constexpr std::array kinds{"PlaneStrain", "Axisymmetric", "Solid"};
   return std::string(mesh::name(patch.param.shape)) + kinds[static_cast<std::size_t>(patch.param.kind)];

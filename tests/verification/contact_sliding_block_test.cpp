@@ -26,7 +26,7 @@ using mesh::Shape;
 
 constexpr double k_pressure = 40e6, k_young = 70e9, k_height = 0.01, k_penalty = 1e13, k_way = 0.1;
 
-test::Rubbing make_block(contact::FrictionSpec friction, Shape shape) {
+test::Rubbing make_block(contact::FrictionSpec friction, Shape shape, contact::IntegrationRule rule) {
   const bool flat = mesh::dimension(shape) == 2;
   mesh::TwoBlocks blocks{{0.16, 0.01}, {0.03, k_height}, {13, 1}, {2, 1}, 0};
   if (!flat) blocks = {{0.16, 0.03, 0.01}, {0.03, 0.02, k_height}, {13, 2, 1}, {2, 1, 1}, 0};
@@ -44,11 +44,13 @@ test::Rubbing make_block(contact::FrictionSpec friction, Shape shape) {
   c.displacements.push_back({top, 0, Table({0, 1}, {0, k_way})});
   c.plane_faces = {{top}, {"upper_bottom"}};
   c.pressures.push_back({top, k_pressure});
+  contact::ContactSpec spec = test::rubbing(std::move(friction), k_penalty);
+  spec.integration = rule;
   return {test::distribute_blocks(raw),
           flat ? AnalysisKind::plane_strain : AnalysisKind::solid,
           {test::elastic(k_young, 0), test::elastic(k_young, 0)},
           c,
-          test::rubbing(std::move(friction), k_penalty)};
+          std::move(spec)};
 }
 
 struct Exact {
@@ -89,9 +91,10 @@ Exact exact(const contact::FrictionSpec& spec, double way) {
   return e;
 }
 
-void compare(const contact::FrictionSpec& spec, Shape shape, int steps, const std::string& name) {
+void compare(const contact::FrictionSpec& spec, Shape shape, int steps, const std::string& name,
+             contact::IntegrationRule rule = contact::IntegrationRule::gauss) {
   SCOPED_TRACE(name);
-  test::Rubbing block = make_block(spec, shape);
+  test::Rubbing block = make_block(spec, shape, rule);
   block.advance(1, steps);
   EXPECT_EQ(block.n_cuts, 0);
   const Exact e = exact(spec, k_way);
@@ -148,6 +151,12 @@ TEST(SlidingBlock, DoesSoInThreeDimensionsAndWithOtherShapes) {
   for (const Shape shape : {Shape::tri3, Shape::quad8, Shape::tri6, Shape::hex8, Shape::tet4})
     compare(contact::friction_spec(contact::galvannealed(), contact::k_kilonewton_per_mm), shape, 100,
             std::string(mesh::name(shape)));
+}
+
+TEST(SlidingBlock, DoesSoWithSegmentsThatAreCutAnewInEveryStep) {
+  for (const Shape shape : {Shape::quad4, Shape::quad8, Shape::hex8, Shape::tet4})
+    compare(contact::friction_spec(contact::galvannealed(), contact::k_kilonewton_per_mm), shape, 100,
+            std::string(mesh::name(shape)) + "_segments", contact::IntegrationRule::segments);
 }
 
 }  // namespace

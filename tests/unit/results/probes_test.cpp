@@ -9,6 +9,7 @@
 
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
+#include "parallel/parallel.hpp"
 #include "results/output_error.hpp"
 
 namespace solidus::results {
@@ -169,6 +170,34 @@ TEST_F(Block, ComputedFieldIsComputedOnceARow) {
   for (double& n : first_node) n += 1000;
   EXPECT_EQ(probes.values(lazy), probes.values(fields));
   EXPECT_EQ(computed, 2);
+}
+
+// To compute it may be collective, so that processes without a node of the probe take part.
+TEST_F(Block, FieldThatBodiesDifferInIsReadForTheBodyOfTheProbeByAllProcesses) {
+  FieldSet lazy;
+  lazy.add({"temperature",
+            "K",
+            1,
+            Place::node,
+            {},
+            [&] {
+              parallel::global_sum(1.0);
+              return std::vector<double>(mesh.x.size(), 500.0);
+            },
+            {},
+            false,
+            [&](int body) {
+              parallel::global_sum(1.0);
+              return std::vector<double>(mesh.x.size(), 600.0 + body);
+            }});
+  ASSERT_GT(mesh.surfaces.count("x_min"), 0u);
+  const std::vector<Probe> asked = {point("K", {1, 0, 0}), group("block", Statistic::maximum),
+                                    group("x_min", Statistic::mean)};
+  const Probes probes(mesh, AnalysisKind::plane_strain, asked, lazy);
+  const std::vector<double> values = probes.values(lazy);
+  EXPECT_EQ(values[0], 600);
+  EXPECT_EQ(values[1], 600);
+  EXPECT_NEAR(values[2], 500, 1e-9);
 }
 
 TEST_F(Block, CombinationsAreTakenBeforeUnitsAreShown) {

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 #include <petscsys.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
 
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
@@ -93,6 +96,45 @@ TEST(StressRecovery, FindsTheHoopStressAtTheBoreOfATube) {
     if (mesh.x[i][0] == 1) {
       EXPECT_NEAR(nodal[6 * i], 5, 0.07);
     }
+}
+
+// A hoop stress jumps where two metals meet.
+TEST(StressRecovery, AtANodeOfTwoBodiesIsThatOfTheOneAskedForOrTheirMean) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  mesh::RawMesh raw;
+  if (rank == 0) {
+    raw = mesh::make_block({{2, 1}, {}, {8, 3}}, Shape::quad4);
+    const mesh::RawBlock all = raw.groups.at("block").blocks.at(0);
+    for (const std::string body : {"left", "right"}) {
+      mesh::RawBlock part{all.shape, {}, {}};
+      for (std::size_t e = 0; e < all.input_element.size(); ++e) {
+        const auto nodes = std::span(all.nodes).subspan(4 * e, 4);
+        const bool left = std::ranges::all_of(
+            nodes, [&](Index node) { return raw.x[static_cast<std::size_t>(node)][0] <= 1; });
+        if (left != (body == "left")) continue;
+        part.nodes.insert(part.nodes.end(), nodes.begin(), nodes.end());
+        part.input_element.push_back(all.input_element[e]);
+      }
+      raw.groups[body] = {2, {part}};
+    }
+    raw.groups.erase("block");
+  }
+  const mesh::Mesh mesh = mesh::distribute(raw, {"left", "right"}, {});
+  const auto jumps = [](const Point& x, std::size_t) { return x[0] < 1 ? 5 + x[0] : -3 - 2 * x[0]; };
+  const std::vector<double> cells = at_cells(mesh, jumps);
+  const StressRecovery recovery(mesh, AnalysisKind::plane_strain);
+  const std::vector<double> both = recovery.at_nodes(cells), left = recovery.at_nodes(cells, 0),
+                            right = recovery.at_nodes(cells, 1);
+  int between = 0;
+  for (std::size_t i = 0; i < mesh.x.size(); ++i) {
+    if (mesh.x[i][0] != 1) continue;
+    ++between;
+    EXPECT_NEAR(left[6 * i], 6, 1e-11);
+    EXPECT_NEAR(right[6 * i], -5, 1e-11);
+    EXPECT_NEAR(both[6 * i], 0.5, 1e-11);
+  }
+  EXPECT_GT(parallel::global_sum(static_cast<double>(between)), 3.5);
 }
 
 TEST(StressRecovery, PrincipalValuesAndVonMisesOfATensor) {
