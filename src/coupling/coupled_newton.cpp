@@ -55,6 +55,13 @@ double longest(std::span<const double> step, int components) {
   return std::sqrt(parallel::global_max(squares));
 }
 
+/// Whether heat has gained less than a digit in each of two iterations.
+bool heat_stalls(const std::vector<CoupledResidual>& residuals) {
+  const std::size_t n = residuals.size();
+  return n >= 3 && residuals[n - 1].heat > k_stalls * residuals[n - 2].heat &&
+         residuals[n - 2].heat > k_stalls * residuals[n - 3].heat;
+}
+
 }  // namespace
 
 double CoupledResidual::size() const {
@@ -132,7 +139,7 @@ bool CoupledNewton::balanced() const {
 }
 
 bool CoupledNewton::heat_is_rounding() const {
-  return norm_ <= mechanics_.round_off() && next_step_ <= k_rounding_step &&
+  return norm_ <= goal() && next_step_ <= k_rounding_step &&
          thermal_->unbalanced() <= std::min(2 * shifted_heat_, k_rounding_heat * thermal_->moved());
 }
 
@@ -249,7 +256,7 @@ bool CoupledNewton::find_direction(linear::Forcing& forcing, CoupledReport& repo
   spread(owned_step_, step_u_);
   multiply_heat(step_u_, further_);
   shifted_heat_ = 0;
-  if (norm_ <= mechanics_.round_off()) {
+  if (norm_ <= goal()) {
     double sum = 0;
     for (const double heat : further_) sum += std::abs(heat);
     shifted_heat_ = parallel::global_sum(sum);
@@ -332,6 +339,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
   while (true) {
     report.residuals.push_back(residual);
     if (!std::isfinite(residual.size())) mechanics_.reject("the residual is not a number", x);
+    if (norm_ > mechanics_.round_off() && !heat_stalls(report.residuals)) shifted_heat_ = 0;
     if (converged()) return report;
     if (report.iterations == max_iterations) {
       const std::string reason = "no convergence in " + std::to_string(max_iterations) + " iterations";

@@ -91,8 +91,9 @@ class CoupledNewton {
   /// Residuals of the last evaluation.
   CoupledResidual present() const;
   bool balanced() const;  ///< both residuals are within their tolerances, or rounding
-  /// Whether the heat out of balance is rounding of the displacements: where forces are, pressures of contact
-  /// vary from iteration to iteration within it, and a conductance that follows them does too.
+  /// Whether the heat out of balance is rounding of the displacements: forces are in balance, the steps move
+  /// nothing any more, and yet heat does not fall. Gaps and pressures of contact then vary from iteration to
+  /// iteration by rounding, and a conductance that follows them does too.
   bool heat_is_rounding() const;
   bool converged() const;  ///< and the next step would be a small one (linear::NewtonOptions)
   double goal() const;     ///< ‖r_u‖ that ends the iteration [N]
@@ -133,7 +134,7 @@ class CoupledNewton {
   std::vector<double> work_;                      ///< scratch
   double norm_ = 0, reference_ = 0;               ///< of r_u
   double next_step_ = 0;                          ///< its estimated size, MechanicalPhase::relative_step
-  double shifted_heat_ = 0;  ///< Σ|K_Θu δu| of the last step, where it set out from forces of rounding [W]
+  double shifted_heat_ = 0;  ///< Σ|K_Θu δu| of the last step, where it set out from forces in balance [W]
   bool in_equilibrium_ = false;  ///< every iterate is brought there
 };
 
