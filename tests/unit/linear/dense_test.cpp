@@ -92,8 +92,9 @@ TEST(Dense, EigenvectorsOfAConjugatePairAreItsRealAndImaginaryParts) {
       }
       const double second = imaginary > 0 ? imaginary : 0;
       EXPECT_NEAR(of_real, real * e.vectors(i, k) - second * e.vectors(i, other), 1e-14);
-      if (imaginary > 0)
+      if (imaginary > 0) {
         EXPECT_NEAR(of_imaginary, imaginary * e.vectors(i, k) + real * e.vectors(i, other), 1e-14);
+      }
     }
   }
 }
