@@ -13,16 +13,18 @@ pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi) # the flavour that PETSc uses
 
-# An imported target for a library that is only a header and a shared object.
-function(solidus_plain_library name header)
+# An imported target for a library that is only a shared object and a header, where one is named.
+function(solidus_plain_library name)
   if(TARGET ${name})
     return()
   endif()
-  find_path(${name}_INCLUDE_DIR ${header} REQUIRED)
   find_library(${name}_LIBRARY ${name} REQUIRED)
   add_library(${name} UNKNOWN IMPORTED GLOBAL)
-  set_target_properties(${name} PROPERTIES IMPORTED_LOCATION ${${name}_LIBRARY}
-                        INTERFACE_INCLUDE_DIRECTORIES ${${name}_INCLUDE_DIR})
+  set_target_properties(${name} PROPERTIES IMPORTED_LOCATION ${${name}_LIBRARY})
+  if(ARGN)
+    find_path(${name}_INCLUDE_DIR ${ARGN} REQUIRED)
+    set_target_properties(${name} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${${name}_INCLUDE_DIR})
+  endif()
 endfunction()
 if(SOLIDUS_GMSH)
   solidus_plain_library(gmsh gmsh.h)
@@ -31,4 +33,7 @@ if(SOLIDUS_MED)
   solidus_plain_library(medC med.h)
 endif()
 solidus_plain_library(metis metis.h)
+# BLAS and LAPACK come with PETSc, which declares their functions.
+solidus_plain_library(lapack)
+solidus_plain_library(blas)
 solidus_plain_library(udunits2 udunits2.h)

@@ -37,5 +37,6 @@ foreach(row ${kernels})
     set(file ${CMAKE_BINARY_DIR}/made/kernels/${name}_${kind}.cpp)
     file(CONFIGURE OUTPUT ${file} CONTENT "${text}" @ONLY) # leaves a file alone that would not change
     target_sources(solidus_mechanics PRIVATE ${file})
+    set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # each is a batch already
   endforeach()
 endforeach()

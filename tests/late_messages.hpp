@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "system/processes.hpp"
+
 namespace solidus::test {
 
 inline bool messages_are_late = false;
@@ -25,8 +27,7 @@ inline void wait_at_random() {
 template <class Solve>
 void expect_same_bits(const Solve& solve) {
   constexpr int k_runs = 6;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   std::vector<double> first;
   for (int run = 0; run < k_runs; ++run) {
     random_delay.seed(static_cast<unsigned>(1 + 100 * run + rank));

@@ -1,6 +1,6 @@
 // Runs the first two seconds of a case from a program of one's own, and says how it ended.
 //   freeze CASE FOLDER
-#include <petscsys.h>
+#include <parallel/petsc_session.hpp>
 #include <run/run.hpp>
 
 #include <cstdio>
@@ -11,8 +11,7 @@ int main(int argc, char** argv) {
     std::fputs("usage: freeze CASE FOLDER\n", stderr);
     return 1;
   }
-  int n_for_petsc = 1;  // none of ours
-  if (PetscInitialize(&n_for_petsc, &argv, nullptr, nullptr) != 0) return 3;
+  if (!solidus::petsc::start({})) return 3;
   int code = 0;
   try {
     solidus::model::Case c = solidus::model::load_case(argv[1], {"time.end=\"2 s\""});
@@ -22,6 +21,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", error.what());
     code = 1;
   }
-  PetscFinalize();
+  solidus::petsc::end();
   return code;
 }

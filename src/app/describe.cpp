@@ -1,6 +1,5 @@
 /// The verbs that need no case: explain, schema, version.
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -11,18 +10,18 @@
 #include "input/key_docs.hpp"
 #include "material/library.hpp"
 #include "mesh/gmsh_reader.hpp"
+#include "parallel/petsc_options.hpp"
 #include "point/spec.hpp"
 #include "system/errors.hpp"
 #include "system/input_file.hpp"
+#include "system/processes.hpp"
 #include "system/version.hpp"
 
 namespace solidus::app {
 
 void print(const std::string& given) {
   const std::string text = printable(given);
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank != 0) return;
+  if (processes::rank() != 0) return;
   const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!whole || std::fflush(stdout) != 0) {
     if (errno == EPIPE) return;  // no process reads on, as with `| head`
@@ -64,9 +63,7 @@ ExitCode schema(FileKind file) {
 }
 
 ExitCode version() {
-  char petsc[128] = "";
-  PetscGetVersion(petsc, sizeof petsc);
-  print(fmt::format("Solidus {}\n{}\nGmsh {}\n", program_version(), petsc, mesh::gmsh_version()));
+  print(fmt::format("Solidus {}\n{}\nGmsh {}\n", program_version(), petsc::version(), mesh::gmsh_version()));
   return k_done;
 }
 

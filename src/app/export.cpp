@@ -2,7 +2,6 @@
 #include "run/export.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "results/report/report.hpp"
 #include "results/vtkhdf.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::app {
 
@@ -23,9 +23,7 @@ ExitCode export_fields(const ExportArguments& arguments) {
   if (arguments.deformed || arguments.temperature_history)
     throw InputError({}, "--deformed and --temperature-history are for --calculix and --abaqus",
                      "displacements are among the fields: Warp By Vector in ParaView");
-  int size = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  if (size > 1) throw InputError({}, "the export works on one process", "without mpirun");
+  if (processes::count() > 1) throw InputError({}, "the export works on one process", "without mpirun");
   const std::filesystem::path folder = arguments.folder;
   if (!std::filesystem::exists(folder / "fields.pvd"))
     throw InputError({arguments.folder}, "the folder has no fields.pvd", "the folder of a run's results");

@@ -1,16 +1,13 @@
 /// The program: reads the command line, runs a verb, turns failures into one message and an exit code.
 #include <fmt/format.h>
-#include <petscsys.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <new>
 #include <optional>
-#include <thread>
 
 #include "app/built_version.hpp"
 #include "app/command_tree.hpp"
@@ -27,10 +24,12 @@
 #include "material/external_law.hpp"
 #include "material/library.hpp"
 #include "mesh/reader_process.hpp"
+#include "parallel/petsc_session.hpp"
 #include "system/errors.hpp"
 #include "system/free_memory.hpp"
 #include "system/input_file.hpp"
 #include "system/log.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 #include "system/terminal.hpp"
 #include "system/version.hpp"
@@ -43,18 +42,11 @@ using namespace solidus::app;
 /// Ends the run after a failure: process 0 speaks for all when all failed; a process that failed alone speaks
 /// for itself and takes the others down, which would wait for it for ever.
 ExitCode fail(ExitCode code, const std::string& message) {
-  int rank = 0, alike = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Request everybody = MPI_REQUEST_NULL;
-  MPI_Ibarrier(PETSC_COMM_WORLD, &everybody);
-  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-  while (!alike && std::chrono::steady_clock::now() < patience) {
-    MPI_Test(&everybody, &alike, MPI_STATUS_IGNORE);
-    if (!alike) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  constexpr double k_patience = 5;  // [s]
+  const bool alike = processes::all_arrive(k_patience);
   const std::string name = painted("solidus:", Colour::red, has_colours(STDERR_FILENO));
-  if (rank == 0 || !alike) std::fputs((name + " " + printable(message + "\n")).c_str(), stderr);
-  if (!alike) MPI_Abort(PETSC_COMM_WORLD, code);
+  if (processes::rank() == 0 || !alike) std::fputs((name + " " + printable(message + "\n")).c_str(), stderr);
+  if (!alike) processes::abort(code);
   return code;
 }
 
@@ -369,18 +361,12 @@ int main(int argc, char** argv) {
   keep_environment();
   profile::begin();
   give_large_arrays_back();
-  // Arguments behind "--" are PETSc's; its first argument is the program's name.
+  // Arguments behind "--" are PETSc's.
   char** const end = argv + argc;
   char** const separator = std::find_if(argv, end, [](const char* a) { return std::string_view(a) == "--"; });
-  std::vector<char*> for_petsc(separator == end ? end : separator + 1, end);
-  // A .petscrc of the present folder or the home would change answers in silence; signals are ours.
-  static char no_files[] = "-skip_petscrc", no_handler[] = "-no_signal_handler";
-  for_petsc.insert(for_petsc.begin(), {argv[0], no_files, no_handler});
-  int petsc_argc = static_cast<int>(for_petsc.size());
-  for_petsc.push_back(nullptr);
-  char** petsc_argv = for_petsc.data();
+  const std::vector<std::string> for_petsc(separator == end ? end : separator + 1, end);
   std::optional<profile::Part> start(std::in_place, "start of the program");
-  if (PetscInitialize(&petsc_argc, &petsc_argv, nullptr, nullptr) != 0) {
+  if (!petsc::start(for_petsc)) {
     std::fputs("solidus: PETSc cannot start; its message stands above, its options behind --\n", stderr);
     return separator == end ? k_our_bug : k_bad_input;
   }
@@ -389,6 +375,6 @@ int main(int argc, char** argv) {
   if (run_wanted && !stop_asked()) listen_to_signals();  // MPI and PETSc may have put theirs in place
   const int own_argc = static_cast<int>(separator - argv);
   const ExitCode code = guarded([&] { return parse_and_run(own_argc, argv); });
-  PetscFinalize();
+  petsc::end();
   return code;
 }

@@ -1,10 +1,10 @@
 #include "app/places.hpp"
 
-#include <petscsys.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <system_error>
+
+#include "system/processes.hpp"
 
 namespace solidus::app {
 
@@ -24,10 +24,8 @@ fs::path shared_folder() {
 }
 
 void note_folder(const fs::path& folder) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   const char* note = std::getenv("SOLIDUS_RESULTS_NOTE");
-  if (rank == 0 && note != nullptr)
+  if (processes::rank() == 0 && note != nullptr)
     std::ofstream(note) << fs::absolute(folder).lexically_normal().string() << "\n";
 }
 

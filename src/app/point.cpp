@@ -1,6 +1,5 @@
 /// The verb `point`: a material point through a history, its tables and the data of the pictures.
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +20,7 @@
 #include "results/json.hpp"
 #include "results/output_file.hpp"
 #include "results/run_folder.hpp"
+#include "system/processes.hpp"
 #include "system/version.hpp"
 
 namespace solidus::app {
@@ -178,9 +178,8 @@ void write_curve(const Curve& curve, const point::History& history, const fs::pa
 
 /// Reads the point file, and loads the laws from outside of its materials.
 PointCase load_point_case(const CaseArguments& arguments, const fs::path& file) {
-  int processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &processes);
-  if (processes > 1) throw InputError({}, "a point runs on one process", "solidus point without mpirun");
+  if (processes::count() > 1)
+    throw InputError({}, "a point runs on one process", "solidus point without mpirun");
   Value document = load_document(file);
   for (const std::string& assignment : arguments.set) model::apply_override(document, assignment);
   const auto library = model::material_folders();

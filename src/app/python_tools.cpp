@@ -1,7 +1,6 @@
 #include "app/python_tools.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +13,7 @@
 
 #include "app/places.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 extern char** environ;
 
@@ -51,9 +51,7 @@ void keep_environment() {
 }
 
 ExitCode run_python(const std::string& module, const std::vector<std::string>& arguments) {
-  int processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &processes);
-  if (processes > 1) throw InputError({}, "this verb runs on one process", "solidus without mpirun");
+  if (processes::count() > 1) throw InputError({}, "this verb runs on one process", "solidus without mpirun");
   const char* chosen = std::getenv("SOLIDUS_PYTHON");
   const std::string python = chosen != nullptr && *chosen != '\0' ? chosen : "/usr/bin/python3";
   std::vector<std::string> command = {python, "-m", module};

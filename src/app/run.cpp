@@ -1,7 +1,6 @@
 /// The verb `run`.
 #include "run/run.hpp"
 
-#include <petscsys.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "parallel/parallel.hpp"
 #include "results/progress.hpp"
 #include "results/run_folder.hpp"
+#include "system/processes.hpp"
 #include "system/terminal.hpp"
 
 namespace solidus::app {
@@ -37,8 +37,7 @@ ExitCode run(const CaseArguments& arguments) {
   const model::Case c = load_case(arguments);
   model::RunOptions options;
   options.folder = results_folder(arguments, c);
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   options.progress = rank == 0 ? &std::cout : nullptr;
   options.terminal = rank == 0 && arguments.progress_bar && results::is_terminal(STDOUT_FILENO);
   options.restart = arguments.restart;

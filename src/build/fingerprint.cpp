@@ -1,7 +1,6 @@
 #include "build/fingerprint.hpp"
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include "material/laws/liquid_law.hpp"
 #include "parallel/parallel.hpp"
 #include "results/summary.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::model {
 
@@ -75,7 +75,7 @@ class Hash {
 
 /// The sum over all processes, which hold parts in any order.
 std::uint64_t sum_of(std::uint64_t own) {
-  MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  processes::sum(std::span(&own, 1));
   return own;
 }
 

@@ -11,7 +11,7 @@ namespace solidus::model {
 
 /// @param stage  whose conditions; null: those of all stages
 heat::Conditions thermal_conditions(const CaseSpec& spec, const StageRun* stage = nullptr);
-/// Why the thermal phase cannot have two stages a step in this case; empty: it can.
+/// Returns the reason why the thermal phase cannot have two stages a step in this case; empty: it can.
 std::string against_two_stages(const CaseSpec& spec);
 /// Includes the settings that the coupling requires of the thermal phase: the form of sensible heat, and the
 /// stepping where the case leaves it open.

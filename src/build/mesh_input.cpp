@@ -1,7 +1,5 @@
 #include "build/mesh_input.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -17,6 +15,7 @@
 #include "mesh/wall_layers.hpp"
 #include "results/output_error.hpp"
 #include "system/log.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::model {
@@ -137,10 +136,7 @@ std::vector<FoundInterface> everywhere(const std::vector<FoundInterface>& found)
     packer.put(std::vector<double>{f.distance, f.facets});
   }
   std::vector<char> buffer = std::move(packer).buffer();
-  long size = static_cast<long>(buffer.size());
-  MPI_Bcast(&size, 1, MPI_LONG, 0, PETSC_COMM_WORLD);
-  buffer.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(buffer.data(), static_cast<int>(size), MPI_CHAR, 0, PETSC_COMM_WORLD);
+  processes::broadcast(buffer);
   mesh::Unpacker unpacker(buffer);
   std::vector<FoundInterface> all(unpacker.size());
   for (FoundInterface& f : all) {

@@ -1,7 +1,5 @@
 #include "build/skin_measures.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,7 @@
 #include "mesh/block_geometry.hpp"
 #include "mesh/quadrature.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::model {
 
@@ -54,15 +53,11 @@ GlobalIndex shared_nodes(const mesh::Mesh& mesh, const std::string& a, const std
 }
 
 std::vector<mesh::Point> gather(const std::vector<mesh::Point>& points) {
-  int n_processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
-  const int mine = 3 * static_cast<int>(points.size());
-  std::vector<int> counts(static_cast<std::size_t>(n_processes)), first(counts.size(), 0);
-  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, PETSC_COMM_WORLD);
-  for (std::size_t p = 1; p < counts.size(); ++p) first[p] = first[p - 1] + counts[p - 1];
-  std::vector<mesh::Point> all(static_cast<std::size_t>(first.back() + counts.back()) / 3);
-  MPI_Allgatherv(points.data(), mine, MPI_DOUBLE, all.data(), counts.data(), first.data(), MPI_DOUBLE,
-                 PETSC_COMM_WORLD);
+  std::vector<double> mine;
+  for (const mesh::Point& point : points) mine.insert(mine.end(), point.begin(), point.end());
+  const std::vector<double> numbers = processes::gather(mine);
+  std::vector<mesh::Point> all(numbers.size() / 3);
+  for (std::size_t i = 0; i < numbers.size(); ++i) all[i / 3][i % 3] = numbers[i];
   return all;
 }
 

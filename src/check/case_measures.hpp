@@ -19,7 +19,7 @@ struct Pour {
   double depth = 0;        ///< greatest distance of a node from the cooled skin [m]
   double spanned = 0;      ///< share of its volume in elements that reach from cooled skin to cooled skin
   double conductance = 0;  ///< mean over A at the start, closed [W/(m² K)]; zero: nothing cools
-  /// Why there is no estimate; empty: there is one.
+  /// The reason why there is no estimate; empty: there is one.
   std::string no_estimate;
   FreezingEstimate freezing;
 };

@@ -1,6 +1,5 @@
 // Estimates the effort of a run. The figures are those of one core of a server of 2020, measured on the
 // project's cases (docs/guide/findings.md); another machine differs by its speed.
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "build/body_input.hpp"
 #include "case/stage_input.hpp"
 #include "check/case_measures.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::model {
 
@@ -30,7 +30,7 @@ Cost cost(const CaseSpec& spec, double nodes_of_mechanics) {
   return direct ? k_solid_direct : k_solid_iterative;
 }
 
-/// How much more a scheme does in a step than one pass of each phase.
+/// The work of a scheme in a step, relative to one pass of each phase.
 double passes(const CaseSpec& spec) {
   return spec.coupled() ? spec.coupling.scheme->traits().effort : 1;
 }
@@ -74,8 +74,7 @@ Effort estimate_effort(const CaseSpec& spec, const Assembly& a, const CaseMeasur
     effort.steps_known = !spec.time.adaptive;
     effort.steps = effort.steps_known ? fixed_steps(spec, a) : adaptive_steps(spec, a);
   }
-  int n_processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const int n_processes = processes::count();
   double heat = 0, mechanics = 0;  // nodes
   for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     const auto nodes = static_cast<double>(m.bodies[b].nodes);

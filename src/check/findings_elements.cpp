@@ -23,8 +23,8 @@ double shrinkage(const material::Material& metal) {
 
 }  // namespace
 
-// What shrinks without pores and without flow through its mush draws in its walls instead, and elements with
-// one pressure each do not hold a melt at rest on a mesh that is not regular.
+// Metal that shrinks without pores and without flow through its mush draws in its walls instead, and elements
+// with one pressure each do not hold a melt at rest on a mesh that is not regular.
 void find_in_elements(const CaseSpec& spec, const Assembly& a, Findings& findings) {
   if (!a.mechanics) return;
   for (const results::CastBody& cast : cast_bodies(spec, a.materials, a.start)) {

@@ -62,7 +62,7 @@ void compare_argument(const BodySpec& body, const material::Property& property, 
 
 /// Elastic properties and expansion.
 void compare_solid(const BodySpec& body, const material::Material& m, Findings& findings) {
-  // What is as dense and conducts as well as metal is one, also where its card has no freezing.
+  // A material as dense and conducting as metal counts as one, also where its card has no freezing.
   const bool metal = m.solidification() != nullptr || (m.density > 5000 && m.conductivity.min_value() > 8);
   if (const double stiffest = m.young_modulus.max_value(); metal && stiffest < 1e9)
     findings.push_back({false, body.where,

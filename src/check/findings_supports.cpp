@@ -1,7 +1,8 @@
 // Findings on the motion of whole bodies: directions in which neither a support nor a contact holds them.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include "build/body_input.hpp"
 #include "build/mechanics_input.hpp"
 #include "check/findings.hpp"
+#include "numbers/symmetric_eigen.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::model {
@@ -24,8 +26,16 @@ constexpr double k_nothing = 1e-6;
 /// A body falls where it can follow at least this share of its weight.
 constexpr double k_falls = 0.1;
 
-/// What holds the translations of the bodies: a quadratic form in their n directions each, and the part of it
-/// that acts from one body to another.
+SymmetricEigen modes_of(const Eigen::MatrixXd& form) {
+  return symmetric_eigen({form.data(), form.data() + form.size()}, static_cast<std::size_t>(form.rows()));
+}
+Eigen::Map<const Eigen::VectorXd> vector_of(const SymmetricEigen& modes, Eigen::Index k) {
+  const auto n = static_cast<Eigen::Index>(modes.values.size());
+  return {modes.vectors.data() + k * n, n};
+}
+
+/// The supports and contacts that hold the translations of the bodies: a quadratic form in their n directions
+/// each, and the part of it that acts from one body to another.
 class Translations {
  public:
   Translations(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m);
@@ -43,7 +53,7 @@ class Translations {
     const auto first = n_ * static_cast<int>(body);
     return along.dot(supports_.block(first, 0, n_, n_) * along) > k_nothing;
   }
-  /// What holds the bodies of a group together, [direction][direction].
+  /// The form that holds the bodies of a group together, [direction][direction].
   Eigen::MatrixXd held(int group) const;
   /// The motion of one body that follows a pull on it alone, where nothing holds it: the part of the pull in
   /// the kernel of the form.
@@ -170,11 +180,13 @@ Eigen::MatrixXd Translations::held(int group) const {
 Eigen::VectorXd Translations::followed(std::size_t body, const Eigen::VectorXd& pull) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(form_.rows());
   all.segment(n_ * static_cast<int>(body), n_) = pull;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(form_);
+  const SymmetricEigen modes = modes_of(form_);
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(all.size());
-  for (int k = 0; k < all.size(); ++k)
-    if (modes.eigenvalues()[k] < k_nothing)
-      motion += modes.eigenvectors().col(k).dot(all) * modes.eigenvectors().col(k);
+  for (Eigen::Index k = 0; k < all.size(); ++k)
+    if (modes.values[static_cast<std::size_t>(k)] < k_nothing) {
+      const auto mode = vector_of(modes, k);
+      motion += mode.dot(all) * mode;
+    }
   return motion.segment(n_ * static_cast<int>(body), n_);
 }
 
@@ -192,8 +204,8 @@ std::string direction_text(const Translations& t, const Eigen::VectorXd& directi
 void loose_groups(const CaseSpec& spec, const Translations& t, std::vector<char>& told, Findings& findings) {
   for (std::size_t first = 0; first < spec.bodies.size(); ++first) {
     if (t.group()[first] != static_cast<int>(first)) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(t.held(static_cast<int>(first)));
-    if (modes.eigenvalues()[0] >= k_nothing) continue;
+    const SymmetricEigen modes = modes_of(t.held(static_cast<int>(first)));
+    if (modes.values.front() >= k_nothing) continue;
     std::string names;
     for (std::size_t b = first; b < spec.bodies.size(); ++b)
       if (t.group()[b] == static_cast<int>(first)) {
@@ -201,13 +213,13 @@ void loose_groups(const CaseSpec& spec, const Translations& t, std::vector<char>
         told[b] = 1;
       }
     const bool alone = names == "'" + spec.bodies[first].name + "'",
-               nowhere = modes.eigenvalues()[modes.eigenvalues().size() - 1] < k_nothing;
+               nowhere = modes.values.back() < k_nothing;
     std::string what = fmt::format("nothing holds {}{}", alone ? "the body " : "", names);
     if (alone && nowhere)
       what += ": no support, no contact";
     else if (!nowhere)
       what += fmt::format(" along {}: the place in that direction is arbitrary",
-                          direction_text(t, modes.eigenvectors().col(0)));
+                          direction_text(t, vector_of(modes, 0)));
     else
       what += ": they are in contact with each other alone";
     findings.push_back({false, spec.bodies[first].where, std::move(what),

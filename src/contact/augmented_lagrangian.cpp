@@ -1,13 +1,13 @@
 #include "contact/augmented_lagrangian.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "contact/point_law.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::contact {
 
@@ -88,26 +88,21 @@ double AugmentedLagrangian::excess(const ContactState& now) const {
 std::string AugmentedLagrangian::worst_penetration(const ContactState& now) const {
   const mesh::Mesh& mesh = geometry_.mesh();
   const std::vector<double> penetration = nodal_penetration(now);
-  struct {
-    double value;
-    int rank;
-  } worst{-1.0, 0}, winner{};
-  MPI_Comm_rank(PETSC_COMM_WORLD, &worst.rank);
+  double worst = -1;
   std::size_t node = 0;
   for (std::size_t i = 0; i < penetration.size(); ++i) {
-    if (std::abs(penetration[i]) <= worst.value) continue;
-    worst.value = std::abs(penetration[i]);
+    if (std::abs(penetration[i]) <= worst) continue;
+    worst = std::abs(penetration[i]);
     node = i;
   }
-  MPI_Allreduce(&worst, &winner, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
-  char text[160] = {};
-  if (winner.rank == worst.rank && !penetration.empty()) {
+  const int owner = processes::find_largest(worst).rank;
+  std::string text;
+  if (owner == processes::rank() && !penetration.empty()) {
     const mesh::Point& x = mesh.x[node];
-    fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m", mesh.input_node[node], x[0],
-                x[1], x[2], penetration[node])
-        .copy(text, sizeof text - 1);
+    text = fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: penetration {:.3g} m", mesh.input_node[node],
+                       x[0], x[1], x[2], penetration[node]);
   }
-  MPI_Bcast(text, sizeof text, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
+  processes::broadcast(text, owner);
   return text;
 }
 

@@ -1,9 +1,9 @@
 #include "contact/heat.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "system/processes.hpp"
 
 namespace solidus::contact {
 
@@ -179,7 +179,7 @@ InterfaceSums ContactHeat::commit(std::span<const double> temperature, const Con
     sums.mechanical_entropy += w * (entropy(between, to.internal_variable) - old_entropy);
     sums.plastic_entropy += w * made;
   }
-  MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof(sums) / sizeof(double), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  processes::sum(std::span(reinterpret_cast<double*>(&sums), sizeof(sums) / sizeof(double)));
   return sums;
 }
 

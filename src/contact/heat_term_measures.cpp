@@ -1,4 +1,4 @@
-/// What the heat term tells of its points at given temperatures: fluxes, conductances, the interface.
+/// Measures of the heat term at given temperatures: fluxes, conductances, the interface.
 #include <algorithm>
 
 #include "contact/heat_term.hpp"

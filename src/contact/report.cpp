@@ -1,13 +1,12 @@
 #include "contact/report.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "contact/rotation.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::contact {
 
@@ -69,7 +68,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
     s[16] = heat.total[0];
     s[17] = heat.total[1];
   }
-  MPI_Allreduce(MPI_IN_PLACE, s.data(), static_cast<int>(s.size()), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  processes::sum(s);
   ContactSums sums;
   sums.points = std::llround(s[0]);
   sums.energy = s[1];

@@ -14,8 +14,8 @@ namespace {
 // Pieces smaller than this part of the slave face hold nothing but rounding.
 constexpr double k_least_piece = 1e-13;
 
-// How far a point of a piece may lie outside its face, in reference coordinates: rounding where edges are
-// straight; the sagitta between a curved edge and the two chords that stand for it elsewhere.
+// The distance by which a point of a piece may lie outside its face, in reference coordinates: rounding where
+// edges are straight; the sagitta between a curved edge and the two chords that stand for it elsewhere.
 double edge_tolerance(const Face& face) {
   return face.straight_edges() ? 1e-6 : 0.05;
 }

@@ -1,8 +1,5 @@
 #include "coupling/body_norm.hpp"
 
-#include <mpi.h>
-#include <petscsys.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +8,7 @@
 
 #include "mesh/block_geometry.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::coupling {
 
@@ -129,8 +127,7 @@ BodyNorm::BodyNorm(const mesh::Mesh& mesh, AnalysisKind kind)
     for (std::size_t k = 0; k < 3; ++k)
       centre_[static_cast<std::size_t>(share.body)][k] +=
           share.weight * mesh.x[static_cast<std::size_t>(share.node)][k];
-  MPI_Allreduce(MPI_IN_PLACE, centre_.data(), static_cast<int>(3 * n_bodies_), MPI_DOUBLE, MPI_SUM,
-                PETSC_COMM_WORLD);
+  processes::sum(std::span(centre_.data()->data(), 3 * n_bodies_));
 }
 
 double BodyNorm::operator()(std::span<const double> values, std::span<const char> counts) const {
@@ -168,8 +165,7 @@ double BodyNorm::of_distortion(std::span<const double> displacement, std::span<c
     moments[body].add(share.weight, x, u);
   }
   static_assert(sizeof(Moments) == Moments::k_size * sizeof(double));
-  MPI_Allreduce(MPI_IN_PLACE, moments.data(), static_cast<int>(Moments::k_size * n_bodies_), MPI_DOUBLE,
-                MPI_SUM, PETSC_COMM_WORLD);
+  processes::sum(std::span(reinterpret_cast<double*>(moments.data()), Moments::k_size * n_bodies_));
   std::vector<double> square;
   for (const Moments& of_body : moments) square.push_back(of_body.distortion(kind_));
   return largest(square);

@@ -29,7 +29,7 @@ struct Continuation {
   BodyHeat pending;   ///< of bodies that came and left since the last step
 };
 
-/// Why a run ended before its end time.
+/// The reason why a run ended before its end time.
 struct Stop {
   bool asked = false;        ///< from outside; the rest is then empty
   std::string reason;        ///< of the last rejection: "mechanics: no convergence in 25 iterations"

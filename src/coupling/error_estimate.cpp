@@ -15,7 +15,7 @@ std::vector<double> difference(const std::vector<double>& from, const std::vecto
   return result;
 }
 
-/// How many steps a run has at least that may let their errors add up.
+/// The least number of steps of a run whose errors are allowed to add up.
 constexpr double k_steps = 50;
 
 std::vector<double> half_of_what_was_not_predicted(const std::vector<double>& old,

@@ -1,7 +1,6 @@
 #include "coupling/passes.hpp"
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <algorithm>
 
@@ -10,6 +9,7 @@
 #include "coupling/largest_difference.hpp"
 #include "mechanics/block_kernel.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::coupling {
@@ -36,7 +36,7 @@ mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalSta
                                        const mechanics::MechanicalPass& pass, StepEffort& effort,
                                        const std::vector<contact::ContactState>& contacts) {
   const profile::Part part("mechanics");
-  const double start = MPI_Wtime();
+  const double start = processes::wall_time();
   const std::vector<double> coherency =
       phases.contacts.empty() ? std::vector<double>{} : coherency_of(phases, old.heat);
   begin_contacts(phases, old.contacts, old.mechanics, pass, coherency, contacts);
@@ -67,7 +67,7 @@ mechanics::PhaseReport mechanical_pass(const Phases& phases, const MechanicalSta
   trial.contacts = contact_states(phases);
 
   book_work(report, effort);
-  effort.mechanics.seconds += MPI_Wtime() - start;
+  effort.mechanics.seconds += processes::wall_time() - start;
   return report;
 }
 
@@ -91,7 +91,7 @@ void book_work(const mechanics::PhaseReport& report, StepEffort& effort) {
 bool thermal_pass(const Phases& phases, const State& old, State& trial, const heat::ThermalPass& pass,
                   StepEffort& effort) {
   const profile::Part part("heat");
-  const double start = MPI_Wtime();
+  const double start = processes::wall_time();
   if (phases.mechanics == nullptr) rest_contacts(phases, old, pass.time, pass.dt);
   for (contact::ContactPair* pair : phases.contacts) pair->begin_heat(pass.dt, pass.adiabatic);
   heat::PhaseReport report = phases.heat->solve(old.heat, trial.heat, pass);
@@ -113,7 +113,7 @@ bool thermal_pass(const Phases& phases, const State& old, State& trial, const he
   if (phases.mechanics != nullptr || std::ranges::any_of(phases.contacts, remembers))
     trial.contacts = contact_states(phases);
   if (!pass.adiabatic) effort.fields.flows = std::move(report.flows);
-  add(report.newton, report.hardest, MPI_Wtime() - start, effort.heat);
+  add(report.newton, report.hardest, processes::wall_time() - start, effort.heat);
   return report.newton.converged;
 }
 

@@ -27,7 +27,7 @@ class PhaseIterate {
   /// Goes on to an iterate. Where nothing that deforms changes its phase this is nothing. Collective.
   /// @param share  of the way from the state that is held to that of the iterate
   void advance(const heat::ThermalState& now, double share = 1);
-  /// How far an iterate is from the state that is held: the largest difference of heats in kelvin (or of
+  /// The distance of an iterate from the state that is held: the largest difference of heats in kelvin (or of
   /// temperatures, where nodes hold no heat) as a part of what the step has changed. Zero where nothing
   /// changes its phase. Collective.
   double difference(const heat::ThermalState& now) const;

@@ -12,7 +12,7 @@
 ///   const AddScheme<Lagged> k_lagged;   // at namespace scope (add_scheme.hpp): the key scheme knows
 ///   "lagged"
 ///
-/// What it may declare beside: lags_a_step, advice (below).
+/// Optional members: lags_a_step, advice (below).
 #pragma once
 
 #include <memory>
@@ -72,11 +72,11 @@ class SchemeKind {
   virtual ~SchemeKind() = default;
   virtual std::string_view name() const = 0;
   virtual SchemeTraits traits() const = 0;
-  /// What it refuses.
+  /// Returns the objection to the scheme in this case, if there is one.
   virtual std::optional<Objection> objection(const SchemeContext& c) const = 0;
   /// Whether displacements and stresses of a step belong to the temperatures at its start.
   virtual bool lags_a_step(const SchemeContext& c) const = 0;
-  /// What may help where a run has stopped in it.
+  /// Advice where a run has stopped in the scheme.
   virtual std::vector<std::string> advice(const Stop& stop) const = 0;
   /// @param phases  must outlive the scheme
   virtual std::unique_ptr<CouplingScheme> make(const Phases& phases, const SchemeContext& c) const = 0;

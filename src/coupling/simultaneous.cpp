@@ -1,7 +1,5 @@
 #include "coupling/simultaneous.hpp"
 
-#include <mpi.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "material/time_integration.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::coupling {
@@ -163,7 +162,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
                                      std::span<const double> coherency, mechanics::MechanicalPass pass,
                                      State& trial, PhaseIterate* fractions) {
   const profile::Part part("both fields");
-  const double start = MPI_Wtime();
+  const double start = processes::wall_time();
   pass.iterate_temperature = newton_->thermal().temperature();
   begin_contacts(phases_, contacts, old, pass, coherency);
   phases_.mechanics->begin(old, pass);
@@ -205,7 +204,7 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   energy.heat_exchanged = balance.exchanged;
   const CoupledResidual& end = report_.residuals.back();
   // One iteration for both fields, booked with the mechanical phase.
-  effort.mechanics = {iterations, linear_iterations, end.force, MPI_Wtime() - start};
+  effort.mechanics = {iterations, linear_iterations, end.force, processes::wall_time() - start};
   effort.heat = {iterations, 0, end.heat, 0.0};
   return effort;
 }

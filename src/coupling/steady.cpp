@@ -1,7 +1,6 @@
 #include "coupling/steady.hpp"
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "coupling/relaxation.hpp"
 #include "heat/worst_node.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::coupling {
 
@@ -31,7 +31,7 @@ void place_contacts(const Phases& phases, const State& initial) {
 }
 
 void conduct(const Phases& phases, const State& initial, State& steady, StepEffort& effort) {
-  const double start = MPI_Wtime();
+  const double start = processes::wall_time();
   const heat::ThermalState& from = steady.heat.temperature.empty() ? initial.heat : steady.heat;
   heat::ThermalState next;
   const heat::PhaseReport report = phases.heat->solve_steady(from, next, 0);
@@ -46,7 +46,7 @@ void conduct(const Phases& phases, const State& initial, State& steady, StepEffo
   effort.heat.iterations += report.newton.iterations;
   effort.heat.linear_iterations += report.newton.linear_iterations;
   effort.heat.residual = report.newton.residuals.empty() ? 0.0 : report.newton.residuals.back();
-  effort.heat.seconds += MPI_Wtime() - start;
+  effort.heat.seconds += processes::wall_time() - start;
 }
 
 /// Equilibrium at `temperature`, from the bodies as they are at the start.

@@ -1,8 +1,8 @@
 #include "criteria/criteria.hpp"
 
-#include <mpi.h>
-
 #include <cassert>
+
+#include "system/processes.hpp"
 
 namespace solidus::criteria {
 
@@ -21,13 +21,13 @@ State Criteria::initial(const Moment& start) const {
 
 void Criteria::step(const Moment& old, const Moment& next, State& state) {
   assert(state.records.size() == list_.size());
-  const double start = MPI_Wtime();
+  const double start = processes::wall_time();
   const NodalPhases before = phases_time_ == old.time ? std::move(phases_) : phases_of(old);
   phases_ = phases_of(next);
   phases_time_ = next.time;
   const Moment from = before.of(old), to = phases_.of(next);
   for (std::size_t i = 0; i < list_.size(); ++i) list_[i]->step(from, to, state.records[i]);
-  seconds_ += MPI_Wtime() - start;
+  seconds_ += processes::wall_time() - start;
 }
 
 std::vector<FieldInfo> Criteria::fields() const {

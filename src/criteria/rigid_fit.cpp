@@ -1,9 +1,7 @@
 #include "criteria/rigid_fit.hpp"
 
-#include <mpi.h>
-#include <petscsys.h>
-
 #include "mesh/block_geometry.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::criteria {
 
@@ -30,10 +28,9 @@ std::array<Point, 3> inverse(const std::array<Point, 3>& m) {
 }
 
 template <std::size_t n>
-std::array<double, n> global_sums(const std::array<double, n>& local) {
-  std::array<double, n> all;
-  MPI_Allreduce(local.data(), all.data(), static_cast<int>(n), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  return all;
+std::array<double, n> global_sums(std::array<double, n> numbers) {
+  processes::sum(numbers);
+  return numbers;
 }
 
 }  // namespace

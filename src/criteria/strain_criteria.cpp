@@ -1,8 +1,5 @@
 #include "criteria/strain_criteria.hpp"
 
-#include <mpi.h>
-#include <petscsys.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +7,7 @@
 #include <utility>
 
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::criteria {
 
@@ -204,26 +202,22 @@ void StrainCriteria::fill(const Moment& now, const Record& record,
 }
 
 std::vector<Finding> StrainCriteria::findings(const Record& record) const {
-  struct {
-    double value;
-    int rank;
-  } mine{0, 0}, most{};
-  MPI_Comm_rank(PETSC_COMM_WORLD, &mine.rank);
+  double mine = 0;
   Finding finding{"brittle_strain_max", "1", 0, true, {}};
   std::size_t element = 0;
   for (const mesh::Block& block : mesh_.blocks)
     for (Index e = 0; e < block.size(); ++e, ++element) {
       const double value = largest_principal(tensor(record.columns[k_brittle].values, element));
-      if (e >= block.n_counted || value <= mine.value) continue;
-      mine.value = value;
+      if (e >= block.n_counted || value <= mine) continue;
+      mine = value;
       finding.where = {};
       const int n = mesh::node_count(block.shape);
       for (int a = 0; a < n; ++a)
         for (std::size_t i = 0; i < 3; ++i)
           finding.where[i] += mesh_.x[static_cast<std::size_t>(block.element(e)[a])][i] / n;
     }
-  MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
-  MPI_Bcast(finding.where.data(), 3, MPI_DOUBLE, most.rank, PETSC_COMM_WORLD);
+  const processes::Largest most = processes::find_largest(mine);
+  processes::broadcast(finding.where, most.rank);
   finding.value = most.value;
   finding.somewhere = most.value > 0;
   return {finding};

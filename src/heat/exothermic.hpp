@@ -26,7 +26,7 @@ struct Exothermic {
   double duration = 0;  ///< τ, at a place, > 0 [s]
 };
 
-/// How far the nodes have burnt. Empty where no body of the case burns.
+/// The burnt fraction of the nodes. Empty where no body of the case burns.
 struct BurningState {
   std::vector<double> lit;       ///< t_i, infinite before [local node] [s]
   std::vector<double> released;  ///< t_r, of nodes that are lit [local node] [s]

@@ -1,4 +1,4 @@
-/// What a heat system reports: the power of each condition, and its memory.
+/// Reports of a heat system: the power of each condition, and its memory.
 #include "heat/heat_system.hpp"
 #include "parallel/parallel.hpp"
 

@@ -1,5 +1,7 @@
 #include "linear/block_matrix.hpp"
 
+#include <petscmat.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -9,6 +11,7 @@
 #include "parallel/parallel.hpp"
 #include "parallel/petsc_handles.hpp"
 #include "system/large_pages.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::linear {
 
@@ -245,7 +248,7 @@ double BlockMatrix::mean_diagonal() const {
       sums[0] += block(diagonal_[row])[a * bs + a];
       sums[1] += 1;
     }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  processes::sum(sums);
   return sums[1] > 0 && sums[0] > 0 ? sums[0] / sums[1] : 1.0;
 }
 

@@ -7,8 +7,6 @@
 /// entries at the start.)
 #pragma once
 
-#include <petscmat.h>
-
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -17,6 +15,7 @@
 
 #include "linear/multi_point_constraints.hpp"
 #include "mesh/mesh.hpp"
+#include "parallel/petsc_types.hpp"
 
 namespace solidus::multigrid {
 struct MatrixView;

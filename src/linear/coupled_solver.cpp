@@ -1,5 +1,7 @@
 #include "linear/coupled_solver.hpp"
 
+#include <petscmat.h>
+
 #include <algorithm>
 
 #include "parallel/petsc_handles.hpp"

@@ -1,9 +1,11 @@
 #include "linear/coupled_unknowns.hpp"
 
-#include <mpi.h>
+#include <petscmat.h>
 
 #include <algorithm>
 #include <cassert>
+
+#include "system/processes.hpp"
 
 namespace solidus::linear {
 
@@ -11,14 +13,6 @@ namespace {
 
 std::size_t at(std::int64_t i) {
   return static_cast<std::size_t>(i);
-}
-
-std::vector<std::int64_t> gathered(std::int64_t mine) {
-  int n = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n);
-  std::vector<std::int64_t> all(at(n));
-  MPI_Allgather(&mine, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, PETSC_COMM_WORLD);
-  return all;
 }
 
 /// From numbers of each process to the sums of those before it.
@@ -66,15 +60,13 @@ CoupledUnknowns::CoupledUnknowns(const mesh::Mesh& mesh, CoupledMatrix& matrix,
   const std::vector<char>& fixed = matrix.temperature().fixed();
   for (Index node = 0; node < mesh.n_owned_nodes; ++node)
     if (!fixed[at(node)]) temperatures_of_process_.push_back(node);
-  const std::vector<std::int64_t> n_saddle = gathered(static_cast<std::int64_t>(saddle_.size())),
-                                  n_temperatures =
-                                      gathered(static_cast<std::int64_t>(temperatures_of_process_.size()));
+  const std::vector<std::int64_t> n_saddle = processes::gather(static_cast<std::int64_t>(saddle_.size())),
+                                  n_temperatures = processes::gather(std::ssize(temperatures_of_process_));
   first_of_saddle_ = sums_before(n_saddle);
   temperatures_before_ = sums_before(n_temperatures);
   n_global_ = saddle_.n_global() + temperatures_before_.back() + n_temperatures.back();
 
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   auto number =
       static_cast<double>(first_of_saddle_[at(rank)] + n_saddle[at(rank)] + temperatures_before_[at(rank)]);
   std::vector<double> numbers(mesh.x.size(), -1.0);

@@ -2,8 +2,6 @@
 /// those of the saddle point (saddle_unknowns.hpp), then the temperatures that are not prescribed.
 #pragma once
 
-#include <petscmat.h>
-
 #include <span>
 #include <vector>
 

@@ -1,11 +1,10 @@
 /// Factorisation by MUMPS as a preconditioner of PETSc.
 #pragma once
 
-#include <petscksp.h>
-
 #include <string>
 
 #include "numbers/types.hpp"
+#include "parallel/petsc_types.hpp"
 
 namespace solidus::linear {
 

@@ -1,5 +1,7 @@
 #include "linear/function_matrix.hpp"
 
+#include <petscmat.h>
+
 #include <utility>
 
 #include "parallel/petsc_vectors.hpp"

@@ -1,12 +1,12 @@
 /// A square PETSc operator (shell matrix) that is applied by a function.
 #pragma once
 
-#include <petscmat.h>
-
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
+
+#include "parallel/petsc_types.hpp"
 
 namespace solidus::linear {
 

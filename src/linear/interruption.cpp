@@ -1,5 +1,7 @@
 #include "linear/interruption.hpp"
 
+#include <petscksp.h>
+
 #include <utility>
 
 #include "parallel/parallel.hpp"

@@ -1,10 +1,10 @@
 /// Interruption: a run that is asked to stop leaves its step, also from within a linear solver.
 #pragma once
 
-#include <petscksp.h>
-
 #include <exception>
 #include <functional>
+
+#include "parallel/petsc_types.hpp"
 
 namespace solidus::linear {
 

@@ -1,5 +1,7 @@
 #include "linear/krylov_solver.hpp"
 
+#include <petscksp.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -12,8 +14,8 @@ namespace solidus::linear {
 
 namespace {
 
-constexpr int k_restart = 200;         ///< directions that FGMRES keeps; memory is taken as they come
-constexpr int k_first_workspace = 60;  ///< MUMPS ICNTL(14), per cent: pivots of a saddle point move
+constexpr int k_restart = 200;          ///< directions that FGMRES keeps; memory is taken as they come
+constexpr int k_saddle_workspace = 60;  ///< MUMPS ICNTL(14), per cent: pivots of a saddle point move
 
 }  // namespace
 
@@ -23,7 +25,7 @@ struct KrylovSolver::Implementation {
   petsc::VecHandle b, x;
   Mat op = nullptr, preconditioner = nullptr;
   bool stale = true;  ///< the preconditioner is set up at the next solve
-  Factorisation factorisation{k_first_workspace};
+  Factorisation factorisation{k_saddle_workspace};
   double seconds_setup = 0, seconds_solve = 0;
 
   void create();

@@ -2,13 +2,12 @@
 /// (function_matrix.hpp): the same one, or one that lacks a part which couples too many unknowns.
 #pragma once
 
-#include <petscksp.h>
-
 #include <memory>
 #include <span>
 #include <string>
 
 #include "linear/linear_solver.hpp"
+#include "parallel/petsc_types.hpp"
 
 namespace solidus::linear {
 

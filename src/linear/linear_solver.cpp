@@ -1,5 +1,7 @@
 #include "linear/linear_solver.hpp"
 
+#include <petscksp.h>
+
 #include <algorithm>
 #include <cassert>
 

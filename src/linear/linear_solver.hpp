@@ -1,13 +1,12 @@
 /// Linear solvers: defaults by measurement, PETSc options to change them (prefixes heat_, mechanics_).
 #pragma once
 
-#include <petscksp.h>
-
 #include <memory>
 #include <span>
 #include <string>
 
 #include "linear/block_matrix.hpp"
+#include "parallel/petsc_types.hpp"
 
 namespace solidus::linear {
 

@@ -2,6 +2,8 @@
 /// linear_solver.hpp alone.
 #pragma once
 
+#include <petscksp.h>
+
 #include <memory>
 #include <optional>
 #include <span>

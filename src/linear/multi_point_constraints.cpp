@@ -1,10 +1,10 @@
 #include "linear/multi_point_constraints.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <cassert>
 #include <limits>
+
+#include "system/processes.hpp"
 
 namespace solidus::linear {
 
@@ -21,8 +21,7 @@ MultiPointConstraints::MultiPointConstraints(const mesh::Mesh& mesh, int block_s
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const Index entry : groups[g]) leaders[g] = std::min(leaders[g], global(entry));
   static_assert(sizeof(GlobalIndex) == sizeof(std::int64_t));
-  MPI_Allreduce(MPI_IN_PLACE, leaders.data(), static_cast<int>(leaders.size()), MPI_INT64_T, MPI_MIN,
-                PETSC_COMM_WORLD);
+  processes::least(leaders);
 
   const Index n_owned = mesh.n_owned_nodes * block_size;
   groups_.resize(groups.size());
@@ -47,8 +46,7 @@ void MultiPointConstraints::sum(std::span<double> r) const {
       sums[g] += r[static_cast<std::size_t>(entry)];
       r[static_cast<std::size_t>(entry)] = 0;
     }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                PETSC_COMM_WORLD);
+  processes::sum(sums);
   for (std::size_t g = 0; g < groups_.size(); ++g)
     if (groups_[g].leader >= 0) r[static_cast<std::size_t>(groups_[g].leader)] = sums[g];
 }
@@ -58,8 +56,7 @@ void MultiPointConstraints::share(std::span<double> x) const {
   std::vector<double> values(groups_.size(), 0.0);  // one process owns the leader, the others add zero
   for (std::size_t g = 0; g < groups_.size(); ++g)
     if (groups_[g].leader >= 0) values[g] = x[static_cast<std::size_t>(groups_[g].leader)];
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
-                PETSC_COMM_WORLD);
+  processes::sum(values);
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const Index entry : groups_[g].members) x[static_cast<std::size_t>(entry)] = values[g];
 }

@@ -1,25 +1,23 @@
 #include "linear/recycling_gmres.hpp"
 
-#include <mpi.h>
-#include <petscsys.h>
-
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "linear/dense.hpp"
 #include "linear/interruption.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::linear {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+using dense::Columns, dense::Matrix;
+using Size = std::size_t;
+using Vector = std::vector<double>;
 
 /// A direction is kept if its harmonic Ritz value is smaller than this. The eigenvalues of the preconditioned
 /// operator lie about 1, and GMRES converges fast for those that are larger.
@@ -28,52 +26,34 @@ constexpr double k_slow = 0.3;
 /// depends on them.
 constexpr double k_dependent = 1e-10;
 
-std::span<const double> input(const Eigen::Ref<const VectorXd>& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
-
-std::span<double> output(Eigen::Ref<VectorXd> v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
-
-/// Sums a matrix over all processes, in place.
-void sum(MatrixXd& a) {
-  MPI_Allreduce(MPI_IN_PLACE, a.data(), static_cast<int>(a.size()), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-}
-
-void sum(VectorXd& a) {
-  MPI_Allreduce(MPI_IN_PLACE, a.data(), static_cast<int>(a.size()), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-}
-
-/// aᵀ b over all processes.
-template <class A, class B>
-MatrixXd products(const A& a, const B& b) {
-  MatrixXd result = a.transpose() * b;
-  sum(result);
+/// Aᵀ B over all processes.
+Matrix products(const Columns& a, const Columns& b) {
+  Matrix result = dense::transposed_product(a, b);
+  processes::sum(result.numbers());
   return result;
 }
 
-double norm(const Eigen::Ref<const VectorXd>& v) {
-  double square = v.squaredNorm();
-  MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+double norm(std::span<const double> v) {
+  double square = dense::square(v);
+  processes::sum(std::span(&square, 1));
   return std::sqrt(square);
 }
 
 /// Takes the components along the orthonormal columns of q out of w, a second time where the first has
 /// cancelled digits (classical Gram-Schmidt, selective reorthogonalisation). Returns them, and behind them
 /// the norm of the remainder.
-template <class Columns>
-VectorXd orthogonalise(const Columns& q, Eigen::Ref<VectorXd> w) {
+Vector orthogonalise(const Columns& q, std::span<double> w) {
   constexpr double k_cancelled = 0.5;
-  const Index n = q.cols();
-  VectorXd h(n + 1), total = VectorXd::Zero(n + 1);
+  const Size n = q.count;
+  Vector h(n + 1), total(n + 1, 0.0);
+  const std::span<double> along = std::span(h).first(n);
   for (int pass = 0; pass < 2; ++pass) {
-    h.head(n).noalias() = q.transpose() * w;
-    h[n] = w.squaredNorm();
-    sum(h);
-    w.noalias() -= q * h.head(n);
-    total.head(n) += h.head(n);
-    const double before = h[n], left = before - h.head(n).squaredNorm();
+    dense::multiply_transposed(q, w, along);
+    h[n] = dense::square(w);
+    processes::sum(h);
+    dense::add_product(-1, q, along, w);
+    for (Size i = 0; i < n; ++i) total[i] += h[i];
+    const double before = h[n], left = before - dense::square(along);
     total[n] = std::sqrt(std::max(0.0, left));
     if (left > k_cancelled * k_cancelled * before) return total;
   }
@@ -84,26 +64,29 @@ VectorXd orthogonalise(const Columns& q, Eigen::Ref<VectorXd> w) {
 /// Plane rotations that bring the Hessenberg matrix of a cycle to triangular form column by column.
 class LeastSquares {
  public:
-  LeastSquares(Index directions, double beta)
-      : r_(MatrixXd::Zero(directions + 1, directions)), g_(VectorXd::Zero(directions + 1)) {
+  LeastSquares(Size directions, double beta) : r_(directions + 1, directions), g_(directions + 1, 0.0) {
     g_[0] = beta;
   }
   /// Adds a column of `column.size()` entries; returns the norm of the residual.
-  double add(VectorXd column) {
-    const Index j = n_++;
-    for (Index i = 0; i < j; ++i) rotations_[static_cast<std::size_t>(i)](column[i], column[i + 1]);
+  double add(std::span<const double> given) {
+    Vector column(given.begin(), given.end());
+    const Size j = n_++;
+    for (Size i = 0; i < j; ++i) rotations_[i](column[i], column[i + 1]);
     Rotation turn;
     const double length = std::hypot(column[j], column[j + 1]);
     if (length > 0) turn = {column[j] / length, column[j + 1] / length};
     turn(column[j], column[j + 1]);
     turn(g_[j], g_[j + 1]);
     rotations_.push_back(turn);
-    r_.col(j).head(j + 1) = column.head(j + 1);
+    std::copy_n(column.begin(), j + 1, r_.all()[j].begin());
     return std::abs(g_[j + 1]);
   }
-  VectorXd solution() const {
-    VectorXd y = g_.head(n_);
-    r_.topLeftCorner(n_, n_).triangularView<Eigen::Upper>().solveInPlace(y);
+  Vector solution() const {
+    Vector y(g_.begin(), g_.begin() + static_cast<std::ptrdiff_t>(n_));
+    for (Size j = n_; j-- > 0;) {
+      y[j] /= r_(j, j);
+      for (Size i = 0; i < j; ++i) y[i] -= r_(i, j) * y[j];
+    }
     return y;
   }
 
@@ -116,37 +99,43 @@ class LeastSquares {
       a = turned;
     }
   };
-  MatrixXd r_;
-  VectorXd g_;
-  Index n_ = 0;
+  Matrix r_;
+  Vector g_;
+  Size n_ = 0;
   std::vector<Rotation> rotations_;
 };
 
 /// The harmonic Ritz vectors of smallest absolute value, GᵀG p = θ GᵀF p, as columns; real and imaginary
 /// parts of complex ones.
-MatrixXd slow_vectors(const MatrixXd& g, const MatrixXd& f, Index most) {
-  const Index n = g.cols();
-  const Eigen::HouseholderQR<MatrixXd> qr(g);
-  const MatrixXd q = qr.householderQ() * MatrixXd::Identity(g.rows(), n);
-  MatrixXd inverse = q.transpose() * f;
-  qr.matrixQR().topRows(n).triangularView<Eigen::Upper>().solveInPlace(inverse);
-  if (!inverse.allFinite()) return MatrixXd(n, 0);
-  const Eigen::EigenSolver<MatrixXd> eigen(inverse);  // of 1/θ
-  if (eigen.info() != Eigen::Success) return MatrixXd(n, 0);
-  const auto size = [&](Index i) { return std::abs(eigen.eigenvalues()[i]); };
-  std::vector<Index> order(static_cast<std::size_t>(n));
+Matrix slow_vectors(const Columns& g, const Columns& f, Size most) {
+  const Size n = g.count;
+  const dense::OrthogonalFactors qr = dense::orthogonal_factors(g);
+  const Matrix inverse =
+      dense::transposed_product(qr.q.all(), f);  // R⁻¹ Qᵀ F, of which 1/θ are the eigenvalues
+  dense::solve_upper(qr.r, inverse.all());
+  for (Size j = 0; j < n; ++j)
+    for (const double value : inverse.all()[j])
+      if (!std::isfinite(value)) return Matrix(n, 0);
+  const dense::Eigensystem eigen = dense::eigensystem(inverse.all());
+  if (eigen.values.empty()) return Matrix(n, 0);
+  const auto size = [&](Size i) { return std::abs(eigen.values[i]); };
+  std::vector<Size> order(n);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return size(a) > size(b); });
-  MatrixXd chosen(n, most);
-  Index count = 0;
-  for (const Index i : order) {
-    if (size(i) < 1 / k_slow || count == most) break;
-    const double imaginary = eigen.eigenvalues()[i].imag();
+  std::stable_sort(order.begin(), order.end(), [&](Size a, Size b) { return size(a) > size(b); });
+  std::vector<Size> chosen;
+  for (const Size i : order) {
+    if (size(i) < 1 / k_slow || chosen.size() == most) break;
+    const double imaginary = eigen.values[i].imag();
     if (imaginary < 0) continue;  // comes with its conjugate
-    chosen.col(count++) = eigen.eigenvectors().col(i).real();
-    if (imaginary > 0 && count < most) chosen.col(count++) = eigen.eigenvectors().col(i).imag();
+    chosen.push_back(i);
+    if (imaginary > 0 && chosen.size() < most) chosen.push_back(i + 1);
   }
-  return chosen.leftCols(count);
+  Matrix vectors(n, chosen.size());
+  for (Size k = 0; k < chosen.size(); ++k) {
+    const std::span<double> from = eigen.vectors.all()[chosen[k]];
+    std::copy(from.begin(), from.end(), vectors.all()[k].begin());
+  }
+  return vectors;
 }
 
 }  // namespace
@@ -154,105 +143,120 @@ MatrixXd slow_vectors(const MatrixXd& g, const MatrixXd& f, Index most) {
 struct RecyclingGmres::Implementation {
   RecyclingOptions options;
   Map op, preconditioner;
-  Index n = 0;        ///< unknowns of this process
-  Index n_kept = 0;   ///< number of recycled columns
+  bool sized = false;
+  Size n = 0;         ///< unknowns of this process
+  Size n_kept = 0;    ///< number of recycled columns
   bool stale = true;  ///< the recycled products belong to an earlier operator
-  MatrixXd v;         ///< columns of C in front, then the directions of the cycle, orthonormal
-  MatrixXd z;  ///< the directions of which they are products: Z in front, then the preconditioned directions
-  MatrixXd u;  ///< Z before it was preconditioned, which gives the Ritz vectors their measure
+  Matrix v;           ///< columns of C in front, then the directions of the cycle, orthonormal
+  Matrix z;  ///< the directions of which they are products: Z in front, then the preconditioned directions
+  Matrix u;  ///< Z before it was preconditioned, which gives the Ritz vectors their measure
 
-  void set_size(Index size);
+  void set_size(Size size);
   void renew_products();
-  Index orthonormal_prefix();
   struct Cycle {
     int iterations = 0;
     bool converged = false;
     bool exhausted = false;  ///< no direction is left
   };
-  Cycle cycle(VectorXd& r, Eigen::Ref<VectorXd> x, double limit, int most);
-  void choose(Index steps, const MatrixXd& g);
+  Cycle cycle(std::span<double> r, std::span<double> x, double limit, int most);
+  void choose(Size steps, const Columns& g);
 };
 
-void RecyclingGmres::Implementation::set_size(Index size) {
-  if (v.cols() > 0 && size == n) return;
+void RecyclingGmres::Implementation::set_size(Size size) {
+  if (sized && size == n) return;
+  sized = true;
   n = size;
   n_kept = 0;
-  const Index columns = options.kept + options.directions;
-  v.resize(n, columns + 1);  // pages are taken as columns are written
-  z.resize(n, columns);
-  u.resize(n, options.kept);
+  const Size kept = static_cast<Size>(options.kept), columns = kept + static_cast<Size>(options.directions);
+  v = Matrix::undefined(n, columns + 1);
+  z = Matrix::undefined(n, columns);
+  u = Matrix::undefined(n, kept);
 }
 
 /// C = A Z for the operator as it is now, orthonormal; Z and U follow. Directions that depend on others go.
 void RecyclingGmres::Implementation::renew_products() {
-  Index kept = 0;
-  for (Index i = 0; i < n_kept; ++i) {
-    op(input(z.col(i)), output(v.col(kept)));
-    const double before = norm(v.col(kept));
-    const VectorXd h = orthogonalise(v.leftCols(kept), v.col(kept));
+  Size kept = 0;
+  for (Size i = 0; i < n_kept; ++i) {
+    const std::span<double> product = v.all()[kept];
+    op(z.all()[i], product);
+    const double before = norm(product);
+    const Vector h = orthogonalise(v.all().first(kept), product);
     const double left = h[kept];
     if (!(left > k_dependent * before)) continue;
-    v.col(kept) /= left;
-    z.col(kept) = (z.col(i) - z.leftCols(kept) * h.head(kept)) / left;
-    u.col(kept) = (u.col(i) - u.leftCols(kept) * h.head(kept)) / left;
+    for (double& value : product) value /= left;
+    for (const Matrix* directions : {&z, &u}) {
+      const std::span<double> from = directions->all()[i], to = directions->all()[kept];
+      if (kept != i) std::copy(from.begin(), from.end(), to.begin());
+      dense::add_product(-1, directions->all().first(kept), std::span(h).first(kept), to);
+      for (double& value : to) value /= left;
+    }
     ++kept;
   }
   n_kept = kept;
   stale = false;
 }
 
-RecyclingGmres::Implementation::Cycle RecyclingGmres::Implementation::cycle(VectorXd& r,
-                                                                            Eigen::Ref<VectorXd> x,
-                                                                            double limit, int most) {
+RecyclingGmres::Implementation::Cycle RecyclingGmres::Implementation::cycle(std::span<double> r,
+                                                                            std::span<double> x, double limit,
+                                                                            int most) {
   Cycle report;
-  const Index k = n_kept, m = std::min<Index>(options.directions, most);
+  const Size k = n_kept, m = static_cast<Size>(std::min(options.directions, most));
   const double beta = norm(r);
-  v.col(k) = r / beta;
-  MatrixXd g = MatrixXd::Zero(k + m + 1, k + m);
-  g.topLeftCorner(k, k).setIdentity();
+  std::transform(r.begin(), r.end(), v.all()[k].begin(), [beta](double value) { return value / beta; });
+  Matrix g(k + m + 1, k + m);
+  for (Size i = 0; i < k; ++i) g(i, i) = 1;
   LeastSquares problem(m, beta);
-  Index j = 0;
+  Size j = 0;
   while (j < m && !report.converged && !report.exhausted) {
     check_interruption();
-    preconditioner(input(v.col(k + j)), output(z.col(k + j)));
-    op(input(z.col(k + j)), output(v.col(k + j + 1)));
-    const double before = norm(v.col(k + j + 1));
-    const VectorXd h = orthogonalise(v.leftCols(k + j + 1), v.col(k + j + 1));
-    g.col(k + j).head(k + j + 2) = h;
+    const std::span<double> next = v.all()[k + j + 1];
+    preconditioner(v.all()[k + j], z.all()[k + j]);
+    op(z.all()[k + j], next);
+    const double before = norm(next);
+    const Vector h = orthogonalise(v.all().first(k + j + 1), next);
+    std::copy(h.begin(), h.end(), g.all()[k + j].begin());
     report.exhausted = !(h[k + j + 1] > k_dependent * before);
-    if (!report.exhausted) v.col(k + j + 1) /= h[k + j + 1];
-    report.converged = problem.add(h.tail(j + 2)) <= limit;
+    if (!report.exhausted)
+      for (double& value : next) value /= h[k + j + 1];
+    report.converged = problem.add(std::span(h).last(j + 2)) <= limit;
     ++j;
   }
   report.iterations = static_cast<int>(j);
-  const VectorXd y = problem.solution();
-  VectorXd of_directions(k + j);
-  of_directions << -g.topRows(k).middleCols(k, j) * y, y;
-  x.noalias() += z.leftCols(k + j) * of_directions;
-  if (j >= options.worthwhile && !report.exhausted) choose(j, g.topLeftCorner(k + j + 1, k + j));
+  const Vector y = problem.solution();
+  Vector of_directions(k + j, 0.0);
+  dense::add_product(-1, g.all().from(k, j).rows_from(0, k), y, std::span(of_directions).first(k));
+  std::copy(y.begin(), y.end(), of_directions.begin() + static_cast<std::ptrdiff_t>(k));
+  dense::add_product(1, z.all().first(k + j), of_directions, x);
+  if (static_cast<int>(j) >= options.worthwhile && !report.exhausted)
+    choose(j, g.all().first(k + j).rows_from(0, k + j + 1));
   return report;
 }
 
 /// The next Z from the space of this cycle, A [Z Z_m] = [C V] G.
-void RecyclingGmres::Implementation::choose(Index steps, const MatrixXd& g) {
-  const Index k = n_kept, all = k + steps;
-  MatrixXd f = MatrixXd::Zero(all + 1, all);
-  f.bottomRightCorner(steps + 1, steps).setIdentity();
-  if (k > 0) f.leftCols(k) = products(v.leftCols(all + 1), u.leftCols(k));
-  const MatrixXd p = slow_vectors(g, f, options.kept);
-  n_kept = p.cols();
+void RecyclingGmres::Implementation::choose(Size steps, const Columns& g) {
+  const Size k = n_kept, all = k + steps;
+  Matrix f(all + 1, all);
+  for (Size i = 0; i < steps; ++i) f(k + i, k + i) = 1;
+  if (k > 0) {
+    const Matrix of_kept = products(v.all().first(all + 1), u.all().first(k));
+    std::copy_n(of_kept.all().values, (all + 1) * k, f.all().values);
+  }
+  const Matrix p = slow_vectors(g, f.all(), static_cast<Size>(options.kept));
+  n_kept = p.columns();
   if (n_kept == 0) return;
-  const Eigen::HouseholderQR<MatrixXd> qr(g * p);
-  const MatrixXd q = qr.householderQ() * MatrixXd::Identity(all + 1, n_kept);
-  const MatrixXd combination =
-      qr.matrixQR().topRows(n_kept).triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(p);
-  const MatrixXd before =
-      u.leftCols(k) * combination.topRows(k) + v.middleCols(k, steps) * combination.bottomRows(steps);
-  u.leftCols(n_kept) = before;
-  const MatrixXd made = z.leftCols(all) * combination;
-  z.leftCols(n_kept) = made;
-  const MatrixXd product = v.leftCols(all + 1) * q;
-  v.leftCols(n_kept) = product;
+  const Matrix of_ritz = dense::product(g, p.all());
+  const dense::OrthogonalFactors qr = dense::orthogonal_factors(of_ritz.all());
+  const Columns combination = p.all();
+  dense::solve_upper_from_right(qr.r, combination);
+  Matrix before = dense::product(v.all().from(k, steps), combination.rows_from(k, steps));
+  for (Size i = 0; i < n_kept; ++i)
+    dense::add_product(1, u.all().first(k), combination[i].first(k), before.all()[i]);
+  const auto take = [&](const Matrix& from, const Matrix& to) {
+    for (Size i = 0; i < n_kept; ++i) std::copy_n(from.all()[i].begin(), n, to.all()[i].begin());
+  };
+  take(before, u);
+  take(dense::product(z.all().first(all), combination), z);
+  take(dense::product(v.all().first(all + 1), qr.q.all()), v);
 }
 
 RecyclingGmres::RecyclingGmres(RecyclingOptions options)
@@ -279,19 +283,19 @@ void RecyclingGmres::forget() {
 LinearReport RecyclingGmres::solve(std::span<const double> b, std::span<double> x, double relative) {
   const profile::Part part("solve");
   Implementation& my = *implementation_;
-  my.set_size(static_cast<Index>(b.size()));
+  my.set_size(b.size());
   if (my.stale) my.renew_products();
-  const Eigen::Map<const VectorXd> right(b.data(), my.n);
-  Eigen::Map<VectorXd> solution(x.data(), my.n);
-  VectorXd r = right;
-  solution.setZero();
+  Vector r(b.begin(), b.end());
+  std::fill(x.begin(), x.end(), 0.0);
   // The norm of a cycle and that of the true residual differ by rounding.
   const double limit = relative * norm(r), accepted = 1.01 * limit;
   const auto project = [&] {
     if (my.n_kept == 0) return;
-    const VectorXd c = products(my.v.leftCols(my.n_kept), r);
-    solution.noalias() += my.z.leftCols(my.n_kept) * c;
-    r.noalias() -= my.v.leftCols(my.n_kept) * c;
+    Vector c(my.n_kept);
+    dense::multiply_transposed(my.v.all().first(my.n_kept), r, c);
+    processes::sum(c);
+    dense::add_product(1, my.z.all().first(my.n_kept), c, x);
+    dense::add_product(-1, my.v.all().first(my.n_kept), c, r);
   };
   project();
   LinearReport report;
@@ -302,11 +306,11 @@ LinearReport RecyclingGmres::solve(std::span<const double> b, std::span<double> 
       report.reason = left <= 0 ? "DIVERGED_ITS" : "DIVERGED_NANORINF";
       break;
     }
-    const Implementation::Cycle cycle = my.cycle(r, solution, limit, left);
+    const Implementation::Cycle cycle = my.cycle(r, x, limit, left);
     report.iterations += cycle.iterations;
-    VectorXd product(my.n);
-    my.op(input(solution), output(product));
-    r = right - product;
+    Vector product(my.n);
+    my.op(x, product);
+    for (Size i = 0; i < my.n; ++i) r[i] = b[i] - product[i];
     if (cycle.exhausted && norm(r) > accepted) {
       report.converged = false;
       report.reason = "DIVERGED_BREAKDOWN";
@@ -319,7 +323,7 @@ LinearReport RecyclingGmres::solve(std::span<const double> b, std::span<double> 
 
 std::size_t RecyclingGmres::bytes() const {
   const Implementation& my = *implementation_;
-  return static_cast<std::size_t>(my.v.size() + my.z.size() + my.u.size()) * sizeof(double);
+  return my.n * (my.v.columns() + my.z.columns() + my.u.columns()) * sizeof(double);
 }
 
 }  // namespace solidus::linear

@@ -1,8 +1,10 @@
 #include "linear/saddle_unknowns.hpp"
 
-#include <mpi.h>
+#include <petscmat.h>
 
 #include <algorithm>
+
+#include "system/processes.hpp"
 
 namespace solidus::linear {
 
@@ -43,10 +45,9 @@ SaddleUnknowns::SaddleUnknowns(const mesh::Mesh& mesh, const SaddleMatrix& matri
     if (u[i] == k_unknown) entries_.push_back(i);
   for (std::size_t i = 0; i < n_pressures; ++i)
     if (p[i] == k_unknown) entries_.push_back(n_displacements_ + i);
-  std::int64_t mine = static_cast<std::int64_t>(entries_.size()), first = 0;
-  MPI_Exscan(&mine, &first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
-  MPI_Allreduce(&mine, &n_global_, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
-  auto number = static_cast<double>(first);
+  n_global_ = std::ssize(entries_);
+  auto number = static_cast<double>(processes::sum_before(n_global_));
+  processes::sum(std::span(&n_global_, 1));
   for (const std::size_t entry : entries_)
     (entry < n_displacements_ ? u[entry] : p[entry - n_displacements_]) = number++;
   constraints_.share(std::span(u).first(n_displacements_));

@@ -4,8 +4,6 @@
 /// A linear solver works on these alone, so nodes of bodies that only conduct heat have no rows.
 #pragma once
 
-#include <petscmat.h>
-
 #include <span>
 #include <vector>
 

@@ -72,6 +72,14 @@ ExternalLaw::ExternalLaw(ExternalData data, std::shared_ptr<const ExternalLibrar
             (data_.dissipation == ExternalDissipation::automatic && library_->tells_dissipated())),
       initial_(data_.initial_state) {
   initial_.resize(n_internal_);
+  constexpr std::array<std::size_t, 6> component{0, 1, 2, 3, 5, 4};  // of Sym, of each of the library's
+  const TangentForm form = library_->tangent_form();
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j) {
+      const std::size_t entry = 6 * component[i] + component[j];
+      tangent_place_[entry] = form.by_columns ? 6 * j + i : 6 * i + j;
+      tangent_factor_[entry] = (i < 3 ? 1 : form.shear) * (j < 3 ? 1 : form.shear);
+    }
 }
 
 ExternalLaw::Workspace::Workspace(const ExternalLaw& law)
@@ -109,11 +117,10 @@ bool ExternalLaw::integrate(const Properties<T>& p, const T* old, T* now, const 
   call.complaint = space.failures == nullptr ? nullptr : space.failures + lane;
   if (!library_->integrate(call)) return false;
 
-  for (int i = 0; i < 6; ++i) {
-    set(r.stress[i], lane, call.stress[i]);
-    if (space.wants_tangent)
-      for (std::size_t j = 0; j < 6; ++j) set(r.tangent[i][j], lane, call.tangent[i][j]);
-  }
+  for (int i = 0; i < 6; ++i) set(r.stress[i], lane, call.stress[i]);
+  if (space.wants_tangent)
+    for (std::size_t k = 0; k < 36; ++k)
+      set(r.tangent.c[k / 6][k % 6], lane, tangent_factor_[k] * call.tangent[tangent_place_[k]]);
   for (std::size_t i = 0; i < n_internal_; ++i) set(now[k_internal + i], lane, internal[i] - initial_[i]);
   for (std::size_t i = 0; i < k_external_energies; ++i) set(now[k_energies + i], lane, energies[i]);
   if (told_) set(dissipated, lane, library_->dissipated(call));

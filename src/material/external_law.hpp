@@ -20,6 +20,7 @@
 /// stored [J/m³], ε^v viscous strain of the melt. Validity: infinitesimal strain; isotropic moduli.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,13 +72,19 @@ struct ExternalCall {
   double* scratch;             ///< [ExternalLibrary::n_scratch()], for the library's use
 
   Sym<double> stress;
-  Sym4<double> tangent;  ///< ∂σ/∂e, on engineering shears
+  std::array<double, 36> tangent;  ///< ∂σ/∂e as the library writes it (TangentForm); where it is wanted
   double* internal;
   double* energies;
   double heat = 0;         ///< RPL of a UMAT [W/m³]
   std::string* complaint;  ///< why there is none, where false is returned; may be null
 };
 inline constexpr std::size_t k_external_energies = 3;  ///< stored, dissipated (MFront); SSE, SPD, SCD (UMAT)
+
+/// How a library writes its tangent: components 11, 22, 33, 12, 13, 23.
+struct TangentForm {
+  bool by_columns = false;
+  double shear = 1;  ///< factor of each row and column of a shear that makes it one on engineering shears
+};
 
 /// A library behind its interface.
 class ExternalLibrary {
@@ -86,6 +93,7 @@ class ExternalLibrary {
   virtual std::size_t n_internal() const = 0;
   /// Numbers that a call works with; nothing of a call is kept in the library's object.
   virtual std::size_t n_scratch() const = 0;
+  virtual TangentForm tangent_form() const = 0;
   /// Name of each number of the state.
   virtual std::vector<std::string> internal_names() const = 0;
   /// Whether it tells the energies that it stores and dissipates.
@@ -127,7 +135,7 @@ class ExternalLaw {
   /// Numbers of a point.
   std::size_t size() const { return k_internal + n_internal_; }
 
-  /// What a caller keeps for as many calls as it makes, and what it asks for.
+  /// The memory of a caller for its calls, and what it asks for.
   struct Workspace {
     explicit Workspace(const ExternalLaw& law);
     std::vector<double> numbers;  ///< z_n, z_{n+1} and scratch of the point that is integrated
@@ -173,7 +181,9 @@ class ExternalLaw {
   ExternalData data_;
   std::shared_ptr<const ExternalLibrary> library_;
   std::size_t n_internal_ = 0;
-  bool told_ = false;  ///< dissipation as the library tells it
+  bool told_ = false;                            ///< dissipation as the library tells it
+  std::array<std::size_t, 36> tangent_place_{};  ///< of each entry, by rows of Sym4, in that of the library
+  std::array<double, 36> tangent_factor_{};
   std::vector<double> initial_;
 };
 

@@ -165,6 +165,7 @@ class MfrontLibrary final : public ExternalLibrary {
 
   std::size_t n_internal() const override { return names_.size(); }
   std::size_t n_scratch() const override { return names_.size() + 2 * (external_.size() + 1); }
+  TangentForm tangent_form() const override { return {.by_columns = false, .shear = 1 / k_root_two}; }
   std::vector<std::string> internal_names() const override { return names_; }
   bool tells_stored() const override { return stores_; }
   bool tells_dissipated() const override { return dissipates_; }
@@ -172,7 +173,7 @@ class MfrontLibrary final : public ExternalLibrary {
   double stored(const double* energies) const override { return energies[0]; }
 
   bool integrate(ExternalCall& c) const override {
-    double old_strain[6], strain[6], old_stress[6], stress[6], stiffness[36], sound = 0, longer = 1;
+    double old_strain[6], strain[6], old_stress[6], stress[6], sound = 0, longer = 1;
     for (std::size_t i = 0; i < 6; ++i) {
       const int k = k_component[i];
       const double factor = i < 3 ? 1 : k_root_two;
@@ -197,11 +198,11 @@ class MfrontLibrary final : public ExternalLibrary {
     char message[513];
     message[0] = 0;
     constexpr double density = 0;
-    std::fill_n(stiffness, 36, 0.0);
-    stiffness[0] = c.wants_tangent ? k_consistent_tangent : k_no_tangent;
+    c.tangent.fill(0.0);
+    c.tangent[0] = c.wants_tangent ? k_consistent_tangent : k_no_tangent;
     DataView view{message,
                   c.dt,
-                  stiffness,
+                  c.tangent.data(),
                   &longer,
                   &sound,
                   {old_strain, old_stress, &density, properties_.data(), old_state, &c.old_energies[0],
@@ -216,14 +217,7 @@ class MfrontLibrary final : public ExternalLibrary {
             fmt::format("the library answers {}{}{}", status, message[0] != 0 ? ": " : "", message);
       return false;
     }
-    for (std::size_t i = 0; i < 6; ++i) {
-      const double row = i < 3 ? 1 : 1 / k_root_two;
-      c.stress[k_component[i]] = row * stress[i];
-      if (!c.wants_tangent) continue;
-      for (std::size_t j = 0; j < 6; ++j)
-        c.tangent[k_component[i]][static_cast<std::size_t>(k_component[j])] =
-            row * (j < 3 ? 1 : 1 / k_root_two) * stiffness[i * 6 + j];
-    }
+    for (std::size_t i = 0; i < 6; ++i) c.stress[k_component[i]] = (i < 3 ? 1 : 1 / k_root_two) * stress[i];
     return true;
   }
 

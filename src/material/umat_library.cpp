@@ -40,6 +40,7 @@ class UmatLibrary final : public ExternalLibrary {
 
   std::size_t n_internal() const override { return n_state_; }
   std::size_t n_scratch() const override { return 0; }
+  TangentForm tangent_form() const override { return {.by_columns = true, .shear = 1}; }
   std::vector<std::string> internal_names() const override {
     std::vector<std::string> names;
     for (std::size_t i = 1; i <= n_state_; ++i) names.push_back("STATEV(" + std::to_string(i) + ")");
@@ -59,8 +60,8 @@ class UmatLibrary final : public ExternalLibrary {
     constexpr int normal = 3, shears = 3, all = 6, one = 1, step[4] = {1, 1, 0, 0};
     static constexpr double unused[9] = {nan, nan, nan, nan, nan, nan, nan, nan, nan};
     static constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    double stress[6], tangent[36] = {}, strain[6], change[6], stress_by_temperature[6] = {},
-                      heat_by_strain[6] = {};
+    c.tangent.fill(0.0);
+    double stress[6], strain[6], change[6], stress_by_temperature[6] = {}, heat_by_strain[6] = {};
     for (std::size_t i = 0; i < 6; ++i) {
       const int k = k_component[i];
       const double factor = i < 3 ? 1 : 2;
@@ -74,7 +75,7 @@ class UmatLibrary final : public ExternalLibrary {
     const double time[2] = {c.time, c.time}, warming = c.temperature - c.old_temperature, field = 0;
     const int n_state = static_cast<int>(n_state_);
     c.heat = 0;
-    umat_(stress, n_state_ > 0 ? c.internal : &no_state, tangent, &c.energies[0], &c.energies[1],
+    umat_(stress, n_state_ > 0 ? c.internal : &no_state, c.tangent.data(), &c.energies[0], &c.energies[1],
           &c.energies[2], &c.heat, stress_by_temperature, heat_by_strain, &heat_by_temperature, strain,
           change, time, &c.dt, &c.old_temperature, &warming, &field, &field, name_.data(), &normal, &shears,
           &all, &n_state, properties_.data(), &n_properties_, unused, identity, &shorter, unused, unused,
@@ -83,11 +84,7 @@ class UmatLibrary final : public ExternalLibrary {
       if (c.complaint != nullptr) *c.complaint = "the UMAT asks for a shorter step (PNEWDT below 1)";
       return false;
     }
-    for (std::size_t i = 0; i < 6; ++i) {
-      c.stress[k_component[i]] = stress[i];
-      for (std::size_t j = 0; j < 6; ++j)
-        c.tangent[k_component[i]][static_cast<std::size_t>(k_component[j])] = tangent[j * 6 + i];
-    }
+    for (std::size_t i = 0; i < 6; ++i) c.stress[k_component[i]] = stress[i];
     return true;
   }
 

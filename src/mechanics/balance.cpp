@@ -1,10 +1,10 @@
 #include "mechanics/balance.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "system/processes.hpp"
 
 namespace solidus::mechanics {
 
@@ -28,8 +28,7 @@ std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const linear::
       touching[static_cast<std::size_t>(first) * n + static_cast<std::size_t>(block.body)] = 1;
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, touching.data(), static_cast<int>(touching.size()), MPI_INT, MPI_MAX,
-                PETSC_COMM_WORLD);
+  processes::largest(touching);
   std::vector<std::size_t> group(n);
   for (std::size_t b = 0; b < n; ++b) group[b] = b;
   for (std::size_t a = 0; a < n; ++a)
@@ -45,15 +44,14 @@ std::vector<std::size_t> groups_of_bodies(const mesh::Mesh& mesh, const linear::
 std::vector<double> extents(const mesh::Mesh& mesh, std::span<const std::size_t> node_group,
                             std::size_t n_groups) {
   constexpr double k_none = -std::numeric_limits<double>::infinity();
-  std::vector<double> local(6 * n_groups, k_none), all(6 * n_groups);  // the least, with the sign changed
+  std::vector<double> all(6 * n_groups, k_none);  // the least, with the sign changed
   for (std::size_t i = 0; i < node_group.size(); ++i)
     for (std::size_t d = 0; d < 3; ++d) {
-      double* const of_group = &local[6 * node_group[i]];
+      double* const of_group = &all[6 * node_group[i]];
       of_group[d] = std::max(of_group[d], mesh.x[i][d]);
       of_group[3 + d] = std::max(of_group[3 + d], -mesh.x[i][d]);
     }
-  MPI_Allreduce(local.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MAX,
-                PETSC_COMM_WORLD);
+  processes::largest(all);
   std::vector<double> extent(n_groups, 0.0);
   for (std::size_t g = 0; g < n_groups; ++g)
     if (all[6 * g] > k_none)
@@ -111,10 +109,9 @@ void BodyBalance::add_volume_change(std::span<const double> change, int fields) 
 }
 
 double BodyBalance::reference() {
-  std::vector<Sums> sums(sums_.size());
+  std::vector<Sums> sums = sums_;
   static_assert(sizeof(Sums) == 5 * sizeof(double));
-  MPI_Allreduce(sums_.data(), sums.data(), static_cast<int>(5 * sums.size()), MPI_DOUBLE, MPI_SUM,
-                PETSC_COMM_WORLD);
+  processes::sum(std::span(reinterpret_cast<double*>(sums.data()), 5 * sums.size()));
   double squares = 0, worst = 0, largest = 0;
   const auto look = [&](double residual, double reference) {
     squares += residual;
@@ -134,16 +131,15 @@ double BodyBalance::relative_step(std::span<const double> step, std::span<const 
   struct Squares {
     double step = 0, increment = 0, entries = 0;
   };
-  std::vector<Squares> local(n_groups_), all(n_groups_);
+  std::vector<Squares> all(n_groups_);
   for (std::size_t i = 0; i < step.size(); ++i) {
-    Squares& of_group = local[group_of_entry(i, components_)];
+    Squares& of_group = all[group_of_entry(i, components_)];
     of_group.step += step[i] * step[i];
     of_group.increment += increment[i] * increment[i];
     of_group.entries += 1;
   }
   static_assert(sizeof(Squares) == 3 * sizeof(double));
-  MPI_Allreduce(local.data(), all.data(), static_cast<int>(3 * n_groups_), MPI_DOUBLE, MPI_SUM,
-                PETSC_COMM_WORLD);
+  processes::sum(std::span(reinterpret_cast<double*>(all.data()), 3 * n_groups_));
   double largest = 0;
   for (std::size_t g = 0; g < n_groups_; ++g) {
     const Squares& group = all[g];

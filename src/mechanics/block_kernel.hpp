@@ -81,7 +81,7 @@ struct FlowingVolume {
   double flowing = 0, all = 0;
 };
 
-/// What a return mapping in the thermal phase changes against the flow of the mechanical phase.
+/// The change by a return mapping in the thermal phase against the flow of the mechanical phase.
 struct FlowChange {
   BlockWork work;      ///< differences; least and largest dissipation of the new flow
   bool flows = false;  ///< some point of solid metal flows otherwise

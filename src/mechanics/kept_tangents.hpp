@@ -1,60 +1,80 @@
 /// The tangents of the last forces of a law that costs much to ask: an iteration of Newton's method assembles
-/// forces and then the tangent at the same strains.
+/// forces and then the tangent at the same displacements.
 #pragma once
 
 #include <algorithm>
-#include <limits>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include "numbers/simd.hpp"
 #include "numbers/tensor.hpp"
 
 namespace solidus::mechanics {
 
-/// w C by its symmetric and its skew part; the latter is not filled where a law is symmetric.
-struct SplitTangent {
-  Sym4<Lane> symmetric, skew;
+/// w (C + Cᵀ)/2.
+inline Sym4<Lane> symmetric_part(const Sym4<Lane>& c, const Lane& weight) {
+  const Lane half = Lane(0.5) * weight;
+  Sym4<Lane> part;
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j <= i; ++j) part.c[i][j] = part.c[j][i] = half * (c.c[i][j] + c.c[j][i]);
+  return part;
+}
+/// w (C − Cᵀ)/2.
+inline Sym4<Lane> skew_part(const Sym4<Lane>& c, const Lane& weight) {
+  const Lane half = Lane(0.5) * weight;
+  Sym4<Lane> part;
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      part.c[i][j] = half * (c.c[i][j] - c.c[j][i]);
+      part.c[j][i] = -part.c[i][j];
+    }
+  return part;
+}
 
-  SplitTangent(const Sym4<Lane>& c, const Lane& weight, bool is_symmetric) {
-    const Lane half = Lane(0.5) * weight;
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) {
-        const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
-        symmetric[i][column] = half * (c[i][column] + c[j][row]);
-        if (!is_symmetric) skew[i][column] = half * (c[i][column] - c[j][row]);
-      }
-  }
-};
-
+/// Of a symmetric law the symmetric part alone is kept, which is all that the assembly reads.
 class KeptTangents {
  public:
+  explicit KeptTangents(bool symmetric) : symmetric_(symmetric) {}
+
   /// Forgets all.
-  void clear() { numbers_.clear(); }
-  /// @param n_points  of the block, [batch][point]
-  void keep(std::size_t n_points, std::size_t point, const Sym<Lane>& strain, const Sym4<Lane>& tangent) {
-    if (numbers_.empty()) {
-      numbers_.resize(n_points * k_numbers);
-      for (std::size_t i = 0; i < n_points; ++i)
-        numbers_[i * k_numbers] = Lane(std::numeric_limits<double>::quiet_NaN());
-    }
-    Lane* const to = numbers_.data() + point * k_numbers;
-    std::copy_n(strain.c.data(), 6, to);
-    for (int i = 0; i < 6; ++i) std::copy_n(tangent[i].data(), 6, to + 6 * (i + 1));
+  void clear() { displacement_.clear(); }
+  /// The tangents that keep() is given from now on are those at displacement u.
+  void begin(std::span<const double> u, std::size_t n_points) {
+    displacement_.assign(u.begin(), u.end());
+    numbers_.resize(n_points * size());
   }
-  /// Reads the tangent of a point where it was kept at this strain, to the last bit in all lanes.
-  bool find(std::size_t point, const Sym<Lane>& strain, Sym4<Lane>& tangent) const {
-    if (numbers_.empty()) return false;
-    const Lane* from = numbers_.data() + point * k_numbers;
-    LaneMask same = from[0] == strain[0];
-    for (int i = 1; i < 6; ++i) same = same & (from[i] == strain[i]);
-    if (any(!same)) return false;
-    for (int i = 0; i < 6; ++i) std::copy_n(from + 6 * (i + 1), 6, tangent[i].data());
-    return true;
+  void keep(std::size_t point, const Sym4<Lane>& tangent) {
+    Lane* to = numbers_.data() + point * size();
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < (symmetric_ ? i + 1 : 6); ++j)
+        *to++ = symmetric_ ? Lane(0.5) * (tangent.c[i][j] + tangent.c[j][i]) : tangent.c[i][j];
   }
-  std::size_t bytes() const { return numbers_.capacity() * sizeof(Lane); }
+  /// Whether there are tangents at u, to the last bit.
+  bool are_at(std::span<const double> u) const {
+    return !displacement_.empty() &&
+           std::equal(u.begin(), u.end(), displacement_.begin(), displacement_.end());
+  }
+  Sym4<Lane> at(std::size_t point) const {
+    const Lane* from = numbers_.data() + point * size();
+    Sym4<Lane> tangent;
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < (symmetric_ ? i + 1 : 6); ++j) {
+        tangent.c[i][j] = *from++;
+        if (symmetric_) tangent.c[j][i] = tangent.c[i][j];
+      }
+    return tangent;
+  }
+  std::size_t bytes() const {
+    return numbers_.capacity() * sizeof(Lane) + displacement_.capacity() * sizeof(double);
+  }
 
  private:
-  static constexpr std::size_t k_numbers = 6 + 36;
-  PackVector<Lane> numbers_;  ///< [point][strain, tangent]; empty: none
+  std::size_t size() const { return symmetric_ ? 21 : 36; }
+
+  bool symmetric_;
+  std::vector<double> displacement_;  ///< empty: no tangents
+  PackVector<Lane> numbers_;          ///< [point][entry]
 };
 
 }  // namespace solidus::mechanics

@@ -33,7 +33,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
       typename Base::Matrix;
 
   LawBlock(const mesh::Mesh& mesh, const mesh::Block& block, const material::Material& material)
-      : Base(mesh, block, material) {
+      : Base(mesh, block, material), tangents_(this->law_.symmetric()) {
     if constexpr (b_bar)
       for (const mesh::QuadraturePoint& point : mesh::stiffness_rule(block.shape)) {
         modes_.push_back(1.0);
@@ -63,6 +63,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
   double add_forces(std::span<const double> u, std::span<double> forces) override {
     Lane total(0.0);
     Workspace<Law> space(this->law_);
+    if constexpr (KeepsStateInPlace<Law>) tangents_.begin(u, this->properties_.size());
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
       Vectors f{};
@@ -70,8 +71,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
         const Operator b = at_point(batch, q);
         const Sym<Lane> strain = b.strain(displacement);
         const Response response = this->update(batch, q, strain, space);
-        if constexpr (KeepsStateInPlace<Law>)
-          tangents_.keep(this->properties_.size(), this->index(batch, q), strain, response.tangent);
+        if constexpr (KeepsStateInPlace<Law>) tangents_.keep(this->index(batch, q), response.tangent);
         b.add_force(geometry_.weight_at(batch, q) * response.stress, f);
         if (response.status != material::Status::converged) this->invalidate(f);
       }
@@ -83,6 +83,7 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
 
   void add_tangent(std::span<const double> u, linear::BlockMatrix& matrix) override {
     Workspace<Law> space(this->law_);
+    const bool kept = KeepsStateInPlace<Law> && tangents_.are_at(u);
     for (Index batch = 0; batch < geometry_.n_batches; ++batch) {
       const Vectors displacement = gather(u, batch);
       Matrix symmetric;
@@ -100,12 +101,10 @@ class LawBlock : public PointBlock<Law, n_nodes, kind, b_bar> {
             this->add_rank_one(b, response.thermal_left, response.thermal_right, w * response.thermal_factor,
                                Lane(1.0), symmetric, skew);
         } else {
-          Sym4<Lane> full;
-          if (!tangents_.find(this->index(batch, q), strain, full))
-            full = this->update(batch, q, strain, space).tangent;
-          const SplitTangent c(full, w, !skew);
-          add_general(b, c.symmetric, symmetric);
-          if (skew) add_general(b, c.skew, *skew);
+          const Sym4<Lane> full =
+              kept ? tangents_.at(this->index(batch, q)) : this->update(batch, q, strain, space).tangent;
+          add_general(b, symmetric_part(full, w), symmetric);
+          if (skew) add_general(b, skew_part(full, w), *skew);
         }
       }
       scatter<1>(symmetric, this->slots_of(batch), matrix);

@@ -1,5 +1,5 @@
-/// How the element kernels tell laws apart: by the form of their tangent, by what they hold and by where
-/// their state lies.
+/// Concepts by which the element kernels tell laws apart: by the form of their tangent, by what they hold and
+/// by where their state lies.
 #pragma once
 
 namespace solidus::mechanics {

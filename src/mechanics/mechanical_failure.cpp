@@ -1,6 +1,5 @@
 /// Describes where and why a step of the mechanical phase fails, for messages.
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <cmath>
 
@@ -8,6 +7,7 @@
 #include "mechanics/loads.hpp"
 #include "mechanics/mechanical_phase.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::mechanics {
 
@@ -28,8 +28,7 @@ std::string MechanicalPhase::flowing_body(std::span<const double> x) const {
     sums[2 * body] += volume.flowing;
     sums[2 * body + 1] += volume.all;
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                PETSC_COMM_WORLD);
+  processes::sum(sums);
   double largest = k_mechanism;
   std::string text;
   for (std::size_t body = 0; body < mesh_.bodies.size(); ++body) {
@@ -47,28 +46,23 @@ std::string MechanicalPhase::worst_place(std::span<const double> x) {
   residual(x, r);
   r.resize(n_forces());
   matrix_->constraints().sum(r);
-  struct {
-    double value;
-    int rank;
-  } worst{-1.0, 0}, winner{};
-  MPI_Comm_rank(PETSC_COMM_WORLD, &worst.rank);
+  double worst = -1;
   std::size_t entry = 0;
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double size = std::isfinite(r[i]) ? std::abs(r[i]) : HUGE_VAL;
-    if (loads_->fixed()[i] || size <= worst.value) continue;
-    worst.value = size;
+    if (loads_->fixed()[i] || size <= worst) continue;
+    worst = size;
     entry = i;
   }
-  MPI_Allreduce(&worst, &winner, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD);
-  char text[160] = {};
-  if (winner.rank == worst.rank && !r.empty()) {
+  const int owner = processes::find_largest(worst).rank;
+  std::string text;
+  if (owner == processes::rank() && !r.empty()) {
     const std::size_t node = entry / static_cast<std::size_t>(components_);
     const mesh::Point& p = mesh_.x[node];
-    fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: unbalanced force {:.4g} N", mesh_.input_node[node],
-                p[0], p[1], p[2], r[entry])
-        .copy(text, sizeof text - 1);
+    text = fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) m: unbalanced force {:.4g} N",
+                       mesh_.input_node[node], p[0], p[1], p[2], r[entry]);
   }
-  MPI_Bcast(text, sizeof text, MPI_CHAR, winner.rank, PETSC_COMM_WORLD);
+  processes::broadcast(text, owner);
   return text;
 }
 
@@ -81,17 +75,9 @@ std::string MechanicalPhase::law_failure(std::span<const double> x) const {
       text = fmt::format("body '{}', {}", mesh_.bodies[static_cast<std::size_t>(mesh_.blocks[b].body)].name,
                          text);
   }
-  int rank = 0, n_processes = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
-  const int mine = text.empty() ? n_processes : rank;
-  int first = n_processes;
-  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);
-  if (first == n_processes) return {};
-  auto size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, first, PETSC_COMM_WORLD);
-  text.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(text.data(), size, MPI_CHAR, first, PETSC_COMM_WORLD);
+  const int first = processes::least(text.empty() ? processes::count() : processes::rank());
+  if (first == processes::count()) return {};
+  processes::broadcast(text, first);
   return text;
 }
 

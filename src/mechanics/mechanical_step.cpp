@@ -1,5 +1,4 @@
 /// A step of the mechanical phase: residual, tangent, solution, works and energies.
-#include <mpi.h>
 
 #include <algorithm>
 #include <cassert>
@@ -13,6 +12,7 @@
 #include "mechanics/saddle_solver.hpp"
 #include "mechanics/stress_history.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 #include "system/stopwatch.hpp"
 
@@ -288,7 +288,7 @@ FlowChange MechanicalPhase::restart_flow(const MechanicalState& old, const Mecha
   total.flows = parallel::any_process(total.flows);
   BlockWork& work = total.work;
   double sums[] = {work.dissipation, work.plastic_dissipation, work.plastic_work, work.inelastic_entropy};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  processes::sum(sums);
   work.dissipation = sums[0];
   work.plastic_dissipation = sums[1];
   work.plastic_work = sums[2];
@@ -380,20 +380,19 @@ PhaseReport MechanicalPhase::measure(const MechanicalState& old, std::span<const
     local[7] = motion.kinetic;
     local[8] += motion.numerical;
   }
-  double all[10];
-  MPI_Allreduce(local, all, 10, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  report.work = {.external_work = all[0],
-                 .support_work = all[1],
-                 .residual_work = all[2],
-                 .internal_work = all[3],
-                 .dissipation = all[4],
-                 .plastic_dissipation = all[5],
-                 .plastic_work = all[6],
-                 .inelastic_entropy = all[9],
+  processes::sum(local);
+  report.work = {.external_work = local[0],
+                 .support_work = local[1],
+                 .residual_work = local[2],
+                 .internal_work = local[3],
+                 .dissipation = local[4],
+                 .plastic_dissipation = local[5],
+                 .plastic_work = local[6],
+                 .inelastic_entropy = local[9],
                  .least_dissipation = parallel::global_min(sums.least_dissipation),
                  .largest_dissipation = parallel::global_max(sums.largest_dissipation),
-                 .kinetic = all[7],
-                 .numerical = all[8]};
+                 .kinetic = local[7],
+                 .numerical = local[8]};
   return report;
 }
 

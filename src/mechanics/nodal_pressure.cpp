@@ -1,11 +1,11 @@
 #include "mechanics/nodal_pressure.hpp"
 
-#include <mpi.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
+
+#include "system/processes.hpp"
 
 namespace solidus::mechanics {
 
@@ -43,8 +43,7 @@ PressureFields pressure_fields(const mesh::Mesh& mesh, const std::vector<materia
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; at_node[node * n + a] && b < n; ++b)
         if (at_node[node * n + b] && materials[a].name != materials[b].name) touching[a * n + b] = 1;
-  MPI_Allreduce(MPI_IN_PLACE, touching.data(), static_cast<int>(touching.size()), MPI_INT, MPI_MAX,
-                PETSC_COMM_WORLD);
+  processes::largest(touching);
   PressureFields fields{1, std::vector<int>(n, 0)};
   for (std::size_t a = 0; a < n; ++a) {
     const auto taken = [&](int field) {
@@ -132,7 +131,7 @@ void NodalPressure::find_unit() {
     const auto part = kernel->mean_stiffness();
     for (std::size_t i = 0; i < 2; ++i) sums[i] += part[i];
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  processes::sum(sums);
   const double length = std::pow(sums[0] / n_nodes_, 1.0 / mesh_.dimension);
   unit_ = sums[1] / (sums[0] * length);
 }

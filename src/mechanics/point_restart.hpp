@@ -81,7 +81,7 @@ class PointRestart : public PointRecord<Law, n_nodes, kind, b_bar, n_extra> {
   }
 
  private:
-  /// What the heat balance takes from the flow of a point.
+  /// The contribution of the flow of a point to the heat balance.
   struct Flow {
     Deformation now, change;
     Lane dissipation;  ///< D_mech [W/m³]

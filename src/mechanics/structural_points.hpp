@@ -19,9 +19,9 @@ struct Deformation {
   Lane cold_work{0.0};   ///< energy of plastic work that is stored beside that of hardening [J/m³]
 };
 
-/// What energy and entropy of a point are evaluated with beside its deformation and temperature: the tables'
-/// lines (material/structural_lines.hpp) and the phases, those of the last mechanical phase. A part of the
-/// state: the energy of a state is a function of the state alone.
+/// The data with which energy and entropy of a point are evaluated, beside its deformation and temperature:
+/// the tables' lines (material/structural_lines.hpp) and the phases, those of the last mechanical phase. A
+/// part of the state: the energy of a state is a function of the state alone.
 struct StructuralBase {
   Lane line_temperature;  ///< Θ of the lines [K]
   Lane strain_offset;     ///< e^θ less 3 α (Θ − Θ_ref)

@@ -31,7 +31,7 @@ ClosedShells closed_shells(const std::vector<Facets>& parts, const std::string& 
 /// The triangles of a shell by their corners.
 std::vector<std::array<Point, 3>> corners_of(const ClosedShells& all, const Shell& shell);
 
-/// How often a closed skin winds round a point: 1 inside where its triangles look outward, 0 outside.
+/// The winding number of a closed skin about a point: 1 inside where its triangles look outward, 0 outside.
 /// Van Oosterom and Strackee 1983, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30,
 /// 125-126.
 double winding_number(const ClosedShells& all, const Shell& shell, const Point& point);

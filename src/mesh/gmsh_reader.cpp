@@ -1,4 +1,4 @@
-// What Gmsh reads and meshes (mesh/gmsh_reader.hpp).
+// Reads and meshes with Gmsh (mesh/gmsh_reader.hpp).
 #include <gmsh.h>
 #include <sys/mman.h>
 #include <unistd.h>

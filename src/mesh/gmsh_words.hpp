@@ -5,7 +5,8 @@
 
 namespace solidus::mesh {
 
-/// Why a word is never allowed, a phrase that follows "the script would "; nullptr for other words.
+/// Returns the reason why a word is never allowed, a phrase that follows "the script would "; nullptr for
+/// other words.
 const char* forbidden_reason(std::string_view word);
 /// Whether Gmsh's grammar has the word, and it can do nothing but make geometry, sizes, groups and numbers.
 bool is_harmless_keyword(std::string_view word);

@@ -1,8 +1,5 @@
 #include "mesh/locate.hpp"
 
-#include <mpi.h>
-#include <petscsys.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,18 +7,19 @@
 #include "mesh/block_geometry.hpp"
 #include "mesh/nearest_place.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::mesh {
 
 namespace {
 
 double global_sum(double value) {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  processes::sum(std::span(&value, 1));
   return value;
 }
 bool on_any_process(bool value) {
   int n = value ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
+  processes::largest(std::span(&n, 1));
   return n > 0;
 }
 
@@ -42,10 +40,7 @@ double NodalFunctional::share(std::span<const double> field, int n_components, i
 }
 
 LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
-  int rank = 0, n_processes = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
-
+  const int rank = processes::rank();
   LocatedPoint located;
   NearestPlace nearest;
   Candidate best;
@@ -67,11 +62,12 @@ LocatedPoint locate(const Mesh& mesh, const Point& point, int body) {
     }
   }
 
-  std::vector<Candidate> all(static_cast<std::size_t>(n_processes));
-  static_assert(sizeof(Candidate) == 4 * sizeof(double));
-  MPI_Allgather(&best, 4, MPI_DOUBLE, all.data(), 4, MPI_DOUBLE, PETSC_COMM_WORLD);
-  best = *std::min_element(all.begin(), all.end(),
-                           [](const Candidate& a, const Candidate& b) { return a.key() < b.key(); });
+  const std::array own = best.key();
+  const std::vector<double> all = processes::gather(own);
+  for (std::size_t i = 0; i < all.size(); i += own.size()) {
+    const Candidate candidate{all[i], all[i + 1], all[i + 2], all[i + 3]};
+    if (candidate.key() < best.key()) best = candidate;
+  }
   located.distance = best.distance;
   located.here = static_cast<int>(best.process) == rank && located.element >= 0;
   if (!located.here) {

@@ -1,8 +1,5 @@
 #include "multigrid/aggregation.hpp"
 
-#include <mpi.h>
-#include <petscsys.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -11,6 +8,7 @@
 
 #include "multigrid/aggregates.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::multigrid {
 
@@ -395,8 +393,7 @@ Coarsening coarsen(const MatrixView& a, const Numbering& numbering, const parall
   next.interpolation.columns = next.matrix.rows = next.matrix.columns = modes;
   Tentative start;
   next.numbering.n_owned = aggregate(a, start.of_row);
-  GlobalIndex mine = next.numbering.n_owned;
-  MPI_Exscan(&mine, &next.numbering.first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
+  next.numbering.first = processes::sum_before(next.numbering.n_owned);
   start.values =
       tentative(start.of_row, next.numbering.n_owned, a.size, near_null, modes, fixed, next.near_null);
   std::vector<double>().swap(near_null);

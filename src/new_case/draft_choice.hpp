@@ -1,4 +1,4 @@
-/// What `solidus new` chooses for a part: temperatures, bodies, mould, sizes, riser, symmetry.
+/// The choices of `solidus new` for a part: temperatures, bodies, mould, sizes, riser, symmetry.
 #pragma once
 
 #include "material/material.hpp"

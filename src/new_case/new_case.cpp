@@ -1,7 +1,6 @@
 #include "new_case/new_case.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 
@@ -14,6 +13,7 @@
 #include "new_case/draft_refinement.hpp"
 #include "new_case/part_measures.hpp"
 #include "new_case/rounding.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::model {
 
@@ -21,9 +21,7 @@ namespace {
 
 /// The alloy of the options, which are checked as far as no geometry is needed for it. Throws InputError.
 material::Material alloy_of(const NewCaseOptions& options, const CastingProcess& process) {
-  int n_processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
-  if (n_processes > 1) throw InputError({}, "`solidus new` works on one process", "no mpirun");
+  if (processes::count() > 1) throw InputError({}, "`solidus new` works on one process", "no mpirun");
   if (options.alloy.empty())
     throw InputError({"--alloy"}, "what is cast?", "--alloy NAME, of those that `solidus materials` lists");
   material::Material alloy = material::find_material(options.alloy, material_folders(), {"--alloy"});

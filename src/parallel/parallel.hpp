@@ -1,8 +1,6 @@
 /// Sums over processes and the exchange of ghost values.
 #pragma once
 
-#include <mpi.h>
-
 #include <memory>
 #include <span>
 

@@ -1,25 +1,30 @@
-/// PETSc objects with owners: each handle destroys its object when it goes out of scope.
+/// PETSc objects with owners: each handle destroys its object when it goes out of scope. No header of PETSc
+/// is needed to hold one.
 #pragma once
 
-#include <petscksp.h>
-
-#include <stdexcept>
-#include <string>
 #include <utility>
+
+#include "parallel/petsc_types.hpp"
 
 namespace solidus::petsc {
 
+/// Throws that PETSc failed in the call `what` with this error code.
+[[noreturn]] void fail(int code, const char* what);
+
 /// Turns an error code of PETSc into an exception (our bug or exhausted memory, never the user's input:
 /// solver failures are reported through convergence reasons).
-inline void check(PetscErrorCode code, const char* what) {
-  if (code == 0) return;
-  const char* text = nullptr;
-  PetscErrorMessage(code, &text, nullptr);
-  throw std::runtime_error(std::string("PETSc failed in ") + what + ": " + (text ? text : "unknown error"));
+inline void check(int code, const char* what) {
+  if (code != 0) fail(code, what);
 }
 
-/// Owns one PETSc object. Objects that outlive PetscFinalize are left to it.
-template <class Object, PetscErrorCode (*destroy)(Object*)>
+/// Destroys an object and sets its name to null. Objects that outlive PetscFinalize are left to it.
+void destroy(Mat& object);
+void destroy(Vec& object);
+void destroy(KSP& object);
+void destroy(MatNullSpace& object);
+
+/// Owns one PETSc object.
+template <class Object>
 class Handle {
  public:
   Handle() = default;
@@ -39,20 +44,16 @@ class Handle {
     return &object_;
   }
   void reset() {
-    if (!object_) return;
-    PetscBool finalized = PETSC_FALSE;
-    PetscFinalized(&finalized);
-    if (!finalized) destroy(&object_);
-    object_ = nullptr;
+    if (object_ != nullptr) destroy(object_);
   }
 
  private:
   Object object_ = nullptr;
 };
 
-using MatHandle = Handle<Mat, MatDestroy>;
-using VecHandle = Handle<Vec, VecDestroy>;
-using KspHandle = Handle<KSP, KSPDestroy>;
-using NullSpaceHandle = Handle<MatNullSpace, MatNullSpaceDestroy>;
+using MatHandle = Handle<Mat>;
+using VecHandle = Handle<Vec>;
+using KspHandle = Handle<KSP>;
+using NullSpaceHandle = Handle<MatNullSpace>;
 
 }  // namespace solidus::petsc

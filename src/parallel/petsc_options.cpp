@@ -19,6 +19,12 @@ std::set<std::string>& defaults() {
 
 }  // namespace
 
+std::string version() {
+  char text[128] = "";
+  PetscGetVersion(text, sizeof text);
+  return text;
+}
+
 void set_default_option(const std::string& name, const std::string& value) {
   const std::string key = "-" + name;
   PetscBool given = PETSC_FALSE;

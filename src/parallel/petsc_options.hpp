@@ -5,6 +5,9 @@
 
 namespace solidus::petsc {
 
+/// PETSc's name and version.
+std::string version();
+
 /// Gives an option that the user has not given. Solvers within solvers do not exist before their set-up, but
 /// their options do.
 void set_default_option(const std::string& name, const std::string& value);

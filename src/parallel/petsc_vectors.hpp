@@ -1,6 +1,8 @@
 /// Copies the values of this process between PETSc's vectors and arrays.
 #pragma once
 
+#include <petscvec.h>
+
 #include <algorithm>
 #include <span>
 

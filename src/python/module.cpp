@@ -1,6 +1,4 @@
 /// The module: start and end of MPI and PETSc, messages, failures as exceptions.
-#include <petscsys.h>
-
 #include <csignal>
 #include <memory>
 #include <utility>
@@ -8,9 +6,11 @@
 #include "build/case_file.hpp"
 #include "linear/interruption.hpp"
 #include "mesh/reader_process.hpp"
+#include "parallel/petsc_session.hpp"
 #include "python/bindings.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
+#include "system/processes.hpp"
 #include "system/program_path.hpp"
 
 namespace solidus::python {
@@ -21,32 +21,20 @@ namespace {
 /// @param communicator  Fortran's number of an MPI communicator; absent: MPI_COMM_WORLD
 /// @param options       of PETSc
 void initialize(std::optional<int> communicator, const std::vector<std::string>& options) {
-  PetscBool running = PETSC_FALSE;
-  PetscInitialized(&running);
-  if (running) return;
-  if (communicator) PETSC_COMM_WORLD = MPI_Comm_f2c(*communicator);
-  // As in the program: a .petscrc would change answers in silence; signals are Python's.
-  std::vector<std::string> words = {"solidus", "-skip_petscrc", "-no_signal_handler"};
-  words.insert(words.end(), options.begin(), options.end());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  int argc = static_cast<int>(words.size());
-  char** argv = pointers.data();
+  const bool running = petsc::running();
+  if (communicator && !running) petsc::use_communicator(*communicator);
   struct sigaction python {};
   sigaction(SIGINT, nullptr, &python);
-  if (PetscInitialize(&argc, &argv, nullptr, nullptr) != 0)
+  if (!petsc::start(options))
     throw InputError({}, "PETSc cannot start; its message stands above", "options that PETSc knows");
+  if (running) return;
   sigaction(SIGINT, &python, nullptr);  // MPI may have put its own in place
   linear::interrupt_when(interrupted);
 }
 
 void finalize() {
   logging::set_sink({});  // which holds a function of Python
-  PetscBool running = PETSC_FALSE, ended = PETSC_FALSE;
-  PetscInitialized(&running);
-  PetscFinalized(&ended);
-  if (running && !ended) PetscFinalize();
+  petsc::end();
 }
 
 const char* name_of(logging::Level level) {
@@ -112,10 +100,7 @@ void use_program(const std::string& program) {
 }
 
 std::pair<int, int> rank_and_size() {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  return {rank, size};
+  return {processes::rank(), processes::count()};
 }
 
 }  // namespace

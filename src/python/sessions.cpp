@@ -182,7 +182,7 @@ class Driver {
   }
 
  private:
-  /// What `move` tells of the run's end. Raises what signals ask for.
+  /// Returns what `move` tells of the end of the run, and raises the exception that a signal asks for.
   template <class Move>
   Ended moved(Move move) {
     stale_ = true;

@@ -80,7 +80,7 @@ struct Answers {
 Answers answers(const mesh::Mesh& mesh, const coupling::Phases& phases, const coupling::State& state,
                 const std::vector<CastBody>& castings, const FieldSet& fields, bool mechanical);
 
-/// How much of what is cast is solid, by volume; 1 where nothing of it is there. Collective.
+/// The solid fraction of all castings, by volume; 1 where nothing of it is there. Collective.
 double solid_fraction(const coupling::Phases& phases, const coupling::State& state,
                       const std::vector<CastBody>& castings, const mesh::Mesh& mesh);
 

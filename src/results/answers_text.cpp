@@ -76,7 +76,7 @@ std::string cast_text(const CastAnswer& answer, double time, const Formatter& fo
   return text;
 }
 
-/// What the shots did to casting and die.
+/// The answers of a run of shots: casting and die from shot to shot.
 std::string shot_lines(const std::vector<ShotRow>& shots, const Formatter& format) {
   if (shots.empty()) return "";
   const coupling::ShotRecord &first = shots.front().shot, &last = shots.back().shot;

@@ -1,16 +1,13 @@
 #include "results/balance.hpp"
 
-#include <petscsys.h>
-
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
 double largest_over_mean(double mine) {
-  int n_processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
   const double largest = parallel::global_max(mine), sum = parallel::global_sum(mine);
-  return sum > 0 ? largest * n_processes / sum : 1;
+  return sum > 0 ? largest * processes::count() / sum : 1;
 }
 
 Balance balance(const mesh::Mesh& mesh, const std::vector<std::pair<std::string, double>>& seconds) {

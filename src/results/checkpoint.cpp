@@ -1,7 +1,6 @@
 #include "results/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,6 +15,7 @@
 #include "results/checkpoint_tables.hpp"
 #include "results/output_error.hpp"
 #include "system/log.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -222,7 +222,7 @@ Checkpoint read_file(const fs::path& path, const mesh::Mesh& mesh, const Fingerp
 std::pair<bool, bool> CheckpointFolder::there() const {
   std::error_code error;
   int found[2] = {fs::exists(latest(), error) ? 1 : 0, fs::exists(previous(), error) ? 1 : 0};
-  MPI_Bcast(found, 2, MPI_INT, 0, PETSC_COMM_WORLD);
+  processes::broadcast(found);
   return {found[0] != 0, found[1] != 0};
 }
 

@@ -1,11 +1,10 @@
 #include "results/checkpoint_criteria.hpp"
 
-#include <mpi.h>
-#include <petscsys.h>
-
 #include <algorithm>
 #include <numeric>
 #include <vector>
+
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -75,8 +74,6 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::St
       out.rows<std::int64_t>(
           element_path(b, "element"), 1,
           std::span(mesh.blocks[b].input_element).first(static_cast<std::size_t>(mesh.blocks[b].n_counted)));
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   for (const Record& record : state.records) {
     for (const criteria::Column& column : record.columns) {
       const auto width = static_cast<std::size_t>(column.components);
@@ -86,7 +83,7 @@ void write_criteria(TableWriter& out, const mesh::Mesh& mesh, const criteria::St
     }
     for (const criteria::Table& table : record.tables) {
       // Every process holds all rows: the first writes them.
-      const std::size_t n = rank == 0 ? table.values.size() : 0;
+      const std::size_t n = processes::rank() == 0 ? table.values.size() : 0;
       std::vector<std::int64_t> rows(n / static_cast<std::size_t>(table.width));
       std::iota(rows.begin(), rows.end(), 0);
       out.rows<std::int64_t>(path(record, table.name) + "_row", 1, rows);

@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <mpi.h>
-#include <petscsys.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -17,6 +15,7 @@
 #include "parallel/parallel.hpp"
 #include "results/file_checksum.hpp"
 #include "results/output_error.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -41,21 +40,12 @@ int reserve_bytes(int descriptor, std::int64_t bytes) {
   return 0;
 }
 
-std::string from_first(std::string text) {
-  int length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  text.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(text.data(), length, MPI_CHAR, 0, PETSC_COMM_WORLD);
-  return text;
-}
-
 }  // namespace
 
-TableWriter::TableWriter(std::filesystem::path path) : path_(std::move(path)) {
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank_);
+TableWriter::TableWriter(std::filesystem::path path) : path_(std::move(path)), rank_(processes::rank()) {
   if (rank_ == 0) descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (!reserve(k_of_file)) return;
-  attempt([&] { file_.emplace(path_, Hdf5File::Mode::create, PETSC_COMM_WORLD); });
+  attempt([&] { file_.emplace(path_, Hdf5File::Mode::create, Hdf5File::Writers::all); });
   reserve(0);  // making the file has emptied it
 }
 
@@ -80,7 +70,7 @@ bool TableWriter::reserve(std::int64_t more) {
   int failed = 0;
   reserved_ += more;
   if (descriptor_ >= 0 && !error_) failed = reserve_bytes(descriptor_, reserved_);
-  MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  processes::broadcast(std::span(&failed, 1));
   if (failed == 0) return true;
   attempt([&] {
     throw OutputError(path_.string(),
@@ -94,7 +84,8 @@ bool TableWriter::reserve(std::int64_t more) {
 
 void TableWriter::text(const std::string& name, const std::string& of_first) {
   // Its length is needed in the collective creation of the table.
-  const std::string text = from_first(of_first);
+  std::string text = of_first;
+  processes::broadcast(text);
   if (full_ || !reserve(static_cast<std::int64_t>(text.size()) + k_of_table)) return;
   if (file_) attempt([&] { file_->write_text(name, text); });
 }
@@ -107,13 +98,12 @@ void TableWriter::numbers(const std::string& name, const std::vector<double>& n)
 
 template <class T>
 void TableWriter::rows(const std::string& name, int width, std::span<const T> own) {
-  MPI_Allreduce(MPI_IN_PLACE, &width, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
+  processes::largest(std::span(&width, 1));
   if (width == 0) return;
   const auto mine = static_cast<std::int64_t>(own.size()) / width;
-  std::int64_t all = 0, first = 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
-  MPI_Exscan(&mine, &first, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD);
-  if (rank_ == 0) first = 0;
+  const std::int64_t first = processes::sum_before(mine);
+  std::int64_t all = mine;
+  processes::sum(std::span(&all, 1));
   if (full_ || !reserve(all * width * static_cast<std::int64_t>(sizeof(T)) + k_of_table) || !file_) return;
   attempt([&] { file_->create_table<T>(name, all, width); });
   attempt([&] { file_->write_rows<T>(name, first, own); });

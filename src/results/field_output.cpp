@@ -1,7 +1,6 @@
 #include "results/field_output.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <cctype>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "results/output_error.hpp"
 #include "results/vtu.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -35,16 +35,14 @@ FieldOutput::FieldOutput(const RunFolder& folder, const mesh::Mesh& mesh, double
       last_time_ = entry.time;
     }
   });
-  MPI_Bcast(&written_, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  MPI_Bcast(&last_time_, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+  processes::broadcast(std::span(&written_, 1));
+  processes::broadcast(std::span(&last_time_, 1));
 }
 
 // Returns the file to open, relative to the folder of the collection.
 std::string FieldOutput::write_one(const std::string& name, const mesh::Surface* surface,
                                    const FieldSet& fields, double time) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  const int rank = processes::rank(), size = processes::count();
   const auto part = [&](int process) {
     return size == 1 ? name + ".vtu" : fmt::format("{}_p{}.vtu", name, process);
   };

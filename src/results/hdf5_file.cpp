@@ -1,6 +1,8 @@
 #include "results/hdf5_file.hpp"
 
 #include <fcntl.h>
+#include <hdf5.h>
+#include <mpi.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -10,6 +12,7 @@
 
 #include "results/file_checksum.hpp"
 #include "results/output_error.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -23,20 +26,17 @@ hid_t number_type() {
     return H5T_NATIVE_INT64;
 }
 
-bool several(MPI_Comm writers) {
-  int size = 1;
-  MPI_Comm_size(writers, &size);
-  return size > 1;
-}
+static_assert(std::is_same_v<hid_t, Hdf5Handle::Id> && std::is_same_v<herr_t, int>);
 
-hid_t open_file(const std::filesystem::path& path, Hdf5File::Mode mode, MPI_Comm writers) {
+hid_t open_file(const std::filesystem::path& path, Hdf5File::Mode mode, Hdf5File::Writers writers) {
   // Failures are ours to report; HDF5 would print its own account.
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   if (mode == Hdf5File::Mode::read) return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
       creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_userblock(creation, k_user_block);
-  if (several(writers)) H5Pset_fapl_mpio(access, writers, MPI_INFO_NULL);
+  if (writers == Hdf5File::Writers::all && processes::count() > 1)
+    H5Pset_fapl_mpio(access, MPI_Comm_f2c(processes::communicator()), MPI_INFO_NULL);
   return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access);
 }
 
@@ -103,11 +103,11 @@ bool Hdf5Handle::close() {
   return close_(std::exchange(id_, -1)) >= 0;
 }
 
-Hdf5File::Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm writers)
-    : path_(std::move(path)), mode_(mode), file_(open_file(path_, mode, writers), H5Fclose) {
-  int rank = 0;
-  MPI_Comm_rank(writers, &rank);
-  first_ = rank == 0;
+Hdf5File::Hdf5File(std::filesystem::path path, Mode mode, Writers writers)
+    : path_(std::move(path)),
+      mode_(mode),
+      first_(writers == Writers::this_process || processes::rank() == 0),
+      file_(open_file(path_, mode, writers), H5Fclose) {
   if (file_ < 0) fail(mode == Mode::create ? "cannot be written" : "is not a whole HDF5 file");
 }
 

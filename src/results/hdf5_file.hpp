@@ -2,9 +2,6 @@
 /// written by one or by all together.
 #pragma once
 
-#include <hdf5.h>
-#include <mpi.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -16,20 +13,21 @@ namespace solidus::results {
 /// Owns one HDF5 handle.
 class Hdf5Handle {
  public:
-  using Close = herr_t (*)(hid_t);
-  Hdf5Handle(hid_t id, Close closing) : id_(id), close_(closing) {}
+  using Id = std::int64_t;  ///< hid_t of HDF5, whose header is not needed here
+  using Close = int (*)(Id);
+  Hdf5Handle(Id id, Close closing) : id_(id), close_(closing) {}
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   ~Hdf5Handle() {
     if (id_ >= 0) close_(id_);
   }
   Hdf5Handle(const Hdf5Handle&) = delete;
   Hdf5Handle& operator=(const Hdf5Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: passes as HDF5's type
+  operator Id() const { return id_; }  // NOLINT: passes as HDF5's type
   /// Closes now; false when HDF5 reports a failure.
   bool close();
 
  private:
-  hid_t id_;
+  Id id_;
   Close close_;
 };
 
@@ -38,9 +36,10 @@ class Hdf5Handle {
 class Hdf5File {
  public:
   enum class Mode { create, read };
-  /// @param writers  the processes that create the file: all of them call everything but write_rows() alike,
-  ///                 and each writes rows of its own
-  Hdf5File(std::filesystem::path path, Mode mode, MPI_Comm writers = MPI_COMM_SELF);
+  /// The processes that create the file: all of them call everything but write_rows() alike, and each writes
+  /// rows of its own.
+  enum class Writers { this_process, all };
+  Hdf5File(std::filesystem::path path, Mode mode, Writers writers = Writers::this_process);
   /// Abandons a file that was not closed: data that could not be written to it are dropped.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;

@@ -50,7 +50,7 @@ class FoamFile {
            "text: foamFormatConvert, with `writeFormat ascii` in system/controlDict");
     return kind;
   }
-  /// What stands before the next semicolon.
+  /// Returns the text before the next semicolon.
   std::string statement() {
     std::string value;
     for (std::string_view word = token(); word != ";"; word = token())

@@ -1,7 +1,6 @@
 #include "results/probes.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "mesh/locate.hpp"
 #include "parallel/parallel.hpp"
 #include "results/output_error.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -411,9 +411,8 @@ std::vector<double> Probes::values(const FieldSet& fields, const std::vector<Rea
     for (const std::size_t s : samples)
       take(samples_[s], *field, values, active, {sums[s], peaks[s], peaks[n_samples + s]});
   }
-  const int n = static_cast<int>(n_samples);
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), n, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  MPI_Allreduce(MPI_IN_PLACE, peaks.data(), 2 * n, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  processes::sum(sums);
+  processes::largest(peaks);
 
   std::vector<double> si(samples_.size()), shown(samples_.size());
   for (std::size_t s = 0; s < samples_.size(); ++s) {

@@ -1,7 +1,6 @@
 #include "results/profile.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "parallel/parallel.hpp"
 #include "results/output_error.hpp"
 #include "results/output_file.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -22,21 +22,6 @@ units::Conversion shown_in(const std::string& unit, const std::string& si, const
     throw InputError(where, fmt::format("{}: the unit '{}' does not fit", what, unit),
                      fmt::format("it measures {}, for example in '{}'", units::dimension_name(si), si));
   return units::conversion(si, unit, units::Temperature::absolute);
-}
-
-/// The rows of all processes on process 0, one behind the other.
-std::vector<double> on_first_of_all(const std::vector<double>& mine) {
-  int rank = 0, processes = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &processes);
-  const int count = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(processes)), starts(counts.size());
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
-  std::vector<double> all(rank == 0 ? static_cast<std::size_t>(starts.back() + counts.back()) : 0);
-  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0,
-              PETSC_COMM_WORLD);
-  return all;
 }
 
 /// @param values  of the field
@@ -99,7 +84,7 @@ std::vector<double> ProfileTable::gather(const FieldSet& fields) const {
     for (std::size_t c = 0; c < shown_.size(); ++c)
       mine.push_back(shown_[c](component_at(*of_column[c], values[c], node, profile_.columns[c].component)));
   }
-  return on_first_of_all(mine);
+  return processes::gather_on_first(mine);
 }
 
 void ProfileTable::write(const std::filesystem::path& folder, const FieldSet& fields) const {

@@ -1,7 +1,5 @@
 #include "results/recorder.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <type_traits>
 
@@ -10,6 +8,7 @@
 #include "results/output_error.hpp"
 #include "results/vtkhdf.hpp"
 #include "system/log.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::results {
@@ -83,12 +82,6 @@ bool samples_criteria(const coupling::Phases& phases, const std::vector<Probe>& 
                      [&](const Probe& p) { return samples_criteria(p, fields); });
 }
 
-int process() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
-
 }  // namespace
 
 void check_output(const mesh::Mesh& mesh, const coupling::Phases& phases, const RecorderOptions& options) {
@@ -105,7 +98,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
       mesh_(mesh),
       phases_(phases),
       options_(std::move(options)),
-      rank_(process()),
+      rank_(processes::rank()),
       fields_(mesh, phases, options_.kind),
       probes_(mesh, options_.kind, options_.probes, fields_.bodies(), global_readings(phases, options_)),
       globals_(global_columns(phases, options_, probes_.columns())),
@@ -113,7 +106,7 @@ Recorder::Recorder(const RunFolder& folder, const mesh::Mesh& mesh, const coupli
                                      : FieldOutput(folder, mesh)),
       checkpoints_(folder.root()),
       criteria_probed_(samples_criteria(phases, options_.probes)),
-      began_(MPI_Wtime()) {
+      began_(processes::wall_time()) {
   for (const Profile& profile : options_.profiles)
     profiles_.emplace_back(mesh, options_.kind, profile, fields_.bodies());
   fields_.bodies().select(options_.fields);  // complains about a field there is not
@@ -195,7 +188,7 @@ void Recorder::begin(const coupling::State& state) {
 
 void Recorder::step(const coupling::StepRecord& taken, const coupling::State& state) {
   const profile::Part part("output");
-  const double start = MPI_Wtime();
+  const double start = processes::wall_time();
   coupling::StepRecord record = taken;
   show_castings(record, state);
   measure_internal_energy(record, state);
@@ -211,7 +204,7 @@ void Recorder::step(const coupling::StepRecord& taken, const coupling::State& st
   if (progress_) progress_->step(record);
   seconds_heat_ += record.heat.seconds;
   seconds_mechanics_ += record.mechanics.seconds;
-  seconds_output_ += MPI_Wtime() - start;
+  seconds_output_ += processes::wall_time() - start;
   options_.summary.steps = record.number;
   options_.summary.rejected += record.rejected;
   note_left_walls(record);
@@ -255,11 +248,11 @@ void Recorder::note_left_walls(const coupling::StepRecord& record) {
 
 void Recorder::checkpoint(const coupling::Continuation& continuation, const coupling::State& state) {
   const profile::Part part("checkpoints");
-  const double start = MPI_Wtime();
+  const double start = processes::wall_time();
   checkpoints_.write(
       mesh_, options_.fingerprint,
       {state, continuation, globals_.energy(), options_.summary.rejected, globals_.stability()});
-  seconds_output_ += MPI_Wtime() - start;
+  seconds_output_ += processes::wall_time() - start;
 }
 
 void Recorder::stopped(const coupling::Stop& stop, const coupling::State& state) {
@@ -330,7 +323,7 @@ void Recorder::write_summary_file(const std::string& outcome, const coupling::St
   s.seconds.emplace_back("heat", seconds_heat_);
   s.seconds.emplace_back("mechanics", seconds_mechanics_);
   s.seconds.emplace_back("output", seconds_output_);
-  s.seconds.emplace_back("run", MPI_Wtime() - began_);
+  s.seconds.emplace_back("run", processes::wall_time() - began_);
   if (phases_.heat != nullptr) {
     s.seconds.emplace_back("heat_solver", phases_.heat->seconds_solver());
     s.table_bytes.emplace_back("heat", phases_.heat->bytes());

@@ -36,7 +36,7 @@ struct RecorderOptions {
   bool shots = false;    ///< some of them are shots
   bool steady = false;   ///< one state without a time: fields of it alone
   bool profile = false;  ///< print where the wall time went
-  /// What is poured: the solid fraction that is shown is of these bodies; empty: of all that can melt.
+  /// The bodies that are poured, whose solid fraction is shown; empty: of all that can melt.
   std::vector<CastBody> castings;
   DisplayUnits units;                       ///< of the printed answers
   Fingerprint fingerprint;                  ///< of the case, for checkpoints

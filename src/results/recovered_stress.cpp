@@ -1,12 +1,11 @@
 #include "results/recovered_stress.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "mesh/block_geometry.hpp"
+#include "numbers/symmetric_eigen.hpp"
 
 namespace solidus::results {
 
@@ -23,15 +22,43 @@ std::size_t at(Index i) {
 }
 
 /// Element that a cell of the file corresponds to.
-struct Cell {
+struct ElementOfCell {
   const mesh::Block* block;
   Index element;
 };
-std::vector<Cell> cells_of(const mesh::Mesh& mesh) {
-  std::vector<Cell> cells;
+std::vector<ElementOfCell> cells_of(const mesh::Mesh& mesh) {
+  std::vector<ElementOfCell> cells;
   for (const mesh::Block& block : mesh.blocks)
     for (Index e = 0; e < block.size(); ++e) cells.push_back({&block, e});
   return cells;
+}
+
+/// A matrix of at most three rows, three numbers each.
+using Small = std::array<double, 9>;
+
+/// M = L Lᵀ, in place below the diagonal; false where M is not positive definite.
+bool cholesky(Small& m, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = j; i < n; ++i) {
+      double rest = m[3 * i + j];
+      for (std::size_t k = 0; k < j; ++k) rest -= m[3 * i + k] * m[3 * j + k];
+      if (i == j && !(rest > 0)) return false;
+      m[3 * i + j] = i == j ? std::sqrt(rest) : rest / m[3 * j + j];
+    }
+  return true;
+}
+/// x = L⁻¹ x and x = L⁻ᵀ x, of numbers that are `step` apart.
+void solve_lower(const Small& l, std::size_t n, double* x, std::size_t step) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) x[i * step] -= l[3 * i + k] * x[k * step];
+    x[i * step] /= l[3 * i + i];
+  }
+}
+void solve_upper(const Small& l, std::size_t n, double* x) {
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) x[i] -= l[3 * k + i] * x[k];
+    x[i] /= l[3 * i + i];
+  }
 }
 
 }  // namespace
@@ -67,7 +94,7 @@ void StressRecovery::measure_cells(AnalysisKind kind) {
 
 StressRecovery::StressRecovery(const mesh::Mesh& mesh, AnalysisKind kind) : mesh_(mesh), ghosts_(mesh) {
   measure_cells(kind);
-  const std::vector<Cell> cells = cells_of(mesh);
+  const std::vector<ElementOfCell> cells = cells_of(mesh);
   std::map<std::pair<int, Index>, std::vector<std::size_t>> around;  // of body and owned node
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (int a = 0; a < mesh::node_count(cells[c].block->shape); ++a) {
@@ -87,36 +114,38 @@ StressRecovery::StressRecovery(const mesh::Mesh& mesh, AnalysisKind kind) : mesh
 /// The directions in which the centroids of a patch spread, measured by the extent of its elements in each,
 /// and the inverse there.
 void StressRecovery::spread(Patch& patch) const {
-  const int dim = mesh_.dimension;
+  const std::size_t dim = at(mesh_.dimension);
   const double n = static_cast<double>(patch.cells.size());
   for (const std::size_t c : patch.cells)
     for (std::size_t i = 0; i < 3; ++i) patch.centre[i] += centroid_[c][i] / n;
-  Eigen::MatrixXd between = Eigen::MatrixXd::Zero(dim, dim), within = Eigen::MatrixXd::Zero(dim, dim);
-  for (const std::size_t c : patch.cells) {
-    Eigen::VectorXd d(dim);
-    for (int i = 0; i < dim; ++i) d[i] = centroid_[c][at(i)] - patch.centre[at(i)];
-    between += d * d.transpose();
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j) within(i, j) += moment_[c][at(3 * i + j)];
-  }
-  const Eigen::LLT<Eigen::MatrixXd> scale(within);
-  if (scale.info() != Eigen::Success) return;
-  const Eigen::MatrixXd half = scale.matrixL().solve(between);
-  const Eigen::MatrixXd scaled = scale.matrixL().solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (scaled + scaled.transpose()));
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(dim, dim);
-  for (int k = 0; k < dim; ++k) {
-    if (!(eigen.eigenvalues()[k] > k_spread)) continue;
-    const Eigen::VectorXd v = scale.matrixU().solve(eigen.eigenvectors().col(k));
-    inverse += v * v.transpose() / eigen.eigenvalues()[k];
+  Small between{}, within{};
+  for (const std::size_t c : patch.cells)
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t j = 0; j < dim; ++j) {
+        between[3 * i + j] += (centroid_[c][i] - patch.centre[i]) * (centroid_[c][j] - patch.centre[j]);
+        within[3 * i + j] += moment_[c][3 * i + j];
+      }
+  Small& scale = within;
+  if (!cholesky(scale, dim)) return;
+  for (std::size_t j = 0; j < dim; ++j) solve_lower(scale, dim, &between[j], 3);
+  for (std::size_t i = 0; i < dim; ++i) solve_lower(scale, dim, &between[3 * i], 1);
+  std::vector<double> scaled(dim * dim);
+  for (std::size_t i = 0; i < dim; ++i)
+    for (std::size_t j = 0; j < dim; ++j)
+      scaled[i * dim + j] = 0.5 * (between[3 * i + j] + between[3 * j + i]);
+  SymmetricEigen modes = symmetric_eigen(std::move(scaled), dim);
+  for (std::size_t k = 0; k < dim; ++k) {
+    if (!(modes.values[k] > k_spread)) continue;
+    double* const v = &modes.vectors[k * dim];
+    solve_upper(scale, dim, v);
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t j = 0; j < dim; ++j) patch.inverse[3 * i + j] += v[i] * v[j] / modes.values[k];
     ++patch.rank;
   }
-  for (int i = 0; i < dim; ++i)
-    for (int j = 0; j < dim; ++j) patch.inverse[at(3 * i + j)] = inverse(i, j);
 }
 
 std::vector<double> StressRecovery::at_nodes(std::span<const double> stress, int asked) const {
-  const std::vector<Cell> cells = cells_of(mesh_);
+  const std::vector<ElementOfCell> cells = cells_of(mesh_);
   const std::size_t n = mesh_.x.size();
   std::vector<double> result(k_components * n, 0.0), bodies(n, 0.0);
   for (std::size_t body = 0; body < mesh_.bodies.size(); ++body) {
@@ -179,10 +208,10 @@ std::vector<double> principal_values(std::span<const double> tensors, int rank) 
   values.reserve(tensors.size() / k_components);
   for (std::size_t i = 0; i + k_components <= tensors.size(); i += k_components) {
     const double* const t = tensors.data() + i;
-    Eigen::Matrix3d m;
-    m << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(m, Eigen::EigenvaluesOnly);
-    values.push_back(eigen.eigenvalues()[2 - rank]);
+    Small m{t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2]};
+    std::array<double, 3> principal{};
+    find_symmetric_eigen(m, principal, {});
+    values.push_back(principal[at(2 - rank)]);
   }
   return values;
 }

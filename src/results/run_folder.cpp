@@ -1,7 +1,5 @@
 #include "results/run_folder.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "results/output_file.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -134,7 +133,7 @@ bool is_finished(const fs::path& folder) {
     for (std::string line; std::getline(file, line);)
       if (line.find("\"outcome\": \"finished\"") != std::string::npos) finished = 1;
   });
-  MPI_Bcast(&finished, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  processes::broadcast(std::span(&finished, 1));
   return finished != 0;
 }
 

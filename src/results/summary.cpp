@@ -1,6 +1,5 @@
 #include "results/summary.hpp"
 
-#include <petscsys.h>
 #include <sys/resource.h>
 
 #include <array>
@@ -8,6 +7,7 @@
 #include "parallel/parallel.hpp"
 #include "results/json.hpp"
 #include "results/output_file.hpp"
+#include "system/processes.hpp"
 #include "system/version.hpp"
 
 namespace solidus::results {
@@ -89,7 +89,7 @@ PeakMemory peak_memory() {
   getrusage(RUSAGE_SELF, &usage);
   const double bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in kilobytes
   double first = bytes;
-  MPI_Bcast(&first, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+  processes::broadcast(std::span(&first, 1));
   return {parallel::global_max(bytes), first, parallel::global_sum(bytes)};
 }
 

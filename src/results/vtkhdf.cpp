@@ -1,6 +1,7 @@
 #include "results/vtkhdf.hpp"
 
 #include <fmt/format.h>
+#include <hdf5.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,6 @@
 #include "results/vtu.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include "mesh/vtk_cells.hpp"
 #include "results/output_file.hpp"
 #include "results/vtk_data.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 
@@ -183,8 +183,7 @@ void write_part(const std::filesystem::path& path, const Part& part, const Field
   if (part.volume)
     for (const Field& field : fields.all())
       if (field.place == Place::cell) xml += add_field(data, part, field);
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   xml += add_of_cells<std::int64_t>(data, part, "element", [](const Block& block, Index e) {
     return block.input_element[static_cast<std::size_t>(e)];
   });

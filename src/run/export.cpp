@@ -1,7 +1,6 @@
 #include "run/export.hpp"
 
 #include <fmt/format.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "results/deck_supports.hpp"
 #include "results/output_file.hpp"
 #include "results/temperature_history.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::model {
 
@@ -27,9 +27,7 @@ namespace {
 constexpr double k_short = 1e-9;
 
 void check_exportable(const CaseSpec& spec) {
-  int size = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  if (size > 1) throw InputError({}, "the export works on one process", "without mpirun");
+  if (processes::count() > 1) throw InputError({}, "the export works on one process", "without mpirun");
   if (!spec.has_mechanics())
     throw InputError(spec.analysis.where, "there is no stress to export", "a case with mechanics");
   if (spec.dynamics)

@@ -1,11 +1,10 @@
 #include "run/recording.hpp"
 
-#include <petscsys.h>
-
 #include <algorithm>
 
 #include "build/cast_bodies.hpp"
 #include "build/run_input.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::model {
 
@@ -57,7 +56,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
     for (std::size_t b = 0; b < a.mechanics->melt().size(); ++b)
       if (const material::MeltModulus& melt = a.mechanics->melt()[b]; melt.modulus > 0)
         r.summary.melt.push_back({spec.bodies[b].name, melt.modulus, material::measured_against(melt)});
-  MPI_Comm_size(PETSC_COMM_WORLD, &r.summary.processes);
+  r.summary.processes = processes::count();
   return r;
 }
 

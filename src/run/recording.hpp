@@ -1,4 +1,4 @@
-/// What the recorder of a run writes, from the case and what was built of it.
+/// Options of the recorder of a run, from the case and what was built of it.
 #pragma once
 
 #include "build/assembly.hpp"

@@ -1,6 +1,5 @@
 /// A run as a whole, or step by step.
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <cmath>
 #include <memory>
@@ -25,6 +24,7 @@
 #include "run/transient.hpp"
 #include "system/free_memory.hpp"
 #include "system/log.hpp"
+#include "system/processes.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::model {
@@ -100,7 +100,7 @@ void check_step(std::optional<double> step) {
 }  // namespace
 
 Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts>()) {
-  const double start = MPI_Wtime();
+  const double start = processes::wall_time();
   parts_->c = std::move(given);
   parts_->options = std::move(options);
   Case& c = parts_->c;
@@ -112,7 +112,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   a.materials = load_materials(c.spec);
   part.reset();
   a.mesh = load_mesh(c.spec);
-  const double loaded = MPI_Wtime();
+  const double loaded = processes::wall_time();
   part.emplace("set-up");
   build(c.spec, a);
   return_free_memory();
@@ -148,7 +148,7 @@ Session::Session(Case given, RunOptions options) : parts_(std::make_unique<Parts
   for (const ProfileSpec& profile : c.spec.profiles) tables.push_back(profile.name + ".csv");
   parts_->folder.emplace(o.folder, c.toml(), o.restart, tables);
   r.summary.seconds.emplace_back("mesh", loaded - start);
-  r.summary.seconds.emplace_back("set_up", MPI_Wtime() - loaded);
+  r.summary.seconds.emplace_back("set_up", processes::wall_time() - loaded);
   parts_->recorder.emplace(*parts_->folder, a.mesh, a.phases, std::move(r));
   if (!c.spec.time.steady) parts_->transient.emplace(c.spec, o, a, &*parts_->recorder);
 }

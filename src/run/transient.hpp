@@ -1,4 +1,4 @@
-/// What marches through time: the simulation with all that watches it.
+/// A transient run: the simulation with the observers that watch it.
 #pragma once
 
 #include <memory>
@@ -42,7 +42,7 @@ class Transient {
 
   /// Begins at the start of the case, or where the checkpoint has it.
   void begin(std::optional<results::Checkpoint> from);
-  /// What a step ended with; nothing while the run goes on.
+  /// The outcome of the last step; nothing while the run goes on.
   std::optional<RunResult> result(std::optional<coupling::Outcome> outcome) const;
   /// Gives the phases the conditions that the case has now.
   void change_conditions();

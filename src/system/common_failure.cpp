@@ -1,12 +1,11 @@
 #include "system/common_failure.hpp"
 
-#include <mpi.h>
-
 #include <exception>
 #include <new>
 #include <stdexcept>
 
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 namespace solidus {
 
@@ -40,32 +39,24 @@ Failure failure_of(const std::function<void()>& work) {
 
 void run_collectively(const std::function<void()>& work, const ThrowInputError& throw_input_error) {
   Failure failure = failure_of(work);
-  const MPI_Comm comm = MPI_COMM_WORLD;
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  int failing = failure.error ? rank : size;
-  MPI_Allreduce(MPI_IN_PLACE, &failing, 1, MPI_INT, MPI_MIN, comm);
-  if (failing == size) return;
+  const int failing = processes::least(failure.error ? processes::rank() : processes::count());
+  if (failing == processes::count()) return;
 
-  int told[2] = {failure.kind, static_cast<int>(failure.message.size())};
-  MPI_Bcast(told, 2, MPI_INT, failing, comm);
+  int kind = failure.kind;
+  processes::broadcast(std::span(&kind, 1), failing);
   std::string message = failure.message;
-  message.resize(static_cast<std::size_t>(told[1]));
-  MPI_Bcast(message.data(), told[1], MPI_CHAR, failing, comm);
+  processes::broadcast(message, failing);
   if (failure.error) std::rethrow_exception(failure.error);
-  if (told[0] == k_memory) throw std::bad_alloc();
-  if (told[0] == k_internal) throw std::runtime_error(message);
+  if (kind == k_memory) throw std::bad_alloc();
+  if (kind == k_internal) throw std::runtime_error(message);
   if (throw_input_error) throw_input_error(message);
   throw InputError({}, message);
 }
 
 void on_first_process(const std::function<void()>& work, const ThrowInputError& throw_input_error) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   run_collectively(
       [&] {
-        if (rank == 0) work();
+        if (processes::rank() == 0) work();
       },
       throw_input_error);
 }

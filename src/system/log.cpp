@@ -1,6 +1,5 @@
 #include "system/log.hpp"
 
-#include <mpi.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -9,6 +8,7 @@
 #include <memory>
 
 #include "system/input_file.hpp"
+#include "system/processes.hpp"
 #include "system/terminal.hpp"
 
 namespace solidus::logging {
@@ -38,11 +38,7 @@ Log& state() {
 }
 
 bool first_process() {
-  int initialized = 0, finalized = 0, rank = 0;
-  MPI_Initialized(&initialized);
-  MPI_Finalized(&finalized);
-  if (initialized && !finalized) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank == 0;
+  return !processes::running() || processes::rank() == 0;
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-/// Why a law or a scheme with its numbers makes none, in the words of InputError.
+/// The objection to a law or a scheme with the numbers that it was given, in the words of InputError.
 #pragma once
 
 #include <string>
 
 namespace solidus {
 
-/// Why the numbers of a law make none.
+/// The reason why the numbers of a law are refused.
 struct Objection {
   std::string found, allowed;  ///< for InputError
 };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "case_run.hpp"
+#include "system/errors.hpp"
 
 namespace solidus::testing {
 
@@ -38,6 +39,15 @@ class CaseFolder {
   CaseRun run(const std::string& name, const std::string& text,
               const std::vector<std::string>& overrides = {}) const {
     return testing::run(write(name + ".toml", text), name_ + "/" + name, overrides);
+  }
+  /// What run() refuses, in words; empty where it runs.
+  std::string refusal(const std::string& name, const std::string& text) const {
+    try {
+      run(name, text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
   }
   /// Runs until so many steps are taken, then goes on: the history must be, byte for byte, that of a run that
   /// never stopped (in NAME_whole).

@@ -75,6 +75,18 @@ class Imports(unittest.TestCase):
                     named = [name for name in included if name.startswith(f"{room}/{folder}/")]
                     self.assertEqual(named, [], file)
 
+    def test_mpi_and_petsc_are_seen_by_few_files_and_by_no_header_outside_their_rooms(self):
+        library = re.compile(r"^#include <(petsc[^>]*|mpi\.h)>", re.MULTILINE)
+        graph = imports()
+        seen = {file for file in graph if library.search((SOURCES / file).read_text(encoding="utf-8"))}
+        reached = set(seen)
+        while more := {file for file, included in graph.items() if file not in reached and reached & set(included)}:
+            reached |= more
+        self.assertGreater(len(seen), 10)
+        self.assertLessEqual(len(reached), 60)
+        headers = sorted(file for file in reached if is_interface(file))
+        self.assertEqual(headers, ["linear/linear_solver_implementation.hpp", "parallel/petsc_vectors.hpp"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -2,22 +2,20 @@
 /// processes.
 #pragma once
 
-#include <petscsys.h>
-
 #include <cmath>
 #include <fstream>
 #include <string>
 
 #include "../unit/mechanics/body.hpp"
 #include "strip.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::verification {
 
 /// The table for the plots of the documentation, written by a run on one process; what other runs write into
 /// it is lost.
 inline std::ofstream table(const std::string& name, const std::string& header) {
-  int size = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  const int size = processes::count();
   return size == 1 ? csv(name, header) : std::ofstream{};
 }
 

@@ -7,7 +7,7 @@
 ///   template <class T> T conductance(const T& x, const T& temperature) const;  // derivatives by AD
 ///   LawConductance at(double x, double temperature) const;                     // derivatives in closed form
 ///
-/// What it may declare beside:
+/// Optional members:
 ///
 ///   bool of_temperature() const;                // of a law with at(): h changes with Θ_g; absent: no
 ///   std::optional<Objection> objection() const; // what is wrong with its numbers together
@@ -38,7 +38,7 @@ struct LawConductance {
   double mixed = 0;           ///< ∂²h/∂x∂Θ_g
 };
 
-/// What is unusual about a law, for `solidus check`.
+/// The warning of `solidus check` about unusual values of a law.
 struct Remark {
   bool error = false;  ///< the case must not run
   std::string found, usual;
@@ -93,7 +93,7 @@ LawConductance conductance_of(const Law& law, double x, double temperature) {
 
 }  // namespace detail
 
-/// What is the same in the adapters of both kinds of law.
+/// The common part of the adapters of both kinds of law.
 /// @tparam Interface  ContactLaw or GapLaw
 template <class Interface, class Law>
 class ConductanceLawOf : public Interface {

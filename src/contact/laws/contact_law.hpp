@@ -9,7 +9,7 @@
 ///   };
 ///   const AddContactLaw<Bedding> k_bedding;   // at namespace scope: the key contact_law knows "bedding"
 ///
-/// What it may declare beside laws/conductance.hpp:
+/// Optional members, besides those of laws/conductance.hpp:
 ///
 ///   static constexpr bool beside_gas = false;  // or a function: h is all of it. Absent: it adds to what a
 ///   gap

@@ -8,7 +8,7 @@
 ///   };
 ///   const AddGapLaw<Porous> k_porous;   // at namespace scope: the key gap_law knows "porous"
 ///
-/// What it may declare beside laws/conductance.hpp:
+/// Optional members, besides those of laws/conductance.hpp:
 ///
 ///   static constexpr bool fills_roughness = true;  // its gas is between the asperities of rough surfaces
 ///   too std::optional<Objection> begin(const ContactSide& side);  // once, before all else
@@ -21,7 +21,7 @@
 
 namespace solidus::contact {
 
-/// What a law of the gap is told of the closed interface.
+/// The state of the closed interface that a law of the gap may depend on.
 struct ContactSide {
   std::optional<double> conductance;  ///< without pressure [W/(m² K)]; absent: it has none of its own
   bool rough = false;                 ///< gaps are counted from mean plane to mean plane of rough surfaces

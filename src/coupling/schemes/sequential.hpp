@@ -1,4 +1,4 @@
-/// What the isentropic and the isothermal split tell of themselves alike: both solve the phases in turn, in
+/// The common description of the isentropic and the isothermal split: both solve the phases in turn, in
 /// an order (sequential_split.hpp).
 #pragma once
 

@@ -46,7 +46,7 @@ struct HardeningSlopes {
 
 using HardeningTables = std::array<Table, k_hardening_parameters>;
 
-/// Why the tables of a law do not fit together.
+/// The reason why the tables of a law do not fit together.
 struct LawObjection {
   std::size_t parameter;       ///< the one to blame
   std::string found, allowed;  ///< for InputError

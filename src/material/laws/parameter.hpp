@@ -8,7 +8,8 @@
 
 namespace solidus::material {
 
-/// How far a parameter's line over temperature may be followed within a step of the isentropic mapping.
+/// The range in which a parameter's line over temperature may be followed within a step of the isentropic
+/// mapping.
 enum class Continuation {
   any,       ///< as far as the step goes
   positive,  ///< while it keeps a part of its value: the law divides by it, or it has to stay positive

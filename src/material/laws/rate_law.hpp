@@ -45,7 +45,7 @@ struct Overstress {
 using RateTables = std::array<Table, k_rate_parameters>;
 using GivenRates = std::array<bool, k_rate_parameters>;  ///< which of them the material file gives
 
-/// What `complete` has to say.
+/// The objection of `complete`, if any.
 struct RateCompletion {
   std::optional<std::size_t> left_out;  ///< a parameter that was filled in, with `text` as its source
   std::optional<std::size_t> blamed;    ///< a parameter that is wrong, or missing

@@ -238,7 +238,7 @@ PackedMoments pack_moments(Bodies& bodies, const std::vector<Moment>& moments,
       for (std::size_t b = 0; b < n_bodies; ++b) values[k][b].push_back(std::move(of_bodies[b]));
     }
   };
-  // What the last moment takes alone tells how many there is room for.
+  // The size of the last moment tells how many there is room for.
   read(moments.back(), true);
   Blocks trial;
   for (std::size_t k = 0; k < columns.size(); ++k)

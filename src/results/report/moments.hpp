@@ -44,7 +44,7 @@ struct Moment {
   std::filesystem::path file;
 };
 
-/// What a run's field files hold, packed.
+/// The packed contents of a run's field files.
 struct PackedMoments {
   std::vector<Moment> moments;  ///< those that are in the report
   std::vector<FieldColumn> columns;

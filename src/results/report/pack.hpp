@@ -11,7 +11,7 @@
 
 namespace solidus::report {
 
-/// What bytes are like, and so how deflate finds them small soonest: noise has runs alone (50 times as fast
+/// The kind of bytes, which decides how deflate packs them fastest: noise has runs alone (50 times as fast
 /// as a search for strings, and no larger), masks come back moment after moment.
 enum class Bytes { mixed, noise, mask };
 

@@ -1,4 +1,4 @@
-/// How cells and faces are cut into tetrahedra and triangles.
+/// Cuts cells and faces into tetrahedra and triangles.
 #include <algorithm>
 
 #include "results/report/body_mesh.hpp"

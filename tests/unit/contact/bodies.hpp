@@ -1,14 +1,13 @@
 /// Two blocks with meshes that do not match where they meet, distributed over the processes of the test.
 #pragma once
 
-#include <petscsys.h>
-
 #include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::test {
 
@@ -17,8 +16,7 @@ inline mesh::Mesh distribute_blocks(const mesh::RawMesh& raw) {
 }
 
 inline mesh::RawMesh raw_blocks(const mesh::TwoBlocks& blocks, mesh::Shape shape) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   return rank == 0 ? mesh::make_two_blocks(blocks, shape) : mesh::RawMesh{};
 }
 

@@ -9,6 +9,7 @@
 #include "bodies.hpp"
 #include "mesh/quadrature.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::contact {
 namespace {
@@ -231,8 +232,7 @@ TEST(ContactPoints, AreCountedOnceOverAllProcessesAndCompleteForOwnedRows) {
 // An L: the bottom and the right wall of a box that stands in a trough, as one surface each.
 TEST(Segments, PairEachWallOfACornerWithTheWallItFaces) {
   mesh::CylinderInMould c{0.02, 0.05, 0.01, 0.01, 0.08, 0.004, 0.006};
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   const mesh::RawMesh raw = rank == 0 ? mesh::make_cylinder_in_mould(c, Shape::tri3) : mesh::RawMesh{};
   const mesh::Mesh mesh = mesh::distribute(raw, {"part", "mould"}, {"part_surface", "mould_surface"});
   const ContactSurface slave(mesh, "part_surface"), master(mesh, "mould_surface");

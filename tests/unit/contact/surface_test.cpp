@@ -6,6 +6,7 @@
 
 #include "bodies.hpp"
 #include "contact/surface_curvature.hpp"
+#include "parallel/parallel.hpp"
 #include "system/errors.hpp"
 
 namespace solidus::contact {
@@ -25,10 +26,7 @@ TEST(ContactSurface, HasItsFacesWholeOnEveryProcessInOneOrder) {
     const Point centre = surface.reference_face(f).at({});
     checksum += (f + 1) * (centre[0] + 10 * centre[1]);
   }
-  double highest = checksum, lowest = checksum;
-  MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
-  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_DOUBLE, MPI_MIN, PETSC_COMM_WORLD);
-  EXPECT_EQ(highest, lowest);
+  EXPECT_EQ(parallel::global_max(checksum), parallel::global_min(checksum));
 }
 
 /// Two quarter rings or half a barrel: blocks bent about an axis, radius k_inner + height.

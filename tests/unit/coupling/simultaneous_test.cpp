@@ -3,8 +3,6 @@
 #include "coupling/simultaneous.hpp"
 
 #include <gtest/gtest.h>
-#include <mpi.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "../mechanics/plastic_material.hpp"
 #include "coupled_tangent.hpp"
 #include "mechanics/nodal_pressure.hpp"
+#include "system/processes.hpp"
 
 namespace solidus {
 namespace {
@@ -271,8 +270,7 @@ TEST(SimultaneousScheme, GoesTheSameWayFromAStateWithAFieldSplit) {
 }
 
 int processes() {
-  int n = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n);
+  const int n = processes::count();
   return n;
 }
 

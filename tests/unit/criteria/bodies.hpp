@@ -1,8 +1,6 @@
 /// Blocks whose states are given, not solved for, for the tests of thermal criteria.
 #pragma once
 
-#include <petscsys.h>
-
 #include <functional>
 #include <map>
 #include <string>
@@ -13,6 +11,7 @@
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::test {
 
@@ -33,8 +32,7 @@ inline material::Material metal(double range) {
 
 inline mesh::Mesh block_mesh(mesh::Shape shape, std::vector<double> size, std::vector<int> divisions) {
   mesh::RawMesh raw;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   if (rank == 0) {
     raw = mesh::make_block({std::move(size), {}, std::move(divisions), "block"}, shape);
     mesh::validate_and_orient(raw, "block");

@@ -1,13 +1,12 @@
 /// Blocks of one or two materials for the tests of the thermal phase.
 #pragma once
 
-#include <petscsys.h>
-
 #include <cmath>
 
 #include "heat/thermal_phase.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::test {
 
@@ -25,9 +24,7 @@ inline material::Material metal(double range, double latent_over_capacity = 280)
 }
 
 inline int rank() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
+  return processes::rank();
 }
 
 /// A rectangle or box of one body "block" on all processes.
@@ -44,8 +41,7 @@ inline mesh::Mesh block_mesh(mesh::Shape shape, std::vector<double> size, std::v
 }
 
 inline int processes() {
-  int size = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  const int size = processes::count();
   return size;
 }
 

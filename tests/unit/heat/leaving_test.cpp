@@ -6,6 +6,7 @@
 #include "../mesh/split_block.hpp"
 #include "block.hpp"
 #include "heat/nodal_enthalpy.hpp"
+#include "system/processes.hpp"
 
 namespace solidus {
 namespace {
@@ -14,8 +15,7 @@ constexpr double k_plane = 0.02;  ///< between part (left) and mould (right) [m]
 
 mesh::Mesh part_and_mould(mesh::Shape shape, const std::vector<std::string>& bodies) {
   mesh::RawMesh raw;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   if (rank == 0) raw = test::split_block(shape, {0.05, 0.02}, {10, 4}, k_plane);
   return mesh::distribute(raw, bodies, {});
 }

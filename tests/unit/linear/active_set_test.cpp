@@ -2,10 +2,10 @@
 #include "linear/active_set.hpp"
 
 #include <gtest/gtest.h>
-#include <petscsys.h>
 
 #include "../mesh/split_block.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus {
 namespace {
@@ -14,8 +14,7 @@ constexpr double k_plane = 0.2;
 
 mesh::Mesh bodies(mesh::Shape shape) {
   mesh::RawMesh raw;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   if (rank == 0)
     raw = mesh::dimension(shape) == 3 ? test::split_block(shape, {0.4, 0.2, 0.2}, {4, 2, 2}, k_plane)
                                       : test::split_block(shape, {0.4, 0.2}, {4, 2}, k_plane);

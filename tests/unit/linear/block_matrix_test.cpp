@@ -1,6 +1,7 @@
 #include "linear/block_matrix.hpp"
 
 #include <gtest/gtest.h>
+#include <petscmat.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "linear/lane_slots.hpp"
 #include "numbers/simd.hpp"
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::linear {
 namespace {
@@ -220,9 +222,7 @@ TEST(GhostExchange, GhostsReceiveTheOwnersValues) {
 }
 
 TEST(Sums, AreTakenOverAllProcesses) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  const int rank = processes::rank(), size = processes::count();
   EXPECT_EQ(parallel::global_sum(rank + 1.0), 0.5 * size * (size + 1));
   EXPECT_EQ(parallel::global_max(rank), size - 1.0);
   EXPECT_EQ(parallel::global_min(rank), 0.0);

@@ -1,9 +1,8 @@
 /// A small grid of nodes split over the processes by hand: the algebra is tested without a mesh reader.
 #pragma once
 
-#include <petscsys.h>
-
 #include "mesh/mesh.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::test {
 
@@ -13,9 +12,7 @@ struct Grid {
   std::vector<Index> quads;  ///< [quad][4] local nodes, those that touch an owned node
 
   Grid(int nx, int ny) {
-    int rank = 0, size = 1;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    MPI_Comm_size(PETSC_COMM_WORLD, &size);
+    const int rank = processes::rank(), size = processes::count();
     const int first = ny * rank / size, last = ny * (rank + 1) / size;
     const auto add_row = [&](int j) {
       for (int i = 0; i < nx; ++i) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "parallel/petsc_handles.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::linear {
 namespace {
@@ -31,8 +32,7 @@ petsc::MatHandle saddle_point(PetscInt n) {
 }
 
 TEST(KrylovSolver, FactorsThatNeedMoreWorkspaceThanForeseenGetIt) {
-  int n_processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const int n_processes = processes::count();
   if (n_processes > 1) GTEST_SKIP() << "a matrix of one process";
   constexpr PetscInt n = 600;
   petsc::check(PetscOptionsSetValue(nullptr, "-tight_mat_mumps_icntl_14", "0"), "PetscOptionsSetValue");

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <petscksp.h>
 
 #include <Eigen/Dense>
 #include <cmath>

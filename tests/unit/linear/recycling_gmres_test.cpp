@@ -2,12 +2,12 @@
 #include "linear/recycling_gmres.hpp"
 
 #include <gtest/gtest.h>
-#include <petscsys.h>
 
 #include <cmath>
 #include <vector>
 
 #include "parallel/parallel.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::linear {
 namespace {
@@ -21,8 +21,8 @@ struct Problem {
   int rank = 0, size = 1;
 
   explicit Problem(int slow, double change = 0) {
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    MPI_Comm_size(PETSC_COMM_WORLD, &size);
+    rank = processes::rank();
+    size = processes::count();
     for (int i = rank; i < k_unknowns; i += size) {
       diagonal.push_back(i < slow ? 1e-4 / (1 + i) : 1 + 0.5 * (1 + std::sin(0.7 * i + change)));
       right.push_back(std::cos(0.3 * i + change));

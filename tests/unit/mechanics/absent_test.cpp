@@ -6,6 +6,7 @@
 #include "../mesh/split_block.hpp"
 #include "body.hpp"
 #include "mechanics/new_bodies.hpp"
+#include "system/processes.hpp"
 
 namespace solidus {
 namespace {
@@ -16,8 +17,7 @@ constexpr double k_young = 2e11, k_soft = 5e10;                     ///< left, r
 /// Two bars in a row that share nodes, without lateral contraction; the right one is the mould.
 test::Body bars(mesh::Shape shape, const std::vector<std::string>& bodies = {"left", "right"}) {
   mesh::RawMesh raw;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   const bool solid = mesh::dimension(shape) == 3;
   if (rank == 0)
     raw = solid ? test::split_block(shape, {k_length, k_height, k_height}, {5, 2, 2}, k_plane)

@@ -1,13 +1,13 @@
 /// The mechanical phase with mixed triangles and tetrahedra: what their pressure does over steps, between
 /// bodies and in the balance of energy.
 #include <gtest/gtest.h>
-#include <mpi.h>
 
 #include <cmath>
 
 #include "mechanics/simplices.hpp"
 #include "plastic_material.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 namespace solidus {
 namespace {
@@ -81,8 +81,7 @@ TEST(MixedPhase, GoesOnFromAStateWithTheSameBits) {
     const auto fresh = body.phase();
     mechanics::MechanicalState end = fresh->initial_state();
     fresh->solve(middle, end, body.temperature, 2.0, 1.0);
-    int n_processes = 1;
-    MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+    const int n_processes = processes::count();
     if (n_processes == 1) {
       EXPECT_EQ(end.displacement, first.state.displacement);
       EXPECT_EQ(end.pressure, first.state.pressure);

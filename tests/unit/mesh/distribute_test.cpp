@@ -11,6 +11,7 @@
 #include "sample_mesh.hpp"
 #include "system/common_failure.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 namespace {
 
@@ -208,8 +209,7 @@ TEST(Distribute, WorkIsSharedOutAndNotNodes) {
 
 // On one process METIS has nothing to do.
 TEST(Distribute, AFailureOfMetisOrOfMemoryIsNotTheUsers) {
-  int n_processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const int n_processes = processes::count();
   if (n_processes == 1) return;
   answer_of_metis = METIS_ERROR_MEMORY;
   EXPECT_THROW(cylinder(), std::bad_alloc);
@@ -228,9 +228,7 @@ TEST(Distribute, AFailureOfMetisOrOfMemoryIsNotTheUsers) {
 
 // The failing process throws its own exception, the others one of the same kind.
 TEST(CommonFailure, IsOfTheSameKindOnEveryProcess) {
-  int rank = 0, n_processes = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const int rank = processes::rank(), n_processes = processes::count();
   const auto last = [&](auto error) {
     run_collectively([&] {
       if (rank == n_processes - 1) throw error;

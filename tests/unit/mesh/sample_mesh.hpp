@@ -11,6 +11,7 @@
 #include "mesh/block_geometry.hpp"
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::test {
 
@@ -21,8 +22,7 @@ inline double global_sum(double value) {
   return value;
 }
 inline int n_processes() {
-  int n = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n);
+  const int n = processes::count();
   return n;
 }
 inline int rank() {

@@ -1,6 +1,8 @@
 // A checkpoint knows that it is whole, and a folder that a run is in it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
+#include <petscsys.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -22,6 +24,7 @@
 #include "results/output_error.hpp"
 #include "results/run_lock.hpp"
 #include "sample.hpp"
+#include "system/processes.hpp"
 
 namespace {
 
@@ -32,9 +35,7 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 int this_process() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
+  return processes::rank();
 }
 
 class CheckpointFile : public ::testing::Test {

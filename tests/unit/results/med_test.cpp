@@ -15,6 +15,7 @@
 #include "results/output_error.hpp"
 #include "sample.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 namespace {
@@ -59,10 +60,7 @@ TEST_P(Med, HoldsTheMeshInItsOwnNumberingAndTheFieldsOfAllTimes) {
   const bool solid = cells.type > 300;
   const mesh::Block3 block =
       solid ? mesh::Block3{{3, 2, 1}, {}, {3, 2, 2}, "part"} : mesh::Block3{{3, 2}, {}, {3, 2}, "part"};
-  int rank = 0, size = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  if (size > 1) GTEST_SKIP() << "one process reads the parts of several as vtkhdf does";
+  if (processes::count() > 1) GTEST_SKIP() << "one process reads the parts of several as vtkhdf does";
   const mesh::Mesh mesh = mesh::distribute(mesh::make_block(block, shape), {"part"}, {});
   std::vector<double> temperature, number;
   for (const mesh::Point& x : mesh.x) temperature.push_back(300 + 10 * x[0] + x[1]);

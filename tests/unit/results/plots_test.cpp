@@ -12,6 +12,7 @@
 #include "results/step_columns.hpp"
 #include "results/summary.hpp"
 #include "sample.hpp"
+#include "system/processes.hpp"
 #include "vtu_reader.hpp"
 
 namespace solidus::results {
@@ -60,8 +61,7 @@ struct Plots : ::testing::Test {
   std::string said;
 
   Plots() {
-    int rank = 0;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    const int rank = processes::rank();
     const RunFolder run(folder.path, "");
     mesh::RawMesh raw;
     if (rank == 0) raw = mesh::make_block({{3, 2}, {}, {6, 4}, "part"}, mesh::Shape::quad4);

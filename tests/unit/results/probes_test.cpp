@@ -1,7 +1,6 @@
 #include "results/probes.hpp"
 
 #include <gtest/gtest.h>
-#include <petscsys.h>
 
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "mesh/shapes.hpp"
 #include "parallel/parallel.hpp"
 #include "results/output_error.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 namespace {
@@ -31,8 +31,7 @@ struct Block : ::testing::Test {
     block.size = {2, 1};
     block.origin = {1, 0};
     block.divisions = {8, 5};
-    int rank = 0;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    const int rank = processes::rank();
     mesh::RawMesh raw;
     if (rank == 0) raw = mesh::make_block(block, mesh::Shape::tri3);
     mesh = mesh::distribute(raw, {"block"}, {});

@@ -5,6 +5,7 @@
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
 #include "sample.hpp"
+#include "system/processes.hpp"
 #include "vtu_reader.hpp"
 
 namespace solidus::results {
@@ -18,8 +19,7 @@ struct Profiles : ::testing::Test {
   FieldSet fields;
 
   Profiles() {
-    int rank = 0;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    const int rank = processes::rank();
     mesh::RawMesh raw;
     if (rank == 0) raw = mesh::make_block({{3, 1}, {}, {3, 2}, "part"}, mesh::Shape::quad4);
     mesh = mesh::distribute(raw, {"part"}, {});

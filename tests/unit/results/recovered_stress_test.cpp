@@ -3,7 +3,6 @@
 #include "results/recovered_stress.hpp"
 
 #include <gtest/gtest.h>
-#include <petscsys.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "mesh/raw_mesh.hpp"
 #include "mesh/shapes.hpp"
 #include "results/heat_flux.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 namespace {
@@ -22,8 +22,7 @@ using mesh::Shape;
 
 mesh::Mesh block(Shape shape, std::vector<int> divisions, std::vector<double> size,
                  std::vector<double> origin = {}) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   mesh::RawMesh raw;
   if (rank == 0) raw = mesh::make_block({std::move(size), std::move(origin), std::move(divisions)}, shape);
   return mesh::distribute(raw, {"block"}, {});

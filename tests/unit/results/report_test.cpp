@@ -22,6 +22,7 @@
 #include "results/vtu.hpp"
 #include "sample.hpp"
 #include "system/errors.hpp"
+#include "system/processes.hpp"
 #include "vtu_reader.hpp"
 
 namespace solidus::report {
@@ -138,8 +139,7 @@ TEST(ReportMesh, SimplicesFillABlockAndItsSkinIsClosed) {
                             Shape::hex8, Shape::hex20}) {
     const test::SharedFolder folder;
     const bool plane = mesh::dimension(shape) == 2;
-    int rank = 0;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    const int rank = processes::rank();
     mesh::RawMesh raw;
     if (rank == 0)
       raw = plane ? mesh::make_block({{2, 3}, {}, {2, 2}, "part"}, shape)
@@ -148,8 +148,7 @@ TEST(ReportMesh, SimplicesFillABlockAndItsSkinIsClosed) {
     const results::RunFolder run(folder.path, "");
     results::FieldOutput(run, mesh).write(0, {}, {});
     test::on_first([&] {
-      int size = 1;
-      MPI_Comm_size(PETSC_COMM_WORLD, &size);
+      const int size = processes::count();
       const FieldFile file(folder.path / "fields" / (size == 1 ? "fields_00000.vtu" : "fields_00000.pvtu"));
       const Bodies bodies(file);
       ASSERT_EQ(bodies.all().size(), 1U);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
+#include <petscsys.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +19,7 @@
 #include "results/temperature_history.hpp"
 #include "results/vtkhdf.hpp"
 #include "sample.hpp"
+#include "system/processes.hpp"
 #include "vtu_reader.hpp"
 
 namespace solidus::results {
@@ -145,8 +148,8 @@ struct Distributed : ::testing::Test {
   int rank = 0, size = 1;
 
   Distributed() {
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    MPI_Comm_size(PETSC_COMM_WORLD, &size);
+    rank = processes::rank();
+    size = processes::count();
     mesh::RawMesh raw;
     if (rank == 0) raw = mesh::make_block({{3, 2}, {}, {6, 4}, "part"}, mesh::Shape::quad8);
     mesh = mesh::distribute(raw, {"part"}, {"x_max"});
@@ -301,9 +304,7 @@ TEST_F(Distributed, CollectionStaysAsItWasWhenOneProcessCannotWrite) {
 }
 
 TEST(RunCollectively, ThrowsOnEveryProcessWhenOneFails) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  const int rank = processes::rank(), size = processes::count();
   const int failing = size - 1;
   try {
     run_collectively([&] {

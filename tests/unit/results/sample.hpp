@@ -9,6 +9,7 @@
 #include <string>
 
 #include "mesh/mesh.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::test {
 
@@ -32,8 +33,7 @@ class TemporaryFolder {
 /// Runs on process 0 while the others wait.
 template <class F>
 void on_first(const F& work) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   if (rank == 0) work();
   MPI_Barrier(PETSC_COMM_WORLD);
 }

@@ -13,6 +13,7 @@
 #include "results/deck_elements.hpp"
 #include "results/deck_supports.hpp"
 #include "sample.hpp"
+#include "system/processes.hpp"
 
 namespace solidus::results {
 namespace {
@@ -97,9 +98,7 @@ struct Sample {
 };
 
 bool serial() {
-  int size = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
-  return size == 1;
+  return processes::count() == 1;
 }
 
 /// The lines of a keyword's block.

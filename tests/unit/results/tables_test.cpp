@@ -13,6 +13,7 @@
 #include "results/step_columns.hpp"
 #include "results/summary.hpp"
 #include "sample.hpp"
+#include "system/processes.hpp"
 #include "vtu_reader.hpp"
 
 namespace solidus::results {
@@ -159,8 +160,7 @@ TEST(Json, NamesTheMemberThatIsNotANumber) {
 
 TEST(Summary, SaysHowTheRunWent) {
   mesh::Mesh mesh = test::triangles_and_quad();
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = processes::rank();
   if (rank > 0) mesh.blocks.clear();  // process 0 counts all elements
   Summary summary;
   summary.case_file = "cases/a/case.toml";
@@ -184,9 +184,7 @@ TEST(Summary, SaysHowTheRunWent) {
 }
 
 TEST(Balance, IsTheLargestOverTheMean) {
-  int rank = 0, n_processes = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const int rank = processes::rank(), n_processes = processes::count();
   EXPECT_DOUBLE_EQ(largest_over_mean(0), 1);
   EXPECT_DOUBLE_EQ(largest_over_mean(2.5), 1);
   // 1, 2, … n: n over (n + 1)/2.
@@ -194,8 +192,7 @@ TEST(Balance, IsTheLargestOverTheMean) {
 }
 
 TEST(Balance, CountsTheElementsThatSeveralProcessesCompute) {
-  int n_processes = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &n_processes);
+  const int n_processes = processes::count();
   mesh::RawMesh raw = mesh::make_block({{1, 0.1}, {0, 0}, {40, 2}}, mesh::Shape::quad4);
   const mesh::Mesh mesh = mesh::distribute(raw, {"block"}, {});
   const Balance even = balance(mesh, {{"assembly", 2.0}});

@@ -9,6 +9,7 @@
 #include "results/output_error.hpp"
 #include "results/vtk_data.hpp"
 #include "sample.hpp"
+#include "system/processes.hpp"
 #include "vtu_reader.hpp"
 
 namespace solidus::results {
@@ -115,8 +116,7 @@ TEST_F(Vtu, LeavesNothingButItselfInTheFolder) {
 }
 
 TEST_F(Vtu, HidesTheCellsOfBodiesThatHaveLeft) {
-  int size = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  const int size = processes::count();
   if (size > 1) return;  // the sample is the mesh of one process
   const linear::ActiveSet active(mesh, std::vector<std::string>{mesh.bodies[1].name});
   const auto pressure = count_up(3);

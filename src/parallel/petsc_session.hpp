@@ -1,0 +1,20 @@
+/// PETSc and MPI from their start to their end.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace solidus::petsc {
+
+/// Starts PETSc, and MPI, where nobody has.
+/// @param options  of PETSc, as on a command line. A .petscrc of the present folder or the home is not read,
+///                 for it would change answers in silence, and signals stay the caller's.
+/// Returns false where PETSc cannot start; its message then stands on the standard error.
+bool start(const std::vector<std::string>& options);
+/// The processes of a communicator, by its number in Fortran, in place of all. Before start().
+void use_communicator(int fortran_number);
+bool running();
+/// Ends PETSc, and MPI where start() has started it. Does nothing unless running().
+void end();
+
+}  // namespace solidus::petsc
