@@ -241,10 +241,11 @@ TEST(Bounds, HoldInRandomProblemsWithEveryElement) {
                   number, std::string(mesh::name(p.shape)).c_str(), p.mesh.n_owned_nodes, p.dt, kept.kelvins,
                   kept.iterations, kept.rejected, free.kelvins, free.iterations);
   }
-  EXPECT_LE(sum_coarse, 300 * 4);  // as deep as before the default was 1e-6
-  EXPECT_LE(hard_coarse, 16);
-  EXPECT_LE(sum, 300 * 4.3);
-  EXPECT_LE(hard, 20);
+  // Half of the problems have two materials that share nodes: with a symmetric matrix alone 13 take up to 37.
+  EXPECT_LE(sum_coarse, 300 * 2.4);
+  EXPECT_EQ(hard_coarse, 0);
+  EXPECT_LE(sum, 300 * 2.6);
+  EXPECT_EQ(hard, 0);
   EXPECT_GT(worst_without, 10.0);  // kelvins: the problems are hard enough
 }
 
