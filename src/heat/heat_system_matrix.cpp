@@ -114,7 +114,7 @@ void HeatSystem::scale_by_slopes(std::span<const double> slopes) {
 
 void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes) {
   double* values = matrix_->block(0);
-  if (nodal_->identity() || shared_.empty()) {
+  if (nodal_->identity() || node_body_.empty()) {
     for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
     return;
   }
@@ -135,14 +135,15 @@ void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::s
     const int own = node_body_[row];
     for (std::int64_t s = start[row]; s < start[row + 1]; ++s) {
       const Index j = columns[static_cast<std::size_t>(s)];
-      const int other = node_body_[static_cast<std::size_t>(j)];
+      const int other = node_body_[static_cast<std::size_t>(j)], body = own >= 0 ? own : other;
+      if (body < 0) continue;  // below
+      // A ghost may belong to further bodies whose elements are not here: its slope tells.
       const double kept = kept_conduction_[static_cast<std::size_t>(s)];
-      if (own >= 0 && other >= 0)
+      const bool plain = own >= 0 && other >= 0 && j < mesh_.n_owned_nodes;
+      if (plain)
         values[s] += kept;
-      else if (own >= 0)
-        add(s, i, j, kept, 1.0, factor(own, j));
-      else if (other >= 0)
-        add(s, i, j, kept, factor(other, i), 1.0);
+      else
+        add(s, i, j, kept, own >= 0 ? 1.0 : factor(body, i), factor(body, j));
     }
   }
   for (const SharedPair& pair : shared_)
