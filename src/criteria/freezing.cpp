@@ -81,19 +81,22 @@ Freezing::Freezing(const mesh::Mesh& mesh, AnalysisKind kind, const heat::NodalE
     levels.evaluation = levels.solidus + options.evaluation * (levels.liquidus - levels.solidus);
     levels.at_end = levels.evaluation <= levels.solidus;
   }
-  // A node of several bodies that freeze is told by that of which it holds most.
-  for (Index i = 0; i < mesh.n_owned_nodes; ++i) {
-    int body = -1;
-    double most = 0;
-    for (const Patches::Element e : patches_.around(i)) {
-      const double volume = storage.volume(i, patches_.body(e));
-      if (volume > most || (volume == most && patches_.body(e) < body)) {
-        most = volume;
-        body = patches_.body(e);
-      }
-    }
-    if (body >= 0) nodes_.push_back({i, body});
+  const std::vector<char> chosen = freezing_bodies(mesh, storage, options.bodies);
+  for (Index i = 0; i < mesh.n_owned_nodes; ++i)
+    if (const int body = body_of(i, chosen); body >= 0) nodes_.push_back({i, body});
+  nodes_.shrink_to_fit();
+}
+
+int Freezing::body_of(Index node, const std::vector<char>& chosen) const {
+  int body = -1;
+  double most = 0;
+  for (std::size_t b = 0; b < chosen.size(); ++b) {
+    const double volume = chosen[b] != 0 ? storage_.volume(node, static_cast<int>(b)) : 0.0;
+    if (volume <= most) continue;
+    most = volume;
+    body = static_cast<int>(b);
   }
+  return body;
 }
 
 Record Freezing::initial(const Moment& start) const {
@@ -265,41 +268,53 @@ void Freezing::step(const Moment& old, const Moment& next, Record& record) {
   }
   if (!parallel::any_process(!passages.empty() || !waiting.empty() || !freezing.empty())) return;
   ghosts_.update(history, k_width);  // times of neighbours say what lies behind the front
+  std::vector<Index> needed;
+  for (const Passage& passage : passages) needed.push_back(passage.who.node);
+  for (const auto* list : {&freezing, &waiting})
+    for (const FreezingNode& who : *list) needed.push_back(who.node);
+  patches_.gather(needed);
   for (const Passage& passage : passages) evaluate(passage, step, history);
   for (const FreezingNode& who : freezing) accumulate(who, step, history);
   for (const FreezingNode& who : waiting)
     if (history[static_cast<std::size_t>(who.node) * k_width + k_mode] == k_waiting)
       complete(who, step, history);
+  patches_.clear();
   ghosts_.update(history, k_width);
 }
 
-double Freezing::front_speed(const FreezingNode& who, std::span<const double> history) const {
-  double slope = 0,
-         volume = 0;  // the mean of |∇t_e|: where fronts meet, slopes of opposite sense do not cancel
-  for (const Patches::Element e : patches_.around(who.node)) {
-    if (patches_.body(e) != who.body) continue;
+/// The speed of the front at every owned node, zero where it is not known: one over the mean of |∇t_e|, so
+/// that slopes of opposite sense do not cancel where fronts meet.
+std::vector<double> Freezing::front_speeds(std::span<const double> history) const {
+  const auto n = static_cast<std::size_t>(mesh_.n_owned_nodes);
+  std::vector<double> slope(n, 0.0), volume(n, 0.0);
+  std::vector<int> body(n, -1);
+  for (const FreezingNode& who : nodes_) body[static_cast<std::size_t>(who.node)] = who.body;
+  patches_.for_elements([&](const Patches::Element& e) {
     std::array<double, k_most_nodes> times{};
     const std::span<const Index> nodes = patches_.nodes(e);
-    bool passed = true;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       times[a] = history[static_cast<std::size_t>(nodes[a]) * k_width + k_evaluated_at];
-      passed = passed && times[a] >= 0;
+      if (times[a] < 0) return;
     }
-    if (!passed) continue;
     const Patches::Gradient g = patches_.gradient(e, std::span(times).first(nodes.size()));
-    slope += g.volume * length(g.value);
-    volume += g.volume;
-  }
-  return slope > 0 ? volume / slope : 0.0;
+    for (const Index node : nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      if (node >= mesh_.n_owned_nodes || body[i] != patches_.body(e)) continue;
+      slope[i] += g.volume * length(g.value);
+      volume[i] += g.volume;
+    }
+  });
+  for (std::size_t i = 0; i < n; ++i) slope[i] = slope[i] > 0 ? volume[i] / slope[i] : 0.0;
+  return slope;
 }
 
 std::array<double, Freezing::k_fields> Freezing::values_of(const FreezingNode& who,
-                                                           std::span<const double> history) const {
+                                                           std::span<const double> history,
+                                                           double speed) const {
   const double* const h = history.data() + static_cast<std::size_t>(who.node) * k_width;
   if (h[k_solidified_at] < 0) return {k_never};
   const double time = h[k_solidified_at] - h[k_liquidus_at];
   const double gradient = h[k_gradient];
-  const double speed = front_speed(who, history);
   const double rate = speed > 0 ? h[k_magnitude] * speed : h[k_rate];
   const auto body = static_cast<std::size_t>(who.body);
   const double spacing = storage_.material(who.body).casting.secondary_arm_spacing(time).value_or(0);
@@ -326,8 +341,9 @@ void Freezing::fill(const Moment& /*now*/, const Record& record,
                     std::span<const std::span<double>> values) const {
   for (std::size_t f = 0; f < k_fields; ++f)
     std::fill(values[f].begin(), values[f].end(), f == 0 ? k_never : 0.0);
+  const std::vector<double> speeds = front_speeds(record.columns[0].values);
   for (const FreezingNode& who : nodes_) {
-    const auto of_node = values_of(who, record.columns[0].values);
+    const auto of_node = values_of(who, record.columns[0].values, speeds[static_cast<std::size_t>(who.node)]);
     for (std::size_t f = 0; f < k_fields; ++f) values[f][static_cast<std::size_t>(who.node)] = of_node[f];
   }
   for (std::size_t f = 0; f < k_fields; ++f) ghosts_.update(values[f], 1);
@@ -345,9 +361,10 @@ std::vector<Finding> Freezing::findings(const Record& record) const {
                         (value == e.value && number < e.number);
     if (better) e = {value, number, where};
   };
+  const std::vector<double> speeds = front_speeds(record.columns[0].values);
   for (const FreezingNode& who : nodes_) {
     const auto i = static_cast<std::size_t>(who.node);
-    const auto of_node = values_of(who, record.columns[0].values);
+    const auto of_node = values_of(who, record.columns[0].values, speeds[i]);
     for (std::size_t f = 0; f < k_fields; ++f)
       if (of_node[f] > 0)
         for (std::size_t side = 0; side < 2; ++side)

@@ -90,17 +90,21 @@ class Freezing : public Criterion {
   void accumulate(const FreezingNode& who, const Step& step, std::span<double> history) const;
   void evaluate(const Passage& passage, const Step& step, std::span<double> history) const;
   void complete(const FreezingNode& who, const Step& step, std::span<double> history) const;
-  double front_speed(const FreezingNode& who, std::span<const double> history) const;
+  /// The body by which an owned node is told: that of which it holds most; −1: none that freezes.
+  int body_of(Index node, const std::vector<char>& chosen) const;
+  std::vector<double> front_speeds(std::span<const double> history) const;
   static constexpr std::size_t k_fields = 9;
   /// All fields of a node, in their order.
-  std::array<double, k_fields> values_of(const FreezingNode& who, std::span<const double> history) const;
+  /// @param speed  of the front there
+  std::array<double, k_fields> values_of(const FreezingNode& who, std::span<const double> history,
+                                         double speed) const;
 
   const mesh::Mesh& mesh_;
   const heat::NodalEnthalpy& storage_;
   std::vector<Levels> levels_;                      ///< per body
   std::vector<std::optional<FeedingLaw>> feeding_;  ///< per body
   std::vector<FreezingNode> nodes_;                 ///< owned
-  Patches patches_;
+  Patches patches_;                                 ///< lists of nodes within step() alone
   parallel::GhostExchange ghosts_;
 };
 

@@ -1,17 +1,21 @@
 #include "criteria/patches.hpp"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "mesh/quadrature.hpp"
 
 namespace solidus::criteria {
 
 namespace {
+
+constexpr std::uint32_t k_not_gathered = std::numeric_limits<std::uint32_t>::max();
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
@@ -25,8 +29,8 @@ mesh::Point centre_of(mesh::Shape shape) {
 
 }  // namespace
 
-Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<char>& chosen)
-    : mesh_(mesh), kind_(kind), start_(static_cast<std::size_t>(mesh.n_owned_nodes) + 1, 0) {
+Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<char> chosen)
+    : mesh_(mesh), kind_(kind), chosen_(std::move(chosen)) {
   for (const mesh::Block& block : mesh.blocks) {
     Centre& centre = centres_.emplace_back();
     const auto n = static_cast<std::size_t>(mesh::node_count(block.shape));
@@ -39,20 +43,27 @@ Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<ch
   first_.push_back(0);
   for (const mesh::Block& block : mesh.blocks)
     first_.push_back(first_.back() + static_cast<std::uint32_t>(block.size()));
+}
+
+void Patches::gather(std::span<const Index> owned) {
+  position_.assign(static_cast<std::size_t>(mesh_.n_owned_nodes), k_not_gathered);
+  for (std::size_t k = 0; k < owned.size(); ++k)
+    position_[static_cast<std::size_t>(owned[k])] = static_cast<std::uint32_t>(k);
   const auto each = [&](const auto& visit) {
-    for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-      const mesh::Block& block = mesh.blocks[b];
-      if (chosen[static_cast<std::size_t>(block.body)] == 0) continue;
-      for (Index e = 0; e < block.size(); ++e) {
-        const std::uint32_t number = first_[b] + static_cast<std::uint32_t>(e);
-        for (const Index node : nodes({static_cast<Index>(b), e}))
-          if (node < mesh.n_owned_nodes) visit(static_cast<std::size_t>(node), number);
+    for_elements([&](const Element& e) {
+      const std::uint32_t number =
+          first_[static_cast<std::size_t>(e.block)] + static_cast<std::uint32_t>(e.number);
+      for (const Index node : nodes(e)) {
+        if (node >= mesh_.n_owned_nodes) continue;
+        const std::uint32_t position = position_[static_cast<std::size_t>(node)];
+        if (position != k_not_gathered) visit(position, number);
       }
-    }
+    });
   };
+  start_.assign(owned.size() + 1, 0);
   std::size_t places = 0;
-  each([&](std::size_t node, std::uint32_t) {
-    ++start_[node + 1];
+  each([&](std::uint32_t position, std::uint32_t) {
+    ++start_[position + 1];
     ++places;
   });
   if (places > std::numeric_limits<std::uint32_t>::max())
@@ -60,7 +71,17 @@ Patches::Patches(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<ch
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   elements_.resize(start_.back());
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-  each([&](std::size_t node, std::uint32_t number) { elements_[next[node]++] = number; });
+  each([&](std::uint32_t position, std::uint32_t number) { elements_[next[position]++] = number; });
+}
+
+void Patches::clear() {
+  for (auto* list : {&position_, &start_, &elements_}) std::vector<std::uint32_t>().swap(*list);
+}
+
+Patches::Around Patches::around(Index node) const {
+  const std::uint32_t k = position_[static_cast<std::size_t>(node)];
+  assert(k != k_not_gathered);
+  return {*this, elements_.data() + start_[k], elements_.data() + start_[k + 1]};
 }
 
 Patches::Gradient Patches::gradient(const Element& e, std::span<const double> values) const {
@@ -95,7 +116,8 @@ Patches::Gradient Patches::gradient(const Element& e, std::span<const double> va
 }
 
 std::size_t Patches::bytes() const {
-  return (first_.capacity() + start_.capacity() + elements_.capacity()) * sizeof(std::uint32_t);
+  return (first_.capacity() + position_.capacity() + start_.capacity() + elements_.capacity()) *
+         sizeof(std::uint32_t);
 }
 
 }  // namespace solidus::criteria

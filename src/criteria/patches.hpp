@@ -10,14 +10,29 @@
 
 namespace solidus::criteria {
 
-/// Every element at an owned node is here, so a patch is whole without the other processes.
+/// Every element at an owned node is here, so a patch is whole without the other processes. The lists of all
+/// nodes of a mesh of tetrahedra would take 95 bytes a node, so they are made for the nodes that a step
+/// needs.
 class Patches {
  public:
   struct Element {
     Index block, number;
   };
-  /// @param chosen  one per body: its elements take part
-  Patches(const mesh::Mesh& mesh, AnalysisKind kind, const std::vector<char>& chosen);
+  /// @param chosen  one per body: its elements take part; copied
+  Patches(const mesh::Mesh& mesh, AnalysisKind kind, std::vector<char> chosen);
+
+  /// Lists the elements around these owned nodes, and no others, for around().
+  void gather(std::span<const Index> owned);
+  /// Frees the lists.
+  void clear();
+  /// Calls visit(element) for every element of the chosen bodies, in the order of around().
+  template <class Visit>
+  void for_elements(const Visit& visit) const {
+    for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+      if (chosen_[static_cast<std::size_t>(mesh_.blocks[b].body)] == 0) continue;
+      for (Index e = 0; e < mesh_.blocks[b].size(); ++e) visit(Element{static_cast<Index>(b), e});
+    }
+  }
 
   /// Elements around a node, one after the other.
   class Around {
@@ -44,11 +59,8 @@ class Patches {
    private:
     Iterator begin_, end_;
   };
-  /// Elements of the chosen bodies around an owned node.
-  Around around(Index node) const {
-    const auto i = static_cast<std::size_t>(node);
-    return {*this, elements_.data() + start_[i], elements_.data() + start_[i + 1]};
-  }
+  /// Elements of the chosen bodies around one of the nodes gathered.
+  Around around(Index node) const;
   std::span<const Index> nodes(const Element& e) const {
     const mesh::Block& block = mesh_.blocks[static_cast<std::size_t>(e.block)];
     return {block.element(e.number), static_cast<std::size_t>(mesh::node_count(block.shape))};
@@ -77,9 +89,11 @@ class Patches {
 
   const mesh::Mesh& mesh_;
   AnalysisKind kind_;
+  std::vector<char> chosen_;
   std::vector<Centre> centres_;  ///< per block
   // A tetrahedral mesh has 23 of these numbers a node: four bytes each, with one count over all blocks.
-  std::vector<std::uint32_t> first_;  ///< number of the first element of each block; one more at the end
+  std::vector<std::uint32_t> first_;     ///< number of the first element of each block; one more at the end
+  std::vector<std::uint32_t> position_;  ///< of an owned node among those gathered; empty: none are
   std::vector<std::uint32_t> start_, elements_;
 };
 

@@ -1,6 +1,7 @@
 #include "heat/heat_solver.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace solidus::heat {
@@ -40,15 +41,30 @@ void HeatSolver::begin(bool transient) {
 
 linear::LinearReport HeatSolver::solve(linear::BlockMatrix& a, std::span<const double> b, std::span<double> x,
                                        double forcing) {
-  if (!use_quick_) return strong().solve(a, b, x, forcing);
+  if (!use_quick_) {
+    last_ = &strong();
+    return last_->solve(a, b, x, forcing);
+  }
+  last_ = quick_.get();
+  keeps_nothing_ = a.storage() == linear::BlockMatrix::Storage::upper;  // PETSc's factors keep their pattern
   linear::LinearReport report = quick_->solve(a, b, x, forcing);
   const double digits = -std::log10(std::max(forcing, options_.relative_tolerance));
   use_quick_ = report.converged && report.iterations <= k_slow * digits;
   if (report.converged) return report;
   const int spent = report.iterations;
-  report = strong().solve(a, b, x, forcing);
+  last_ = &strong();
+  report = last_->solve(a, b, x, forcing);
   report.iterations += spent;
   return report;
+}
+
+linear::LinearReport HeatSolver::solve_again(std::span<const double> b, std::span<double> x, double forcing) {
+  assert(last_ != nullptr);
+  return last_->solve_again(b, x, forcing);
+}
+
+void HeatSolver::release() {
+  if (quick_ && keeps_nothing_) quick_->reset();
 }
 
 void HeatSolver::forget() {

@@ -22,8 +22,12 @@ class HeatSolver {
   /// @param forcing  as of linear::LinearSolver::solve()
   linear::LinearReport solve(linear::BlockMatrix& a, std::span<const double> b, std::span<double> x,
                              double forcing = 0);
+  /// Solves with the matrix of the last solve(), which must not have changed.
+  linear::LinearReport solve_again(std::span<const double> b, std::span<double> x, double forcing);
   /// The solver that runs now, for linear::newton().
   linear::LinearSolver& strong();
+  /// Frees what the quick solver has allocated, where it carries nothing over to the next solve.
+  void release();
   /// Drops what the solvers carry over from earlier solves, as linear::LinearSolver::forget().
   void forget();
   /// Resets the solvers as linear::LinearSolver::reset().
@@ -35,6 +39,8 @@ class HeatSolver {
   linear::LinearSolverOptions options_;
   std::unique_ptr<linear::LinearSolver> quick_, strong_;
   bool use_quick_ = false;
+  bool keeps_nothing_ = false;            ///< the quick solver, from one solve to the next
+  linear::LinearSolver* last_ = nullptr;  ///< that the last solve() ended with
 };
 
 }  // namespace solidus::heat

@@ -86,13 +86,22 @@ class HeatSystem {
   /// Fills the matrix with ∂r/∂Θ, which is unsymmetric where a conductivity varies.
   void assemble(std::span<const double> temperature);
   /// Fills the matrix with ∂r/∂v in the unknown of nodal_potential.hpp. It is symmetric if the contributions
-  /// are, and exact but for conduction
-  /// at nodes that materials of different k(Θ)/κ share, and for contributions and surfaces between nodes of
-  /// different c = dv/dΘ: with S = ∂r/∂Θ of those, what stands there is c^-1/2 S c^-1/2 for S c^-1.
+  /// are, and exact but for two parts, which unsymmetric_part() holds:
+  ///   conduction   at nodes that materials of different k(Θ)/κ share. With g = (k_m/κ_m)/c, which is one at
+  ///                all other nodes, κ_m K_ij √(g_i g_j) stands for κ_m K_ij g_j, the diagonal being exact;
+  ///   contributions and surfaces   between nodes of different c = dv/dΘ. With S = ∂r/∂Θ of those,
+  ///                c^-1/2 S c^-1/2 stands for S c^-1.
   /// @param slopes   c, [local node], ghosts up to date
   /// @param further  adds to S; may be empty
   void assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
                           const std::function<void(linear::BlockMatrix&)>& further = {});
+  /// ∂r/∂v less what the matrix has, by entries of owned rows, as of the last assemble_symmetric(); not
+  /// what the limits of conduction hold back.
+  struct Entry {
+    Index row, column;
+    double value;  ///< [W/K]
+  };
+  std::span<const Entry> unsymmetric_part() const { return unsymmetric_; }
   /// The unknown of assemble_symmetric().
   const NodalPotential& potential() const { return *nodal_; }
   linear::BlockMatrix& matrix() { return *matrix_; }
@@ -170,6 +179,9 @@ class HeatSystem {
   double add_flows(std::span<const double> temperature);
   void keep_conduction();
   void find_node_bodies();
+  void scale_by_slopes(std::span<const double> slopes);
+  void add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes);
+  void note_unsymmetric(Index row, Index column, double entry, double exact, double mirrored);
   ConductionBlock& conduction(std::size_t block);
 
   const mesh::Mesh& mesh_;
@@ -186,13 +198,15 @@ class HeatSystem {
   std::unique_ptr<ConductionLimiter> limiter_;  ///< null where conduction is not limited
   std::vector<double> kept_conduction_;  ///< Σ_m κ_m ∫∇N_a·∇N_b dV by slot; empty until it is needed
   std::vector<int> node_body_;  ///< the body of each local node, −1 of several; empty: there is one body
-  /// K_ij of one body between two nodes that both belong to several bodies.
+  /// K_ij of one body between two nodes that both belong to several bodies, i = j included.
   struct SharedPair {
     Index i, j;
     int body;
     double k;  ///< ∫∇N_i·∇N_j dV [m]
+    linear::BlockMatrix::Slot slot;
   };
   std::vector<SharedPair> shared_;
+  std::vector<Entry> unsymmetric_;
   std::vector<SurfaceHeat> surfaces_;
   std::vector<Volume> sources_;
   std::vector<double> ignition_;

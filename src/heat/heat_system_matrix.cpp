@@ -57,8 +57,8 @@ void HeatSystem::keep_conduction() {
       if (node_body_[i] >= 0) continue;
       for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
         const Index j = columns[static_cast<std::size_t>(s)];
-        if (values[s] != 0 && j != static_cast<Index>(i) && node_body_[static_cast<std::size_t>(j)] < 0)
-          shared_.push_back({static_cast<Index>(i), j, static_cast<int>(body), values[s]});
+        if (values[s] != 0 && node_body_[static_cast<std::size_t>(j)] < 0)
+          shared_.push_back({static_cast<Index>(i), j, static_cast<int>(body), values[s], s});
       }
     }
   }
@@ -80,28 +80,89 @@ void HeatSystem::find_node_bodies() {
   }
 }
 
+/// Notes by how much the derivative differs from an entry beside the diagonal and, where the matrix keeps
+/// half of itself, from its mirror image.
+/// @param exact, mirrored  the derivatives there
+void HeatSystem::note_unsymmetric(Index row, Index column, double entry, double exact, double mirrored) {
+  constexpr double k_rounding = 1e-12;
+  const double threshold = k_rounding * std::abs(entry);
+  if (std::abs(exact - entry) > threshold) unsymmetric_.push_back({row, column, exact - entry});
+  if (matrix_->storage() == linear::BlockMatrix::Storage::upper && column < mesh_.n_owned_nodes &&
+      std::abs(mirrored - entry) > threshold)
+    unsymmetric_.push_back({column, row, mirrored - entry});
+}
+
+/// Replaces S = ∂r/∂Θ in the matrix by c^-1/2 S c^-1/2.
+void HeatSystem::scale_by_slopes(std::span<const double> slopes) {
+  const std::span<const std::int64_t> start = matrix_->row_start();
+  const std::span<const Index> columns = matrix_->columns();
+  double* values = matrix_->block(0);
+  roots_.resize(slopes.size());
+  for (std::size_t i = 0; i < slopes.size(); ++i) roots_[i] = 1.0 / std::sqrt(slopes[i]);
+  for (std::size_t row = 0; row + 1 < start.size(); ++row)
+    for (std::int64_t s = start[row]; s < start[row + 1]; ++s) {
+      double& value = values[s];
+      if (value == 0) continue;
+      const Index column = columns[static_cast<std::size_t>(s)];
+      const double by_row = roots_[row], by_column = roots_[static_cast<std::size_t>(column)], of_t = value;
+      value *= by_row * by_column;
+      if (column != static_cast<Index>(row))
+        note_unsymmetric(static_cast<Index>(row), column, value, of_t * by_column * by_column,
+                         of_t * by_row * by_row);
+    }
+}
+
+void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes) {
+  double* values = matrix_->block(0);
+  if (nodal_->identity() || node_body_.empty()) {
+    for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
+    return;
+  }
+  const auto factor = [&](int body, Index node) {
+    const auto i = static_cast<std::size_t>(node);
+    const KirchhoffPotential& u = potentials_[static_cast<std::size_t>(body)];
+    return u.conductivity(temperature[i]) / (u.reference() * slopes[i]);
+  };
+  const auto add = [&](linear::BlockMatrix::Slot slot, Index i, Index j, double k, double g_i, double g_j) {
+    const double entry = k * std::sqrt(g_i * g_j);
+    values[slot] += entry;
+    if (i != j) note_unsymmetric(i, j, entry, k * g_j, k * g_i);
+  };
+  const std::span<const std::int64_t> start = matrix_->row_start();
+  const std::span<const Index> columns = matrix_->columns();
+  for (std::size_t row = 0; row + 1 < start.size(); ++row) {
+    const auto i = static_cast<Index>(row);
+    const int own = node_body_[row];
+    for (std::int64_t s = start[row]; s < start[row + 1]; ++s) {
+      const Index j = columns[static_cast<std::size_t>(s)];
+      const int other = node_body_[static_cast<std::size_t>(j)], body = own >= 0 ? own : other;
+      if (body < 0) continue;  // below
+      // A ghost may belong to further bodies whose elements are not here: its slope tells.
+      const double kept = kept_conduction_[static_cast<std::size_t>(s)];
+      const bool plain = own >= 0 && other >= 0 && j < mesh_.n_owned_nodes;
+      if (plain)
+        values[s] += kept;
+      else
+        add(s, i, j, kept, own >= 0 ? 1.0 : factor(body, i), factor(body, j));
+    }
+  }
+  for (const SharedPair& pair : shared_)
+    add(pair.slot, pair.i, pair.j, pair.k * potentials_[static_cast<std::size_t>(pair.body)].reference(),
+        factor(pair.body, pair.i), factor(pair.body, pair.j));
+}
+
 void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
                                     const std::function<void(linear::BlockMatrix&)>& further) {
   if (exchange_ && kept_conduction_.empty()) keep_conduction();
   matrix_->set_zero();
+  unsymmetric_.clear();
   for (linear::Contribution* contribution : contributions_)
     if (exchange_ || contribution->stores()) contribution->add_tangent(temperature, *matrix_);
   if (exchange_)
     for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
   if (further) further(*matrix_);
-  const std::span<const std::int64_t> start = matrix_->row_start();
-  const std::span<const Index> columns = matrix_->columns();
-  double* values = matrix_->block(0);
-  if (!nodal_->identity()) {
-    roots_.resize(slopes.size());
-    for (std::size_t i = 0; i < slopes.size(); ++i) roots_[i] = 1.0 / std::sqrt(slopes[i]);
-    for (std::size_t row = 0; row + 1 < start.size(); ++row)
-      for (std::int64_t s = start[row]; s < start[row + 1]; ++s)
-        if (values[s] != 0)
-          values[s] *= roots_[row] * roots_[static_cast<std::size_t>(columns[static_cast<std::size_t>(s)])];
-  }
-  if (exchange_)
-    for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
+  if (!nodal_->identity()) scale_by_slopes(slopes);
+  if (exchange_) add_kept_conduction(temperature, slopes);
   if (limiter_ && exchange_) limiter_->add_symmetric_tangent(*matrix_);
 }
 

@@ -1,6 +1,8 @@
 /// The linear systems of the truncated Newton method: with the slopes of tangents, and with those of chords.
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "heat/truncated_newton.hpp"
 #include "parallel/parallel.hpp"
@@ -17,6 +19,9 @@ constexpr double k_chord_change = 0.1;   ///< change of the heats by a round, ov
 constexpr double k_chord_forcing = 0.1;  ///< of these linear solves, where the step is not worth less
 constexpr double k_chord_differs = 1.5;  ///< a chord that is not so much steeper than the tangent is not used
 constexpr double k_chord_holds = 1e8;    ///< times the diagonal: no chord is steeper
+constexpr int k_refinements = 8;         ///< directions at most
+constexpr double k_refined = 1e-2;  ///< residual of the linear system, over its right-hand side, that will do
+constexpr double k_refining = 0.1;  ///< of the systems that find their directions
 
 }  // namespace
 
@@ -50,15 +55,77 @@ linear::LinearReport TruncatedNewton::correct(double forcing, std::span<const do
       b_[i] = held[i] ? 0.0 : -r_[i];
     }
   }
-  const linear::LinearReport report = solver_.solve(a, b_, std::span(step_).first(n), forcing);
+  linear::LinearReport report = solver_.solve(a, b_, std::span(step_).first(n), forcing);
+  for (std::size_t i = 0; i < n; ++i)
+    if (held[i]) step_[i] = 0;
+  ghosts_.update(step_, 1);
+  const bool unsymmetric = parallel::any_process(!system_.unsymmetric_part().empty());
+  if (report.converged && unsymmetric) report.iterations += refine(held, forcing);
   for (std::size_t i = 0; i < n; ++i) {
     *a.diagonal_block(static_cast<Index>(i)) = of_a[i];
-    if (held[i]) step_[i] = 0;
   }
   if (!report.converged) return report;
-  ghosts_.update(step_, 1);
-  a.multiply(step_, product_);
+  multiply_exactly(step_, product_, {});
   return report;
+}
+
+/// product = (D + A + what A lacks of the derivative) step, without the rows that are held.
+void TruncatedNewton::multiply_exactly(std::span<double> step, std::span<double> product,
+                                       std::span<const char> held) {
+  system_.matrix().multiply(step, product);
+  for (const HeatSystem::Entry& e : system_.unsymmetric_part())
+    product[static_cast<std::size_t>(e.row)] += e.value * step[static_cast<std::size_t>(e.column)];
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i]) product[i] = 0;
+}
+
+/// Improves step_, which solves the symmetric system, to a solution of that with the derivative itself, by
+/// generalised conjugate residuals (S. C. Eisenstat, H. C. Elman and M. H. Schultz, SIAM J. Numer. Anal. 20
+/// (1983) 345): each direction solves the symmetric system for the residual that is left. Returns the linear
+/// iterations.
+int TruncatedNewton::refine(std::span<const char> held, double forcing) {
+  const std::size_t n = r_.size();
+  const auto dot = [n](std::span<const double> a, std::span<const double> b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
+    return parallel::global_sum(sum);
+  };
+  const auto add = [](double factor, const std::vector<double>& x, std::span<double> y) {
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
+  };
+  std::vector<double> left(n);
+  multiply_exactly(step_, left, held);
+  for (std::size_t i = 0; i < n; ++i) left[i] = b_[i] - left[i];
+  const double target = std::max(forcing, k_refined) * std::sqrt(dot(b_, b_));
+  struct Direction {
+    std::vector<double> step, product;  ///< the products are orthonormal
+  };
+  std::vector<Direction> directions;
+  int iterations = 0;
+  for (int k = 0; k < k_refinements && std::sqrt(dot(left, left)) > target; ++k) {
+    Direction d{std::vector<double>(step_.size()), std::vector<double>(n)};
+    const linear::LinearReport report = solver_.solve_again(left, std::span(d.step).first(n), k_refining);
+    iterations += report.iterations;
+    if (!report.converged) break;
+    for (std::size_t i = 0; i < n; ++i)
+      if (held[i]) d.step[i] = 0;
+    ghosts_.update(d.step, 1);
+    multiply_exactly(d.step, d.product, held);
+    for (const Direction& before : directions) {
+      const double along = dot(before.product, d.product);
+      add(-along, before.step, d.step);
+      add(-along, before.product, d.product);
+    }
+    const double length = std::sqrt(dot(d.product, d.product));
+    if (!(length > 0)) break;
+    for (auto* v : {&d.step, &d.product})
+      for (double& value : *v) value /= length;
+    const double share = dot(left, d.product);
+    add(share, d.step, step_);
+    add(-share, d.product, left);
+    directions.push_back(std::move(d));
+  }
+  return iterations;
 }
 
 /// The slopes D = ΔH/(Δt δ) of the chords of the nodes' curves over the steps of now, where the tangents are

@@ -17,6 +17,7 @@ constexpr double k_limit_change = 1e-2;  ///< of flows by new limits, over the h
 constexpr int k_revisions = 1;           ///< of limits by flows
 constexpr int k_holds = 20;              ///< and by temperatures out of range
 constexpr int k_idle = 4;  ///< such revisions that find no further nodes: what the tolerance has left goes
+constexpr double k_nearly = 1e-2;      ///< residual over the heat moved from which on limits are looked at
 constexpr double k_chord_worth = 0.5;  ///< share of the residual left up to which chords are used again
 
 }  // namespace
@@ -31,10 +32,19 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
       ghosts_(ghosts),
       options_(options),
       relaxed_(std::move(relaxed)) {
-  const auto n = static_cast<std::size_t>(mesh.n_owned_nodes);
-  for (auto* v : {&r_, &diagonal_, &product_, &b_, &from_heat_, &from_temperature_, &from_}) v->resize(n);
-  step_.resize(mesh.x.size());
-  slope_.assign(mesh.x.size(), 1.0);
+  r_.resize(static_cast<std::size_t>(mesh.n_owned_nodes));
+}
+
+void TruncatedNewton::allocate() {
+  for (auto* v : {&diagonal_, &product_, &b_, &from_heat_, &from_temperature_, &from_}) v->resize(r_.size());
+  step_.resize(mesh_.x.size());
+  slope_.assign(mesh_.x.size(), 1.0);
+}
+
+void TruncatedNewton::release() {
+  for (auto* v : {&diagonal_, &product_, &b_, &from_heat_, &from_temperature_, &from_, &step_, &slope_})
+    std::vector<double>().swap(*v);
+  solver_.release();
 }
 
 void TruncatedNewton::evaluate() {
@@ -105,6 +115,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
   conductance_ = 0;
   revisions_ = idle_ = 0;
   linear_ = true;
+  allocate();
   PlateauWatch watch(mesh_, storage_, system_.matrix());
   watch.passed_in_depth(heat_, temperature_);
   bool by_chords = false;
@@ -112,7 +123,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
   const int most = newton_steps > 0 ? newton_steps : options_.max_iterations;
   linear::Forcing forcing(true);
   linear::NewtonReport report;
-  bool revised = false;
+  bool revised = false, looked_ahead = false;
   evaluate();
   while (true) {
     report.residuals.push_back(moved_ > 0 ? norm_ / moved_ : norm_);
@@ -130,6 +141,16 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
       revised = true;
       evaluate();
       continue;
+    }
+    // Limits that are found anew where the solution is nearly known need hardly be looked at again at its
+    // end.
+    if (!looked_ahead && newton_steps == 0 && norm_ <= k_nearly * moved_) {
+      looked_ahead = true;
+      revised = revise_limits(range);
+      if (revised) {
+        evaluate();
+        continue;
+      }
     }
     if (report.iterations == most) {
       evaluate();
@@ -158,6 +179,7 @@ linear::NewtonReport TruncatedNewton::solve(std::span<const double> old_heat, do
     }
   }
   ghosts_.update(heat, 1);
+  release();
   return report;
 }
 

@@ -33,7 +33,10 @@
 ///
 /// Further terms of the residual (radiation, films and contributions that are nonlinear in v, materials of
 /// different conductivity curves that share nodes) enter A by their derivatives. The argument above does not
-/// cover them: the line search then uses F itself. With several processes each sweeps over its own nodes; the
+/// cover them: the line search then uses F itself. Where the derivative is not symmetric, A is only close to
+/// it (HeatSystem::assemble_symmetric), and Newton's method would converge by a factor an iteration; the step
+/// is then improved to that of the derivative itself by generalised conjugate residuals, with A for their
+/// preconditioner. With several processes each sweeps over its own nodes; the
 /// magnitudes of couplings to other processes' nodes are added to the diagonal, with which E falls although
 /// the neighbours move at the same time.
 #pragma once
@@ -76,18 +79,21 @@ class TruncatedNewton {
   double moved() const { return moved_; }  ///< heat moved per time in the last residual, all processes [W]
 
  private:
-  enum class Order { forward, backward };
+  /// The vectors of a solve live as long as it does: criteria and files need the memory in between.
+  void allocate();
+  void release();
   void evaluate();
   bool converged() const { return norm_ <= options_.tolerance * moved_ || norm_ <= round_off_; }
   void assemble();
   void relax_nodes(bool all);
   double relax_locally();
-  void sweep(Order order);
+  void sweep();
+  void follow_other_processes();
   double relax(std::size_t i, double residual);
-  /// Adds to F the effect of the change of v since then.
-  void follow(std::span<double> step);
   /// @param chords  slopes that stand for those of the tangents, [owned node]; empty: none
   linear::LinearReport correct(double forcing, std::span<const double> chords = {});
+  int refine(std::span<const char> held, double forcing);
+  void multiply_exactly(std::span<double> step, std::span<double> product, std::span<const char> held);
   void find_chords(std::span<double> chords) const;
   linear::LinearReport correct_by_chords(double forcing);
   bool revise_limits(const TemperatureRange& range);
@@ -109,7 +115,8 @@ class TruncatedNewton {
   double dt_ = 1;
   std::span<const double> old_heat_;
   std::span<double> heat_, temperature_;
-  std::vector<double> r_;         ///< F, during sweeps that of the linear A, [owned node]
+  std::vector<double> r_;  ///< F, during sweeps that of the linear A, [owned node]
+  // The others are empty between solves.
   std::vector<double> slope_;     ///< c = dv/dΘ where A was assembled, [local node]
   std::vector<double> diagonal_;  ///< of A, with the magnitudes of the couplings to other processes' nodes
   std::vector<double> step_;      ///< change of v, [local node]

@@ -4,6 +4,7 @@
 
 #include "heat/local_sweeps.hpp"
 #include "heat/truncated_newton.hpp"
+#include "parallel/parallel.hpp"
 #include "system/profile.hpp"
 
 namespace solidus::heat {
@@ -46,42 +47,54 @@ double TruncatedNewton::relax(std::size_t i, double residual) {
   return v - v0;
 }
 
-void TruncatedNewton::sweep(Order order) {
+/// Visits all nodes in rising and then in falling order, with F of the linear A carried on in r_. A row has
+/// its later columns in either storage: going forward, what a change makes of their residuals is added to
+/// them; going backward a row first takes what all changes of later nodes have made of its own. So each way
+/// goes through the matrix once.
+void TruncatedNewton::sweep() {
   const linear::BlockMatrix& a = system_.matrix();
   const std::span<const std::int64_t> start = a.row_start();
   const std::span<const Index> columns = a.columns();
   const double* values = a.block(0);
   const auto n = r_.size();
-  for (std::size_t i = 0; i < n; ++i) from_heat_[i] = heat_[i];
-  // A row has its later columns in either storage: going forward they take what a change makes of their
-  // residuals, going backward the row takes what theirs have made.
-  if (order == Order::forward) {
-    std::copy(r_.begin(), r_.end(), b_.begin());
-    for (std::size_t i = 0; i < n; ++i) {
-      const double change = step_[i] = relax(i, b_[i]);
-      if (change == 0) continue;
-      for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-        const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
-        if (j > i && j < n) b_[j] += values[s] * change;
-      }
-    }
-  } else {
-    for (std::size_t i = n; i-- > 0;) {
-      double residual = r_[i];
-      for (std::int64_t s = start[i]; s < start[i + 1]; ++s) {
-        const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]);
-        if (j > i && j < n) residual += values[s] * step_[j];
-      }
-      step_[i] = relax(i, residual);
-    }
+  const auto for_later = [&](std::size_t i, const auto& take) {
+    for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
+      if (const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]); j > i && j < n)
+        take(j, values[s]);
+  };
+  const auto visit = [&](std::size_t i) {
+    const double heat = heat_[i], change = relax(i, r_[i]);
+    r_[i] += (heat_[i] - heat) / dt_ + diagonal_[i] * change;
+    step_[i] += change;
+    if (change != 0) for_later(i, [&](std::size_t j, double entry) { r_[j] += entry * change; });
+  };
+  std::fill(step_.begin(), step_.end(), 0.0);
+  for (std::size_t i = 0; i < n; ++i) visit(i);
+  std::vector<double> forward;
+  if (parallel::any_process(n < step_.size())) {
+    follow_other_processes();
+    forward = step_;
   }
-  follow(step_);
+  for (std::size_t i = n; i-- > 0;) {
+    for_later(i, [&](std::size_t j, double entry) { r_[i] += entry * step_[j]; });
+    visit(i);
+  }
+  if (forward.empty()) return;
+  for (std::size_t i = 0; i < n; ++i) step_[i] -= forward[i];
+  follow_other_processes();
 }
 
-void TruncatedNewton::follow(std::span<double> step) {
-  ghosts_.update(step, 1);
-  system_.matrix().multiply(step, product_);
-  for (std::size_t i = 0; i < r_.size(); ++i) r_[i] += (heat_[i] - from_heat_[i]) / dt_ + product_[i];
+/// The changes of other processes' nodes, in place of the magnitudes that stood on the diagonal for them.
+void TruncatedNewton::follow_other_processes() {
+  ghosts_.update(step_, 1);
+  const linear::BlockMatrix& a = system_.matrix();
+  const std::span<const std::int64_t> start = a.row_start();
+  const std::span<const Index> columns = a.columns();
+  const double* values = a.block(0);
+  for (std::size_t i = 0; i < r_.size(); ++i)
+    for (std::int64_t s = start[i]; s < start[i + 1]; ++s)
+      if (const auto j = static_cast<std::size_t>(columns[static_cast<std::size_t>(s)]); j >= r_.size())
+        r_[i] += values[s] * step_[j] - std::abs(values[s]) * step_[i];
 }
 
 /// The sweeps, with A at the temperatures of now, and F there. What A holds by derivatives only (films and
@@ -94,8 +107,7 @@ void TruncatedNewton::relax_nodes(bool all) {
     const profile::Part part("sweeps");
     negligible_ =
         all ? 0 : k_negligible * options_.tolerance * moved_ / static_cast<double>(mesh_.n_global_nodes);
-    sweep(Order::forward);
-    sweep(Order::backward);
+    sweep();
   }
   const double swept = linear_ ? relax_locally() : HUGE_VAL;
   ghosts_.update(temperature_, 1);

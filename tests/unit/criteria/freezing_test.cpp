@@ -89,6 +89,16 @@ TEST(Freezing, OfAnIsothermalChangeIsTimedByTheHeatContent) {
   }
 }
 
+// Lists of the elements around nodes, 95 bytes a node of tetrahedra, live within a step alone.
+TEST(Freezing, KeepsNoListsOfElementsBetweenSteps) {
+  Casting casting(test::block_mesh(mesh::Shape::tet4, {0.1, 0.1, 0.1}, {8, 8, 8}), 40);
+  criteria::Freezing freezing(casting.mesh, casting.kind, casting.storage);
+  const auto at = [](double t) { return [=](const mesh::Point& x) { return 910 + 200 * x[0] - 10 * t; }; };
+  casting.start(freezing, 0, at(0));
+  for (const double t : {1.0, 3.0, 5.0}) casting.step(freezing, t, at(t));
+  EXPECT_LE(freezing.bytes(), 10 * casting.mesh.x.size());
+}
+
 TEST(Freezing, SaysNothingOfWhatHasNotFrozenAndForgetsWhatMeltsAgain) {
   Casting casting(test::block_mesh(mesh::Shape::quad4, {0.1, 0.1}, {2, 2}), 40);
   criteria::Freezing freezing(casting.mesh, casting.kind, casting.storage);
