@@ -239,7 +239,7 @@ liquidus = "620 degC"
 )");
   folder.write("chill.toml",
                "density = \"7000 kg/m3\"\nconductivity = \"40 W/m/K\"\nspecific_heat = \"1 J/kg/K\"\n");
-  const CaseRun run = folder.run("chill", R"(title = "A melt on a chill"
+  const CaseRun run = folder.run("freezing", R"(title = "A melt on a chill"
 [analysis]
 kind = "plane_strain"
 physics = "heat"

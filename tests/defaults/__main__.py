@@ -6,7 +6,7 @@ the times of the run as it stands. Where steps adapt, smaller tolerances lead to
 
     /usr/bin/python3 tests/defaults PROGRAM [-o docs/verification/defaults.md] [CASE ...]
 
-With CASEs the rows of the others stay as the page has them.
+With CASEs the rows of the others stay as the page has them, and so do its notes.
 """
 import argparse
 import bisect
@@ -128,6 +128,15 @@ def kept_rows(page):
     return {row_of(line): line for line in page.read_text(encoding="utf-8").splitlines() if row_of(line)}
 
 
+def kept_notes(page):
+    """What the page says between its table and its last line."""
+    if page is None or not page.exists():
+        return []
+    lines = page.read_text(encoding="utf-8").splitlines()
+    last = max((i for i, line in enumerate(lines) if row_of(line)), default=len(lines))
+    return [line for line in lines[last + 1:] if not line.startswith("Next:")]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
@@ -145,7 +154,7 @@ def main():
         "| case | steps | tolerances | and steps a quarter as long |",
         "|---|---|---|---|",
     ]
-    kept = kept_rows(asked.output)
+    kept, notes = kept_rows(asked.output), kept_notes(asked.output) if asked.cases else []
     for case, physics, finer in CASES:
         if asked.cases and not any(case.startswith(c) for c in asked.cases):
             lines += [kept[case]] if case in kept else []
@@ -153,7 +162,9 @@ def main():
         lines.append(measure(asked.program, case, physics, finer))
         print(lines[-1], flush=True)
     if asked.output:
-        lines += ["", "Next: [when a step has converged](../decisions/0017-when-a-step-has-converged.md) · "
+        while notes and not notes[-1]:
+            notes.pop()
+        lines += [*notes, "", "Next: [when a step has converged](../decisions/0017-when-a-step-has-converged.md) · "
                       "[all of verification](README.md)"]
         asked.output.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
