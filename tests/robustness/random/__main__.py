@@ -53,8 +53,8 @@ def main():
             if kind in ("stopped", "broken"):
                 facts = {k: v for k, v in case.facts.items() if k not in ("temperatures", "insulated", "heated")}
                 print(f"seed {case.seed}: {kind}: {reason.strip()}\n  {facts}", flush=True)
-    for reason, seeds in reasons.items():
-        print(f"refused {len(seeds)}, for example seed {seeds[0]}: {reason}")
+    for reason, refused in reasons.items():
+        print(f"refused {len(refused)}, for example seed {refused[0]}: {reason}")
     print(f"{len(seeds)} cases: " + ", ".join(f"{n} {kind}" for kind, n in sorted(count.items())))
     return 1 if count["stopped"] + count["broken"] > arguments.allow else 0
 
