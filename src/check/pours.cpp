@@ -212,24 +212,45 @@ double cooling_of(const CooledSkin& skin, double start, const Assembly& a, doubl
   return most;
 }
 
+/// Whether a body is there from the start and not solid then.
+bool is_poured(const CaseSpec& spec, const Assembly& a, std::size_t body) {
+  const material::PhaseChange* freezing = a.materials[body].solidification();
+  return freezing != nullptr && a.start[body].high > freezing->fraction.solidus() &&
+         holds(spec.bodies[body].stages, a.first_stage());
+}
+
+/// Heat into a body of the mould, a sleeve or a chill, from a larger one that it lies in [W/m²]: that one as
+/// a half space, √(k ρ c / (π t)) per kelvin, behind the conductance between both.
+std::function<double(double, double)> heat_from_behind(const CooledSkin& skin, const Assembly& a) {
+  const material::Material& m = a.materials[*skin.other];
+  const double cold = a.start[*skin.other].low;
+  const double effusivity = std::sqrt(m.conductivity.value(cold) * m.density * m.specific_heat.value(cold));
+  return [conductance = skin.conductance, cold, effusivity](double temperature, double time) {
+    constexpr double k_pi = 3.14159265358979;
+    const double resistance =
+        1 / conductance(0, temperature, cold) + std::sqrt(k_pi * std::max(time, 0.0)) / effusivity;
+    return (cold - temperature) / resistance;
+  };
+}
+
 /// Heat into the outside of a mould per area of the casting's cooled skin.
 std::function<double(double, double)> outer_heat(std::size_t mould, double cooled_area, double part,
                                                  const CaseSpec& spec, const Assembly& a,
                                                  const CaseMeasures& m) {
   std::vector<CooledSkin> skins = conditions_on(mould, spec, a, m);
+  for (CooledSkin& skin : contacts_of(mould, spec, a, m)) {
+    if (!skin.other || is_poured(spec, a, *skin.other) ||
+        m.bodies[*skin.other].volume < m.bodies[mould].volume)
+      continue;
+    skin.heat = heat_from_behind(skin, a);
+    skins.push_back(std::move(skin));
+  }
   if (skins.empty()) return {};
   return [skins, factor = part / cooled_area](double temperature, double time) {
     double q = 0;
     for (const CooledSkin& skin : skins) q += skin.area * factor * skin.heat(temperature, time);
     return q;
   };
-}
-
-/// Whether a body is there from the start and not solid then.
-bool is_poured(const CaseSpec& spec, const Assembly& a, std::size_t body) {
-  const material::PhaseChange* freezing = a.materials[body].solidification();
-  return freezing != nullptr && a.start[body].high > freezing->fraction.solidus() &&
-         holds(spec.bodies[body].stages, a.first_stage());
 }
 
 /// Of the parts of the skin those that count as cooled, and the problem in one dimension. Metal that is
