@@ -30,6 +30,16 @@ Section<InterfaceSide> side_keys(const char* name) {
   return s;
 }
 
+Section<PublishedConductance> published_keys() {
+  using P = PublishedConductance;
+  Section<P> s("published", "A conductance in print.");
+  s.key("by", &P::by).doc("Authors, journal and year.");
+  s.key("what", &P::what).doc("Metal, mould and method.");
+  s.quantity("lowest", &P::lowest, "W/m2/K").positive().doc("The lowest value given there.");
+  s.quantity("highest", &P::highest, "W/m2/K").positive().doc("The highest value given there.");
+  return s;
+}
+
 const Section<InterfaceCard>& card_keys() {
   static const Section<InterfaceCard> declaration = [] {
     using C = InterfaceCard;
@@ -44,6 +54,7 @@ const Section<InterfaceCard>& card_keys() {
     s.key("source", &C::source).doc("Where the numbers come from.");
     s.key("range", &C::range).doc("Between what the conductance lies in practice.");
     s.key("estimate", &C::estimate).initially(false).doc("The numbers were not checked against the source.");
+    s.sections("published", &C::published, published_keys());
     return s;
   }();
   return declaration;

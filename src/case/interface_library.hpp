@@ -16,6 +16,12 @@ struct InterfaceSide {
   std::vector<std::string> roles;      ///< "casting", ...
 };
 
+/// A conductance that somebody measured, fitted to measured curves or recommends, with the place in print.
+struct PublishedConductance {
+  std::string by, what;            ///< authors, journal and year; metal, mould and method
+  double lowest = 0, highest = 0;  ///< [W/(m² K)]
+};
+
 struct InterfaceCard {
   std::string name;  ///< of the file, without ".toml"
   std::string title;
@@ -25,6 +31,7 @@ struct InterfaceCard {
   contact::HeatTransferSpec heat;
   std::string source, range;  ///< origin of the numbers, and range of the conductance
   bool estimate = false;      ///< not checked against the source
+  std::vector<PublishedConductance> published;
 };
 
 /// Beside the folders of materials: `interfaces` in place of `materials`.

@@ -99,7 +99,9 @@ void coarse_castings(const CaseSpec& spec, const CaseMeasures& m, Findings& find
     const BodyMeasures& body = m.bodies[pour.body];
     const std::string& name = spec.bodies[pour.body].name;
     const double modulus = body.volume / pour.cooled_area;
-    const char* usual = "four elements through a wall, or two of second order: mesh.element_size";
+    const std::string usual = fmt::format(
+        "four elements through a wall, or two of second order: {}",
+        spec.mesh.sizes.empty() ? "mesh.element_size" : "smaller `size` and `smallest` of [[mesh.size]]");
     if (pour.spanned > 0.5)
       findings.push_back(
           {false, spec.mesh.where,

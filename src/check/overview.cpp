@@ -11,6 +11,7 @@
 #include "build/body_input.hpp"
 #include "build/mechanics_input.hpp"
 #include "build/scheme_input.hpp"
+#include "case/interface_library.hpp"
 #include "contact/heat_transfer.hpp"
 
 namespace solidus::model {
@@ -56,6 +57,13 @@ std::string celsius(const Function& f) {
   return values(f, "degC", 1, -k_zero_celsius);
 }
 
+/// The name of a card of the library, with the range that its conductance has in practice.
+std::string card_text(const std::string& law) {
+  for (const InterfaceCard& card : interface_cards())
+    if (card.name == law && !card.range.empty()) return fmt::format("{}: {}", law, card.range);
+  return law;
+}
+
 std::string law_text(const ContactSpec& contact, const ContactMeasures& m, double temperature) {
   if (!contact.heat) return "no heat";
   const contact::HeatTransferLaw law(*contact.heat);
@@ -68,7 +76,7 @@ std::string law_text(const ContactSpec& contact, const ContactMeasures& m, doubl
   if (std::abs(open - closed) > 0.01 * closed)
     text += fmt::format(", {:.3g} over a gap of {:.2g} mm", open, 1e3 * gap);
   if (law.radiation_factor() > 0) text += ", radiation";
-  if (!contact.law.empty()) text += fmt::format(" ({})", contact.law);
+  if (!contact.law.empty()) text += fmt::format(" ({})", card_text(contact.law));
   return text;
 }
 

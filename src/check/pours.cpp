@@ -212,23 +212,43 @@ double cooling_of(const CooledSkin& skin, double start, const Assembly& a, doubl
   return most;
 }
 
+/// Whether a body comes in that is not solid then.
+bool is_poured(const Assembly& a, std::size_t body) {
+  const material::PhaseChange* freezing = a.materials[body].solidification();
+  return freezing != nullptr && a.start[body].high > freezing->fraction.solidus();
+}
+
+/// Heat into a body of the mould, a sleeve or a chill, from a larger one that it lies in [W/m²]: that one as
+/// a half space, √(k ρ c / (π t)) per kelvin, behind the conductance between both.
+std::function<double(double, double)> heat_from_behind(const CooledSkin& skin, const Assembly& a) {
+  const material::Material& m = a.materials[*skin.other];
+  const double cold = a.start[*skin.other].low;
+  const double effusivity = std::sqrt(m.conductivity.value(cold) * m.density * m.specific_heat.value(cold));
+  return [conductance = skin.conductance, cold, effusivity](double temperature, double time) {
+    constexpr double k_pi = 3.14159265358979;
+    const double resistance =
+        1 / conductance(0, temperature, cold) + std::sqrt(k_pi * std::max(time, 0.0)) / effusivity;
+    return (cold - temperature) / resistance;
+  };
+}
+
 /// Heat into the outside of a mould per area of the casting's cooled skin.
 std::function<double(double, double)> outer_heat(std::size_t mould, double cooled_area, double part,
                                                  const CaseSpec& spec, const StageRun* stage,
-                                                 const CaseMeasures& m) {
+                                                 const Assembly& a, const CaseMeasures& m) {
   std::vector<CooledSkin> skins = conditions_on(mould, spec, stage, m);
+  for (CooledSkin& skin : contacts_of(mould, spec, stage, a, m)) {
+    if (!skin.other || is_poured(a, *skin.other) || m.bodies[*skin.other].volume < m.bodies[mould].volume)
+      continue;
+    skin.heat = heat_from_behind(skin, a);
+    skins.push_back(std::move(skin));
+  }
   if (skins.empty()) return {};
   return [skins, factor = part / cooled_area](double temperature, double time) {
     double q = 0;
     for (const CooledSkin& skin : skins) q += skin.area * factor * skin.heat(temperature, time);
     return q;
   };
-}
-
-/// Whether a body comes in that is not solid then.
-bool is_poured(const Assembly& a, std::size_t body) {
-  const material::PhaseChange* freezing = a.materials[body].solidification();
-  return freezing != nullptr && a.start[body].high > freezing->fraction.solidus();
 }
 
 /// The stage in which a body comes in; null without stages.
@@ -290,7 +310,7 @@ void estimate(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Po
       coldest = std::min(coldest, a.start[other].low);
       problem.moulds.push_back({share, &a.materials[other], (a.start[other].low + a.start[other].high) / 2,
                                 part * m.bodies[other].volume / m.bodies[body].volume, skin.conductance,
-                                skin.may_open, outer_heat(other, pour.cooled_area, part, spec, stage, m)});
+                                skin.may_open, outer_heat(other, pour.cooled_area, part, spec, stage, a, m)});
     } else {
       problem.open.push_back({[heat = skin.heat, share](double temperature, double time) {
         return share * heat(temperature, time);

@@ -1,12 +1,16 @@
 #include "mesh/casting_geometry.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "mesh/file_format.hpp"
 #include "mesh/gmsh_reader.hpp"
+#include "mesh/kept_mesh.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/reader_message.hpp"
 #include "mesh/reader_process.hpp"
 #include "mesh/shape.hpp"
 #include "mesh/smoothing.hpp"
@@ -16,6 +20,8 @@
 namespace solidus::mesh {
 
 namespace {
+
+KeptMesh* g_living = nullptr;
 
 /// The least quality of the elements of all bodies, inverted ones turned.
 double least_quality(const RawMesh& mesh) {
@@ -39,11 +45,7 @@ std::string complaint_of(const InputError& error, const std::string& path) {
   return text.substr(0, text.find('\n'));
 }
 
-}  // namespace
-
-RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough) {
-  require_gmsh(source.path);
-  check_readable(source.path);
+RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double enough) {
   const bool solids = is_cad(file_format(source.path));
   const int n_attempts = solids ? n_meshing_attempts() : n_faceted_attempts();
   const auto attempt_text = [&](int attempt) {
@@ -86,6 +88,53 @@ RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double 
     logging::info("meshed in way {} ({}), after: {}", best_way + 1, attempt_text(best_way),
                   complaints.back());
   return std::move(*best);
+}
+
+}  // namespace
+
+KeptMesh::KeptMesh() {
+  assert(g_living == nullptr);
+  g_living = this;
+}
+
+KeptMesh::~KeptMesh() {
+  g_living = nullptr;
+}
+
+KeptMesh* KeptMesh::living() {
+  return g_living;
+}
+
+const RawMesh* KeptMesh::find(const std::string& request) const {
+  return !request_.empty() && request == request_ ? &mesh_ : nullptr;
+}
+
+void KeptMesh::keep(std::string request, const RawMesh& mesh) {
+  request_ = std::move(request);
+  mesh_ = mesh;
+}
+
+std::string meshing_request(const MeshSource& source, const CastingGeometry& geometry, double enough) {
+  std::string bytes;
+  const PutBytes put = [&](const void* data, std::size_t n) {
+    bytes.append(static_cast<const char*>(data), n);
+  };
+  put_source(source, put);
+  put_casting(geometry, put);
+  put(&enough, sizeof enough);
+  return bytes;
+}
+
+RawMesh mesh_casting(const MeshSource& source, CastingGeometry geometry, double enough) {
+  require_gmsh(source.path);
+  check_readable(source.path);
+  KeptMesh* kept = KeptMesh::living();
+  if (kept == nullptr) return mesh_in_turn(source, std::move(geometry), enough);
+  std::string request = meshing_request(source, geometry, enough);
+  if (const RawMesh* mesh = kept->find(request)) return *mesh;
+  RawMesh mesh = mesh_in_turn(source, std::move(geometry), enough);
+  kept->keep(std::move(request), mesh);
+  return mesh;
 }
 
 }  // namespace solidus::mesh

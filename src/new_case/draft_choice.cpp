@@ -86,14 +86,17 @@ class Choice {
     draft_.symmetry = {static_cast<int>(axis), middle};
   }
 
-  /// Sizes for about 3500 nodes of metal, with two elements through walls where those suffice.
+  /// Sizes for about 3500 nodes of metal, with two elements through walls where those suffice. Of a part that
+  /// is thin throughout the skin alone must not have more than 6000.
   void choose_sizes(double scale) {
-    constexpr double k_nodes = 3500, k_nodes_per_cube = 3;
-    const double volume = part_.volume * (options_.symmetry.empty() ? 1 : 0.5);
-    const double by_number = std::cbrt(k_nodes_per_cube * volume / k_nodes) / options_.fineness;
-    draft_.size = two_digits(scale * by_number);
-    draft_.smallest =
-        two_digits(scale * std::clamp(0.5 * part_.thickness_at(0.1), 0.6 * by_number, by_number));
+    constexpr double k_nodes = 3500, k_nodes_per_cube = 3, k_nodes_of_skin = 6000, k_nodes_per_square = 1.15;
+    const double half = options_.symmetry.empty() ? 1 : 0.5;
+    const double by_number = std::cbrt(k_nodes_per_cube * half * part_.volume / k_nodes) / options_.fineness;
+    const double by_skin =
+        std::sqrt(k_nodes_per_square * half * part_.area / k_nodes_of_skin) / options_.fineness;
+    const double least = std::max(0.6 * by_number, by_skin), largest = std::max(by_number, least);
+    draft_.size = two_digits(scale * largest);
+    draft_.smallest = two_digits(scale * std::clamp(0.5 * part_.thickness_at(0.1), least, largest));
     draft_.mould_size = two_digits(std::max(
         2.5 * draft_.size, 0.6 * (part_.high[0] - part_.low[0] + part_.high[1] - part_.low[1]) / 20));
   }
@@ -126,7 +129,7 @@ class Choice {
     const double wall = of_wall(std::max(least, process_.walls * thickest_));
     mould.walls.fill(wall);
     if (draft_.symmetry) mould.walls[2 * static_cast<std::size_t>(draft_.symmetry->axis) + 1] = 0;
-    if (draft_.riser) mould.walls[5] = 0;  // open at the top
+    if (draft_.riser || ends_in_a_riser()) mould.walls[5] = 0;  // open at the top
     DraftBody& body = draft_.bodies.emplace_back();
     body.name = body.group = process_.mould == Role::die ? "die" : "mould";
     mould.name = body.name;
@@ -137,6 +140,17 @@ class Choice {
     // Away from the metal elements grow with the wall that they fill, not with the part.
     draft_.mould_size = std::clamp(draft_.mould_size, two_digits(wall / 4),
                                    two_digits(std::max(wall / 1.5, std::max(draft_.size, wall / 4))));
+  }
+
+  /// Whether a riser of the file is what reaches highest of all metal; under pressure nothing is open.
+  bool ends_in_a_riser() const {
+    double riser = -1e300, other = -1e300;
+    for (const GeometryBody& body : part_.bodies) {
+      double& high = body.role == Role::riser ? riser : other;
+      if (is_metal(body.role)) high = std::max(high, body.extent.high[2]);
+    }
+    const double top = part_.high[2], near = 1e-3 * (top - part_.low[2]);
+    return process_.mould == Role::mould && riser > top - near && other < riser - near;
   }
 
   const NewCaseOptions& options_;

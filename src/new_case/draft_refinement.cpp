@@ -4,11 +4,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <string>
 
 #include "build/case_file.hpp"
 #include "build/geometry_bodies.hpp"
 #include "build/mesh_input.hpp"
 #include "input/keys.hpp"
+#include "mesh/kept_mesh.hpp"
 #include "new_case/draft_choice.hpp"
 #include "new_case/rounding.hpp"
 #include "run/run.hpp"
@@ -26,6 +29,7 @@ class Refinement {
       : draft_(draft), process_(process), fineness_(fineness) {}
 
   DraftEstimate refine() {
+    const mesh::KeptMesh kept;  // the case is built again and again, often with the same elements
     const logging::Level level = logging::level();
     logging::set_level(std::max(level, logging::Level::silent));
     try {
@@ -89,13 +93,33 @@ class Refinement {
     }
   }
 
+  std::optional<Role> role_of(const std::string& body) const {
+    const auto found = std::ranges::find(draft_.bodies, body, &DraftBody::name);
+    return found == draft_.bodies.end() ? std::nullopt : std::optional(found->role);
+  }
+
+  /// The longest estimate of the bodies of a role [s]; zero: there is none.
+  double longest_freezing(const CheckedRun& checked, Role role) const {
+    double longest = 0;
+    for (const results::PourOverview& pour : checked.overview.pours)
+      if (role_of(pour.body) == role) longest = std::max(longest, pour.freezing_time.value_or(0));
+    return longest;
+  }
+
   /// @return whether sizes and walls may stay
   bool adapt(const CheckedRun& checked) {
     double time = 0, reach = 0;
     estimate_.nodes = estimate_.metal_nodes = 0;
+    // The estimate knows of no heat that a riser gives its part: one in a sleeve would be liquid for hours.
+    constexpr double k_riser_outlives = 2;
+    const double of_castings = longest_freezing(checked, Role::casting);
     for (const results::PourOverview& pour : checked.overview.pours) {
-      time = std::max(time, pour.freezing_time.value_or(0));
-      reach = std::max(reach, pour.mould_reach);
+      double own = pour.freezing_time.value_or(0), deep = pour.mould_reach;
+      const double most = k_riser_outlives * of_castings;
+      if (role_of(pour.body) == Role::riser && of_castings > 0 && own > most)
+        deep *= std::sqrt(most / own), own = most;
+      time = std::max(time, own);
+      reach = std::max(reach, deep);
     }
     for (const results::BodyOverview& body : checked.overview.bodies) {
       estimate_.nodes += static_cast<double>(body.nodes);

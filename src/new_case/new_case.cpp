@@ -76,8 +76,9 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
     out += fmt::format("\n  riser       {:.3g} mm wide, {:.3g} mm high", 1e3 * draft.riser->diameter,
                        1e3 * draft.riser->height);
   if (draft.mould)
-    out += fmt::format("\n  mould       walls of {:.3g} mm",
-                       1e3 * *std::ranges::max_element(draft.mould->walls));
+    out += fmt::format("\n  mould       walls of {:.3g} mm{}",
+                       1e3 * *std::ranges::max_element(draft.mould->walls),
+                       draft.mould->walls[5] == 0 ? ", open at the top, where the riser ends" : "");
   out += fmt::format(
       "\n  mesh        {:.0f} nodes, {:.0f} of them in metal; {}", estimate.nodes, estimate.metal_nodes,
       draft.meshed

@@ -55,7 +55,7 @@ class Formatter {
 };
 
 std::string line(std::string_view what, const std::string& answer) {
-  return fmt::format("  {:<36}{}\n", what, answer);
+  return fmt::format("  {:<35} {}\n", what, answer);
 }
 
 std::string cast_text(const CastAnswer& answer, double time, const Formatter& format) {

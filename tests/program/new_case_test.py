@@ -102,6 +102,19 @@ class NewCase(ProgramTest):
         self.assertNotIn("nothing cools", checked.stderr)
         self.assertRegex(checked.stdout, r"freezes +riser: in about")
 
+    def test_of_an_assembly_with_riser_sleeve_and_chill_estimates_the_riser_with_the_sand_behind_its_sleeve(self):
+        text = self.done("new", str(SOURCES / "tests/parts/bearing_block.step"), "--alloy", "tin_bronze", "--fineness", "0.7", "-o", "case")
+        case = tomllib.loads((self.folder / "case/case.toml").read_text())
+        roles = {body.get("group", body["name"]): body["role"] for body in case["body"]}
+        self.assertEqual(roles, {"bearing_block": "casting", "riser": "riser", "sleeve": "sleeve", "chill": "chill", "mould": "mould"})
+        # The riser is the highest of all: the sand is open over it.
+        self.assertEqual(case["mesh"]["mould"]["walls"][5], "0 mm")
+        self.assertIn("open at the top, where the riser ends", text)
+        # By heat alone the riser is solid after 675 s.
+        estimate = float(re.search(r"freezes +in about ([\d.e+]+) s", text)[1])
+        self.assertTrue(340 < estimate < 1350, text)
+        self.assertIn("(metal_on_chill: 1000 to 25000 W/m2/K)", self.done("check", "case", "--heat-only"))
+
     def test_what_stl_files_cannot_is_said(self):
         closed = box((0, 0, 0), (60, 40, 40))
         self.write("open.stl", stl("open", closed[:-1]))

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "build/mesh_input.hpp"
 #include "case/case_materials.hpp"
 #include "case/interface_library.hpp"
@@ -113,6 +115,30 @@ TEST(InterfaceLibrary, HasALawForEveryPairOfACastingAndEachMaterialOfTheLibrary)
     for (const Role role : {Role::mould, Role::core, Role::chill, Role::sleeve, Role::die, Role::insulation})
       EXPECT_NE(best_card(cards, {"aluminium_alsi7mg", Role::casting}, {material, role}), nullptr)
           << material;
+}
+
+/// The first and the last number of a text such as "40 (over a gap) to 3000 W/m2/K".
+std::array<double, 2> ends_of(const std::string& range) {
+  const std::size_t to = range.find(" to ");
+  EXPECT_NE(to, std::string::npos) << range;
+  EXPECT_THAT(range, ::testing::EndsWith(" W/m2/K"));
+  return {std::stod(range), std::stod(range.substr(to + 4))};
+}
+
+TEST(InterfaceLibrary, RangesHoldTheConductanceOfTheirCardAndWhatWasPublished) {
+  int published = 0;
+  for (const InterfaceCard& card : interface_cards()) {
+    const auto [low, high] = ends_of(card.range);
+    const double closed = contact::HeatTransferLaw(card.heat).at(0, 101325, 700).value;
+    EXPECT_TRUE(low <= closed && closed <= high) << card.name << ": " << closed;
+    for (const PublishedConductance& p : card.published) {
+      EXPECT_TRUE(low <= p.lowest && p.lowest <= p.highest && p.highest <= high)
+          << card.name << ": " << p.what;
+      EXPECT_FALSE(p.by.empty() || p.what.empty()) << card.name;
+    }
+    published += card.published.empty() ? 0 : 1;
+  }
+  EXPECT_GE(published, 6);
 }
 
 TEST(InterfaceLibrary, PatternsHaveStars) {

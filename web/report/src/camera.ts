@@ -10,7 +10,13 @@ export class Camera {
   /** Radius of everything, for the near and far planes. */
   reach = 1;
   flat = false;
+  /** What is up on the screen: z of a solid, against gravity; y of a section, also where it is turned about it. */
+  readonly up = new Vector3(0, 1, 0);
 
+  /** Where one looks from at first: the right, the front and above. */
+  get corner(): [number, number, number] {
+    return this.up.z > 0 ? [0.55, -0.75, 0.45] : [0.55, 0.45, 0.75];
+  }
   apply(width: number, height: number): void {
     const aspect = width / Math.max(1, height), c = this.three;
     c.left = -this.half * aspect;
@@ -27,9 +33,9 @@ export class Camera {
   }
   /** By pixels of a drag. */
   rotate(dx: number, dy: number): void {
-    const up = new Vector3(0, 1, 0), right = new Vector3(1, 0, 0).applyQuaternion(this.turn);
+    const right = new Vector3(1, 0, 0).applyQuaternion(this.turn);
     this.turn.premultiply(new Quaternion().setFromAxisAngle(right, -dy * 0.008));
-    this.turn.premultiply(new Quaternion().setFromAxisAngle(up, -dx * 0.008)).normalize();
+    this.turn.premultiply(new Quaternion().setFromAxisAngle(this.up, -dx * 0.008)).normalize();
   }
   pan(dx: number, dy: number, height: number): void {
     const metres = (2 * this.half) / height;
@@ -44,7 +50,8 @@ export class Camera {
   }
   look(direction: [number, number, number]): void {
     const d = new Vector3(...direction).normalize();
-    const up = Math.abs(d.y) > 0.99 ? new Vector3(0, 0, -Math.sign(d.y)) : new Vector3(0, 1, 0);
+    const along = d.dot(this.up), level = this.up.z > 0 ? new Vector3(0, 1, 0) : new Vector3(0, 0, -1);
+    const up = Math.abs(along) > 0.99 ? level.multiplyScalar(Math.sign(along)) : this.up;
     const right = up.clone().cross(d).normalize();
     const trueUp = d.clone().cross(right);
     const m = new OrthographicCamera().matrix.makeBasis(right, trueUp, d);

@@ -40,6 +40,7 @@ export class Workbench {
     };
     if (!this.ready) return;
     byId("view").hidden = false;
+    if (this.run.dimension === 3) this.camera.up.set(0, 0, 1);
     this.first();
     for (const [i, run] of this.runs.entries()) {
       const stage = new Stage(new View(run, this.camera, this.choice), i, this, this.runs.length > 1);
@@ -289,7 +290,7 @@ export class Workbench {
     c.target.copy(box.centre);
     c.reach = box.radius;
     if (this.flat) c.turn.identity();
-    else if (c.turn.equals(new Quaternion())) c.look([0.55, 0.45, 0.75]);
+    else if (c.turn.equals(new Quaternion())) c.look(c.corner);
     const inverse = c.turn.clone().invert();
     let halfWidth = 0, halfHeight = 0;
     for (const i of [-1, 1]) for (const j of [-1, 1]) for (const k of [-1, 1]) {
@@ -636,7 +637,7 @@ export class Workbench {
   private viewPart(part: Part): void {
     const mesh = h("input", { type: "checkbox", id: "mesh", change: () => this.change((c) => (c.mesh = mesh.checked)) });
     const directions: [string, [number, number, number]][] = [
-      ["+x", [1, 0, 0]], ["−x", [-1, 0, 0]], ["+y", [0, 1, 0]], ["−y", [0, -1, 0]], ["+z", [0, 0, 1]], ["−z", [0, 0, -1]], ["Corner", [0.55, 0.45, 0.75]],
+      ["+x", [1, 0, 0]], ["−x", [-1, 0, 0]], ["+y", [0, 1, 0]], ["−y", [0, -1, 0]], ["+z", [0, 0, 1]], ["−z", [0, 0, -1]], ["Corner", this.camera.corner],
     ];
     const solid = this.run.dimension === 3 || this.run.axisymmetric;
     part("View", () => (mesh.checked = this.choice.mesh),
@@ -654,7 +655,7 @@ export class Workbench {
       const target = e.target as HTMLElement;
       if (e.ctrlKey || e.metaKey || e.altKey || /^(SELECT|TEXTAREA)$/.test(target.tagName) || (target.tagName === "INPUT" && (target as HTMLInputElement).type === "number")) return;
       const inSlider = target.tagName === "INPUT" && (target as HTMLInputElement).type === "range";
-      const directions: Record<string, [number, number, number]> = { 1: [1, 0, 0], 2: [-1, 0, 0], 3: [0, 1, 0], 4: [0, -1, 0], 5: [0, 0, 1], 6: [0, 0, -1], 7: [0.55, 0.45, 0.75] };
+      const directions: Record<string, [number, number, number]> = { 1: [1, 0, 0], 2: [-1, 0, 0], 3: [0, 1, 0], 4: [0, -1, 0], 5: [0, 0, 1], 6: [0, 0, -1], 7: this.camera.corner };
       const actions: Record<string, () => void> = {
         " ": () => this.play(), "[": () => this.nextField(-1), "]": () => this.nextField(1), f: () => this.fit(), Escape: () => this.clearMarks(),
         c: () => this.run.dimension === 3 && this.change((c) => (c.cut.on = !c.cut.on)), m: () => this.change((c) => (c.mesh = !c.mesh)),
