@@ -10,7 +10,7 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_in_interfaces(spec, a, found);
   find_in_materials(spec, a, found);
   find_in_pour(spec, a, found);
-  find_in_conditions(spec, a, found);
+  find_in_conditions(spec, a, m, found);
   find_in_geometry(spec, a, m, found);
   find_in_freezing(spec, a, m, found);
   find_in_elements(spec, a, found);

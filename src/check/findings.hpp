@@ -37,7 +37,7 @@ void find_in_materials(const CaseSpec& spec, const Assembly& a, Findings& findin
 /// Pouring temperature, and bodies that are poured.
 void find_in_pour(const CaseSpec& spec, const Assembly& a, Findings& findings);
 /// Surroundings, coefficients and gravity; the length of the run in steps. Collective: size of the mesh.
-void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings);
+void find_in_conditions(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);
 
 /// Bodies that overlap, share nodes or are too coarsely meshed.
 void find_in_geometry(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings);

@@ -220,6 +220,12 @@ void tolerance(const CaseSpec& spec, const Assembly& a, Findings& findings) {
     findings.push_back({false, spec.time.where,
                         fmt::format("{:.0f} % of the casting may freeze in one step", 100 * change),
                         "time.solid_fraction_change of 0.02 to 0.2"});
+  constexpr double k_least_motion = 1e-8, k_most_motion = 5e-3;  // [m]
+  if (const double allowed = spec.time.displacement_error.value_or(k_most_motion);
+      allowed < k_least_motion || allowed > k_most_motion)
+    findings.push_back({false, spec.time.where,
+                        fmt::format("each step may be wrong by {:g} um of motion", 1e6 * allowed),
+                        "time.displacement_error of 0.1 um to 1 mm"});
   if (const double allowed = spec.time.temperature_error.value_or(1); allowed < 1e-3)
     findings.push_back({false, spec.time.where,
                         fmt::format("each step may be wrong by {:g} K alone", allowed),
@@ -238,9 +244,25 @@ void size(const CaseSpec& spec, const Assembly& a, Findings& findings) {
                         "is mesh.unit right? It is \"m\" unless the case says \"mm\""});
 }
 
+/// Round an axis the surface x = 0 has no area: nothing passes through it.
+void surfaces_on_the_axis(const CaseSpec& spec, const CaseMeasures& m, Findings& findings) {
+  using Kind = ThermalConditionSpec::Kind;
+  if (spec.analysis.kind != AnalysisKind::axisymmetric) return;
+  for (std::size_t t = 0; t < spec.thermal_conditions.size(); ++t) {
+    const ThermalConditionSpec& c = spec.thermal_conditions[t];
+    const bool through = c.kind == Kind::film || c.kind == Kind::radiation || c.kind == Kind::flux;
+    if (!through || m.surfaces[t].body == -1 || m.surfaces[t].area > 0) continue;
+    findings.push_back(
+        {false, c.where,
+         fmt::format("'{}' lies on the axis: the surface '{}' has no area in axisymmetry", c.name, c.group),
+         "kind = \"plane_strain\" where x = 0 is a face of the casting; else no condition there"});
+  }
+}
+
 }  // namespace
 
-void find_in_conditions(const CaseSpec& spec, const Assembly& a, Findings& findings) {
+void find_in_conditions(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m, Findings& findings) {
+  if (spec.has_heat()) surfaces_on_the_axis(spec, m, findings);
   if (spec.has_heat()) surroundings(spec, findings);
   if (spec.has_heat()) sinks(spec, a, findings);
   residuals(spec, findings);

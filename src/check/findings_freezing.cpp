@@ -110,7 +110,8 @@ void length_of_run(const CaseSpec& spec, const Assembly& a, const Pour& pour, Fi
                                     name, duration(time)),
                         "a smaller time.min_step, or none"});
   constexpr double k_many = 5e4;
-  if (const double step = fixed_step(spec, a); step > 0 && time > k_many * step && a.stages.empty())
+  if (const double step = spec.time.adaptive ? spec.time.max_step.value_or(0) : fixed_step(spec, a);
+      step > 0 && time > k_many * step && a.stages.empty())
     findings.push_back(
         {false, spec.time.where,
          fmt::format("steps of {:g} s: '{}' freezes in some {:.0f} of them", step, name, time / step),

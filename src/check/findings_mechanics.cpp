@@ -183,11 +183,12 @@ void friction_numbers(const CaseSpec& spec, Findings& findings) {
   for (const ContactSpec& contact : spec.contacts) {
     if (!contact.friction || contact.friction->coefficient.empty()) continue;
     const Function& mu = contact.friction->coefficient.front();
-    if (mu.place != nullptr || mu.table.max_value() <= 2) continue;
-    findings.push_back(
-        {false, contact.friction->where,
-         fmt::format("the coefficient of friction of '{}' is {:g}", contact.name, mu.table.max_value()),
-         "0.05 to 1; 0.3 is 30 %"});
+    constexpr double k_least = 0.005, k_most = 2;  // a coefficient of zero is no slip
+    const double most = mu.table.max_value();
+    if (mu.place != nullptr || most == 0 || (most >= k_least && most <= k_most)) continue;
+    findings.push_back({false, contact.friction->where,
+                        fmt::format("the coefficient of friction of '{}' is {:g}", contact.name, most),
+                        "0.05 to 1; 0.3 is 30 %"});
   }
 }
 

@@ -2,6 +2,7 @@
 // later stage, tables that the run hardly sees, one element, a melt that does not conduct.
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "casting.hpp"
 
@@ -108,6 +109,29 @@ TEST_F(FindingsTest, AMouldThatMeltsUnderWhatItHoldsIsNamed) {
   const std::string said = "'lower' of 'aluminium_alsi7mg' melts from";
   EXPECT_THAT(said_of(forging("1000 degC")), Contains(HasSubstr(said)));
   EXPECT_THAT(said_of(forging("550 degC")), Not(Contains(HasSubstr(said))));
+}
+
+TEST_F(FindingsTest, ConditionsOnTheAxisAndFurtherNumbersAreNamed) {
+  const auto film = [](const std::string& text) {
+    return text +
+           "[[thermal_condition]]\nname = \"left\"\ngroup = \"lower_x_min\"\nkind = \"film\"\n"
+           "coefficient = \"20 W/m2/K\"\nambient = \"20 degC\"\n";
+  };
+  EXPECT_THAT(said_of(film(k_casting)), IsEmpty());
+  EXPECT_THAT(said_of(film(changed(k_casting, "plane_strain", "axisymmetric"))),
+              Contains(HasSubstr("'left' lies on the axis: the surface 'lower_x_min' has no area")));
+  const std::vector<Slip> slips = {
+      {"step = \"1 s\"", "step = \"1 s\"\nadaptive = true\ndisplacement_error = \"10 mm\"",
+       "each step may be wrong by 10000 um of motion"},
+      {"step = \"1 s\"", "step = \"1 s\"\nadaptive = true\ndisplacement_error = \"1 nm\"",
+       "each step may be wrong by 0.001 um of motion"},
+      {"step = \"1 s\"", "step = \"0.1 ms\"\nadaptive = true\nmax_step = \"0.1 ms\"",
+       "steps of 0.0001 s: 'upper'"},
+      {"gap_law = \"constant\"\n", "gap_law = \"constant\"\n[contact.friction]\ncoefficient = 3e-6\n",
+       "the coefficient of friction of 'interface' is 3e-06"}};
+  for (const Slip& slip : slips)
+    EXPECT_THAT(said_of(changed(deforming(), slip.what, slip.with)), Contains(HasSubstr(slip.said)))
+        << slip.with;
 }
 
 }  // namespace
