@@ -12,6 +12,7 @@
 #include "coupling/phase_iterate.hpp"
 #include "coupling/stability_audit.hpp"
 #include "material/time_integration.hpp"
+#include "mechanics/nodal_pressure.hpp"
 #include "system/errors.hpp"
 #include "system/log.hpp"
 #include "system/profile.hpp"
@@ -166,6 +167,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
   const double start = MPI_Wtime();
   pass.iterate_temperature = newton_->thermal().temperature();
   begin_contacts(phases_, contacts, old, pass, coherency);
+  mechanics::NodalPressure* const pressure = phases_.mechanics->pressure();
+  if (pressure != nullptr) pressure->release_pores();
   phases_.mechanics->begin(old, pass);
   std::vector<double> x = phases_.mechanics->start(old, pass);
   int iterations = 0, linear_iterations = 0, revisions = 0, fraction_turns = 0;
@@ -177,6 +180,8 @@ StepEffort SimultaneousScheme::stage(const mechanics::MechanicalState& old,
     }
     iterations += report_.iterations;
     linear_iterations += report_.linear_iterations;
+    const std::span<const double> pressures = std::span(x).subspan(phases_.mechanics->n_displacements());
+    if (pressure != nullptr && pressure->fill_pores(pressures, turn)) continue;
     if (!penetrations_small(phases_, turn)) continue;
     if (revisions < k_revisions && newton_->thermal().revise_limits()) {
       ++revisions;

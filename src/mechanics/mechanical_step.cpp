@@ -174,6 +174,7 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
   linear::NewtonOptions newton_options = options_.newton;
   newton_options.absolute_tolerance = std::max(newton_options.absolute_tolerance, round_off_);
   if (pass.newton_steps > 0) newton_options.max_iterations = pass.newton_steps;
+  if (pressure_ && pass.iterate == nullptr && pass.start.empty()) pressure_->release_pores();
   std::vector<double> x = start(old, pass);
   const bool guessed = try_guess(pass, x);
   PhaseReport report;
@@ -185,6 +186,15 @@ PhaseReport MechanicalPhase::solve(const MechanicalState& old, MechanicalState& 
     report.newton = linear::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
     report.newton.iterations += from_guess.iterations;
     report.newton.linear_iterations += from_guess.linear_iterations;
+  }
+  for (int turn = 1; report.newton.converged && pressure_ &&
+                     pressure_->fill_pores(std::span<const double>(x).subspan(n_displacements()), turn);
+       ++turn) {
+    const linear::NewtonReport before = std::move(report.newton);
+    residual_is_known_ = false;
+    report.newton = linear::newton(*this, *solver_, ghosts_, fields_, x, newton_options);
+    report.newton.iterations += before.iterations;
+    report.newton.linear_iterations += before.linear_iterations;
   }
   const bool may_end = pass.newton_steps > 0 && report.newton.out_of_iterations;
   if (!report.newton.converged && !may_end) reject(report.newton.reason, x);

@@ -15,7 +15,7 @@ inline constexpr int k_max_volumes = 30;
 /// Largest volumetric strain of one step of that iteration: beyond it no law holds.
 inline constexpr double k_largest_volume_step = 0.05;
 /// Behind the law's state at a point: e_v, the pore fraction, in axisymmetry p_a − p̄ of its nodes, and where
-/// melt flows between dendrites its q (liquid_flow.hpp).
+/// melt flows between dendrites its q and the mean stress of compaction (liquid_flow.hpp).
 template <int n_nodes, AnalysisKind kind>
 inline constexpr int k_mixed_extra = kind == AnalysisKind::axisymmetric ? 2 + n_nodes : 2;
 
@@ -48,7 +48,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     old_divergence_.resize(n, Lane(0.0));
     if constexpr (adiabatic) tangent_.resize(n);
     if (this->flow_.flows()) {
-      n_kept_ += dim;
+      n_kept_ += dim + 1;
       compaction_.resize(n, Lane(0.0));
     }
   }
@@ -69,7 +69,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
       if (this->flow_.flows()) {
         const Lane fraction = this->phase_at(start, batch, 0).solid_fraction;
         this->flow_.begin_step(batch, fraction, start.dt, kept_flow(*start.old_history, batch));
-        compaction_[i] = start.new_stress == nullptr ? start.compaction_stiffness(fraction) : Lane(0.0);
+        compaction_[i] = start.compaction_stiffness(fraction);
       }
       Lane stiffness = bulk;
       if constexpr (adiabatic) {
@@ -163,14 +163,22 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
                   before = this->volume_change(b, batch, old_displacement);
       const Nodal variation = variation_at_work(batch, trial);
       const Lane pressure = Lane(1.0 / 3.0) * trace(at_work);
+      const Lane compacting = compaction_at_work(batch, trace(gradient), trial);
       Lane left_over = weight(batch) * (pressure * (old_volume - point.volume) +
-                                        compaction_stress(batch, trace(gradient)) *
-                                            (trace(gradient) - old_divergence_[at(batch)]));
+                                        compacting * (trace(gradient) - old_divergence_[at(batch)]));
       for (std::size_t a = 0; a < n_nodes; ++a) left_over += (pressure + variation[a]) * (now[a] - before[a]);
       tally.stabilisation_work += this->counted(batch) * left_over;
       this->keep(batch, average);
     }
     return this->total(tally);
+  }
+
+  void release_pores() override { pores_.release(); }
+  bool fill_pores() override {
+    bool filled = false;
+    for (Index batch = 0; batch < n_batches(); ++batch)
+      filled |= pores_.fill(batch, mean(this->gather_pressure(this->field_.pressure, batch), batch));
+    return filled;
   }
 
   void get_field(ElementField which, std::span<double> out) const override {
@@ -238,7 +246,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   std::size_t bytes() const override {
     return Base::bytes() + this->bytes_of_nodes() +
            (volume_.capacity() + old_volume_.capacity() + old_divergence_.capacity() +
-            compaction_.capacity()) *
+            compaction_.capacity() + kept_compaction_.capacity()) *
                sizeof(Lane) +
            tangent_.capacity() * sizeof(VolumeTangent) + pores_.bytes() +
            kept_variation_.capacity() * sizeof(Nodal);
@@ -386,6 +394,20 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
     }
   }
 
+  /// The mean stress of compaction whose work the step does; leaves that of its end for the next one.
+  Lane compaction_at_work(Index batch, const Lane& divergence, BlockHistory& trial) {
+    if (!this->flow_.flows()) return Lane(0.0);
+    const std::size_t place = flow_place(batch) + dim;
+    Lane stress = trial.values[place] = compaction_stress(batch, divergence);
+    if (this->new_stress_ != nullptr)
+      stress = Lane(this->stress_share_) * stress +
+               Lane(1.0 - this->stress_share_) * this->old_history_->values[place];
+    if (this->work_ == StressAtWork::end) return stress;
+    kept_compaction_.resize(volume_.size());
+    Lane& kept = kept_compaction_[at(batch)];
+    if (this->work_ == StressAtWork::end_kept) kept = stress;
+    return kept;
+  }
   /// p_a − p̄ of the stress whose work the step does; leaves that of its end for the next one. Without a hoop
   /// it does no work.
   Nodal variation_at_work(Index batch, BlockHistory& trial) {
@@ -415,6 +437,7 @@ class MixedBlock : public PointBlock<Law, n_nodes, kind, false, k_mixed_extra<n_
   PackVector<Lane> compaction_;      ///< [batch]; empty where no melt flows
   Pores pores_;
   PackVector<VolumeTangent> tangent_;  ///< of the last add_tangent(), adiabatic laws only
+  PackVector<Lane> kept_compaction_;   ///< [batch] [Pa]; empty where it is not requested
   PackVector<Nodal> kept_variation_;   ///< [batch] [Pa]; empty where it is not requested
 };
 

@@ -62,6 +62,10 @@ class MixedKernel {
 
   /// Whether melt flows between dendrites in some step (liquid_flow.hpp).
   virtual bool flows() const = 0;
+  /// Pores (pores.hpp): a step begins with no full element; those that the pressures of the field fill are
+  /// full from then on, and whether there is a new one.
+  virtual void release_pores() = 0;
+  virtual bool fill_pores() = 0;
   /// ∫ 1 dV and ∫ 2Ĝ dV over the counted elements.
   virtual std::array<double, 2> mean_stiffness() const = 0;
   /// w of the projection, [local node][field].

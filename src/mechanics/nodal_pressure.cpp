@@ -7,9 +7,14 @@
 #include <cmath>
 #include <utility>
 
+#include "system/errors.hpp"
+
 namespace solidus::mechanics {
 
 namespace {
+
+/// Solutions of a step after each of which further elements may be full of pores.
+constexpr int k_pore_turns = 20;
 
 std::vector<char> mixed_blocks(std::span<const std::unique_ptr<BlockKernel>> blocks) {
   std::vector<char> mixed;
@@ -116,6 +121,21 @@ void NodalPressure::set(std::span<const double> unknowns) {
   for (std::size_t i = 0; i < pressure_.size(); ++i) pressure_[i] = unit_ * unknowns[i];
   std::fill(volume_residual_.begin(), volume_residual_.end(), 0.0);
   std::fill(volume_change_.begin(), volume_change_.end(), 0.0);
+}
+
+void NodalPressure::release_pores() {
+  for (MixedKernel* kernel : kernels_) kernel->release_pores();
+}
+
+bool NodalPressure::fill_pores(std::span<const double> unknowns, int turn) {
+  set(unknowns);
+  bool filled = false;
+  for (MixedKernel* kernel : kernels_) filled |= kernel->fill_pores();
+  if (!parallel::any_process(filled)) return false;
+  if (turn > k_pore_turns)
+    throw StepRejected("mechanics: one element after another fills with pores",
+                       "a step in which much more shrinks than can be fed");
+  return true;
 }
 
 void NodalPressure::residual(std::span<double> r, BodyBalance& balance) {

@@ -64,6 +64,13 @@ class NodalPressure {
   /// measured against goes to the balance. Collective.
   void residual(std::span<double> r, BodyBalance& balance);
 
+  /// A step begins with no element that is full of pores (pores.hpp).
+  void release_pores();
+  /// After equilibrium: whether further elements have filled with pores at these unknowns, so that it must be
+  /// sought anew from there. Throws StepRejected after too many turns. Collective.
+  /// @param turn  from one
+  bool fill_pores(std::span<const double> unknowns, int turn);
+
   /// y += factor × unit² × the part of S that couples neighbours of neighbours, taken as positive: S is its
   /// compact part less this one. x are unknowns; both on owned nodes. Collective.
   void add_projection_to(std::span<const double> x, double factor, std::span<double> y);

@@ -7,7 +7,7 @@ Pores::Pores(const material::Material& material, Index n_batches)
       critical_pressure_drop_(material.casting.critical_pressure_drop),
       coherency_(material.casting.coherency_fraction) {
   if (!material.chooses_viscosity()) return;
-  for (PackVector<Lane>* values : {&softness_, &threshold_, &held_, &now_})
+  for (PackVector<Lane>* values : {&softness_, &threshold_, &held_, &full_, &now_})
     values->resize(static_cast<std::size_t>(n_batches), Lane(0.0));
 }
 
@@ -19,8 +19,8 @@ void Pores::get(Index n_elements, std::span<double> out) const {
 }
 
 std::size_t Pores::bytes() const {
-  return (softness_.capacity() + threshold_.capacity() + held_.capacity() + now_.capacity() +
-          kept_.capacity()) *
+  return (softness_.capacity() + threshold_.capacity() + held_.capacity() + full_.capacity() +
+          now_.capacity() + kept_.capacity()) *
          sizeof(Lane);
 }
 

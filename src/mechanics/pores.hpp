@@ -13,8 +13,14 @@
 /// critical_pressure_drop, with f_S of t_n, and r_p = ∫ N (div u − e_v − θ) dV − S p. The law of the metal
 /// sees e_v alone. Below coherency pores that are pressed or fed close; in mush a pore grows or stays. The
 /// metal that is left, 1 − θ_n, is what a pore can still open in: an element that is nearly empty is stiff,
-/// and its neighbours take over; a single step may open more than is left. The work of pores is counted with
-/// that of the sub-scales.
+/// and its neighbours take over. The work of pores is counted with that of the sub-scales.
+///
+/// No element has more pores than k_most_pores: θ(p) ends there. Newton's method is not sent over this second
+/// bend of the curve, from whose flat end it would leap across the first one and back. It solves with θ(p) as
+/// above; elements that then have more than there is are full, θ = k_most_pores whatever the pressure, and it
+/// goes on from there until no further one fills (NodalPressure::fill_pores()). What a full element cannot
+/// take raises the tension in it and around it, so that none of those that have filled leaves the bound
+/// again: the result is that of the curve with both bends.
 ///
 /// M = k_pore_share 2Ĝ of the melt, two heads of metal: a pool opens its pores in its upper part first, where
 /// its pressure is least.
@@ -34,7 +40,7 @@ namespace solidus::mechanics {
 
 /// M_m in pressure drops: pores of 1e-2 in a step cost another one.
 inline constexpr double k_pore_drops = 100;
-/// Pores of an element whose stiffness rises no more.
+/// The most pores of an element.
 inline constexpr double k_most_pores = 0.98;
 /// M as a share of the modulus of the melt: two heads of metal.
 inline constexpr double k_pore_share = 0.2;
@@ -66,12 +72,25 @@ class Pores {
   /// θ at a mean stress [Pa].
   Lane fraction(Index batch, const Lane& pressure) const {
     if (held_.empty()) return Lane(0.0);
-    return held_[at(batch)] + softness_[at(batch)] * max(pressure - threshold_[at(batch)], Lane(0.0));
+    const Lane open =
+        held_[at(batch)] + softness_[at(batch)] * max(pressure - threshold_[at(batch)], Lane(0.0));
+    return select(full_[at(batch)] > Lane(0.0), Lane(k_most_pores), open);
   }
   /// dθ/dp [1/Pa].
   Lane compliance(Index batch, const Lane& pressure) const {
     if (held_.empty()) return Lane(0.0);
-    return select(pressure > threshold_[at(batch)], softness_[at(batch)], Lane(0.0));
+    const Lane open = select(pressure > threshold_[at(batch)], softness_[at(batch)], Lane(0.0));
+    return select(full_[at(batch)] > Lane(0.0), Lane(0.0), open);
+  }
+  /// Begins with no full element: once a step, whose passes go on with those that have filled.
+  void release() { std::fill(full_.begin(), full_.end(), Lane(0.0)); }
+  /// Marks the elements that have more than k_most_pores at a mean stress as full; returns whether one is
+  /// new.
+  bool fill(Index batch, const Lane& pressure) {
+    if (held_.empty()) return false;
+    const LaneMask filled = fraction(batch, pressure) > Lane(k_most_pores);
+    full_[at(batch)] = select(filled, Lane(1.0), full_[at(batch)]);
+    return any(filled);
   }
   /// Keeps θ at the end of a step for get() and returns it.
   Lane finish(Index batch, const Lane& pressure) {
@@ -90,7 +109,8 @@ class Pores {
 
   double tension_, critical_pressure_drop_, coherency_;  ///< p_c, ΔP_cr, f_c
   PackVector<Lane> softness_, threshold_,
-      held_;  ///< dθ/dp, its threshold, and θ_n of what was coherent
+      held_;               ///< dθ/dp, its threshold, and θ_n of what was coherent
+  PackVector<Lane> full_;  ///< 1 in elements that are full, else 0
   PackVector<Lane> now_, kept_;
 };
 

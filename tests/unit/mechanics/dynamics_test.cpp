@@ -28,11 +28,15 @@ struct March {
   std::unique_ptr<mechanics::MechanicalPhase> phase;
   MechanicalState state;
   std::vector<MechanicalWork> steps;
+  std::vector<double> reactions;  ///< of the last step
 
   March(const Body& body, double end, int n_steps) : phase(body.phase()), state(phase->initial_state()) {
     for (int n = 1; n <= n_steps; ++n) {
       const MechanicalState old = state;
-      steps.push_back(phase->solve(old, state, body.temperature, end * n / n_steps, end / n_steps).work);
+      mechanics::PhaseReport report =
+          phase->solve(old, state, body.temperature, end * n / n_steps, end / n_steps);
+      steps.push_back(report.work);
+      reactions = std::move(report.reactions);
     }
   }
 };
@@ -239,6 +243,52 @@ TEST(Inertia, IsAmongTheForcesOfTheCriterion) {
   ASSERT_EQ(report.newton.residuals.size(), 2u);
   EXPECT_LT(report.newton.residuals[0], 2);  // of forces that are as large as it is
   EXPECT_LT(report.newton.residuals[1], 1e-9);
+}
+
+/// Mush that nothing feeds between rigid walls, f_S = 0.8, pressed by a lid of constant speed; all nodes are
+/// prescribed and nearly without mass.
+March pressed_mush(const Shape shape, const Motion& motion) {
+  material::Material metal = test::elastic_material(7e10, 0.33);
+  metal.density = 1e-3;
+  metal.liquid_viscosity = {};
+  metal.phase_changes.push_back(
+      {.name = "freezing", .fraction = material::PhaseFraction::linear(800, 900), .solidification = true});
+  const bool solid = shape == Shape::tet4;
+  Body body({.shape = shape, .cells = {1, 1, 1}, .size = {k_length, k_length, k_length}},
+            solid ? AnalysisKind::solid : AnalysisKind::plane_strain, metal);
+  body.initial_temperature.assign(body.mesh.x.size(), 820.0);
+  body.temperature = body.initial_temperature;
+  for (const char* side : {"left", "right"}) body.hold(side, 0);
+  body.hold("bottom", 1);
+  body.hold("top", 1, Table({0.0, 1.0}, {0.0, -1e-3 * k_length}));
+  if (solid)
+    for (const char* side : {"back", "front"}) body.hold(side, 2);
+  body.options.dynamics = DynamicsOptions{MassKind::lumped, motion, {}};
+  return {body, 4e-3, 4};
+}
+
+// The bulk viscosity of mush (liquid_flow.hpp) is a force like others: with every integrator the lid is
+// pressed with k ε + ζ ε̇ and the deviator of the Maxwell element, and the energy of every step closes.
+TEST(Mush, ResistsCompactionWithEveryMethod) {
+  for (const Shape shape : {Shape::tri3, Shape::tet4}) {
+    const auto force = [](const March& run) {
+      double squares = 0;
+      for (const double f : run.reactions) squares += f * f;
+      return std::sqrt(parallel::global_sum(squares));
+    };
+    const March reference = pressed_mush(shape, Motion::backward_euler());
+    constexpr double k_bulk = 7e10 / (3 * (1 - 2 * 0.33));
+    const double area = shape == Shape::tet4 ? k_length * k_length : k_length;
+    EXPECT_GT(force(reference), 2 * k_bulk * 4e-6 * area) << "the viscous part is the larger one";
+    for (const auto& [name, motion] : k_methods) {
+      const March run = pressed_mush(shape, motion);
+      EXPECT_NEAR(force(run), force(reference), 1e-6 * force(reference)) << name;
+      for (const MechanicalWork& w : run.steps)
+        EXPECT_NEAR(w.internal_work + w.kinetic + w.numerical, w.external_work + w.support_work,
+                    1e-8 * std::abs(w.support_work))
+            << name;
+    }
+  }
 }
 
 }  // namespace
