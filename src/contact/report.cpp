@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "contact/rotation.hpp"
+#include "contact/wall_distance.hpp"
 #include "parallel/parallel.hpp"
 
 namespace solidus::contact {
@@ -17,13 +19,45 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
+/// Whether liquid metal seems to have left its wall at a point: a void has opened there. A wall that is soft
+/// by the penalty that it was given is drawn along before that. A face with a coherent node goes with the
+/// shell, and takes the points between along.
+bool seems_left(const ContactView& pair, Index point) {
+  const PointState& state = pair.end.state.points[at(point)];
+  return state.suction > 0 && state.status == PointStatus::open && !pair.step.liquid.empty() &&
+         pair.step.liquid[at(point)] != 0 && -state.penetration > pair.spec.leaving_gap;
+}
+
+/// The area that has left its wall and the largest gap, where the surfaces really are: melt that has slid
+/// along a wall of flat faces has not. Collective.
+void measure_left(const ContactView& pair, const ContactKinematics& kinematics, ContactSums& sums) {
+  std::optional<WallDistance> wall;
+  if (!pair.spec.rigid_master)
+    wall.emplace(ContactSurface(pair.geometry.mesh(), pair.spec.master), pair.end.displacement,
+                 pair.geometry.components());
+  double points = 0, area = 0, gap = 0;
+  for (Index p = 0; p < kinematics.n_points(); ++p) {
+    const ContactKinematics::Particle particle = kinematics.particle(p);
+    if (!particle.counted || !seems_left(pair, p)) continue;
+    const double along = -pair.end.state.points[at(p)].penetration,
+                 opened =
+                     wall ? std::min(wall->opened(particle, along + pair.geometry.touching()), along) : along;
+    if (!(opened > pair.spec.leaving_gap)) continue;
+    points += 1;
+    area += particle.weight;
+    gap = std::max(gap, opened);
+  }
+  sums.left_points = std::llround(parallel::global_sum(points));
+  sums.left_area = parallel::global_sum(area);
+  sums.left_gap = parallel::global_max(gap);
+}
+
 }  // namespace
 
 ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
   const ContactKinematics& kinematics =
       pair.geometry.at(pair.end.time, pair.end.displacement, ContactKinematics::Points::own);
-  std::array<double, 21> s{};
-  double left_gap = 0;
+  std::array<double, 20> s{};
   const auto n = static_cast<std::size_t>(pair.geometry.components());
   for (Index p = 0; p < kinematics.n_points(); ++p) {
     const ContactKinematics::Particle particle = kinematics.particle(p);
@@ -37,13 +71,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
     s[3] += w * state.dissipation;
     if (state.suction > 0) {
       s[18] += w;
-      // A face with a coherent node goes with the shell, and takes the points between along.
-      if (!pair.step.liquid.empty() && pair.step.liquid[at(p)] != 0 &&
-          -state.penetration > pair.spec.leaving_gap) {
-        s[19] += 1;
-        s[20] += w;
-        left_gap = std::max(left_gap, -state.penetration);
-      }
+      s[19] += seems_left(pair, p) ? 1 : 0;
     }
     const bool open = state.status == PointStatus::open;
     if (open && state.pressure == 0) continue;
@@ -86,9 +114,7 @@ ContactSums sums(const ContactView& pair, std::span<const double> temperature) {
   sums.heat_to_slave = s[16];
   sums.heat_to_master = s[17];
   sums.wet_area = s[18];
-  sums.left_points = std::llround(s[19]);
-  sums.left_area = s[20];
-  if (sums.left_points > 0) sums.left_gap = parallel::global_max(left_gap);
+  if (s[19] > 0) measure_left(pair, kinematics, sums);
   return sums;
 }
 

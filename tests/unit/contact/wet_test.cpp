@@ -209,12 +209,50 @@ TEST(WetContact, WhatLeavesTheWallWhileLiquidIsCounted) {
   s.leaving_gap = 1e-4;
   OneStep run(mesh, s);
   const std::vector<double> melt = coherency(mesh, 0.2, 1);
-  EXPECT_EQ(run.step(lifted(mesh, 0.9e-4), melt).left_points, 0);
+  EXPECT_EQ(run.step(lifted(mesh, 0.9e-4), melt).left_area, 0);
   const ContactSums left = run.step(lifted(mesh, 0, 2e-4), melt);  // half of the width is beyond
   EXPECT_NEAR(left.left_area, 0.15, 0.04);
   EXPECT_GT(left.left_gap, 1.8e-4);
   EXPECT_LT(left.left_gap, 2e-4);
-  EXPECT_EQ(run.step(lifted(mesh, 0, 2e-4), coherency(mesh, 1.1, 1)).left_points, 0);
+  EXPECT_EQ(run.step(lifted(mesh, 0, 2e-4), coherency(mesh, 1.1, 1)).left_area, 0);
+}
+
+// The kinematics of small sliding keep the normals of the faces that points began on: along a wall that bends
+// away they say that melt which slides has left it.
+TEST(WetContact, MeltThatSlidesAlongACurvedWallHasNotLeftIt) {
+  constexpr double k_bend = -0.2, k_width = 0.3, k_way = 0.08;  // y = bend x² [1/m], [m], [m]
+  mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  for (Point& x : mesh.x) x[1] += k_bend * x[0] * x[0];
+  ContactSpec s = spec();
+  s.touching = 5e-3;  // faces of the two sides are chords of different lengths
+  s.leaving_gap = 1.2e-3;
+  OneStep run(mesh, s);
+  const std::vector<double> melt = coherency(mesh, 0.2, 1);
+  run.step(lifted(mesh, 0), melt);
+  const std::vector<double> u = test::nodal_field(mesh, 2, [&](const Point& x, bool up) {
+    const double way = up ? 0.0 : k_way * std::sin(3.14159265358979 * x[0] / k_width);
+    return std::vector{way, k_bend * (2 * x[0] + way) * way};
+  });
+  const ContactSums sums = run.step(u, melt);
+  EXPECT_GT(sums.wet_area, 0.25);
+  EXPECT_EQ(sums.left_area, 0);
+  const auto& points = run.pair.state().points;
+  EXPECT_TRUE(parallel::any_process(
+      std::ranges::any_of(points, [&](const PointState& p) { return -p.penetration > s.leaving_gap; })));
+}
+
+// A bed of springs that reaches 0.2 mm at the pressure of the atmosphere: up to there melt draws it along.
+TEST(WetContact, AWallThatGivesWayIsDrawnAndNotLeft) {
+  const mesh::Mesh mesh = test::two_blocks(Shape::quad4);
+  ContactSpec s = spec();
+  s.penalty = k_atmosphere / 2e-4;
+  s.leaving_gap = 1e-4;
+  OneStep run(mesh, s);
+  const std::vector<double> melt = coherency(mesh, 0.2, 1);
+  EXPECT_EQ(run.step(lifted(mesh, 1.5e-4), melt).left_area, 0);
+  const ContactSums left = run.step(lifted(mesh, 2.5e-4), melt);
+  EXPECT_NEAR(left.left_area, 0.3, 1e-12);
+  EXPECT_NEAR(left.left_gap, 2.5e-4, 1e-12);
 }
 
 TEST(WetContact, WhatAShellTakesAlongHasNotLeftTheWall) {
