@@ -169,18 +169,18 @@ Section<ContactSpec> contact_keys() {
       .doc(
           "Share of the penalty that the matrix, not the forces, always holds: for bodies that lose their "
           "support.");
-  s.choice("integration", &C::integration,
-           {{"automatic", IntegrationRule::automatic,
-             "segments with small sliding, Gauss points with large"},
-            {"segments", IntegrationRule::segments,
-             "slave faces cut where master faces end: exact on non-matching meshes; with large sliding cut anew "
-             "in every configuration, with means over halves of lines and quarters of faces (a rigid surface has "
-             "nothing to cut at: Gauss points)"},
-            {"mortar", IntegrationRule::mortar,
-             "means of segments around the slave's nodes: pressures stay even with stiff penalties too, "
-             "small sliding only"},
-            {"nodal", IntegrationRule::nodal, "at the slave's nodes"},
-            {"gauss", IntegrationRule::gauss, "at Gauss points of the slave's faces"}})
+  s.choice(
+       "integration", &C::integration,
+       {{"automatic", IntegrationRule::automatic, "segments with small sliding, Gauss points with large"},
+        {"segments", IntegrationRule::segments,
+         "slave faces cut where master faces end: exact on non-matching meshes; with large sliding cut anew "
+         "in every configuration, with means over halves of lines and quarters of faces (a rigid surface has "
+         "nothing to cut at: Gauss points)"},
+        {"mortar", IntegrationRule::mortar,
+         "means of segments around the slave's nodes: pressures stay even with stiff penalties too, "
+         "small sliding only"},
+        {"nodal", IntegrationRule::nodal, "at the slave's nodes"},
+        {"gauss", IntegrationRule::gauss, "at Gauss points of the slave's faces"}})
       .initially("automatic")
       .doc("Where contact is integrated.");
   s.key("gauss_degree", &C::gauss_degree)
