@@ -28,11 +28,11 @@ constexpr double k_latent = 2500 * 4e5;  // ρ L [J/m³]
 constexpr double k_volume_change = -0.06;
 constexpr int k_steps = 10;
 
-const Element k_elements[] = {verification::k_tri3_locking,  verification::k_tri3,
-                              verification::k_quad4,         {"tri6", mesh::Shape::tri6},
-                              {"quad8", mesh::Shape::quad8}, verification::k_tet4_locking,
-                              verification::k_tet4,          verification::k_hex8,
-                              {"tet10", mesh::Shape::tet10}, {"hex20", mesh::Shape::hex20}};
+const Element k_elements[] = {
+    verification::k_tri3_locking, verification::k_tri3,          verification::k_tri3_algebraic,
+    verification::k_quad4,        {"tri6", mesh::Shape::tri6},   {"quad8", mesh::Shape::quad8},
+    verification::k_tet4_locking, verification::k_tet4,          verification::k_tet4_algebraic,
+    verification::k_hex8,         {"tet10", mesh::Shape::tet10}, {"hex20", mesh::Shape::hex20}};
 
 material::Material alloy() {
   material::Material m = test::elastic_material(6e10, 0.35, 2e-5);
@@ -59,6 +59,7 @@ Coupled block(const Element& element) {
   c.materials = {alloy()};
   c.start = {k_freezing};
   c.simplices = element.simplices;
+  c.stabilisation = element.stabilisation;
   c.hold("left", 0);
   c.hold("bottom", 1);
   if (solid) c.hold("back", 2);
@@ -112,13 +113,17 @@ Result cool(const Coupled& c, bool by_latent_heat) {
 class IsothermalShrinkage : public testing::TestWithParam<Element> {};
 
 TEST_P(IsothermalShrinkage, IsInProportionToTheHeatDrawnWithBothRules) {
-  for (const auto rule : {heat::Integration::closed, heat::Integration::open}) {
-    Coupled c = block(GetParam());
-    c.integration = rule;
-    const Result r = cool(c, false);
-    EXPECT_LE(r.size, 1e-10);
-    EXPECT_NEAR(r.frozen, -k_power * k_steps / k_latent, 1e-11);
-  }
+  for (const auto rule : {heat::Integration::closed, heat::Integration::open})
+    for (const bool of_the_program : {false, true}) {
+      Coupled c = block(GetParam());
+      c.integration = rule;
+      if (of_the_program) c.materials[0].liquid_viscosity = {};
+      const Result r = cool(c, false);
+      // Mush of the program resists compaction with its bulk viscosity, which stretches it elastically while
+      // it shrinks: in mixed elements by ζ div u̇/k, 4e-6 of the shrinkage.
+      EXPECT_LE(r.size, of_the_program ? 1e-5 : 1e-10);
+      EXPECT_NEAR(r.frozen, -k_power * k_steps / k_latent, 1e-11);
+    }
 }
 
 /// Deformation and heat exchange energy: the block is free of stress, so what is drawn is latent heat and
