@@ -1,7 +1,7 @@
-// A ring on a core and a T in its mould, poured, frozen and cooled to room temperature: melt whose viscosity
-// the program chooses, gravity, a core that the casting shrinks onto, walls that it leaves, an alloy that
-// freezes over a range and one that ends with an eutectic, every scheme, element and sub-scale, in the plane,
-// around an axis and in space. Meshes are as coarse as a casting can be.
+// A ring on a core, a T and a column in their moulds, poured, frozen and cooled to room temperature: melt
+// whose viscosity the program chooses, gravity, a core that the casting shrinks onto, walls that it leaves,
+// an alloy that freezes over a range and one that ends with an eutectic, every scheme, element and sub-scale,
+// in the plane, around an axis and in space. Meshes are as coarse as a casting can be.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,9 +72,8 @@ Else
   Physical Curve("core_x") = {s0()}; Physical Curve("casting_x") = {s1()}; Physical Curve("mould_x") = {s2()};
 EndIf
 )";
-/// Half of a T in its mould: a web 10 mm wide and 20 mm high, a flange 50 mm wide and 8 mm high above it,
-/// open at the top. Extruded where layers > 0: then it lies on its side, and its mould goes all around.
-const std::string k_tee = R"(DefineConstant[ quads = {1, Name "quads"}, layers = {0, Name "layers"} ];
+/// Cells of castings and moulds on two grids of the same lines, whose nodes are apart.
+const std::string k_cells = R"(DefineConstant[ quads = {1, Name "quads"}, layers = {0, Name "layers"} ];
 depth = 0.008;
 // Gmsh joins what coincides when it extrudes: a micrometre along z keeps the bodies' nodes apart.
 apart = layers > 0 ? 1e-6 : 0;
@@ -119,7 +118,26 @@ Macro Cell  // the cell (i, j): sides are bottom, right, top, left
     body() += {c}; bottom = p+100+10*i+j; right = p+200+10*(i+1)+j; top = p+100+10*i+j+1; left = p+200+10*i+j;
   EndIf
 Return
-p = 1000; z = 0; Call Grid;
+)";
+/// The groups of a casting and its mould made of them.
+const std::string k_groups = R"(If (layers > 0)
+  Physical Volume("casting") = {bc()}; Physical Volume("mould") = {bm()};
+  Physical Surface("casting_outside") = {co()};
+  Physical Surface("casting_x") = {cx()}; Physical Surface("casting_z") = {kc()};
+  Physical Surface("mould_inside") = {mi()}; Physical Surface("mould_bottom") = {mb()};
+  Physical Surface("mould_outside") = {mo()};
+  Physical Surface("mould_x") = {mx()}; Physical Surface("mould_z") = {km()};
+Else
+  Physical Surface("casting") = {bc()}; Physical Surface("mould") = {bm()};
+  Physical Curve("casting_outside") = {co()}; Physical Curve("casting_top") = {ct()};
+  Physical Curve("casting_x") = {cx()}; Physical Curve("mould_inside") = {mi()};
+  Physical Curve("mould_bottom") = {mb()}; Physical Curve("mould_outside") = {mo()};
+  Physical Curve("mould_x") = {mx()};
+EndIf
+)";
+/// Half of a T in its mould: a web 10 mm wide and 20 mm high, a flange 50 mm wide and 8 mm high above it,
+/// open at the top. Extruded where layers > 0: then it lies on its side, and its mould goes all around.
+const std::string k_tee = k_cells + R"(p = 1000; z = 0; Call Grid;
 back() = {}; body() = {};
 i = 0; j = 1; Call Cell;
 co() = {bottom, right}; cx() = {left};
@@ -156,21 +174,34 @@ If (layers > 0)  // lying on its side, a T has a wall above its flange too
   co() += {ct()};
 EndIf
 bm() = body(); km() = back();
+)" + k_groups;
+/// Half of a column in its mould, 10 mm wide and 28 mm high, open at the top; extruded as the T is.
+const std::string k_column = k_cells + R"(p = 1000; z = 0; Call Grid;
+back() = {}; body() = {};
+i = 0; j = 1; Call Cell;
+co() = {bottom, right}; cx() = {left};
+i = 0; j = 2; Call Cell;
+co() += {right}; cx() += {left}; ct() = {top};
+bc() = body(); kc() = back();
+p = 10000; z = apart; Call Grid;
+back() = {}; body() = {};
+i = 0; j = 0; Call Cell;
+mi() = {top}; mx() = {left}; mb() = {bottom};
+i = 1; j = 0; Call Cell;
+mb() += {bottom}; mo() = {right};
+i = 1; j = 1; Call Cell;
+mi() += {left}; mo() += {right};
+i = 1; j = 2; Call Cell;
+mi() += {left}; mo() += {right};
 If (layers > 0)
-  Physical Volume("casting") = {bc()}; Physical Volume("mould") = {bm()};
-  Physical Surface("casting_outside") = {co()};
-  Physical Surface("casting_x") = {cx()}; Physical Surface("casting_z") = {kc()};
-  Physical Surface("mould_inside") = {mi()}; Physical Surface("mould_bottom") = {mb()};
-  Physical Surface("mould_outside") = {mo()};
-  Physical Surface("mould_x") = {mx()}; Physical Surface("mould_z") = {km()};
-Else
-  Physical Surface("casting") = {bc()}; Physical Surface("mould") = {bm()};
-  Physical Curve("casting_outside") = {co()}; Physical Curve("casting_top") = {ct()};
-  Physical Curve("casting_x") = {cx()}; Physical Curve("mould_inside") = {mi()};
-  Physical Curve("mould_bottom") = {mb()}; Physical Curve("mould_outside") = {mo()};
-  Physical Curve("mould_x") = {mx()};
+  j = 3; i = 0; Call Cell;
+  mx() += {left}; mi() += {bottom};
+  i = 1; Call Cell;
+  mo() += {right};
+  co() += {ct()};
 EndIf
-)";
+bm() = body(); km() = back();
+)" + k_groups;
 
 /// Freezes over 45 K.
 const std::string k_range = R"(title = "Freezes over a range"
@@ -186,7 +217,7 @@ solidus = "565 degC"
 liquidus = "610 degC"
 )";
 
-enum class Shape { ring, tee, mushroom };  // a mushroom is a T around its axis
+enum class Shape { ring, tee, column, mushroom };  // a mushroom is a T around its axis
 
 struct Casting {
   Shape shape;
@@ -198,7 +229,7 @@ struct Casting {
 };
 
 std::string name(const Casting& c) {
-  const char* shapes[] = {"ring", "tee", "mushroom"};
+  const char* shapes[] = {"ring", "tee", "column", "mushroom"};
   const std::string sub_scales = c.stabilisation == std::string("automatic") ? "" : c.stabilisation;
   return std::string(shapes[static_cast<int>(c.shape)]) + "_" + c.element + sub_scales +
          (c.eutectic ? "_eutectic_" : "_range_") + c.scheme;
@@ -239,7 +270,10 @@ displacement_error = "0.05 mm"
 solid_fraction_change = 0.2
 [mesh]
 file = ")") +
-          (ring ? "ring.geo" : "tee.geo") + "\"\norder = " + (linear ? "1" : "2") +
+          (ring                       ? "ring.geo"
+           : c.shape == Shape::column ? "column.geo"
+                                      : "tee.geo") +
+          "\"\norder = " + (linear ? "1" : "2") +
           "\n[[mesh.constant]]\nname = \"quads\"\nvalue = " + (quads ? "1" : "0") +
           "\n[[mesh.constant]]\nname = \"layers\"\nvalue = " + (c.solid ? "1" : "0") +
           "\n[coupling]\nscheme = \"" + c.scheme + "\"\n[mechanics]\ntolerance = 1e-4\nstabilisation = \"" +
@@ -273,6 +307,7 @@ TEST_P(FreezingCasting, ReachesRoomTemperatureAndClosesTheFirstLaw) {
   const Casting& c = GetParam();
   k_here.write("ring.geo", k_ring);
   k_here.write("tee.geo", k_tee);
+  k_here.write("column.geo", k_column);
   k_here.write("range.toml", k_range);
   const testing::CaseRun r = k_here.run(name(c), case_text(c));
   ASSERT_TRUE(r.finished) << r.reason;
@@ -300,9 +335,10 @@ TEST_P(FreezingCasting, ReachesRoomTemperatureAndClosesTheFirstLaw) {
     if (c.solid) return;
     EXPECT_NEAR(end("core_force_y[N]"), -k_weight * area, 0.06 * k_weight * area);
   } else if (!c.solid) {
-    // It hangs by its flange, with its whole weight.
-    const double pi = std::numbers::pi, volume = c.shape == Shape::tee
-                                                     ? 0.005 * 0.02 + 0.025 * 0.008
+    // It hangs by its flange, or the column rests on its bottom, with its whole weight.
+    const double pi = std::numbers::pi, volume = c.shape == Shape::tee ? 0.005 * 0.02 + 0.025 * 0.008
+                                                 : c.shape == Shape::column
+                                                     ? 0.005 * 0.028
                                                      : pi * (0.005 * 0.005 * 0.02 + 0.025 * 0.025 * 0.008);
     EXPECT_NEAR(end("wall_normal_force[N]"), k_weight * volume, 0.01 * k_weight * volume);
   }
@@ -324,8 +360,9 @@ std::vector<Casting> castings() {
         for (const char* scheme : {"isentropic", "isothermal"})
           all.push_back({shape, solid, element, stabilisation, eutectic, scheme});
   };
-  for (const Shape shape : {Shape::ring, Shape::tee, Shape::mushroom}) add(shape, false, plane);
-  for (const Shape shape : {Shape::ring, Shape::tee}) add(shape, true, space);
+  for (const Shape shape : {Shape::ring, Shape::tee, Shape::column, Shape::mushroom})
+    add(shape, false, plane);
+  for (const Shape shape : {Shape::ring, Shape::tee, Shape::column}) add(shape, true, space);
   for (const Shape shape : {Shape::ring, Shape::tee}) {
     for (const char* element : {"quad8", "tri6"})
       for (const bool eutectic : {false, true})
