@@ -16,10 +16,10 @@
 /// √(k ρ C) and its finite thickness, the resistance of the interface and that of the metal, whichever
 /// governs.
 ///
-/// A larger body behind a mould, such as the sand around a sleeve or a chill, takes heat as a half space does.
-/// The estimate neglects the exchange of heat between thick and thin places of a casting, smaller bodies
-/// behind a mould, and the flow of metal. Measured: within a factor of two of the runs of all cases that freeze
-/// (docs/guide/findings.md).
+/// A larger body behind a mould, such as the sand around a sleeve or a chill, takes heat as a half space
+/// does. The estimate neglects the exchange of heat between thick and thin places of a casting, smaller
+/// bodies behind a mould, and the flow of metal. Measured: within a factor of two of the runs of all cases
+/// that freeze (docs/guide/findings.md).
 ///
 /// Source: N. Chvorinov, "Theorie der Erstarrung von Gussstücken", Die Giesserei 27 (1940) 177–186, 201–208,
 /// 222–225.
