@@ -233,7 +233,7 @@ Eigen::VectorXd direction_of_weight(const CaseSpec& spec, const Translations& t)
   const std::array<double, 3> g = gravity(spec.analysis);
   Eigen::VectorXd weight(t.directions());
   for (int d = 0; d < t.directions(); ++d) weight[d] = g[t.axis(d)];
-  return weight.norm() > 0 ? Eigen::VectorXd(weight.normalized()) : weight;
+  return weight.normalized();  // which leaves zero as it is
 }
 
 /// Bodies whose weight neither a support nor a contact takes.

@@ -339,7 +339,7 @@ CoupledReport CoupledNewton::solve(const mechanics::MechanicalState& old, mechan
   while (true) {
     report.residuals.push_back(residual);
     if (!std::isfinite(residual.size())) mechanics_.reject("the residual is not a number", x);
-    if (norm_ > mechanics_.round_off() && !heat_stalls(report.residuals)) shifted_heat_ = 0;
+    if (!heat_stalls(report.residuals)) shifted_heat_ = 0;
     if (converged()) return report;
     if (report.iterations == max_iterations) {
       const std::string reason = "no convergence in " + std::to_string(max_iterations) + " iterations";
