@@ -85,6 +85,8 @@ class HeatSystem {
   double residual(std::span<const double> temperature, std::span<double> r);
   /// Fills the matrix with ∂r/∂Θ, which is unsymmetric where a conductivity varies.
   void assemble(std::span<const double> temperature);
+  /// Conduction at nodes that materials of different k(Θ)/κ share, in assemble_symmetric().
+  enum class SharedNodes { exact, plain };
   /// Fills the matrix with ∂r/∂v in the unknown of nodal_potential.hpp. It is symmetric if the contributions
   /// are, and exact but for two parts, which unsymmetric_part() holds:
   ///   conduction   at nodes that materials of different k(Θ)/κ share. With g = (k_m/κ_m)/c, which is one at
@@ -93,8 +95,12 @@ class HeatSystem {
   ///                c^-1/2 S c^-1/2 stands for S c^-1.
   /// @param slopes   c, [local node], ghosts up to date
   /// @param further  adds to S; may be empty
+  /// @param shared   exact is for iterations that make use of unsymmetric_part(). Without it Newton's method
+  ///                 for the open rule did not converge in long steps where materials share nodes; plain
+  ///                 takes g = 1 there.
   void assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
-                          const std::function<void(linear::BlockMatrix&)>& further = {});
+                          const std::function<void(linear::BlockMatrix&)>& further = {},
+                          SharedNodes shared = SharedNodes::exact);
   /// ∂r/∂v less what the matrix has, by entries of owned rows, as of the last assemble_symmetric(); not
   /// what the limits of conduction hold back.
   struct Entry {
@@ -180,7 +186,8 @@ class HeatSystem {
   void keep_conduction();
   void find_node_bodies();
   void scale_by_slopes(std::span<const double> slopes);
-  void add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes);
+  void add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes,
+                           SharedNodes shared);
   void note_unsymmetric(Index row, Index column, double entry, double exact, double mirrored);
   ConductionBlock& conduction(std::size_t block);
 

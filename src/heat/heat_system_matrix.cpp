@@ -112,9 +112,10 @@ void HeatSystem::scale_by_slopes(std::span<const double> slopes) {
     }
 }
 
-void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes) {
+void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::span<const double> slopes,
+                                     SharedNodes shared) {
   double* values = matrix_->block(0);
-  if (nodal_->identity() || node_body_.empty()) {
+  if (nodal_->identity() || node_body_.empty() || shared == SharedNodes::plain) {
     for (std::size_t s = 0; s < kept_conduction_.size(); ++s) values[s] += kept_conduction_[s];
     return;
   }
@@ -152,7 +153,8 @@ void HeatSystem::add_kept_conduction(std::span<const double> temperature, std::s
 }
 
 void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::span<const double> slopes,
-                                    const std::function<void(linear::BlockMatrix&)>& further) {
+                                    const std::function<void(linear::BlockMatrix&)>& further,
+                                    SharedNodes shared) {
   if (exchange_ && kept_conduction_.empty()) keep_conduction();
   matrix_->set_zero();
   unsymmetric_.clear();
@@ -162,7 +164,7 @@ void HeatSystem::assemble_symmetric(std::span<const double> temperature, std::sp
     for (const SurfaceHeat& surface : surfaces_) surface.add_tangent(temperature, *matrix_);
   if (further) further(*matrix_);
   if (!nodal_->identity()) scale_by_slopes(slopes);
-  if (exchange_) add_kept_conduction(temperature, slopes);
+  if (exchange_) add_kept_conduction(temperature, slopes, shared);
   if (limiter_ && exchange_) limiter_->add_symmetric_tangent(*matrix_);
 }
 

@@ -71,10 +71,11 @@ linear::BlockMatrix& TemperatureSystem::tangent() {
       slope_[static_cast<std::size_t>(i)] = potential.slope(i, x_[static_cast<std::size_t>(i)]);
     ghosts_.update(slope_, 1);
   }
-  system_.assemble_symmetric(x_, slope_, [this](linear::BlockMatrix& matrix) {
+  const auto add_storage = [this](linear::BlockMatrix& matrix) {
     if (!storing_) return;
     for (const auto& block : points_) block->add_tangent(x_, matrix);
-  });
+  };
+  system_.assemble_symmetric(x_, slope_, add_storage, HeatSystem::SharedNodes::plain);
   return system_.matrix();
 }
 
