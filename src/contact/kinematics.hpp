@@ -35,8 +35,8 @@ struct PointMotion {
   double penetration = 0;         ///< g_N [m]
   Point normal{};                 ///< n
   Tensor push{};                  ///< F
-  /// Of a point that stands for a part of the slave: the means of B_b n and B_b F over it, which its forces
-  /// have in place of those products. Empty: it is a point.
+  /// Where a point stands for a part of the slave, its forces take these means of B_b n and B_b F over that
+  /// part in place of the products at the point. They are empty for a single point.
   std::span<const Point> normal_share;
   std::span<const Tensor> push_share;
   Point slip{};  ///< ΔG [m]; zero unless asked for

@@ -27,7 +27,7 @@ class Matrix {
   Matrix() = default;
   /// All zero.
   Matrix(std::size_t rows, std::size_t columns);
-  /// Of values that are undefined until they are written: memory is taken as columns are.
+  /// Makes a matrix whose values are undefined until its columns are written.
   static Matrix undefined(std::size_t rows, std::size_t columns);
 
   std::size_t rows() const { return all_.rows; }

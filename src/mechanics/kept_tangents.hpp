@@ -32,7 +32,7 @@ inline Sym4<Lane> skew_part(const Sym4<Lane>& c, const Lane& weight) {
   return part;
 }
 
-/// Of a symmetric law the symmetric part alone is kept, which is all that the assembly reads.
+/// A symmetric law keeps the symmetric part of its tangent, which is all that the assembly reads.
 class KeptTangents {
  public:
   explicit KeptTangents(bool symmetric) : symmetric_(symmetric) {}

@@ -40,7 +40,7 @@ class CaseFolder {
               const std::vector<std::string>& overrides = {}) const {
     return testing::run(write(name + ".toml", text), name_ + "/" + name, overrides);
   }
-  /// What run() refuses, in words; empty where it runs.
+  /// Returns the message with which run() refuses a case; empty where it runs.
   std::string refusal(const std::string& name, const std::string& text) const {
     try {
       run(name, text);

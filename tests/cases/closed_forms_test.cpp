@@ -123,7 +123,7 @@ struct Ring {
   }
   double swelling() const { return (1 + poisson) * expansion / (1 - poisson); }
   double u(double r, double C, double D) const { return swelling() * heat(r) / r + C * r + D / r; }
-  /// Of C and D alone and of heat alone.
+  /// The radial stress, the sum of that of the constants C and D and that of the temperature.
   double radial(double r, double C, double D) const {
     const double g = young / (1 + poisson);
     return g * (C / (1 - 2 * poisson) - D / (r * r)) - young * expansion / (1 - poisson) * heat(r) / (r * r);
@@ -318,7 +318,7 @@ unit = "degC"
 /// u(a) = 3/2 α ΔT a − p i² a/(2 G (a² − i²)).
 TEST(ClosedForms, AWarmRingExpandsAnotherOneIntoPlasticFlow) {
   const CaseFolder folder("plastic_shrink_fit");
-  // What expands against a bulk modulus of 33 000 GPa would take up more heat than it has.
+  // With the heat at constant pressure, expansion against 33 000 GPa would take up more than there is.
   const std::string k_held = "specific_heat_at = \"constant_strain\"\n";
   folder.write("rings.msh", two_rings(50, 100, 200, 10, 25, 1, true));
   folder.write("elastic.toml", metal(40, 200, 0.499, 1.2e-5, k_held));
