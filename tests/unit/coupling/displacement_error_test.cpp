@@ -88,14 +88,14 @@ TEST(BodyNorm, OfADistortionTakesRigidMotionsAway) {
   // The first node that freezes moves and does not distort: what its inertia leaves is rounding.
   const std::vector<double> plane = field(flat, AnalysisKind::plane_strain, flat_rigid),
                             space = field(block, AnalysisKind::solid, bent);
-  const auto alone_counts = [](const mesh::Mesh& mesh, std::size_t node) {
-    std::vector<char> one(mesh.x.size(), 0);
-    one[node] = 1;
+  const auto alone_counts = [](const mesh::Mesh& mesh, GlobalIndex node) {
+    std::vector<char> one;
+    for (const GlobalIndex of_all : mesh.global_node) one.push_back(of_all == node ? 1 : 0);
     return one;
   };
-  for (std::size_t i = 0; i < flat.x.size(); ++i)
+  for (GlobalIndex i = 0; i < flat.n_global_nodes; ++i)
     EXPECT_LT(in_plane.of_distortion(plane, alone_counts(flat, i)), 1e-6) << i;
-  for (std::size_t i = 0; i < block.x.size(); ++i)
+  for (GlobalIndex i = 0; i < block.n_global_nodes; ++i)
     EXPECT_LT(in_space.of_distortion(space, alone_counts(block, i)), 1e-6) << i;
 }
 
