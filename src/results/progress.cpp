@@ -76,7 +76,7 @@ void Progress::step(const coupling::StepRecord& record) {
   if (record.rejected > 0)
     text += fmt::format(" ({} rejected: {})", record.rejected, record.rejection);
   else if (record.shortened > 0)
-    text += fmt::format(" ({} times: {})", record.shortened, record.rejection);
+    text += fmt::format(" ({} by heat alone: {})", record.shortened, record.rejection);
   line(text);
   if (options_.terminal) draw_bar(record.time);
 }
