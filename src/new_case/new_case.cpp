@@ -57,7 +57,27 @@ std::string thin_walls_text(const Draft& draft, const PartMeasures& part) {
           : fmt::format(": enough for when and where it freezes last; --fineness {:.2g} gives two", finer));
 }
 
-std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate) {
+/// A note where several bodies are castings because neither their names nor `--as` say what they are: a core
+/// of a file without names would be poured. Empty where there is one casting, or all are known.
+std::string unknown_bodies_text(const Draft& draft, const std::vector<std::string>& as) {
+  int castings = 0;
+  std::string unknown, last;
+  for (const DraftBody& body : draft.bodies) {
+    if (body.role != Role::casting) continue;
+    ++castings;
+    const auto said = [&](const std::string& text) { return text.starts_with(body.group + "="); };
+    if (role_in_name(body.group) || std::ranges::any_of(as, said)) continue;
+    unknown += (unknown.empty() ? "" : ", ") + body.name;
+    last = body.group;
+  }
+  if (castings < 2 || unknown.empty()) return "";
+  return fmt::format(
+      "\n  note        no name says what these are, so they are poured: {}; else, for example: --as {}=core",
+      unknown, last);
+}
+
+std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
+                   const std::vector<std::string>& as) {
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
                                 draft.alloy, draft.pouring, draft.process);
   for (const DraftBody& body : draft.bodies) {
@@ -86,11 +106,12 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
           : fmt::format("elements of {:.3g} to {:.3g} mm there", 1e3 * draft.smallest, 1e3 * draft.size));
   if (estimate.freezing > 0)
     out += fmt::format(
-        "\n  freezes     in about {:.2g} s by an estimate of one dimension; {}", estimate.freezing,
+        "\n  freezes     in about {:g} s by an estimate of one dimension; {}", two_digits(estimate.freezing),
         draft.shots
-            ? fmt::format("it leaves the die after {:.3g} s, {} times",
+            ? fmt::format("it leaves the die after {:g} s, {} times",
                           draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
-            : fmt::format("the run ends when it has, at {:.3g} s at the latest", draft.end));
+            : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
+  out += unknown_bodies_text(draft, as);
   if (!draft.meshed) out += thin_walls_text(draft, part);
   if (draft.process == "shell" && draft.mould)
     out += "\n  note        the shell is a block around the part with thin walls, not an offset of its skin";
@@ -112,7 +133,7 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   draft.folder = folder;
   write_draft(draft);
   const DraftEstimate estimate = refine_draft(draft, process, options.fineness);
-  return {draft.folder / "case.toml", report(draft, part, estimate)};
+  return {draft.folder / "case.toml", report(draft, part, estimate, options.as)};
 }
 
 }  // namespace solidus::model

@@ -49,9 +49,19 @@ void Progress::begin(double heat_content) {
   line(head + fmt::format(" {:>12}  {}", "left", "why this step"));
 }
 
-double Progress::seconds_left(double time) const {
-  const double done = time - options_.start;
-  return done > 0 ? (options_.clock() - began_) * (options_.end - time) / done : 0;
+double Progress::share_done(const coupling::StepRecord& record) {
+  const double span = options_.end - options_.start;
+  const double of_time = span > 0 ? std::clamp((record.time - options_.start) / span, 0.0, 1.0) : 1.0;
+  if (!options_.until_solid) return of_time;
+  if (!solid_at_start_) solid_at_start_ = options_.start > 0 ? record.solid_fraction : 0;
+  const double liquid_at_start = 1 - *solid_at_start_;
+  const double of_melt =
+      liquid_at_start > 0 ? (record.solid_fraction - *solid_at_start_) / liquid_at_start : 1.0;
+  return std::clamp(of_melt, of_time, 1.0);
+}
+
+double Progress::seconds_left(double share) const {
+  return share > 0 ? (options_.clock() - began_) * (1 - share) / share : 0;
 }
 
 void Progress::step(const coupling::StepRecord& record) {
@@ -70,7 +80,8 @@ void Progress::step(const coupling::StepRecord& record) {
   }
   if (options_.heat)  // of all steps together
     text += fmt::format(" {:>8.1e}", coupling::relative_defect(sum_, heat_content_));
-  text += fmt::format(" {:>12}  {}", duration_text(seconds_left(record.time)), record.reason);
+  const double share = share_done(record);
+  text += fmt::format(" {:>12}  {}", duration_text(seconds_left(share)), record.reason);
   if (!record.stage.empty()) text += ", " + record.stage;
   if (record.cycle > 0) text += fmt::format(" {}", record.cycle);
   if (record.rejected > 0)
@@ -78,7 +89,7 @@ void Progress::step(const coupling::StepRecord& record) {
   else if (record.shortened > 0)
     text += fmt::format(" ({} by heat alone: {})", record.shortened, record.rejection);
   line(text);
-  if (options_.terminal) draw_bar(record.time);
+  if (options_.terminal) draw_bar(share);
 }
 
 void Progress::end(const std::string& outcome, const std::string& profile) {
@@ -94,13 +105,11 @@ void Progress::line(const std::string& text) {
   out_ << text << '\n' << std::flush;
 }
 
-void Progress::draw_bar(double time) {
-  const double span = options_.end - options_.start;
-  const double share = span > 0 ? std::clamp((time - options_.start) / span, 0.0, 1.0) : 1.0;
+void Progress::draw_bar(double share) {
   const auto full = static_cast<std::size_t>(std::lround(share * options_.width));
   const auto rest = static_cast<std::size_t>(options_.width) - full;
   out_ << fmt::format("[{}{}] {:3.0f} %  {} left", std::string(full, '='), std::string(rest, ' '),
-                      100 * share, duration_text(seconds_left(time)))
+                      100 * share, duration_text(seconds_left(share)))
        << std::flush;
   bar_ = true;
 }

@@ -43,6 +43,7 @@ results::RecorderOptions recorder_options(const Case& c, const RunOptions& optio
   r.castings = cast_bodies(spec, a.materials, a.start);
   r.units = {spec.output.length_unit, spec.output.temperature_unit, spec.output.stress_unit};
   r.progress_options.end = spec.time.end.value_or(0);
+  r.progress_options.until_solid = spec.time.until == TimeSpec::Until::solid;
   r.progress_options.heat = spec.has_heat();
   r.progress_options.mechanics = spec.has_mechanics();
   r.progress_options.contact = !spec.contacts.empty();

@@ -115,6 +115,15 @@ class NewCase(ProgramTest):
         self.assertTrue(340 < estimate < 1350, text)
         self.assertIn("(metal_on_chill: 1000 to 25000 W/m2/K)", self.done("check", "case", "--heat-only"))
 
+    def test_bodies_that_nothing_tells_apart_are_named_and_what_is_said_of_them_counts(self):
+        self.write("pump.stl", stl("first", box((0, 0, 0), (40, 40, 40))) + stl("second", box((60, 0, 0), (80, 20, 20))))
+        text, case = self.new("pump.stl", "--fineness", "0.5")
+        self.assertEqual([body["role"] for body in case["body"]], ["casting", "casting", "mould"])
+        self.assertIn("no name says what these are, so they are poured: first, second; else, for example: --as second=core", text)
+        self.assertRegex(text, r"freezes +in about \d+ s .* at \d+ s at the latest")  # no 1.4e+02
+        text = self.done("new", "pump.stl", *ALLOY, "--fineness", "0.5", "--as", "second=core", "-o", "said")
+        self.assertNotIn("no name says", text)
+
     def test_what_stl_files_cannot_is_said(self):
         closed = box((0, 0, 0), (60, 40, 40))
         self.write("open.stl", stl("open", closed[:-1]))
