@@ -41,8 +41,9 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
 /// "98.8 cm3 in a box of 100 x 54 x 71 mm": by which one tells bodies without names apart.
 std::string size_text(const mesh::BodyExtent& extent) {
   const auto side = [&](std::size_t i) { return 1e3 * (extent.high[i] - extent.low[i]); };
-  return fmt::format("{:.3g} cm3 in a box of {:.4g} x {:.4g} x {:.4g} mm", 1e6 * extent.volume, side(0),
-                     side(1), side(2));
+  const double volume = 1e6 * extent.volume;
+  const std::string digits = volume < 1000 ? fmt::format("{:.3g}", volume) : fmt::format("{:.0f}", volume);
+  return fmt::format("{} cm3 in a box of {:.4g} x {:.4g} x {:.4g} mm", digits, side(0), side(1), side(2));
 }
 
 /// A note where walls have less than two elements through them; empty where they have.
@@ -95,6 +96,9 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
   if (draft.riser)
     out += fmt::format("\n  riser       {:.3g} mm wide, {:.3g} mm high", 1e3 * draft.riser->diameter,
                        1e3 * draft.riser->height);
+  if (draft.symmetry)
+    out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
+                       "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
   if (draft.mould)
     out += fmt::format("\n  mould       walls of {:.3g} mm{}",
                        1e3 * *std::ranges::max_element(draft.mould->walls),
