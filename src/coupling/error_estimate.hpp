@@ -65,6 +65,9 @@ class ErrorEstimate {
   /// @param flows  of the step (StepEffort)
   LocalError predictor(const State& old, const State& now, double dt, const Rates& rates,
                        const heat::StageFlows& flows) const;
+  /// The part of it that heat alone decides [K]; `now` need not be deformed yet.
+  double temperature_predictor(const State& old, const State& now, double dt, const Rates& rates,
+                                  const heat::StageFlows& flows) const;
   /// The error of the two `halves` of a step, by comparison with the `whole`. Both start from `old`.
   /// @param flows  of the second half
   LocalError doubling(const State& old, const State& whole, const State& halves, const Rates& rates,

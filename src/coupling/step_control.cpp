@@ -130,14 +130,14 @@ bool StepControl::too_long(const PlannedStep& step, const StepMeasure& measure) 
   return limit.exceeded && !is_jump(step, limit);
 }
 
-void StepControl::shortened(const PlannedStep& step, const StepMeasure& measure) {
+void StepControl::shortened(const PlannedStep& step, const StepMeasure& measure, const std::string& what) {
   const Strictest limit = strictest(options_.limits, measure);
   if (state_.refused == 0) {
     state_.before_refusal = state_.size;
     state_.refused = step.dt;
     state_.refused_ratio = limit.ratio;
   }
-  resize(step.dt * std::max(limit.factor, k_deepest_cut), "rejected: " + limit.name);
+  resize(step.dt * std::max(limit.factor, k_deepest_cut), what + ": " + limit.name);
 }
 
 void StepControl::resize(double size, const std::string& reason) {

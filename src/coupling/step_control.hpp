@@ -58,8 +58,9 @@ class StepControl {
   /// the smallest, and not if it is a jump: what does not get smaller with the step (a body that snaps into
   /// another contact, a load that is put on at once) no step resolves.
   bool too_long(const PlannedStep& step, const StepMeasure& measure) const;
-  /// The step that went through was too long.
-  void shortened(const PlannedStep& step, const StepMeasure& measure);
+  /// The step was too long.
+  /// @param what  has happened to it, for the reason of the next one
+  void shortened(const PlannedStep& step, const StepMeasure& measure, const std::string& what = "rejected");
 
   const ControlState& state() const { return state_; }
   void resume(ControlState state) { state_ = std::move(state); }

@@ -86,6 +86,7 @@ const std::vector<StepColumn>& all_step_columns() {
       {{"dt", "s"}, always, [](const Record& r, const Contact&) -> Cell { return r.dt; }},
       {{"reason", ""}, always, [](const Record& r, const Contact&) -> Cell { return r.reason; }},
       {{"rejected", "1"}, always, [](const Record& r, const Contact&) -> Cell { return whole(r.rejected); }},
+      {{"shortened", "1"}, always, [](const Record& r, const Contact&) -> Cell { return whole(r.shortened); }},
       {{"rejection", ""}, always, [](const Record& r, const Contact&) -> Cell { return r.rejection; }},
       {{"temperature_error", "K"},
        always,
