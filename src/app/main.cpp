@@ -305,6 +305,9 @@ ExitCode parse_and_run(int argc, char** argv) {
     return k_done;
   } catch (const CLI::ParseError& error) {
     const auto verbs = program.get_subcommands();
+    if (argc == 1)
+      throw InputError({}, "which verb?",
+                       "`solidus run CASE`, for example; `solidus --help` shows all of them");
     throw InputError({}, error.what(),
                      verbs.empty() ? "`solidus --help` shows verbs and options"
                                    : "`solidus help " + verbs[0]->get_name() + "` shows its options");

@@ -46,6 +46,17 @@ std::string size_text(const mesh::BodyExtent& extent) {
   return fmt::format("{} cm3 in a box of {:.4g} x {:.4g} x {:.4g} mm", digits, side(0), side(1), side(2));
 }
 
+/// A note where the parts are so large or so small that their unit is in doubt; empty where they are not.
+std::string doubtful_unit_text(const NewCaseOptions& options, const PartMeasures& part) {
+  constexpr double k_large = 5, k_small = 6e-3;
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, part.high[i] - part.low[i]);
+  if (largest <= k_large && largest >= k_small) return "";
+  return fmt::format("\n  note        {} large, for lengths of the file in {}: --unit takes another unit",
+                     largest > 1 ? fmt::format("{:.3g} m", largest) : fmt::format("{:.3g} mm", 1e3 * largest),
+                     options.unit);
+}
+
 /// A note where walls have less than two elements through them; empty where they have.
 std::string thin_walls_text(const Draft& draft, const PartMeasures& part) {
   constexpr double k_most = 5;  // what --fineness allows
@@ -78,7 +89,7 @@ std::string unknown_bodies_text(const Draft& draft, const std::vector<std::strin
 }
 
 std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
-                   const std::vector<std::string>& as) {
+                   const NewCaseOptions& options) {
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
                                 draft.alloy, draft.pouring, draft.process);
   for (const DraftBody& body : draft.bodies) {
@@ -115,7 +126,8 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
             ? fmt::format("it leaves the die after {:g} s, {} times",
                           draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
             : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
-  out += unknown_bodies_text(draft, as);
+  out += doubtful_unit_text(options, part);
+  out += unknown_bodies_text(draft, options.as);
   if (!draft.meshed) out += thin_walls_text(draft, part);
   if (draft.process == "shell" && draft.mould)
     out += "\n  note        the shell is a block around the part with thin walls, not an offset of its skin";
@@ -137,7 +149,7 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   draft.folder = folder;
   write_draft(draft);
   const DraftEstimate estimate = refine_draft(draft, process, options.fineness);
-  return {draft.folder / "case.toml", report(draft, part, estimate, options.as)};
+  return {draft.folder / "case.toml", report(draft, part, estimate, options)};
 }
 
 }  // namespace solidus::model
