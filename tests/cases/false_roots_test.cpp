@@ -209,4 +209,50 @@ TEST(ChilledMelt, GetsNoHotterThroughQuadraticFaces) {
   }
 }
 
+/// Two stages of second order overshoot where a step is long against the time of freezing: melt that was
+/// chilled for six times as long as it needs to freeze ended 140 K below its chill.
+const std::string k_long_steps = R"(title = "A plate that is chilled from above, in long steps"
+[analysis]
+kind = "plane_strain"
+[mesh]
+shape = "block"
+element = "quad4"
+[mesh.block]
+size = ["18 mm", "17 mm"]
+divisions = [3, 1]
+[time]
+end = "800 s"
+step = "160 s"
+[[body]]
+name = "block"
+material = "aluminium_1070"
+initial_temperature = "900 degC"
+[[thermal_condition]]
+name = "chill"
+group = "y_max"
+kind = "temperature"
+temperature = "100 degC"
+[[mechanical_condition]]
+name = "left"
+group = "x_min"
+kind = "displacement"
+ux = "0 mm"
+[[mechanical_condition]]
+name = "top"
+group = "y_max"
+kind = "displacement"
+uy = "0 mm"
+[coupling]
+scheme = "simultaneous"
+integration = "sdirk2"
+)";
+
+TEST(ChilledMelt, StaysAboveItsChillInTwoStagesOfALongStep) {
+  const auto run = k_here.run("long_steps", k_long_steps);
+  ASSERT_TRUE(run.finished) << run.reason;
+  // What deformation cools is below a kelvin.
+  EXPECT_GT(*std::ranges::min_element(run.history.at("T_min[degC]")), 99);
+  EXPECT_LT(*std::ranges::max_element(run.history.at("T_max[degC]")), 901);
+}
+
 }  // namespace
