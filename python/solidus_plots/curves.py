@@ -159,11 +159,14 @@ def steps(table, folder):
     sizes.set(ylabel=f"Step [{clock.unit}]")
     sizes.set_title("Steps", loc="left")
     sizes.set_ylim(bottom=0)
-    cut = table["rejected[1]"] > 0
-    if cut.any():
-        sizes.plot(time[cut], clock(table["dt[s]"])[cut], "v", color=style.COLOURS[1], markersize=5,
-                   label="after a cut")
-        sizes.legend()
+    tries = (("rejected[1]", "v", "after a rejected try"), ("shortened[1]", "1", "after a try shortened by its heat"))
+    for index, (header, marker, label) in enumerate(tries, 1):
+        if header not in table:  # shortened: tables of older programs
+            continue
+        cut = table[header] > 0
+        if cut.any():
+            sizes.plot(time[cut], clock(table["dt[s]"])[cut], marker, color=style.COLOURS[index], markersize=5, label=label)
+            sizes.legend()
     for index, (name, header) in enumerate(phases):
         work.plot(time, table[header], marker=".", markersize=3, label=name,
                   **style.line_style(index))

@@ -37,8 +37,7 @@ double smallest_of_failures(const StepOptions& options) {
 StepControl::StepControl(const StepOptions& options, double start, std::vector<double> landings)
     : options_(options), landings_(std::move(landings)) {
   if (!(options_.step > 0)) throw std::invalid_argument("the time step must be positive");
-  if (options_.max_step <= 0) options_.max_step = options_.adaptive ? 10 * options_.step : options_.step;
-  if (!options_.adaptive) options_.max_step = options_.step;
+  options_.max_step = options_.largest();
   if (smallest_of_errors(options_) > options_.step || options_.max_step < options_.step)
     throw std::invalid_argument("min_step <= step <= max_step must hold");
   if (!(options_.growth > 1) || !(options_.cut > 0 && options_.cut < 1))

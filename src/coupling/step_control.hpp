@@ -22,6 +22,10 @@ struct StepOptions {
   int easy_iterations = 6;  ///< a step whose phases all took at most this many Newton iterations is easy
   StepLimits limits;        ///< of adaptive steps
 
+  double largest() const {  ///< step [s]
+    if (!adaptive) return step;
+    return max_step > 0 ? max_step : 10 * step;
+  }
   bool operator==(const StepOptions&) const = default;
 };
 

@@ -30,7 +30,8 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-Progress::Progress(std::ostream& out, ProgressOptions options) : out_(out), options_(std::move(options)) {
+Progress::Progress(std::ostream& out, ProgressOptions options)
+    : out_(out), options_(std::move(options)), remaining_(options_.start, options_.largest_step) {
   if (!options_.clock)
     options_.clock = [] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -40,6 +41,7 @@ Progress::Progress(std::ostream& out, ProgressOptions options) : out_(out), opti
 void Progress::begin(double heat_content) {
   heat_content_ = heat_content;
   began_ = options_.clock();
+  remaining_.step(options_.start, began_);
   std::string head = fmt::format("{:>6} {:>11} {:>9}", "step", "time [s]", "dt [s]");
   if (options_.heat) head += fmt::format(" {:>4} {:>8}", "heat", "residual");
   if (options_.mechanics) head += fmt::format(" {:>4} {:>8}", "mech", "residual");
@@ -60,8 +62,13 @@ double Progress::share_done(const coupling::StepRecord& record) {
   return std::clamp(of_melt, of_time, 1.0);
 }
 
-double Progress::seconds_left(double share) const {
-  return share > 0 ? (options_.clock() - began_) * (1 - share) / share : 0;
+std::string Progress::left_text(const coupling::StepRecord& record, double share) const {
+  const double done = record.time - options_.start;
+  const double end = share > 0 ? options_.start + done / share : options_.end;
+  double seconds = remaining_.seconds_until(end);
+  // The steps of a die begin anew with every shot: those of the whole run tell more than the last ones.
+  if (record.cycle > 0 && share > 0) seconds = (options_.clock() - began_) * (1 - share) / share;
+  return seconds < 0 ? "-" : duration_text(seconds);
 }
 
 void Progress::step(const coupling::StepRecord& record) {
@@ -80,16 +87,23 @@ void Progress::step(const coupling::StepRecord& record) {
   }
   if (options_.heat)  // of all steps together
     text += fmt::format(" {:>8.1e}", coupling::relative_defect(sum_, heat_content_));
+  if (record.stage != stage_) remaining_.begin_anew();
+  stage_ = record.stage;
+  remaining_.step(record.time, options_.clock());
   const double share = share_done(record);
-  text += fmt::format(" {:>12}  {}", duration_text(seconds_left(share)), record.reason);
+  const std::string left = left_text(record, share);
+  text += fmt::format(" {:>12}  {}", left, record.reason);
   if (!record.stage.empty()) text += ", " + record.stage;
   if (record.cycle > 0) text += fmt::format(" {}", record.cycle);
-  if (record.rejected > 0)
-    text += fmt::format(" ({} rejected: {})", record.rejected, record.rejection);
-  else if (record.shortened > 0)
-    text += fmt::format(" ({} by heat alone: {})", record.shortened, record.rejection);
+  if (record.rejected + record.shortened > 0) {
+    std::string tries;
+    if (record.rejected > 0) tries = fmt::format("{} rejected", record.rejected);
+    if (record.shortened > 0)
+      tries += fmt::format("{}{} shortened", tries.empty() ? "" : ", ", record.shortened);
+    text += fmt::format(" ({}: {})", tries, record.rejection);
+  }
   line(text);
-  if (options_.terminal) draw_bar(share);
+  if (options_.terminal) draw_bar(share, left);
 }
 
 void Progress::end(const std::string& outcome, const std::string& profile) {
@@ -105,11 +119,11 @@ void Progress::line(const std::string& text) {
   out_ << text << '\n' << std::flush;
 }
 
-void Progress::draw_bar(double share) {
+void Progress::draw_bar(double share, const std::string& left) {
   const auto full = static_cast<std::size_t>(std::lround(share * options_.width));
   const auto rest = static_cast<std::size_t>(options_.width) - full;
   out_ << fmt::format("[{}{}] {:3.0f} %  {} left", std::string(full, '='), std::string(rest, ' '),
-                      100 * share, duration_text(seconds_left(share)))
+                      100 * share, left)
        << std::flush;
   bar_ = true;
 }

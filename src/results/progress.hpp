@@ -7,6 +7,7 @@
 #include <string>
 
 #include "coupling/observer.hpp"
+#include "results/remaining_time.hpp"
 
 namespace solidus::results {
 
@@ -21,8 +22,9 @@ struct ProgressOptions {
   double start = 0, end = 0;  ///< simulated time [s]
   bool until_solid = false;   ///< the run ends when all that was poured is solid, which may be before `end`
   bool heat = true, mechanics = true, contact = true, melting = true;  ///< which columns the run has
-  bool terminal = false;  ///< draw the bar, which rewrites its own line
-  int width = 40;         ///< of the bar, in characters
+  double largest_step = 0;  ///< that an adaptive run may take [s]; 0 where steps are equal
+  bool terminal = false;    ///< draw the bar, which rewrites its own line
+  int width = 40;           ///< of the bar, in characters
   /// Seconds since some moment; empty: the machine's steady clock. Tests bring their own.
   std::function<double()> clock;
 };
@@ -44,14 +46,17 @@ class Progress {
 
  private:
   void line(const std::string& text);
-  void draw_bar(double share);
+  void draw_bar(double share, const std::string& left);
   /// How much of the run is behind, 0 to 1: of its time, or of the solidification where that ends it.
   double share_done(const coupling::StepRecord& record);
-  double seconds_left(double share) const;
+  /// "12 s", or "-" where nothing is known yet.
+  std::string left_text(const coupling::StepRecord& record, double share) const;
 
   std::ostream& out_;
   ProgressOptions options_;
   double began_ = 0;
+  RemainingTime remaining_;
+  std::string stage_;                     ///< of the last step
   std::optional<double> solid_at_start_;  ///< share that was solid where a run that goes on began
   bool bar_ = false;                      ///< a bar stands on the present line
   coupling::EnergyAudit sum_;             ///< over all steps
