@@ -264,7 +264,7 @@ pressure = "60 MPa"
   for (const char* side : {"min", "max"})
     walled += std::string("[[mechanical_condition]]\nname = \"wall_") + side + "\"\ngroup = \"upper_x_" +
               side + "\"\nkind = \"displacement\"\nux = \"0 mm\"\n";
-  EXPECT_THAT(said_of(walled), IsEmpty());
+  EXPECT_THAT(said_of(walled), ::testing::Not(::testing::Contains(HasSubstr("presses on the melt"))));
   EXPECT_THAT(said_of(changed(pressed, "60 MPa", "10 kPa")), IsEmpty()) << "a head of melt";
   const std::string rubbing = changed(deforming(), "gap_law = \"constant\"\n",
                                       "gap_law = \"constant\"\n[contact.friction]\ncoefficient = 0.3\n");
