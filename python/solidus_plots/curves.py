@@ -67,6 +67,14 @@ def _together(headers):
     return " = ".join(names[:3]) + (f" = … ({len(names)})" if len(names) > 3 else "")
 
 
+def _give_height(axes):
+    """Draws flat what changes by less than a hundred-thousandth of its size: a mould that is warmer by 1e-7 K."""
+    low, high = axes.get_ylim()
+    size = max(abs(low), abs(high))
+    if high - low < 1e-5 * size:
+        axes.set_ylim(low - 0.05 * size, high + 0.05 * size)
+
+
 def unit_groups(history, folder):
     """Every column of history.csv, one picture per unit."""
     files, clock = [], Clock(history["time[s]"])
@@ -79,6 +87,7 @@ def unit_groups(history, folder):
             for index, members in enumerate(lines):
                 panel.plot(clock(history["time[s]"]), history[members[0]], label=_together(members),
                            **style.line_style(index))
+            _give_height(panel)
             panel.set_ylabel(style.axis_label(quantity, unit))
             panel.margins(x=0)
             panel.legend(**BESIDE)

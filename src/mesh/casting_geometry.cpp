@@ -75,18 +75,25 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
     }
     logging::debug("meshing '{}', {}", source.path, complaints.back());
   };
+  if (geometry.only_way.value_or(0) >= n_attempts)
+    throw InputError({source.path},
+                     "there is no way " + std::to_string(*geometry.only_way + 1) + " of meshing it",
+                     "1 to " + std::to_string(n_attempts));
   double sufficient = enough;
-  const std::optional<KeptMesh::Way> before = kept != nullptr ? kept->way() : std::nullopt;
-  if (before) {
+  std::optional<int> first = geometry.only_way;
+  if (const std::optional<KeptMesh::Way> before = kept != nullptr ? kept->way() : std::nullopt;
+      before && !first) {
     // Where no way was good enough none will be now: then about as good as the best is all that one can have.
     constexpr double k_about = 0.7;
     sufficient = std::min(enough, k_about * before->quality);
-    attempt(before->number);
+    first = before->number;
   }
+  if (first) attempt(*first);
+  const bool decided = geometry.only_way && best;
   const int n_cheap = solids ? n_cheap_meshing_attempts() : n_attempts;
-  for (int way = 0; way < n_attempts && !(best && best_quality >= sufficient); ++way) {
+  for (int way = 0; way < n_attempts && !decided && !(best && best_quality >= sufficient); ++way) {
     if (way >= n_cheap && best_quality >= k_usable_quality) break;
-    if (!before || way != before->number) attempt(way);
+    if (way != first) attempt(way);
   }
   if (best && kept != nullptr) kept->keep_way({best_way, best_quality});
   if (!best) {
@@ -95,7 +102,10 @@ RawMesh mesh_in_turn(const MeshSource& source, CastingGeometry geometry, double 
     throw InputError({source.path}, "the geometry could not be meshed in any of these ways:" + all,
                      "a geometry whose faces neither cross nor nearly touch there; other element sizes");
   }
-  if (best_quality < enough)
+  if (best_quality < enough && geometry.only_way == best_way)
+    logging::warn("meshing '{}' in way {} ({}) gives elements of quality {:.2g}; 0.15 is sound", source.path,
+                  best_way + 1, attempt_text(best_way), best_quality);
+  else if (best_quality < enough)
     logging::warn("the best of {} ways to mesh '{}' has elements of quality {:.2g}; 0.15 is sound", tried,
                   source.path, best_quality);
   else if (best_way > 0 && enough > 0 && !complaints.empty())

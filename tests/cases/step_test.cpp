@@ -181,6 +181,20 @@ TEST(NewCase, MeshesNearlyTheSameInTheWayThatWasBestBefore) {
   EXPECT_EQ(kept.way()->number, 1);
 }
 
+TEST(NewCase, TheWayOfMeshingThatACaseNamesIsTheOnlyOne) {
+  namespace mesh = solidus::mesh;
+  const mesh::MeshSource source{hollow_box().string(), 1e-3};
+  mesh::CastingGeometry geometry;
+  geometry.only_way = 1;
+  {
+    mesh::KeptMesh kept;
+    mesh::mesh_casting(source, geometry, 1);  // no mesh has this quality
+    EXPECT_EQ(kept.way()->number, 1);
+  }
+  geometry.only_way = mesh::n_meshing_attempts();
+  EXPECT_THROW(mesh::mesh_casting(source, geometry), solidus::InputError);
+}
+
 TEST(NewCase, SaysThatAPartIsNotSymmetric) {
   solidus::model::NewCaseOptions options;
   options.geometry = hollow_box();

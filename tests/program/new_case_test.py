@@ -101,6 +101,7 @@ class NewCase(ProgramTest):
         checked = solidus("check", "case", cwd=self.folder)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertNotIn("nothing cools", checked.stderr)
+        self.assertIn("gap 0 mm in the mean, 0 mm at most", checked.stdout + checked.stderr)
         self.assertRegex(checked.stdout, r"freezes +riser: in about")
 
     def test_of_an_assembly_with_riser_sleeve_and_chill_estimates_the_riser_with_the_sand_behind_its_sleeve(self):
