@@ -60,8 +60,8 @@ double ErrorEstimate::lasting(double mean, double before, double change) const {
   return mean * std::min(k_steps, change > 0 ? 1 + before / change : k_steps);
 }
 
-double ErrorEstimate::temperature_predictor(const State& old, const State& now, double dt,
-                                               const Rates& rates, const heat::StageFlows& flows) const {
+double ErrorEstimate::temperature_predictor(const State& old, const State& now, double dt, const Rates& rates,
+                                            const heat::StageFlows& flows) const {
   if (!measures(flows) || rates.heat_flow.empty())
     return norm_(
         half_of_what_was_not_predicted(old.heat.temperature, now.heat.temperature, dt, rates.temperature));
@@ -69,13 +69,12 @@ double ErrorEstimate::temperature_predictor(const State& old, const State& now, 
   return std::max(norm_(error), lasting(norm_.mean(error), rates.changed, change_of(old, now, flows)));
 }
 
-LocalError ErrorEstimate::predictor(const State& old, const State& now, double dt, const Rates& rates,
-                                    const heat::StageFlows& flows) const {
-  return {temperature_predictor(old, now, dt, rates, flows),
-          size_of_displacement(
-              half_of_what_was_not_predicted(old.mechanics.displacement, now.mechanics.displacement, dt,
-                                             rates.displacement),
-              casting(coherency(old), rates.coherency))};
+double ErrorEstimate::displacement_predictor(const State& old, const State& now, double dt,
+                                             const Rates& rates) const {
+  return size_of_displacement(
+      half_of_what_was_not_predicted(old.mechanics.displacement, now.mechanics.displacement, dt,
+                                     rates.displacement),
+      casting(coherency(old), rates.coherency));
 }
 
 LocalError ErrorEstimate::doubling(const State& old, const State& whole, const State& halves,

@@ -21,8 +21,8 @@ MeasuredStep::Taken MeasuredStep::take(const State& old, State& trial, double ti
   Taken taken{scheme_.advance_unless(old, trial, time, dt, stop), {conducted.value_or(0), 0}};
   if (!taken.effort) return taken;
   const heat::StageFlows flows = std::exchange(taken.effort->fields, {}).flows;
-  taken.error = estimate_->predictor(old, trial, dt, rates_, flows);
-  if (conducted) taken.error.temperature = *conducted;
+  taken.error.displacement = estimate_->displacement_predictor(old, trial, dt, rates_);
+  if (!conducted) taken.error.temperature = estimate_->temperature_predictor(old, trial, dt, rates_, flows);
   next_rates_ = estimate_->rates_of(old, trial, dt, flows);
   next_rates_.changed = rates_.changed + estimate_->change_of(old, trial, flows);
   return taken;

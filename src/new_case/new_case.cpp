@@ -41,8 +41,20 @@ material::Material alloy_of(const NewCaseOptions& options, const CastingProcess&
 /// "98.8 cm3 in a box of 100 x 54 x 71 mm": by which one tells bodies without names apart.
 std::string size_text(const mesh::BodyExtent& extent) {
   const auto side = [&](std::size_t i) { return 1e3 * (extent.high[i] - extent.low[i]); };
-  return fmt::format("{:.3g} cm3 in a box of {:.4g} x {:.4g} x {:.4g} mm", 1e6 * extent.volume, side(0),
-                     side(1), side(2));
+  const double volume = 1e6 * extent.volume;
+  const std::string digits = volume < 1000 ? fmt::format("{:.3g}", volume) : fmt::format("{:.0f}", volume);
+  return fmt::format("{} cm3 in a box of {:.4g} x {:.4g} x {:.4g} mm", digits, side(0), side(1), side(2));
+}
+
+/// A note where the parts are so large or so small that their unit is in doubt; empty where they are not.
+std::string doubtful_unit_text(const NewCaseOptions& options, const PartMeasures& part) {
+  constexpr double k_large = 5, k_small = 6e-3;
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, part.high[i] - part.low[i]);
+  if (largest <= k_large && largest >= k_small) return "";
+  return fmt::format("\n  note        {} large, for lengths of the file in {}: --unit takes another unit",
+                     largest > 1 ? fmt::format("{:.3g} m", largest) : fmt::format("{:.3g} mm", 1e3 * largest),
+                     options.unit);
 }
 
 /// A note where walls have less than two elements through them; empty where they have.
@@ -77,7 +89,7 @@ std::string unknown_bodies_text(const Draft& draft, const std::vector<std::strin
 }
 
 std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
-                   const std::vector<std::string>& as) {
+                   const NewCaseOptions& options) {
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
                                 draft.alloy, draft.pouring, draft.process);
   for (const DraftBody& body : draft.bodies) {
@@ -95,6 +107,9 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
   if (draft.riser)
     out += fmt::format("\n  riser       {:.3g} mm wide, {:.3g} mm high", 1e3 * draft.riser->diameter,
                        1e3 * draft.riser->height);
+  if (draft.symmetry)
+    out += fmt::format("\n  symmetry    the half below {} = {:.4g} mm is computed",
+                       "xyz"[draft.symmetry->axis], 1e3 * draft.symmetry->at);
   if (draft.mould)
     out += fmt::format("\n  mould       walls of {:.3g} mm{}",
                        1e3 * *std::ranges::max_element(draft.mould->walls),
@@ -111,7 +126,8 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
             ? fmt::format("it leaves the die after {:g} s, {} times",
                           draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
             : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
-  out += unknown_bodies_text(draft, as);
+  out += doubtful_unit_text(options, part);
+  out += unknown_bodies_text(draft, options.as);
   if (!draft.meshed) out += thin_walls_text(draft, part);
   if (draft.process == "shell" && draft.mould)
     out += "\n  note        the shell is a block around the part with thin walls, not an offset of its skin";
@@ -133,7 +149,7 @@ NewCaseReport make_new_case(const NewCaseOptions& options) {
   draft.folder = folder;
   write_draft(draft);
   const DraftEstimate estimate = refine_draft(draft, process, options.fineness);
-  return {draft.folder / "case.toml", report(draft, part, estimate, options.as)};
+  return {draft.folder / "case.toml", report(draft, part, estimate, options)};
 }
 
 }  // namespace solidus::model

@@ -95,10 +95,13 @@ void Progress::step(const coupling::StepRecord& record) {
   text += fmt::format(" {:>12}  {}", left, record.reason);
   if (!record.stage.empty()) text += ", " + record.stage;
   if (record.cycle > 0) text += fmt::format(" {}", record.cycle);
-  if (record.rejected > 0)
-    text += fmt::format(" ({} rejected: {})", record.rejected, record.rejection);
-  else if (record.shortened > 0)
-    text += fmt::format(" ({} by heat alone: {})", record.shortened, record.rejection);
+  if (record.rejected + record.shortened > 0) {
+    std::string tries;
+    if (record.rejected > 0) tries = fmt::format("{} rejected", record.rejected);
+    if (record.shortened > 0)
+      tries += fmt::format("{}{} shortened", tries.empty() ? "" : ", ", record.shortened);
+    text += fmt::format(" ({}: {})", tries, record.rejection);
+  }
   line(text);
   if (options_.terminal) draw_bar(share, left);
 }

@@ -24,7 +24,7 @@ struct ProgressOptions {
   bool heat = true, mechanics = true, contact = true, melting = true;  ///< which columns the run has
   double largest_step = 0;  ///< that an adaptive run may take [s]; 0 where steps are equal
   bool terminal = false;    ///< draw the bar, which rewrites its own line
-  int width = 40;         ///< of the bar, in characters
+  int width = 40;           ///< of the bar, in characters
   /// Seconds since some moment; empty: the machine's steady clock. Tests bring their own.
   std::function<double()> clock;
 };
@@ -56,7 +56,7 @@ class Progress {
   ProgressOptions options_;
   double began_ = 0;
   RemainingTime remaining_;
-  std::string stage_;  ///< of the last step
+  std::string stage_;                     ///< of the last step
   std::optional<double> solid_at_start_;  ///< share that was solid where a run that goes on began
   bool bar_ = false;                      ///< a bar stands on the present line
   coupling::EnergyAudit sum_;             ///< over all steps

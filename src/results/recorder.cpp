@@ -251,10 +251,9 @@ void Recorder::note_left_walls(const coupling::StepRecord& record) {
 void Recorder::checkpoint(const coupling::Continuation& continuation, const coupling::State& state) {
   const profile::Part part("checkpoints");
   const double start = processes::wall_time();
-  checkpoints_.write(
-      mesh_, options_.fingerprint,
-      {state, continuation, globals_.energy(), options_.summary.rejected, options_.summary.shortened,
-       globals_.stability()});
+  checkpoints_.write(mesh_, options_.fingerprint,
+                     {state, continuation, globals_.energy(), options_.summary.rejected,
+                      options_.summary.shortened, globals_.stability()});
   seconds_output_ += processes::wall_time() - start;
 }
 

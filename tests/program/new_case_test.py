@@ -88,6 +88,7 @@ class NewCase(ProgramTest):
     def test_of_a_part_of_millimetres_does_not_spend_its_nodes_on_the_mould(self):
         self.write("chip.stl", stl("chip", box((0, 0, 0), (3, 2, 1))))
         text, _ = self.new("chip.stl", "--process", "gravity_die")
+        self.assertIn("3 mm large, for lengths of the file in mm: --unit takes another unit", text)
         nodes = int(re.search(r"mesh +(\d+) nodes", text)[1])
         self.assertLess(nodes, 30000)
         checked = solidus("check", "case", "--heat-only", cwd=self.folder)
@@ -100,6 +101,7 @@ class NewCase(ProgramTest):
         checked = solidus("check", "case", cwd=self.folder)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertNotIn("nothing cools", checked.stderr)
+        self.assertIn("gap 0 mm in the mean, 0 mm at most", checked.stdout + checked.stderr)
         self.assertRegex(checked.stdout, r"freezes +riser: in about")
 
     def test_of_an_assembly_with_riser_sleeve_and_chill_estimates_the_riser_with_the_sand_behind_its_sleeve(self):
@@ -146,6 +148,7 @@ class NewCase(ProgramTest):
         text, case = self.new("bell.msh", "--fineness", "0.5")
         self.assertEqual({body["name"]: body["role"] for body in case["body"]}, {"bell": "casting", "mould": "mould"})
         self.assertIn("casting     bell of aluminium_alsi7mg", text)
+        self.assertNotIn("--unit", text)
         self.write("two.msh", grid((2, 1, 1), 10, lambda i, j, k: f"part_{i}"))
         self.assertIn("bodies touch there", self.refusal("two.msh"))
 

@@ -110,6 +110,13 @@ TEST_F(ProgressText, SaysHowOftenAndWhyAStepWasCut) {
   record.rejection = "heat: no convergence in 25 iterations";
   progress.step(record);
   EXPECT_NE(out.str().find("(2 rejected: heat: no convergence in 25 iterations)"), std::string::npos);
+  record.shortened = 1;
+  record.rejection = "temperature error";
+  progress.step(record);
+  EXPECT_NE(out.str().find("(2 rejected, 1 shortened: temperature error)"), std::string::npos);
+  record.rejected = 0;
+  progress.step(record);
+  EXPECT_NE(out.str().find("(1 shortened: temperature error)"), std::string::npos);
 }
 
 TEST_F(ProgressText, DrawsABarOnATerminalAndTakesItAway) {
