@@ -27,8 +27,8 @@ std::string steel(const std::string& more = "") {
 
 std::string held(const std::string& group, const std::string& direction) {
   return fmt::format(
-      "[[mechanical_condition]]\nname = \"{0}\"\ngroup = \"{0}\"\nkind = \"displacement\"\n{1} = \"0 mm\"\n", group,
-      direction);
+      "[[mechanical_condition]]\nname = \"{0}\"\ngroup = \"{0}\"\nkind = \"displacement\"\n{1} = \"0 mm\"\n",
+      group, direction);
 }
 
 std::string probe(const std::string& name, const std::string& field, const std::string& component,
@@ -38,8 +38,8 @@ std::string probe(const std::string& name, const std::string& field, const std::
 }
 
 /// A plate of half the thickness L that a film cools on both sides: T by Fourier's series, and across it the
-/// stress E α/(1 − ν) (mean of T − T) of a plate that may expand but not bend (S. P. Timoshenko, J. N. Goodier,
-/// Theory of Elasticity, 1951, § 131, 133).
+/// stress E α/(1 − ν) (mean of T − T) of a plate that may expand but not bend (S. P. Timoshenko, J. N.
+/// Goodier, Theory of Elasticity, 1951, § 131, 133).
 struct Plate {
   double half, conductivity, capacity, film, start, ambient;
   std::vector<double> roots;  ///< of z tan z = h L/k
@@ -73,9 +73,8 @@ struct Plate {
 };
 
 CaseRun quenched_plate(const CaseFolder& folder, int divisions, const std::string& step) {
-  return folder.run(
-      "plate_" + std::to_string(divisions),
-      fmt::format(R"(
+  return folder.run("plate_" + std::to_string(divisions),
+                    fmt::format(R"(
 title = "A plate is quenched"
 [analysis]
 kind = "solid"
@@ -108,12 +107,12 @@ name = "plane_z"
 group = "z_max"
 kind = "plane"
 )",
-                  divisions, step) +
-          held("x_min", "ux") + held("y_min", "uy") + held("z_min", "uz") +
-          probe("T_middle", "temperature", "", R"(["0 mm", "2.5 mm", "2.5 mm"])", "degC") +
-          probe("T_skin", "temperature", "", R"(["50 mm", "2.5 mm", "2.5 mm"])", "degC") +
-          probe("s_middle", "nodal_stress", "yy", R"(["0 mm", "2.5 mm", "2.5 mm"])", "MPa") +
-          probe("s_skin", "nodal_stress", "yy", R"(["50 mm", "2.5 mm", "2.5 mm"])", "MPa"));
+                                divisions, step) +
+                        held("x_min", "ux") + held("y_min", "uy") + held("z_min", "uz") +
+                        probe("T_middle", "temperature", "", R"(["0 mm", "2.5 mm", "2.5 mm"])", "degC") +
+                        probe("T_skin", "temperature", "", R"(["50 mm", "2.5 mm", "2.5 mm"])", "degC") +
+                        probe("s_middle", "nodal_stress", "yy", R"(["0 mm", "2.5 mm", "2.5 mm"])", "MPa") +
+                        probe("s_skin", "nodal_stress", "yy", R"(["50 mm", "2.5 mm", "2.5 mm"])", "MPa"));
 }
 
 TEST(ClosedFormsOfSolids, AQuenchedPlateHasTheStressesOfItsTemperatures) {
@@ -154,10 +153,10 @@ origin = ["10 mm", "0 mm"]
 size = ["10 mm", "0.5 mm"]
 divisions = [20, 1]
 [time]
-)" + time + "[[body]]\nname = \"block\"\nmaterial = \"" +
-         material + "\"\ninitial_temperature = \"300 degC\"\n" +
-         "[[mechanical_condition]]\nname = \"inside\"\ngroup = \"x_min\"\nkind = \"pressure\"\npressure = " + pressure +
-         "\n" + held("y_min", "uz") + held("y_max", "uz") +
+)" + time +
+         "[[body]]\nname = \"block\"\nmaterial = \"" + material + "\"\ninitial_temperature = \"300 degC\"\n" +
+         "[[mechanical_condition]]\nname = \"inside\"\ngroup = \"x_min\"\nkind = \"pressure\"\npressure = " +
+         pressure + "\n" + held("y_min", "uz") + held("y_max", "uz") +
          probe("hoop_bore", "nodal_stress", "tt", R"(["10 mm", "0.25 mm"])", "MPa") +
          probe("hoop_skin", "nodal_stress", "tt", R"(["20 mm", "0.25 mm"])", "MPa");
 }
@@ -168,13 +167,15 @@ divisions = [20, 1]
 TEST(ClosedFormsOfSolids, ATubeThatCreepsHasTheStressesOfThePowerLaw) {
   const CaseFolder folder("closed_forms_creep");
   constexpr double n = 4, p = 50, ratio = 2;
-  folder.write("creeping.toml", steel("[plasticity]\nflow_stress = \"1 kPa\"\nrate_dependence = \"perzyna\"\n"
-                                      "rate_exponent = 4\ndrag_stress = \"100 MPa\"\nviscosity = \"1e11 Pa s\"\n"));
+  folder.write("creeping.toml",
+               steel("[plasticity]\nflow_stress = \"1 kPa\"\nrate_dependence = \"perzyna\"\n"
+                     "rate_exponent = 4\ndrag_stress = \"100 MPa\"\nviscosity = \"1e11 Pa s\"\n"));
   const CaseRun run =
       folder.run("creep", tube("creeping.toml", "\"50 MPa\"", "end = \"200 s\"\nstep = \"4 s\"\n"));
   ASSERT_TRUE(run.finished) << run.reason;
   const double all = std::pow(ratio, 2 / n) - 1;
-  EXPECT_NEAR(at(run.history, "hoop_bore[MPa]", 200), p * ((2 / n - 1) * std::pow(ratio, 2 / n) + 1) / all, 0.2);
+  EXPECT_NEAR(at(run.history, "hoop_bore[MPa]", 200), p * ((2 / n - 1) * std::pow(ratio, 2 / n) + 1) / all,
+              0.2);
   EXPECT_NEAR(at(run.history, "hoop_skin[MPa]", 200), p * (2 / n) / all, 0.2);
 }
 

@@ -395,4 +395,20 @@ expansion_reference = "400 degC"
   EXPECT_THAT(logging::warnings(), Not(Contains(HasSubstr("lag by"))));
 }
 
+// In the first step of 2 s a gap opens through which the heat of the step has passed as if it were closed.
+TEST(Defaults, AShockWhoseGapOpensWithinAStepSaysWhatThatChanged) {
+  const auto warned = [](const std::string& name, const std::vector<std::string>& settings) {
+    std::vector<std::string> all = settings;
+    all.push_back("time.end=\"2 s\"");
+    all.push_back("output.every=\"2 s\"");
+    const CaseRun run = solidus::testing::run("cases/two_blocks/case.toml", "defaults_shock_" + name, all);
+    EXPECT_TRUE(run.finished) << run.reason;
+    return ::testing::Matches(::testing::Contains(
+        ::testing::HasSubstr("heat passes through the gaps of a step's start")))(logging::warnings());
+  };
+  EXPECT_TRUE(warned("whole", {}));
+  EXPECT_FALSE(warned("short", {"time.step=\"0.02 s\""}));
+  EXPECT_FALSE(warned("iterated", {"coupling.scheme=\"block_iterative\""}));
+}
+
 }  // namespace
