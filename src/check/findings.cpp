@@ -17,6 +17,7 @@ Findings findings(const CaseSpec& spec, const Assembly& a, const CaseMeasures& m
   find_in_mechanics(spec, a, m, found);
   find_on_surfaces(spec, a, m, found);
   find_in_numerics(spec, a, m, found);
+  find_in_coupling(spec, a, m, found);
   find_in_effort(spec, m, found);
   return found;
 }
