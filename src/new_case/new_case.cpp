@@ -88,6 +88,19 @@ std::string unknown_bodies_text(const Draft& draft, const std::vector<std::strin
       unknown, last);
 }
 
+/// A note where half of the part has a riser beside the plane: the whole part then has two. Empty where not.
+std::string twin_riser_text(const Draft& draft) {
+  if (!draft.riser || !draft.symmetry) return "";
+  const double beside =
+      draft.symmetry->at - draft.riser->foot[static_cast<std::size_t>(draft.symmetry->axis)];
+  if (beside < 0.05 * draft.riser->diameter) return "";
+  return fmt::format(
+      "\n  note        the riser stands {:.3g} mm beside the plane of symmetry: with its mirror image there "
+      "are "
+      "two; for one set its `foot` onto the plane",
+      1e3 * beside);
+}
+
 std::string report(const Draft& draft, const PartMeasures& part, const DraftEstimate& estimate,
                    const NewCaseOptions& options) {
   std::string out = fmt::format("{}: {} at {:.0f} degC, process {}", draft.geometry.filename().string(),
@@ -126,6 +139,7 @@ std::string report(const Draft& draft, const PartMeasures& part, const DraftEsti
             ? fmt::format("it leaves the die after {:g} s, {} times",
                           draft.shots->pour + draft.shots->solidify + draft.shots->open, draft.shots->number)
             : fmt::format("the run ends when it has, at {:g} s at the latest", draft.end));
+  out += twin_riser_text(draft);
   out += doubtful_unit_text(options, part);
   out += unknown_bodies_text(draft, options.as);
   if (!draft.meshed) out += thin_walls_text(draft, part);

@@ -25,7 +25,7 @@ inline double two_digits(double value) {
 /// measuring: -0.00009 mm in a part of 120 mm is 0.
 inline double round_place(double value, double length) {
   const double digit = std::pow(10.0, std::floor(std::log10(1e-4 * length)));
-  const double round = digit * std::round(value / digit);
+  const double round = digit * std::round(value / digit) + 0.0;  // no -0
   return std::abs(round - value) < 1e-5 * length ? round : value;
 }
 

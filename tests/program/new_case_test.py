@@ -96,6 +96,12 @@ class NewCase(ProgramTest):
         # The interface of all bodies has nothing left beside that of casting and die: no reason to warn.
         self.assertNotIn("no two bodies face each other", checked.stderr)
 
+    def test_a_riser_beside_the_plane_of_symmetry_is_said_to_have_a_mirror_image(self):
+        text = self.done("new", str(SOURCES / "tests/parts/tee_flange.step"), *ALLOY, "--symmetry", "y", "--riser", "auto",
+                         "--fineness", "0.6", "-o", "case")
+        self.assertIn("symmetry    the half below y = 0 mm is computed", text)
+        self.assertRegex(text, r"the riser stands \d+\.\d mm beside the plane of symmetry: with its mirror image there are two")
+
     def test_a_riser_is_cooled_by_the_mould_whose_surface_it_shares_with_its_casting(self):
         self.new(str(SOURCES / "cases/bracket_from_step/bracket.step"), "--riser", "auto", "--fineness", "0.7")
         checked = solidus("check", "case", cwd=self.folder)

@@ -134,7 +134,7 @@ function computed(run: Run): string {
   const s = run.summary, total = s["profile[s]"]?.total ?? s.seconds?.run, defect = s.relative_energy_defect;
   return [
     s.steps !== undefined ? `${s.steps} steps${total !== undefined ? ` in ${duration(total)}` : ""}` : "",
-    triesText(s.rejected_steps, s.shortened_steps),
+    s.rejected_steps || s.shortened_steps ? `tries repeated: ${triesText(s.rejected_steps, s.shortened_steps)}` : "",
     typeof defect === "number" ? `first law right to ${short(Math.abs(defect))}` : "",
   ].filter(Boolean).join(" · ");
 }
