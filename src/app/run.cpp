@@ -67,9 +67,9 @@ ExitCode run(const CaseArguments& arguments) {
     return parallel::any_process(interrupted()) ? k_interrupted : k_cannot_continue;
   }
   const std::string folder = shown_path(options.folder);
-  print(fmt::format("Results in {}.{}\n", folder,
-                    arguments.report ? std::string()
-                                     : fmt::format(" Next: solidus report {0}; solidus plot {0}", folder)));
+  print(fmt::format(
+      "Results in {}.{}\n", folder,
+      arguments.report ? std::string() : fmt::format(" Next: solidus report {0}; solidus plot {0}", folder)));
   return k_done;
 }
 

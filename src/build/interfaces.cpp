@@ -169,8 +169,8 @@ std::vector<FoundInterface> find_interfaces(const CaseSpec& spec, mesh::RawMesh&
         "interface {} / {}: {:.4g} of {:.4g} cm2 and {:.4g} of {:.4g} cm2 face each other, gap {:.2g} mm in "
         "the mean, {:.2g} mm at most (looked within {:.2g} mm)",
         names[static_cast<std::size_t>(f.bodies.first)], names[static_cast<std::size_t>(f.bodies.second)],
-        1e4 * f.covered_a, 1e4 * f.area_a, 1e4 * f.covered_b, 1e4 * f.area_b,
-        gap_in_mm(f.mean_gap), gap_in_mm(f.largest_gap), 1e3 * f.distance);
+        1e4 * f.covered_a, 1e4 * f.area_a, 1e4 * f.covered_b, 1e4 * f.area_b, gap_in_mm(f.mean_gap),
+        gap_in_mm(f.largest_gap), 1e3 * f.distance);
   }
   std::vector<std::string> free;
   for (const std::string& body : names)

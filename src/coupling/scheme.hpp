@@ -10,8 +10,8 @@
 
 namespace solidus::coupling {
 
-/// Judges the heat that a step has conducted before deformation is solved: true stops the step there. Called on
-/// every process with the same answer.
+/// Judges the heat that a step has conducted before deformation is solved: true stops the step there. Called
+/// on every process with the same answer.
 /// @param warm   heat at the end of the step, deformation of t_n
 /// @param flows  of heat in the step
 using HeatJudge = std::function<bool(const State& warm, const heat::StageFlows& flows)>;

@@ -68,9 +68,8 @@ StepEffort SequentialSplit::advance(const State& old, State& trial, double time,
 
 std::optional<StepEffort> SequentialSplit::advance_unless(const State& old, State& trial, double time,
                                                           double dt, const HeatJudge& stop) {
-  std::optional<StepEffort> effort = order_ == PhaseOrder::heat_first
-                                         ? heat_first(old, trial, time, dt, stop)
-                                         : mechanics_first(old, trial, time, dt);
+  std::optional<StepEffort> effort = order_ == PhaseOrder::heat_first ? heat_first(old, trial, time, dt, stop)
+                                                                      : mechanics_first(old, trial, time, dt);
   if (effort) summarise(phases_, trial, *effort);
   return effort;
 }

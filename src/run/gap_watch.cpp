@@ -53,7 +53,8 @@ void GapWatch::report() const {
     if (!(pair.late > k_worth_saying * pair.all && pair.all > k_much_heat * exchanged_)) continue;
     const std::string text = fmt::format(
         "contact '{}': heat passes through the gaps of a step's start; what they changed within the steps is "
-        "{:.2g} % of the heat that passed, most in the step of {:g} s to t = {:g} s, {:.3g} of {:.3g} J in all; "
+        "{:.2g} % of the heat that passed, most in the step of {:g} s to t = {:g} s, {:.3g} of {:.3g} J in "
+        "all; "
         "shorter steps there, or coupling.scheme = \"block_iterative\"",
         contacts_[i]->spec().name, 100 * pair.late / pair.all, pair.worst_step, pair.worst_time, pair.worst,
         pair.all);

@@ -1,5 +1,5 @@
-/// An observer of runs that conduct heat through the gaps of a step's start (PhaseOrder::heat_first): what the
-/// change of the conductances within the steps misplaces.
+/// An observer of runs that conduct heat through the gaps of a step's start (PhaseOrder::heat_first): what
+/// the change of the conductances within the steps misplaces.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,14 @@
 
 namespace solidus::model {
 
-/// Reports at the end of a run the heat that interfaces passed by conductances that were no longer true at the
-/// end of the step:
+/// Reports at the end of a run the heat that interfaces passed by conductances that were no longer true at
+/// the end of the step:
 ///
-///   late = Σ_steps Δt Σ_a A_a |q_a/h_a,n+1| |h_a,n+1 − h_a,n|,   all = Σ_steps Δt Σ_a A_a |q_a/h_a,n+1| h_a,n
+///   late = Σ_steps Δt Σ_a A_a |q_a/h_a,n+1| |h_a,n+1 − h_a,n|,   all = Σ_steps Δt Σ_a A_a |q_a/h_a,n+1|
+///   h_a,n
 ///
-/// a nodes of a surface, q_a [W/m²] flux at the end of the step without the heat of friction, A_a [m²] the area
-/// around the node, h_a,n and h_a,n+1 [W/(m² K)] conductance at both ends of the step.
+/// a nodes of a surface, q_a [W/m²] flux at the end of the step without the heat of friction, A_a [m²] the
+/// area around the node, h_a,n and h_a,n+1 [W/(m² K)] conductance at both ends of the step.
 class GapWatch : public coupling::Observer {
  public:
   /// @param contacts  kept by reference

@@ -17,7 +17,7 @@ constexpr double k_by_work = 0.5;  ///< what deformation warms in a step [K]
 /// Heats all nodes at a rate that jumps once, then deforms and warms them a little.
 class HeatThenDeform final : public coupling::CouplingScheme {
  public:
-  double jump_at = 1e300;   ///< [s], from when on the rate is twice as large
+  double jump_at = 1e300;    ///< [s], from when on the rate is twice as large
   int heats = 0, forms = 0;  ///< phases solved
 
   void synchronise(const State&) override {}

@@ -263,8 +263,9 @@ TEST(Newton, ATangentThatWillDoServesTwice) {
   EXPECT_EQ(solve(1e-8), 2);
 }
 
-// The ground is soft up to x = 0.5 and stiff beyond. The first step lands so close to the solution that the tangent
-// before seems to do once more, but it is 1e4 times too soft there: such a step throws x far beyond the solution.
+// The ground is soft up to x = 0.5 and stiff beyond. The first step lands so close to the solution that the
+// tangent before seems to do once more, but it is 1e4 times too soft there: such a step throws x far beyond
+// the solution.
 TEST(Newton, ATangentThatNoLongerServesIsReplaced) {
   constexpr double k_stiff = 1e4, k_solution = 1 - 1e-8;
   const Grid grid(5, 6);
