@@ -373,7 +373,7 @@ bool LinearSolver::Implementation::refine(LinearReport& report) {
     if (change <= k_refuse_above * length) return true;
   }
   report.reason = "the factorisation left a residual of " + std::to_string(defect / size) +
-                  " of the right-hand side (singular matrix? is every body held?)";
+                  " of the right-hand side, as a singular matrix does";
   return false;
 }
 

@@ -108,6 +108,43 @@ TEST(FrictionalHeat, HasTheTangentThatFiniteDifferencesShow) {
         }
 }
 
+TEST(LimitedExchange, PassesNoHeatFromColdToHotAndLosesNone) {
+  for (const Shape shape : {Shape::quad8, Shape::hex20, Shape::tet10}) {
+    const mesh::Mesh mesh = test::two_blocks(shape);
+    const auto kind = mesh.dimension == 2 ? AnalysisKind::plane_strain : AnalysisKind::solid;
+    ContactSpec s = rubbing(true, 0, false);
+    s.friction.reset();
+    s.integration = IntegrationRule::gauss;
+    ContactPair pair(mesh, kind, s);
+    std::vector<double> temperature = test::nodal_field(
+        mesh, 1, [](const Point&, bool upper) { return std::vector<double>{upper ? 500.0 : 700.0}; });
+    // One node of the hot body's surface is hotter still, as those are that the consistent form heats.
+    std::size_t hottest = 0;
+    for (const mesh::Block& faces : mesh.surfaces.at("lower_top").faces)
+      hottest = static_cast<std::size_t>(faces.nodes.front());
+    temperature[hottest] = 710;
+    slide(mesh, pair, temperature);
+    linear::Contribution& term = *pair.heat();
+    std::vector<char> beyond(mesh.x.size(), 0);
+    beyond[hottest] = 1;
+    const auto given_off = [&] {
+      std::vector<double> r(static_cast<std::size_t>(mesh.n_owned_nodes), 0.0);
+      term.add_residual(temperature, r);
+      return r;
+    };
+    const std::vector<double> before = given_off();
+    term.limit_exchange(beyond);
+    const std::vector<double> after = given_off();
+    EXPECT_GT(after[hottest], 0) << mesh::name(shape) << ": it cools";
+    double sum = 0, size = 0;
+    for (const double q : after) sum += q, size += std::abs(q);
+    EXPECT_NEAR(sum, 0, 1e-12 * size) << mesh::name(shape);
+    EXPECT_LT(tangent_defect(mesh, term, temperature), 1e-7) << mesh::name(shape);
+    term.limit_exchange({});
+    EXPECT_EQ(given_off(), before) << mesh::name(shape) << ": as it was";
+  }
+}
+
 TEST(FrictionalHeat, ReachesTheBodiesButForWhatTheInterfaceStores) {
   for (const bool nodal : {true, false})
     for (const double capacity : {0.0, 800.0})
