@@ -1,4 +1,5 @@
-/// Heat content, temperature and potential of a material by one look-up: as the curves say that it is made of.
+/// Heat content, temperature and potential of a material by one look-up: as the curves say that it is made
+/// of.
 #include "heat/storage_curve.hpp"
 
 #include <gtest/gtest.h>
@@ -20,10 +21,9 @@ std::vector<material::Material> materials() {
   const std::vector<material::PhaseFraction> fractions{material::PhaseFraction::linear(860, 900),
                                                        material::PhaseFraction::linear(900, 900),
                                                        material::PhaseFraction::scheil(933, 887, 850, 0.13)};
-  const std::vector<Table> conductivities{
-      Table(80.0), Table({300, 600, 1200}, {200, 150, 60}),
-      Table({300, 600, 1200}, {60, 150, 200}, Extrapolation::linear),
-      Table({300, 899.9, 900.1, 1000}, {150, 140, 14, 14})};
+  const std::vector<Table> conductivities{Table(80.0), Table({300, 600, 1200}, {200, 150, 60}),
+                                          Table({300, 600, 1200}, {60, 150, 200}, Extrapolation::linear),
+                                          Table({300, 899.9, 900.1, 1000}, {150, 140, 14, 14})};
   for (const material::PhaseFraction& fraction : fractions)
     for (const Table& conductivity : conductivities) {
       material::Material m = test::metal(40);
