@@ -29,6 +29,7 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
     : mesh_(mesh),
       system_(system),
       storage_(storage),
+      curves_(storage, system),
       solver_(solver),
       ghosts_(ghosts),
       options_(options),
@@ -37,13 +38,13 @@ TruncatedNewton::TruncatedNewton(const mesh::Mesh& mesh, HeatSystem& system, con
 }
 
 void TruncatedNewton::allocate() {
-  for (auto* v : {&diagonal_, &product_, &b_, &from_heat_, &from_temperature_, &from_}) v->resize(r_.size());
+  for (auto* v : {&diagonal_, &product_, &from_heat_, &from_temperature_, &from_}) v->resize(r_.size());
   step_.resize(mesh_.x.size());
   slope_.assign(mesh_.x.size(), 1.0);
 }
 
 void TruncatedNewton::release() {
-  for (auto* v : {&diagonal_, &product_, &b_, &from_heat_, &from_temperature_, &from_, &step_, &slope_})
+  for (auto* v : {&diagonal_, &product_, &from_heat_, &from_temperature_, &from_, &step_, &slope_})
     std::vector<double>().swap(*v);
   solver_.release();
 }
